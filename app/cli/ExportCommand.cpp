@@ -1,8 +1,7 @@
 // export: a study as files for others to read, without codes and dates.
 #include "app/cli/Command.h"
 #include "app/cli/StudyPassphrase.h"
-#include "core/sharing/BidsFiles.h"
-#include "core/sharing/results/StudyResults.h"
+#include "core/sharing/results/BidsExport.h"
 
 namespace tacto::cli {
 
@@ -14,17 +13,6 @@ void declareExport(QCommandLineParser& parser) {
          {"out", "A new or empty folder outside the study.", "DIR"},
          {"with", "What else is exported of a participant: age, sex, handedness; commas between.", "LIST"}});
     declarePassphrase(parser);
-}
-
-Result<void> exported(Study& study, const BidsWith& with, const std::filesystem::path& out) {
-    const auto record = readStudyRecord(study);
-    if (!record) return failure(record);
-    const auto files = bidsFiles(sharedStudy(*record), with, TACTOSCOPE_VERSION);
-    if (!files) return failure(files);
-    if (auto free = checkBidsFolder(out); !free) return free;
-    // Noted first: no export is without its note, and a place inside the study is refused before anything is there.
-    if (auto noted = study.exported(std::filesystem::absolute(out), "bids"); !noted) return noted;
-    return writeBids(*files, out);
 }
 
 int runExport(const QCommandLineParser& parser) {
@@ -42,7 +30,7 @@ int runExport(const QCommandLineParser& parser) {
     const std::filesystem::path out = parser.value("out").toStdString();
     auto study = openStudy(parser, *folder, Study::Access::Change);
     if (!study) return couldNotRun(study.error());
-    if (const auto done = exported(*study, with, out); !done) return couldNotRun(done.error());
+    if (const auto done = exportBids(*study, with, out, TACTOSCOPE_VERSION); !done) return couldNotRun(done.error());
     say("{}\n", out.string());
     return kDone;
 }

@@ -1,14 +1,11 @@
 #include "app/cli/StudyOptions.h"
 
 #include "app/cli/StudyPassphrase.h"
-#include "app/run/Shipped.h"
-#include "app/scripting/ShippedResources.h"
+#include "app/run/StudyProgram.h"
 
 namespace tacto::cli {
 
 namespace {
-
-constexpr std::string_view kPilotScripts = "pilot-";
 
 Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings) {
     for (const auto& set : parser.values("set")) {
@@ -17,20 +14,6 @@ Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings)
         if (equals == std::string::npos || equals == 0)
             return fail(ErrorCode::InvalidArgument, "--set {}: KEY=VALUE is expected", text);
         if (auto done = setStudyField(settings, text.substr(0, equals), text.substr(equals + 1)); !done) return done;
-    }
-    return {};
-}
-
-Result<void> nameWhatIsShipped(StudySettings& settings) {
-    const auto limits = shippedLimits();
-    if (!limits) return failure(limits);
-    settings.limits.clear();
-    for (std::size_t i = 0; i < limits->sets.size(); ++i)
-        settings.limits.push_back({limits->sets[i].id, limits->sha256[i]});
-    settings.scripts.clear();
-    for (const auto& script : shippedProtocols()) {
-        if (script.name.starts_with(kPilotScripts))
-            settings.scripts.push_back({std::string(script.name), std::string(script.sha256)});
     }
     return {};
 }
@@ -97,7 +80,7 @@ Result<StudySettings> settingsGiven(const QCommandLineParser& parser) {
     settings.approval.from = *from;
     settings.approval.expires = *expires;
     if (auto taken = takeSets(parser, settings); !taken) return failure(taken);
-    if (auto named = nameWhatIsShipped(settings); !named) return failure(named);
+    if (auto stated = stateProgram(settings); !stated) return failure(stated);
     return settings;
 }
 
@@ -112,7 +95,7 @@ Result<StudySettings> settingsAmended(const QCommandLineParser& parser, StudySet
     }
     if (parser.isSet("consent-version")) settings.consentVersion = given(parser, "consent-version");
     if (auto taken = takeSets(parser, settings); !taken) return failure(taken);
-    if (auto named = nameWhatIsShipped(settings); !named) return failure(named);
+    if (auto stated = stateProgram(settings); !stated) return failure(stated);
     return settings;
 }
 

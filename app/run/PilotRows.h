@@ -3,6 +3,7 @@
 // Thread-safety: as Study.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@
 #include "core/study/Study.h"
 
 namespace tacto {
+
+/// A session that was broken off goes on so long after its last answer.
+inline constexpr std::chrono::hours kResumedWithin{2};
 
 struct PilotRows {
     std::vector<SessionRow> events;     ///< in order

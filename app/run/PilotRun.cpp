@@ -18,7 +18,6 @@ using nlohmann::json;
 
 constexpr std::string_view kVirtual = "virtual:";
 constexpr std::string_view kIdentification = "pilot-identification";
-constexpr std::chrono::hours kResumedWithin{2};
 
 std::string textOf(const RunOrder& order, const char* name) { return textOr(order.settings.parameters, name); }
 

@@ -246,7 +246,8 @@ Result<void> Bench::wait(Seconds duration) {
     return {};
 }
 
-Result<Presented> Bench::present(const Presentation& presentation) {
+Result<Presented> Bench::present(const Presentation& presentation,
+                                 const std::function<void(Seconds since)>& passing) {
     auto& s = *state_;
     if (const auto valid = validate(presentation); !valid) return failure(valid);
     if (const auto settable = s.levels.checkSettable(presentation.level); !settable) return failure(settable);
@@ -260,7 +261,10 @@ Result<Presented> Bench::present(const Presentation& presentation) {
     std::optional<Presented> ended;
     const auto isOver = [&] {
         ended = s.loop->presented();
-        return ended.has_value();
+        if (ended) return true;
+        const auto began = passing ? s.loop->presentationBegan() : std::nullopt;
+        if (const Instant at = s.time.now(); began && at >= *began) passing(Seconds(at - *began));
+        return false;
     };
     const Instant until = std::max(now, presentation.notBefore) + toInstant(presentation.duration);
     const auto passed = s.time.advance(until + kPresentedGrace, isOver);

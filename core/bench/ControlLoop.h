@@ -66,6 +66,8 @@ public:
     /// end: nothing while it goes on. Taken once.
     void present(Presentation presentation);
     [[nodiscard]] std::optional<Presented> presented() { return presentation_.result(); }
+    /// As PresentationRun::beganAt().
+    [[nodiscard]] std::optional<Instant> presentationBegan() { return presentation_.beganAt(); }
     /// Where the participant's word on levels is handed in.
     [[nodiscard]] LevelDesk& levels() noexcept { return levels_; }
     void pauseOutput(bool paused) noexcept {

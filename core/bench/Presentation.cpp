@@ -91,6 +91,11 @@ Presentation detectionPresentation(StimulusLevel level, bool inSecond, Seconds t
             .duration = 2 * kDetectionInterval + kDetectionPause};
 }
 
+int detectionIntervalAt(Seconds since) noexcept {
+    if (since >= kDetectionInterval + kDetectionPause) return 2;
+    return since >= Seconds(0) && since < kDetectionInterval ? 1 : 0;
+}
+
 Result<void> validate(const Presentation& presentation) {
     if (auto fine = checkLevel(presentation.level); !fine) return fine;
     if (!(presentation.interval.count() > 0 && presentation.interval <= Presentation::kLongest)) {

@@ -50,6 +50,9 @@ struct Presentation {
 /// judged at `interval`.
 [[nodiscard]] Presentation detectionPresentation(StimulusLevel level, bool inSecond, Seconds trainLength,
                                                  Seconds interval);
+/// Which of its two intervals passes that long after its beginning: 1 or 2; 0 before the first and between them. The
+/// second lasts until the presentation has ended.
+[[nodiscard]] int detectionIntervalAt(Seconds since) noexcept;
 
 /// Errors: InvalidArgument naming the value and what is accepted: NaN and negative levels, an intensity above 1, onsets
 /// that do not ascend or come nearer than the interval, a duration that is too short or too long. The device's grid is

@@ -11,6 +11,12 @@ namespace tacto {
 void PresentationRun::expect() {
     const std::scoped_lock lock(mutex_);
     result_.reset();
+    beganAt_.reset();
+}
+
+std::optional<Instant> PresentationRun::beganAt() {
+    const std::scoped_lock lock(mutex_);
+    return beganAt_;
 }
 
 std::optional<Presented> PresentationRun::result() {
@@ -88,6 +94,8 @@ PresentationRun::Due PresentationRun::beforeBegin(const Sight& sight) noexcept {
     if (sight.readingUntil && *sight.readingUntil < first) return Due::Check;
     began_ = begin;
     made_.began = begin;
+    const std::scoped_lock lock(mutex_);
+    beganAt_ = begin;
     return Due::Nothing;
 }
 

@@ -4,8 +4,8 @@
 //   waiting (for `notBefore`, and for a check pulse where the reading of |Z| would be too old by the first onset)
 //   → trains at their onsets → the time that is left → complete; anything else ends it before.
 //
-// Thread-safety: expect() and result() any thread; the rest has one caller, the control loop. Allocates at the end of a
-// presentation alone.
+// Thread-safety: expect(), result() and beganAt() any thread; the rest has one caller, the control loop. Allocates at
+// the end of a presentation alone.
 #pragma once
 
 #include <mutex>
@@ -49,6 +49,9 @@ public:
     void expect();
     /// Nothing while it goes on. Taken once.
     [[nodiscard]] std::optional<Presented> result();
+    /// When the trains of the one that was asked for last begin to pass, be they empty; known a moment before. Nothing
+    /// while it waits.
+    [[nodiscard]] std::optional<Instant> beganAt();
 
     /// `presentation` has passed validate(). `planner` says how its times are kept, for now.
     void begin(Presentation presentation, const TrainPlanner& planner);
@@ -90,6 +93,7 @@ private:
 
     std::mutex mutex_;
     std::optional<Presented> result_;  // guarded by mutex_
+    std::optional<Instant> beganAt_;   // guarded by mutex_
 };
 
 }  // namespace tacto

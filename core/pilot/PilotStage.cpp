@@ -181,7 +181,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     const auto earliest = lastAnswer_ + toInstant(kLeastPause) + toInstant(pauses.uniform());
     presentation.notBefore = std::max(earliest, bench_.clock().now() + toInstant(kDot));
     if (trial.screen.state != ScreenState::Rest) participant_.show(trial.screen);
-    auto presented = bench_.present(presentation);
+    auto presented = present(presentation, trial.screen);
     if (!presented) return failure(presented);
     if (presented->impedance) impedance_ = presented->impedance->value();
     switch (presented->end) {
@@ -226,6 +226,18 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     if (!kept) return failure(kept);
     given(trial);
     return std::optional(answer);
+}
+
+/// Marks follow the time since the beginning alone: they are the same whichever interval holds the train.
+Result<Presented> PilotStage::present(const Presentation& presentation, const PilotScreen& screen) {
+    if (screen.state != ScreenState::Interval) return bench_.present(presentation);
+    auto passing = screen;
+    return bench_.present(presentation, [this, &passing](Seconds since) {
+        const int interval = detectionIntervalAt(since);
+        if (interval == passing.interval || stoppedBy_.load() != nullptr) return;
+        passing.interval = interval;
+        participant_.show(passing);
+    });
 }
 
 Result<void> PilotStage::writeEarly(const StageTrial& trial) {

@@ -41,7 +41,9 @@ struct StageTrial {
     Presentation presentation;
     PilotPrompt prompt;
     bool asks = true;          ///< false: nothing is asked, and its answer has no response
-    PilotScreen screen;        ///< from before the first train until the targets appear
+    /// From before the first train until the targets appear; with ScreenState::Interval it marks the two intervals of
+    /// a detection trial as they pass.
+    PilotScreen screen;
     FeltPresentation felt;     ///< `named` and `inInterval`; the stage fills in the rest
     bool askedAgain = false;   ///< this is the second time: no answer is final
     bool stopAnswers = false;  ///< a participant's stop is its answer ("stop"), once they want to go on
@@ -113,6 +115,7 @@ public:
 private:
     [[nodiscard]] Result<StageAnswer> replay(const StageTrial& trial, const Json& row);
     [[nodiscard]] Result<std::optional<StageAnswer>> attempt(const StageTrial& trial, std::size_t number);
+    [[nodiscard]] Result<Presented> present(const Presentation& presentation, const PilotScreen& screen);
     [[nodiscard]] Result<void> writeEarly(const StageTrial& trial);
     void feel(const StageTrial& trial);
     void given(const StageTrial& trial) noexcept;

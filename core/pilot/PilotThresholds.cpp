@@ -72,6 +72,12 @@ Result<void> PilotThresholds::ascendingLimits() {
         if (auto ended = stage_.bench().endAscending(); !ended) return ended;
     }
     ascending_ = limits->result();
+    if (liveSeries_ > 0) {
+        PilotScreen rest;  // levels rise no more: what was held may be let go
+        rest.phase = "ascending";
+        rest.text = "You can let go now.";
+        stage_.participant().show(rest);
+    }
     return {};
 }
 

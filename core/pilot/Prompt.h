@@ -78,7 +78,7 @@ enum class ScreenState {
     Rest,      ///< nothing happens
     Dot,       ///< a presentation is about to start
     Feel,      ///< trains may come; the same pixels as Dot for every condition
-    Interval,  ///< the first or second interval of a detection trial: `interval`
+    Interval,  ///< a detection trial of two intervals; `interval` says which passes
     Named,     ///< familiarisation and feedback: the name in `named` is shown
     Break,     ///< rest between blocks until `until`
     Ended,
@@ -91,7 +91,7 @@ struct PilotScreen {
     int blocks = 0;     ///< of the test
     int trial = 0;      ///< of the phase, for the operator; 0: none
     int trials = 0;
-    int interval = 0;              ///< 1 or 2 with Interval
+    int interval = 0;              ///< with Interval: 1 or 2; 0: neither, yet or between
     std::string named;             ///< Named: the name of what is or was felt
     std::optional<bool> right;     ///< training: whether the answer was right
     std::optional<Instant> until;  ///< Break: its earliest end

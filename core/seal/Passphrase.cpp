@@ -22,6 +22,10 @@ Result<Passphrase> Passphrase::from(std::string_view text) {
     return Passphrase(Secret(std::as_bytes(std::span(text))));
 }
 
+Result<Passphrase> Passphrase::from(const Secret& text) {
+    return from(std::string_view(reinterpret_cast<const char*>(text.bytes().data()), text.size()));
+}
+
 Result<Passphrase> Passphrase::fromFile(const std::filesystem::path& file) {
     constexpr std::size_t kLongest = 4096;
     // Read without a stream: its buffer would keep the passphrase.

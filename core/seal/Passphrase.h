@@ -37,6 +37,7 @@ public:
 
     /// Errors: InvalidArgument for an empty one.
     [[nodiscard]] static Result<Passphrase> from(std::string_view text);
+    [[nodiscard]] static Result<Passphrase> from(const Secret& text);
     /// The first line of a file, without its end. Errors: NotFound for a file that is not there or holds nothing.
     [[nodiscard]] static Result<Passphrase> fromFile(const std::filesystem::path& file);
 

@@ -86,7 +86,7 @@ public:
         }
         if (row.name == ledger::kEnrolled) return enrolled(row);
         if (row.name == ledger::kAdverseEvent) return adverseEvent(row);
-        if (row.name == ledger::kExported) return {};
+        if (row.name == ledger::kExported) return exported(row);
         auto* participant = state.participant(textOr(row.body, "participant"));
         if (participant == nullptr) return unfit(row, "an unknown participant");
         if (row.name == ledger::kConsent) return consent(row, *participant);
@@ -215,6 +215,15 @@ private:
         auto event = adverseEventFields().read(*content, RecordPlace{});
         if (!event) return failure(event);
         state.adverseEvents.emplace_back(textOr(row.body, "session"), std::move(*event));
+        return {};
+    }
+
+    [[nodiscard]] Result<void> exported(const SessionRow& row) {
+        if (keys_ == nullptr) return {};
+        const auto content = openedInLedger(study_, keys_->study(), row.seq, row.name, row.body);
+        if (!content) return failure(content);
+        state.exports.push_back(
+            {std::chrono::sys_seconds(wholeSeconds(row.at)), textOr(row.body, "what"), textOr(*content, "place")});
         return {};
     }
 

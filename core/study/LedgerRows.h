@@ -48,6 +48,7 @@ struct LedgerState {
     std::vector<StudySession> sessions;                               ///< without `answered`
     std::map<std::string, std::string> heads;                         ///< of ended files: file to chain head
     std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< with the key only
+    std::vector<StudyExport> exports;                                 ///< with the key only
     std::chrono::sys_seconds last{};                                  ///< of the newest row
     std::string head;
 

@@ -401,4 +401,6 @@ Result<void> Study::exported(const fs::path& place, std::string_view what) {
     return state_->append(ledger::kExported, {{"what", what}}, &state_->keys->study(), {{"place", place.string()}});
 }
 
+std::vector<StudyExport> Study::exports() const { return state_->known.exports; }
+
 }  // namespace tacto

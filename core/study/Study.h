@@ -91,6 +91,13 @@ struct AdverseEvent {
     bool reported = false;
 };
 
+/// Data that left the study.
+struct StudyExport {
+    std::chrono::sys_seconds at{};
+    std::string what;   ///< "bids"
+    std::string place;  ///< where they were written
+};
+
 class Study {
 public:
     enum class Access { Change, Read };
@@ -200,6 +207,8 @@ public:
     /// Notes that data were exported to `place`, which is sealed. Errors: InvalidArgument for a place inside the study
     /// folder.
     [[nodiscard]] Result<void> exported(const std::filesystem::path& place, std::string_view what);
+    /// In the order made; empty without the key.
+    [[nodiscard]] std::vector<StudyExport> exports() const;
 
 private:
     struct State;

@@ -39,6 +39,12 @@ TEST(Presentation, TheThreeKindsHaveTheirOnsets) {
     }
 }
 
+TEST(Presentation, ItsIntervalsPassAtTheirTimes) {
+    for (const auto& [since, interval] :
+         {std::pair(-0.1, 0), {0.0, 1}, {0.79, 1}, {0.8, 0}, {1.39, 0}, {1.4, 2}, {2.2, 2}, {2.3, 2}})
+        EXPECT_EQ(detectionIntervalAt(Seconds(since)), interval) << since << " s";
+}
+
 TEST(Presentation, WhatIsNoPresentationIsRefused) {
     RecordProperty("hazard", "H1");
     const auto sound = testPresentation(Milliamps(2), Seconds(0.5));

@@ -14,7 +14,10 @@ using testing::ElementsAre;
 /// Answers with the first target, and stops where it is told to.
 class Someone final : public PilotParticipant {
 public:
-    void show(const PilotScreen&) override {}
+    void show(const PilotScreen& screen) override {
+        shown.push_back(screen);
+        if (onShow) onShow();
+    }
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
         asked.push_back(prompt.name);
         if (prompt.kind != PromptKind::GoOn && stops > 0) {
@@ -36,6 +39,8 @@ public:
 
     std::vector<std::string> asked;
     std::vector<std::string> drawn;
+    std::vector<PilotScreen> shown;
+    std::function<void()> onShow;
     int stops = 0;
     const char* stoppedBy = "participant";
 };
@@ -136,6 +141,65 @@ TEST_F(PilotStageTest, WhatHasAnAnswerIsNeitherPresentedNorAskedAgain) {
     EXPECT_EQ(someone_.drawn, felt) << "told again, as it was";
     EXPECT_TRUE(kinds().empty());
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
+}
+
+TEST_F(PilotStageTest, TheIntervalsOfADetectionTrialAreMarkedAlikeWhicheverHoldsTheTrain) {
+    RecordProperty("hazard", "H8");
+    struct Mark {
+        int interval;
+        double after_s;  // since the first
+        bool operator==(const Mark&) const = default;
+    };
+    std::vector<std::vector<Mark>> seen;
+    for (const bool second : {false, true}) {
+        auto made = trial(second ? "detection 2" : "detection 1");
+        made.presentation = detectionPresentation(Milliamps(0.5), second, Seconds(0.001), Seconds(0.5));
+        made.prompt = intervalPrompt();
+        made.screen.state = ScreenState::Interval;
+        std::vector<Mark> marks;
+        double first_s = 0;
+        someone_.onShow = [&] {
+            const auto& screen = someone_.shown.back();
+            if (screen.state != ScreenState::Interval) return;
+            const double now_s = toSeconds(clock_->now());
+            if (marks.size() <= 1) first_s = now_s;  // from interval 1 on: how long it waited before is drawn
+            marks.push_back({screen.interval, marks.empty() ? 0 : now_s - first_s});
+        };
+        ASSERT_TRUE(stage_->trial(made));
+        someone_.onShow = nullptr;
+        seen.push_back(std::move(marks));
+    }
+    for (const auto& marks : seen) {
+        ASSERT_EQ(marks.size(), 4U);
+        EXPECT_EQ(marks[0].interval, 0) << "before it begins";
+        EXPECT_EQ(marks[1].interval, 1);
+        EXPECT_EQ(marks[2].interval, 0) << "between";
+        EXPECT_NEAR(marks[2].after_s, 0.8, 0.01);
+        EXPECT_EQ(marks[3].interval, 2);
+        EXPECT_NEAR(marks[3].after_s, 1.4, 0.01);
+    }
+}
+
+TEST_F(PilotStageTest, NoIntervalIsMarkedAfterAStop) {
+    RecordProperty("hazard", "H2");
+    auto made = trial("detection 1");
+    made.presentation = detectionPresentation(Milliamps(0.5), true, Seconds(0.001), Seconds(0.5));
+    made.prompt = intervalPrompt();
+    made.screen.state = ScreenState::Interval;
+    bool stopped = false;
+    std::vector<int> after;
+    someone_.onShow = [&] {
+        const auto& screen = someone_.shown.back();
+        if (screen.state != ScreenState::Interval) return;
+        if (stopped) after.push_back(screen.interval);
+        if (!stopped && screen.interval == 1) {
+            stopped = true;
+            someone_.stop("operator");
+        }
+    };
+    EXPECT_FALSE(stage_->trial(made));
+    EXPECT_TRUE(stopped);
+    EXPECT_TRUE(after.empty());
 }
 
 TEST_F(PilotStageTest, AnAnswerToAnotherLevelIsNotTaken) {

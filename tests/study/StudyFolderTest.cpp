@@ -96,6 +96,25 @@ TEST_F(StudyFolder, KeysInsideItAreRefused) {
     EXPECT_EQ(made.exported(folder() / "export", "bids").error().code, ErrorCode::InvalidArgument);
 }
 
+TEST_F(StudyFolder, WhereExportsLieIsKnownWithTheKeyAlone) {
+    RecordProperty("hazard", "H11");
+    {
+        auto study = make();
+        EXPECT_TRUE(study.exports().empty());
+        ASSERT_TRUE(study.exported("/media/stick", "bids"));
+        ASSERT_TRUE(study.exported("/media/other", "bids"));
+    }
+    const auto opened = open();
+    ASSERT_TRUE(opened) << opened.error().message;
+    const auto all = opened->exports();
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].place, "/media/stick");
+    EXPECT_EQ(all[1].what, "bids");
+    const auto sealed = openWithoutKey();
+    ASSERT_TRUE(sealed) << sealed.error().message;
+    EXPECT_TRUE(sealed->exports().empty());
+}
+
 TEST_F(StudyFolder, ASecondProgramIsRefusedByName) {
     RecordProperty("hazard", "H12");
     auto study = make();

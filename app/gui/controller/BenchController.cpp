@@ -240,6 +240,11 @@ std::uint64_t BenchController::runPilot(const RunOrder& order, const PilotSeats&
         runOnThread(marked, number, [&](Registry& registry, std::shared_ptr<BenchTap> tap) -> Result<Prepared> {
             PilotOrder pilot;
             pilot.study = seats.study;
+            if (seats.passphrase) {
+                auto words = Passphrase::from(*seats.passphrase);
+                if (!words) return failure(words);
+                pilot.passphrase.emplace(std::move(*words));
+            }
             pilot.people = seats.people;
             pilot.codeConfirmed = seats.codeConfirmed;
             pilot.exclusions = seats.exclusions;
@@ -385,6 +390,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     if (auto started = prepared->start(std::move(hooks)); !started) {
         publishBench(nullptr, nullptr);
         finished->result = prepared->finish();
+        *prepared = {};
         return end();
     }
     publishBench(&run.bench(), run.script());
@@ -397,6 +403,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     finished->result = prepared->finish();
     finished->html = run.files().report(".html");
     finished->pdf = run.files().report(".pdf");
+    *prepared = {};  // before its end is told: a study that it held can be opened then
     end();
 }
 

@@ -45,6 +45,7 @@ enum class Activity {
 /// A pilot session and its two people.
 struct PilotSeats {
     std::filesystem::path study;
+    std::shared_ptr<const Secret> passphrase = {};  ///< null: a rehearsal has none
     /// Answers for both people; outlives the run. Null: the virtual participant does.
     PilotParticipant* people = nullptr;
     bool codeConfirmed = false;

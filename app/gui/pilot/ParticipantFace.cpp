@@ -166,11 +166,9 @@ void ParticipantFace::show(const ParticipantView& view) {
             field_->showDot();
             return put(tr("Feel what comes"), qtext(screen.text));
         case ScreenState::Interval:
-            if (screen.interval == 0)
-                field_->showDot();
-            else
-                field_->showWord(screen.interval == 2 ? tr("second") : tr("first"), {});
-            return put(tr("Feel what comes"), qtext(screen.text));
+            field_->showIntervals(screen.interval);
+            return put(tr("Feel what comes"),
+                       screen.text.empty() ? tr("It comes once: while 1 or while 2 is dark.") : qtext(screen.text));
         case ScreenState::Named: {
             const auto verdict = !screen.right ? tr("This is") : *screen.right ? tr("Right. This was") : tr("This was");
             field_->showWord(conditionWords(screen.named), iconsOf(screen.named));

@@ -88,6 +88,13 @@ void ParticipantField::showWord(const QString& word, const QStringList& icons) {
     update();
 }
 
+void ParticipantField::showIntervals(int passing) {
+    drop();
+    content_ = Content::Intervals;
+    passing_ = passing;
+    update();
+}
+
 void ParticipantField::showTargets(const PilotPrompt& prompt, const AnswerKeys& keys) {
     drop();
     content_ = Content::Targets;
@@ -184,6 +191,25 @@ void ParticipantField::resizeEvent(QResizeEvent* event) {
 
 void ParticipantField::mousePressEvent(QMouseEvent* /*event*/) { emit missed(); }
 
+void ParticipantField::paintIntervals(QPainter& painter) const {
+    constexpr double kRadius = 8, kEdge = 2;
+    const auto& c = colours();
+    const double wide = (width() - gap_px_) / 2.0;
+    const double high = std::min(height(), pixelsOf(kTallestTarget_mm, *this));
+    auto font = textFont(TextSize::Display, QFont::Bold);
+    font.setPixelSize(std::max(1, int(std::min(words_px_ * 2.5, high * 0.6))));
+    painter.setFont(font);
+    for (const int interval : {1, 2}) {
+        const bool passes = interval == passing_;
+        const QRectF box((interval - 1) * (wide + gap_px_), 0, wide, high);
+        painter.setPen(QPen(passes ? c.text : c.edge, kEdge));
+        painter.setBrush(passes ? c.text : c.base);
+        painter.drawRoundedRect(box.adjusted(1, 1, -1, -1), kRadius, kRadius);
+        painter.setPen(passes ? c.base : c.quiet);
+        painter.drawText(box, Qt::AlignCenter, QString::number(interval));
+    }
+}
+
 void ParticipantField::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
@@ -194,6 +220,7 @@ void ParticipantField::paintEvent(QPaintEvent* /*event*/) {
         painter.setBrush(c.text);
         painter.drawEllipse(middle, gap_px_ / 1.5, gap_px_ / 1.5);
     }
+    if (content_ == Content::Intervals) paintIntervals(painter);
     if (content_ != Content::Word) return;
     auto font = textFont(TextSize::Display, QFont::Bold);
     font.setPixelSize(int(words_px_ * 1.5));

@@ -1,5 +1,5 @@
-// ParticipantField.h - the middle of the participant's screen: a dot, a name, or the targets of a question, always at
-// the same place.
+// ParticipantField.h - the middle of the participant's screen: a dot, a name, the two intervals of a detection trial,
+// or the targets of a question, always at the same place.
 //
 // Targets of a question are at least kTarget_mm wide and high, unless the screen has no room for them.
 //
@@ -11,6 +11,8 @@
 
 #include "app/gui/pilot/AnswerKeys.h"
 #include "app/gui/pilot/AnswerTarget.h"
+
+class QPainter;
 
 namespace tacto::gui {
 
@@ -37,6 +39,9 @@ public:
     void clear();
     void showDot();
     void showWord(const QString& word, const QStringList& icons);
+    /// The intervals of a detection trial, where the targets "first" and "second" will stand; `passing` is filled: 1,
+    /// 2, or 0 for neither.
+    void showIntervals(int passing);
     void showTargets(const PilotPrompt& prompt, const AnswerKeys& keys);
     /// Pixels of words, keys, and between targets.
     void setType(int words_px, int key_px, int gap_px);
@@ -58,16 +63,18 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    enum class Content { Nothing, Dot, Word, Targets };
+    enum class Content { Nothing, Dot, Word, Intervals, Targets };
     void arrange();
     void arrangeRows(const std::vector<std::vector<int>>& rows, const std::vector<double>& weights);
     void drop();
+    void paintIntervals(QPainter& painter) const;
 
     Content content_ = Content::Nothing;
     PromptKind kind_ = PromptKind::GoOn;
     std::vector<AnswerTarget*> targets_;
     QString word_;
     QStringList wordIcons_;
+    int passing_ = 0;
     int words_px_ = 28, key_px_ = 20, gap_px_ = 24;
 };
 

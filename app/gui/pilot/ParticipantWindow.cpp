@@ -4,6 +4,7 @@
 #include <QScreen>
 #include <QWindow>
 #include <algorithm>
+#include <utility>
 
 #include "app/gui/pilot/ParticipantFace.h"
 #include "app/gui/pilot/ParticipantField.h"
@@ -149,14 +150,20 @@ void ParticipantWindow::ask(const PilotPrompt& prompt, quint64 id) {
     keys_ = AnswerKeys(set_, prompt_);
     id_ = id;
     asking_ = true;
-    stopped_ = false;
+    shown_ = stopped_ = false;
     showState();
     painted_ = false;
     repaint();
     since_.start();
-    if (painted_) desk_.targetsShown(id_, std::chrono::steady_clock::now());
     if (prompt.within) ticking_.start();
-    if (prompt.kind == PromptKind::Hold && desk_.holding()) return pressHold();  // from the series before
+    if (painted_) noteShown();
+    emit changed();
+}
+
+void ParticipantWindow::noteShown() {
+    if (!asking_ || std::exchange(shown_, true)) return;
+    desk_.targetsShown(id_, std::chrono::steady_clock::now());
+    if (prompt_.kind == PromptKind::Hold && desk_.holding()) return pressHold();  // from the series before
     emit changed();
 }
 
@@ -184,6 +191,7 @@ bool ParticipantWindow::isStopTest() const { return isStopTestPrompt(prompt_); }
 
 void ParticipantWindow::choose(int target, SteadyTime at) {
     if (!asking_ || isStopTest()) return;
+    if (!shown_) return noteEarly(target);
     const auto index = std::size_t(target);
     PilotAnswer answer;
     if (prompt_.kind == PromptKind::Several && prompt_.targets.at(index).key != kDone) {
@@ -203,7 +211,7 @@ void ParticipantWindow::choose(int target, SteadyTime at) {
 }
 
 void ParticipantWindow::give(PilotAnswer answer, SteadyTime at) {
-    if (!asking_) return;
+    if (!asking_ || !shown_) return;
     asking_ = false;
     ticking_.stop();
     desk_.answerAsParticipant(id_, std::move(answer), at);
@@ -213,7 +221,7 @@ void ParticipantWindow::give(PilotAnswer answer, SteadyTime at) {
 }
 
 void ParticipantWindow::pressHold() {
-    if (!asking_ || prompt_.kind != PromptKind::Hold) return;
+    if (!asking_ || !shown_ || prompt_.kind != PromptKind::Hold) return;
     desk_.setHolding(true);
     PilotAnswer answer;
     answer.keys.emplace_back("held");
@@ -282,7 +290,7 @@ void ParticipantWindow::paintEvent(QPaintEvent* event) {
     QMetaObject::invokeMethod(
         this,
         [this, id = id_] {
-            if (asking_ && id == id_) desk_.targetsShown(id, std::chrono::steady_clock::now());
+            if (id == id_) noteShown();
         },
         Qt::QueuedConnection);
 }

@@ -46,8 +46,8 @@ public:
     void showBreak(bool on);
     [[nodiscard]] const ParticipantField& field() const;
     [[nodiscard]] QString title() const;
-    /// Targets of a question that wait for an answer.
-    [[nodiscard]] bool asking() const { return asking_; }
+    /// Targets of a question are on the screen and wait for an answer.
+    [[nodiscard]] bool asking() const { return asking_ && shown_; }
     /// "Answer", for the operator: what this screen shows.
     [[nodiscard]] QString says() const;
 
@@ -70,6 +70,7 @@ private:
     void showScreen(const PilotScreen& screen);
     void ask(const PilotPrompt& prompt, quint64 id);
     void closeQuestion(quint64 id);
+    void noteShown();
     void showState();
     [[nodiscard]] int holdKey() const;
     void choose(int target, SteadyTime at);
@@ -90,6 +91,7 @@ private:
     AnswerKeys keys_;
     quint64 id_ = 0;
     bool asking_ = false;
+    bool shown_ = false;  ///< the question's targets are on the screen: a press before is no answer
     bool stopped_ = false;
     bool break_ = false;
     bool painted_ = false;

@@ -43,9 +43,26 @@ QString rangeWords(const nlohmann::json& range) {
     return words;
 }
 
+/// Of thresholds alone.
+QString thresholdSentence(const nlohmann::json& results) {
+    auto who = textIn(results, "participant.code");
+    if (who.isEmpty()) who = QObject::tr("The participant");
+    const double value_ma = numberIn(results, "detection.estimate_ma.value");
+    if (!std::isfinite(value_ma)) return QObject::tr("%1 has no detection threshold up to the highest level.").arg(who);
+    auto said = QObject::tr("%1 feels %2 mA in 4 of 5 trials").arg(who, decimals(value_ma, 2));
+    const double low_ma = numberIn(results, "detection.estimate_ma.low");
+    const double high_ma = numberIn(results, "detection.estimate_ma.high");
+    if (std::isfinite(low_ma) && std::isfinite(high_ma))
+        said += QObject::tr(" (95 % interval %1 to %2 mA)").arg(decimals(low_ma, 2), decimals(high_ma, 2));
+    const auto range = rangeWords(memberAt(results, "range"));
+    return said + (range.isEmpty() ? QObject::tr("; there is no usable range.")
+                                   : QObject::tr("; conditions lie") + range + '.');
+}
+
 }  // namespace
 
 QString resultSentence(const nlohmann::json& results) {
+    if (textIn(results, "kind") == "pilot-thresholds") return thresholdSentence(results);
     const double n = numberIn(results, "n"), hits = numberIn(results, "hits");
     if (!std::isfinite(n) || !std::isfinite(hits)) return {};
     auto who = textIn(results, "participant.code");
@@ -125,7 +142,7 @@ PilotResult::PilotResult(QWidget* parent)
     connect(place_, &QPushButton::clicked, this, &PilotResult::folderWanted);
 }
 
-void PilotResult::show(const FinishedRun& run, const QString& folder) {
+void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStudy) {
     const auto& outcome = run.result.outcome;
     const auto& results = outcome.results;
     const auto said = resultSentence(results);
@@ -138,7 +155,8 @@ void PilotResult::show(const FinishedRun& run, const QString& folder) {
         why << sentence(qtext(outcome.error->message).remove(place)) +
                    tr(" Output is off. What was answered is on disk.");
     for (const auto& reason : outcome.reasons) {
-        if (!outcome.error) why << sentence(qtext(reason));
+        const bool isHeadline = !said.isEmpty() && reason.find("told the four apart in") != std::string::npos;
+        if (!outcome.error && !isHeadline) why << sentence(qtext(reason));
     }
     for (const auto& trouble : run.result.troubles) why << sentence(trouble);
     why_->setText(why.join('\n'));
@@ -174,8 +192,9 @@ void PilotResult::show(const FinishedRun& run, const QString& folder) {
     blocks_->setText(blocks.isEmpty() ? QString() : tr("Right in ") + blocks.join(", ") + '.');
     blocks_->setVisible(!blocks.isEmpty());
     note_->setText((run.result.simulated ? tr("Simulated. ") : QString()) + tr("In the study at %1.").arg(folder));
-    goOn_->setVisible(outcome.error.has_value());
-    makePrimary(*another_, !outcome.error);
+    goOn_->setVisible(outcome.error.has_value() && !ofStudy);
+    another_->setText(ofStudy ? tr("Back to the study") : tr("Another rehearsal"));
+    makePrimary(*another_, !outcome.error || ofStudy);
 }
 
 void PilotResult::showMatrix(const nlohmann::json& results) {

@@ -23,8 +23,8 @@ class PilotResult final : public QWidget {
     Q_OBJECT
 public:
     explicit PilotResult(QWidget* parent = nullptr);
-    /// `folder`: of the study.
-    void show(const FinishedRun& run, const QString& folder);
+    /// `folder`: of the study. `ofStudy`: it leads back there, where a session that was broken off is offered.
+    void show(const FinishedRun& run, const QString& folder, bool ofStudy = false);
 
 signals:
     void anotherWanted();

@@ -1,108 +1,75 @@
-// PilotWorkspace.h - the workspace of those who run pilot sessions: a new rehearsal, the session with its two windows,
-// its result.
-//
-// While a session runs the participant's window is a window of its own, full screen on the screen that was chosen;
-// where there is one screen only, the operator's page is a strip in it, behind F2. A screen that goes switches the
-// output off and holds the session back.
+// PilotWorkspace.h - the workspace of those who run pilot sessions: a rehearsal or a study, a session with its two
+// windows, its result.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QElapsedTimer>
-#include <QLabel>
+#include <QFrame>
 #include <QStackedWidget>
 #include <QWidget>
-#include <memory>
 
 #include "app/gui/controller/BenchController.h"
-#include "app/gui/pilot/ParticipantDesk.h"
-#include "app/gui/pilot/RehearsalPage.h"
+#include "app/gui/pilot/SessionConduct.h"
+#include "app/gui/study/OpenStudy.h"
 
 namespace tacto::gui {
 
-class FactsCard;
 class OperatorPage;
-class OperatorStrip;
-class ParticipantWindow;
 class PilotResult;
-class StepList;
-class TheirScreen;
+class RehearsalPage;
+class SessionPath;
+class SessionSide;
+class SessionStartPage;
+class StudyPage;
+class TabbedPage;
 
 class PilotWorkspace final : public QWidget {
     Q_OBJECT
 public:
     explicit PilotWorkspace(BenchController& controller, QWidget* parent = nullptr);
     ~PilotWorkspace() override;
-    void refresh(const Telemetry& telemetry);
-    [[nodiscard]] bool running() const { return running_; }
+    void refresh(const Telemetry& telemetry) { session_->refresh(telemetry); }
+    [[nodiscard]] bool running() const { return session_->running(); }
     /// Whether conditions, levels and trains are hidden from the operator now, in the whole window.
-    [[nodiscard]] bool blind() const { return running_ && asked_.blind; }
+    [[nodiscard]] bool blind() const { return running() && session_->start().blind; }
     /// For the safety bar of a blind session: "Participant’s STOP: not pressed", and what else there is to say of it.
     [[nodiscard]] QString stopWords() const;
     /// Pause and Resume of the safety bar: a break at once, and its end.
-    void pauseSession(bool pause) { pause ? breakNow() : wantBreak(false); }
+    void pauseSession(bool pause) { pause ? session_->breakNow() : session_->wantBreak(false); }
     /// A stop by the participant's keys; false where no session of a person runs.
-    bool stopAsParticipant(const char* by);
+    bool stopAsParticipant(const char* by) { return session_->stopAsParticipant(by); }
     /// Null while no session runs.
-    [[nodiscard]] ParticipantWindow* participantWindow() const { return window_.get(); }
+    [[nodiscard]] ParticipantWindow* participantWindow() const { return session_->window(); }
 
 signals:
     void attentionWanted();
     void runningChanged();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
-    enum Page { kNew, kSession, kResult };
-    [[nodiscard]] QWidget* buildPath();
-    [[nodiscard]] QWidget* buildSide();
-    void connectPage();
-    void connectStrip();
-    void begin(const Rehearsal& asked, bool goOn);
-    [[nodiscard]] Result<RunOrder> order(const Rehearsal& asked, bool goOn) const;
-    void openWindow();
-    void ended(const std::shared_ptr<const FinishedRun>& run);
-    void show(const PilotScreen& screen);
-    void asked(const PilotPrompt& prompt, quint64 id);
-    void reach(int step);
-    void showFacts();
-    void showTheirs();
-    void wantBreak(bool due);
-    void breakNow();
-    void keep(const QString& note);
-    void giveKeys();
-    void screenLost(const QString& name);
-    [[nodiscard]] QString timeLeft() const;
+    enum Page { kHome, kStart, kSession, kResult };
+    [[nodiscard]] QWidget* buildHome();
+    void connectSession();
+    void connectResult();
+    void showPage(Page page);
+    void prepareStart(const QString& code);
+    void beginRehearsal(bool goOn);
+    void beginOfStudy();
+    void sayWhereItBegan(const QString& why);
 
-    BenchController& controller_;
-    ParticipantDesk desk_;
-    std::unique_ptr<ParticipantWindow> window_;
-    Rehearsal asked_;
-    bool running_ = false;
-    std::uint64_t run_ = 0;
-    bool seenFault_ = false;
-    bool paused_ = false;  ///< by a break
-    int step_ = 0;
-    QElapsedTimer stoppedAt_;  // by the participant
-    int participantStops_ = 0, operatorStops_ = 0, faults_ = 0;
-    PilotScreen screen_;
-
-    QLabel* title_ = nullptr;
-    QLabel* subtitle_ = nullptr;
-    StepList* steps_ = nullptr;
-    QLabel* left_ = nullptr;
-    QLabel* leftWord_ = nullptr;
-    QStackedWidget* pages_ = nullptr;
-    RehearsalPage* new_ = nullptr;
-    OperatorPage* page_ = nullptr;
-    OperatorStrip* strip_ = nullptr;  ///< the window's, while it is there
-    PilotResult* result_ = nullptr;
-    QWidget* side_ = nullptr;
-    FactsCard* who_ = nullptr;
-    FactsCard* screenCard_ = nullptr;
-    TheirScreen* theirs_ = nullptr;
-    FactsCard* stops_ = nullptr;
+    OpenStudy study_;
+    bool ofStudy_ = false;  ///< the session that runs, or ran last
+    SessionPath* path_;
+    QStackedWidget* pages_;
+    TabbedPage* home_ = nullptr;
+    RehearsalPage* rehearsal_ = nullptr;
+    StudyPage* studies_ = nullptr;
+    SessionStartPage* start_;
+    OperatorPage* page_;
+    PilotResult* result_;
+    SessionSide* side_;
+    QFrame* pathEdge_ = nullptr;
+    QFrame* sideEdge_ = nullptr;
+    std::unique_ptr<SessionConduct> session_;
 };
 
 }  // namespace tacto::gui

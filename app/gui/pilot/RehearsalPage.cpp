@@ -4,13 +4,13 @@
 #include <QDir>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QSettings>
 #include <QStandardPaths>
 #include <QVBoxLayout>
 
-#include "app/gui/pilot/ScreenChoice.h"
+#include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -25,18 +25,28 @@ QString newFolder() {
     return documents.filePath("Tactoscope/rehearsal-" + QDateTime::currentDateTime().toString("yyyyMMdd-HHmmss"));
 }
 
+/// What was broken off of that virtual participant in the rehearsal there.
+std::optional<Unfinished> unfinishedIn(const QString& folder, const std::string& participant) {
+    if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
+    const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);
+    if (!study || !study->isRehearsal()) return std::nullopt;
+    const auto who = study->find(participant);
+    if (!who) return std::nullopt;
+    const auto found = unfinishedOf(*study, *who);
+    return found ? *found : std::nullopt;
+}
+
 }  // namespace
 
 RehearsalPage::RehearsalPage(QWidget* parent)
     : QWidget(parent),
       folder_(new QLineEdit(newFolder(), this)),
+      offer_(new UnfinishedOffer(this)),
       who_(new QComboBox(this)),
       seed_(new QSpinBox(this)),
+      protocol_(new QComboBox(this)),
+      method_(new QComboBox(this)),
       blocks_(new QSpinBox(this)),
-      blind_(new QCheckBox(tr("Hide conditions, levels and answers from the operator until the end"), this)),
-      keys_(new QComboBox(this)),
-      screen_(new ScreenChoice(this)),
-      about_(new QLabel(this)),
       trouble_(new QLabel(this)),
       begin_(new QPushButton(tr("Begin rehearsal"), this)) {
     auto* column = new QVBoxLayout(this);
@@ -45,8 +55,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     column->addWidget(heading(tr("A new rehearsal"), this));
     column->addWidget(explanation(
         tr("The whole session as a participant and an operator live it, on simulated devices: checklist, thresholds, "
-           "training, test, ratings. Nothing of it reaches a person. A study with people needs an approval, consents "
-           "and a passphrase; it is made on the command line with “tactoscope-cli study create”."),
+           "training, test, ratings. Nothing of it reaches a person."),
         this));
     auto* holder = new QWidget(this);
     holder->setMaximumWidth(scaledPx(kFormWide));
@@ -58,19 +67,20 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     auto* row = new QHBoxLayout(place);
     row->setContentsMargins(0, 0, 0, 0);
     folder_->setObjectName("studyFolder");
-    folder_->setAccessibleName(tr("Study folder"));
+    folder_->setAccessibleName(tr("Folder of the rehearsal"));
     folder_->setToolTip(tr("A new folder, or the folder of a rehearsal that goes on."));
     auto* choose = new QPushButton(tr("Ch&oose…"), place);
     choose->setAutoDefault(false);
     connect(choose, &QPushButton::clicked, this, [this] {
         FileQuestion question;
-        question.title = tr("The study’s folder");
+        question.title = tr("The rehearsal’s folder");
         question.wants = FileQuestion::Wants::Folder;
         askForFile(*this, question, [this](const QString& path) { folder_->setText(path); });
     });
     row->addWidget(folder_, 1);
     row->addWidget(choose);
-    form->addRow(tr("Study folder"), place);
+    form->addRow(tr("Folder"), place);
+    form->addRow(offer_);
 
     who_->setObjectName("whoAnswers");
     who_->addItem(tr("a virtual participant: answers by itself, done in seconds"), false);
@@ -81,26 +91,22 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     seed_->setRange(1, kMostSeed);
     seed_->setToolTip(tr("The same seed gives the same order, and the same virtual participant."));
     form->addRow(tr("Seed"), seed_);
+    protocol_->setObjectName("rehearsalProtocol");
+    protocol_->addItem(tr("identification: thresholds, training, test, ratings"), "pilot-identification");
+    protocol_->addItem(tr("thresholds alone"), "pilot-thresholds");
+    form->addRow(tr("What is run"), protocol_);
+    method_->setObjectName("rehearsalMethod");
+    method_->addItem(tr("QUEST+"), "quest");
+    method_->addItem(tr("weighted staircase"), "staircase");
+    form->addRow(tr("Detection by"), method_);
     blocks_->setObjectName("rehearsalBlocks");
     blocks_->setRange(1, kMostBlocks);
     blocks_->setValue(5);
     blocks_->setToolTip(tr("Of 18 trials each: four of every condition and two empty ones."));
     form->addRow(tr("Blocks of the test"), blocks_);
-    form->addRow(tr("Their screen"), screen_);
-    keys_->setObjectName("answerKeys");
-    keys_->addItem(tr("figures 1 to 6"), int(KeySet::Figures));
-    keys_->addItem(tr("left hand: W E, S D, X C"), int(KeySet::LeftHand));
-    keys_->addItem(tr("right hand: U I, J K, M and comma"), int(KeySet::RightHand));
-    keys_->setToolTip(tr("Touch and mouse work with each of them."));
-    form->addRow(tr("Their keys"), keys_);
-    blind_->setChecked(true);
-    blind_->setObjectName("blind");
-    form->addRow(QString(), blind_);
+    seats_ = std::make_unique<SeatRows>(*form, *holder);
     column->addWidget(holder);
-    about_->setWordWrap(true);
-    about_->setObjectName("rehearsalAbout");
-    setTone(*about_, Tone::Quiet);
-    column->addWidget(about_);
+    column->addWidget(seats_->about());
     trouble_->setWordWrap(true);
     trouble_->setObjectName("rehearsalTrouble");
     trouble_->setTextFormat(Qt::PlainText);
@@ -115,36 +121,49 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     connect(begin_, &QPushButton::clicked, this, &RehearsalPage::beginWanted);
     column->addWidget(begin_, 0, Qt::AlignLeft);
     column->addStretch();
-    connect(folder_, &QLineEdit::textChanged, this, &RehearsalPage::judge);
+    connect(folder_, &QLineEdit::textChanged, this, &RehearsalPage::look);
+    connect(seed_, &QSpinBox::valueChanged, this, &RehearsalPage::look);
     connect(who_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
+    connect(protocol_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
+    connect(offer_, &UnfinishedOffer::changed, this, &RehearsalPage::judge);
     judge();
 }
 
-Rehearsal RehearsalPage::rehearsal() const {
-    return {.folder = folder_->text().trimmed(),
-            .person = who_->currentData().toBool(),
-            .seed = std::uint64_t(seed_->value()),
-            .blocks = blocks_->value(),
-            .blind = blind_->isChecked(),
-            .keys = KeySet(keys_->currentData().toInt())};
+PilotStart RehearsalPage::rehearsal() const {
+    PilotStart made;
+    made.folder = folder_->text().trimmed();
+    made.seed = std::uint64_t(seed_->value());
+    made.participant = fmt::format("virtual:{}", made.seed);
+    made.person = who_->currentData().toBool();
+    made.who = made.person ? tr("you") : tr("virtual");
+    made.protocol = protocol_->currentData().toString().toStdString();
+    made.method = method_->currentData().toString().toStdString();
+    made.unfinished = offer_->chosen();
+    if (made.unfinished != "resume") made.blocks = blocks_->value();
+    seats_->writeTo(made);
+    return made;
+}
+
+void RehearsalPage::look() {
+    offer_->offer(unfinishedIn(folder_->text().trimmed(), fmt::format("virtual:{}", seed_->value())));
+    judge();
 }
 
 void RehearsalPage::judge() {
-    const bool person = who_->currentData().toBool();
-    about_->setText(!person ? tr("The virtual participant answers every question of both people; you watch.")
-                    : ScreenChoice::isOnly()
-                        ? tr("There is one screen: the participant’s window covers it. F2 opens your strip on it, and "
-                             "Esc stops from anywhere.")
-                        : tr("Their window opens on the screen chosen above; this one stays yours."));
-    const bool named = !folder_->text().trimmed().isEmpty();
-    begin_->setEnabled(named);
+    const bool goesOn = offer_->chosen() == "resume";
+    if (goesOn) protocol_->setCurrentIndex(protocol_->findData(qtext(offer_->offered()->protocol)));
+    const bool tests = protocol_->currentIndex() == 0;
+    seats_->showFor(who_->currentData().toBool());
+    for (auto* field : {protocol_, method_}) field->setEnabled(!goesOn);
+    blocks_->setEnabled(!goesOn && tests);
+    const bool chosen = !offer_->asks() || !offer_->chosen().empty();
+    begin_->setEnabled(chosen && !folder_->text().trimmed().isEmpty());
+    begin_->setText(goesOn ? tr("Go on with the rehearsal") : tr("Begin rehearsal"));
 }
 
 void RehearsalPage::say(const QString& what) {
     trouble_->setText(what.isEmpty() ? QString() : "⚠ " + what);
     trouble_->setVisible(!what.isEmpty());
 }
-
-void RehearsalPage::setChangeable(bool changeable) { setEnabled(changeable); }
 
 }  // namespace tacto::gui

@@ -1,41 +1,34 @@
-// RehearsalPage.h - what a rehearsal needs before it begins: where its study lies, who answers, with what, and on which
-// screen.
+// RehearsalPage.h - what a rehearsal needs before it begins: where its study lies, who answers, what is run, and how
+// both people sit. A rehearsal that was broken off is offered.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QWidget>
+#include <memory>
 
-#include "app/gui/pilot/AnswerKeys.h"
+#include "app/gui/pilot/PilotStart.h"
+#include "app/gui/pilot/SeatRows.h"
 
 namespace tacto::gui {
 
-class ScreenChoice;
-
-struct Rehearsal {
-    QString folder;
-    bool person = false;     ///< the one at the participant's window answers; else a virtual participant
-    std::uint64_t seed = 1;  ///< of plan, order, and the virtual participant
-    int blocks = 5;
-    bool blind = true;
-    KeySet keys = KeySet::Figures;
-};
+class UnfinishedOffer;
 
 class RehearsalPage final : public QWidget {
     Q_OBJECT
 public:
     explicit RehearsalPage(QWidget* parent = nullptr);
-    [[nodiscard]] Rehearsal rehearsal() const;
-    [[nodiscard]] ScreenChoice& screens() { return *screen_; }
+    [[nodiscard]] PilotStart rehearsal() const;
+    [[nodiscard]] ScreenChoice& screens() const { return seats_->screens(); }
     /// A sentence in the way; empty for none.
     void say(const QString& what);
-    void setChangeable(bool changeable);
+    /// Looks again whether there is something to go on with.
+    void look();
 
 signals:
     void beginWanted();
@@ -43,13 +36,13 @@ signals:
 private:
     void judge();
     QLineEdit* folder_;
+    UnfinishedOffer* offer_;
     QComboBox* who_;
     QSpinBox* seed_;
+    QComboBox* protocol_;
+    QComboBox* method_;
     QSpinBox* blocks_;
-    QCheckBox* blind_;
-    QComboBox* keys_;
-    ScreenChoice* screen_;
-    QLabel* about_;
+    std::unique_ptr<SeatRows> seats_;
     QLabel* trouble_;
     QPushButton* begin_;
 };

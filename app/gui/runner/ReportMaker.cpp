@@ -3,6 +3,9 @@
 #include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
+#include <array>
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace tacto::gui {
 
@@ -36,7 +39,11 @@ ReportMaker::~ReportMaker() {
 }
 
 void ReportMaker::make(const QString& session, const QString& out) {
-    queue_.append({session, out});
+    make(Order{.record = session, .out = out, .assurance = tr("The session is complete.")});
+}
+
+void ReportMaker::make(const Order& order) {
+    queue_.append(order);
     if (process_.state() == QProcess::NotRunning) next();
 }
 
@@ -50,10 +57,27 @@ void ReportMaker::cancel() {
 
 void ReportMaker::next() {
     if (queue_.isEmpty()) return;
-    const auto [session, out] = queue_.takeFirst();
-    out_ = out;
+    const auto order = queue_.takeFirst();
+    out_ = order.out;
+    assurance_ = order.assurance;
     cancelled_ = false;
-    process_.start(QCoreApplication::applicationDirPath() + "/tactoscope-cli", {"report", session, "--out", out});
+    start(QStringList{"report", order.record, "--out", order.out} + order.more, order.passphrase.get());
+}
+
+void ReportMaker::start(const QStringList& words, const Secret* passphrase) {
+    const auto program = QCoreApplication::applicationDirPath() + "/tactoscope-cli";
+    process_.setStandardInputFile(QProcess::nullDevice());
+    std::array<int, 2> ends{-1, -1};
+    const bool piped = passphrase != nullptr && ::pipe2(ends.data(), O_CLOEXEC) == 0;
+    if (piped) {
+        // A pipe holds more than a passphrase has: nothing waits. QProcess::write() would keep a copy.
+        const auto bytes = passphrase->bytes();
+        const bool whole = ::write(ends[1], bytes.data(), bytes.size()) == ssize_t(bytes.size());
+        ::close(ends[1]);
+        if (whole) process_.setStandardInputFile(QString("/proc/self/fd/%1").arg(ends[0]));
+    }
+    process_.start(program, passphrase == nullptr ? words : words + QStringList{"--passphrase-file", "/dev/stdin"});
+    if (piped) ::close(ends[0]);
 }
 
 void ReportMaker::ended(int code, QProcess::ExitStatus status) {
@@ -61,14 +85,14 @@ void ReportMaker::ended(int code, QProcess::ExitStatus status) {
     const auto out = std::exchange(out_, QString());
     if (status == QProcess::CrashExit) removeHalfWritten(out);
     if (cancelled_)
-        emit failed(tr("The report was cancelled; the session is complete."));
+        emit failed(tr("The report was cancelled. %1").arg(assurance_));
     else if (status == QProcess::CrashExit)
-        emit failed(tr("No report: the program that draws it ended unexpectedly. The session is complete."));
+        emit failed(tr("No report: the program that draws it ended unexpectedly. %1").arg(assurance_));
     else if (code == kDamaged && QFileInfo::exists(out)) {
         emit done(out);
         emit failed(said);
     } else if (code != 0)
-        emit failed(tr("No report: %1. The session is complete.").arg(said));
+        emit failed(tr("No report: %1. %2").arg(said, assurance_));
     else
         emit done(out);
     next();

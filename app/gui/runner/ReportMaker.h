@@ -1,5 +1,6 @@
 // ReportMaker.h - draws reports in a child process, so that the window never stalls and a crash there takes nothing
-// with it: `tactoscope-cli report SESSION --out FILE`, the program beside this one.
+// with it: `tactoscope-cli report SESSION --out FILE`, the program beside this one. Of a sealed study it gets the
+// passphrase through a pipe, from locked memory.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -7,6 +8,9 @@
 #include <QObject>
 #include <QProcess>
 #include <QStringList>
+#include <memory>
+
+#include "core/seal/Secret.h"
 
 namespace tacto::gui {
 
@@ -17,6 +21,13 @@ public:
     ~ReportMaker() override;  ///< ends what is being made
     /// Queued after what is being made. `out` ends in .pdf or .html. done() or failed() follows for each.
     void make(const QString& session, const QString& out);
+    struct Order {
+        QString record, out;  ///< a session, or a study's folder
+        QStringList more{};   ///< further words of the command
+        std::shared_ptr<const Secret> passphrase{};
+        QString assurance{};  ///< said with what fails: "The session is complete."
+    };
+    void make(const Order& order);
     /// Ends what is being made, with failed(), and forgets the queue. Nothing half-written stays.
     void cancel();
     [[nodiscard]] bool busy() const { return process_.state() != QProcess::NotRunning || !queue_.isEmpty(); }
@@ -29,8 +40,10 @@ private:
     void next();
     void ended(int code, QProcess::ExitStatus status);
     QProcess process_;
-    QList<QPair<QString, QString>> queue_;
+    void start(const QStringList& words, const Secret* passphrase);
+    QList<Order> queue_;
     QString out_;
+    QString assurance_;
     bool cancelled_ = false;  // by the person, who needs no error
 };
 

@@ -94,7 +94,7 @@ QListView::indicator:checked, QTableView::indicator:checked {
 QCheckBox::indicator:disabled, QRadioButton::indicator:disabled { border-color: @line; }
 QCheckBox::indicator:checked:disabled { background: @edge; border-color: @edge; }
 QCheckBox::indicator:focus, QRadioButton::indicator:focus { border: 2px solid @text; width: ~12; height: ~12; }
-QRadioButton::indicator { width: ~14; height: ~14; border: 1px solid @edge; border-radius: ~8; background: @base; }
+QRadioButton::indicator { width: ~14; height: ~14; border: 1px solid @edge; border-radius: ~7; background: @base; }
 QRadioButton::indicator:checked { border: ~5 solid @primary; width: ~6; height: ~6; }
 QCheckBox:disabled, QRadioButton:disabled { color: @edge; }
 

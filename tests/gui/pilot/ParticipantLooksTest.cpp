@@ -72,6 +72,36 @@ TEST_F(ParticipantLooks, EveryPhaseHasTheSamePixelsForEveryCondition) {
     EXPECT_FALSE(phases[0][1] == phases[0][3]) << "and the pictures are of the phases";
 }
 
+TEST_F(ParticipantLooks, TheIntervalsOfADetectionTrialHaveTheSamePixelsWhicheverHoldsTheTrain) {
+    RecordProperty("hazard", "H8");
+    auto marked = testScreen(ScreenState::Interval);
+    marked.phase = "detection";
+    marked.block = marked.blocks = 0;
+    std::vector<std::vector<QImage>> seen;
+    for (const int holds : {1, 1, 2}) {  // the first does not count: letters are drawn anew then
+        std::vector<QImage> shown;
+        for (const int interval : {0, 1, 0, 2}) {
+            marked.interval = interval;
+            desk.show(marked);
+            shown.push_back(picture());
+        }
+        FeltPresentation felt;
+        felt.level = 4;
+        felt.inInterval = holds;
+        desk.delivered(felt);
+        ASSERT_NO_FATAL_FAILURE(ask(intervalPrompt()));
+        shown.push_back(picture());
+        answerBy(holds == 1 ? Qt::Key_1 : Qt::Key_2);
+        desk.show(testScreen(ScreenState::Rest));
+        seen.push_back(std::move(shown));
+    }
+    seen.erase(seen.begin());
+    for (std::size_t i = 0; i < seen[0].size(); ++i) EXPECT_TRUE(seen[0][i] == seen[1][i]) << "picture " << i;
+    EXPECT_TRUE(seen[0][0] == seen[0][2]) << "neither passes before and between";
+    EXPECT_FALSE(seen[0][0] == seen[0][1]);
+    EXPECT_FALSE(seen[0][1] == seen[0][3]) << "one is told from the other";
+}
+
 std::vector<PilotPrompt> allPrompts() {
     auto condition = conditionPrompt(kFour);
     condition.within = Seconds(10);
@@ -159,9 +189,12 @@ TEST_F(ParticipantLooks, TheOtherPhasesInBothThemes) {
     interval.phase = "detection";
     interval.block = interval.blocks = 0;
     interval.interval = 1;
+    auto second = interval;
+    second.interval = 2;
     const std::pair<const char*, PilotScreen> screens[] = {{"feel", testScreen(ScreenState::Feel)},
                                                            {"named", named},
-                                                           {"interval", interval},
+                                                           {"interval-1", interval},
+                                                           {"interval-2", second},
                                                            {"break", pause},
                                                            {"ended", testScreen(ScreenState::Ended)}};
     for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {

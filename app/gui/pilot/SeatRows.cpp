@@ -1,0 +1,45 @@
+#include "app/gui/pilot/SeatRows.h"
+
+#include "app/gui/pilot/ScreenChoice.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+SeatRows::SeatRows(QFormLayout& form, QWidget& parent)
+    : form_(form),
+      screen_(new ScreenChoice(&parent)),
+      keys_(new QComboBox(&parent)),
+      blind_(new QCheckBox(QObject::tr("Blind: conditions and answers are hidden"), &parent)),
+      about_(new QLabel(&parent)) {
+    form.addRow(QObject::tr("Their screen"), screen_);
+    keys_->setObjectName("answerKeys");
+    keys_->addItem(QObject::tr("figures 1 to 6"), int(KeySet::Figures));
+    keys_->addItem(QObject::tr("left hand: W E, S D, X C"), int(KeySet::LeftHand));
+    keys_->addItem(QObject::tr("right hand: U I, J K, M and comma"), int(KeySet::RightHand));
+    keys_->setToolTip(QObject::tr("Touch and mouse work with each of them."));
+    form.addRow(QObject::tr("Their keys"), keys_);
+    blind_->setChecked(true);
+    blind_->setObjectName("blind");
+    blind_->setToolTip(QObject::tr("The operator sees no condition, level or answer until the session has ended."));
+    form.addRow(blind_);
+    about_->setWordWrap(true);
+    about_->setObjectName("seatsAbout");
+    setTone(*about_, Tone::Quiet);
+}
+
+void SeatRows::writeTo(PilotStart& start) const {
+    start.keys = KeySet(keys_->currentData().toInt());
+    start.blind = blind_->isChecked();
+}
+
+void SeatRows::showFor(bool person) {
+    form_.setRowVisible(screen_, person);
+    form_.setRowVisible(keys_, person);
+    about_->setText(!person ? QObject::tr("The virtual participant answers every question of both people; you watch.")
+                    : ScreenChoice::isOnly()
+                        ? QObject::tr("There is one screen: the participant’s window covers it. F2 opens your strip on "
+                                      "it, and Esc stops from anywhere.")
+                        : QObject::tr("Their window opens on the screen chosen above; this one stays yours."));
+}
+
+}  // namespace tacto::gui

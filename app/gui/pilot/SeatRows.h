@@ -1,0 +1,38 @@
+// SeatRows.h - rows of a form: how the two people of a session sit. The participant's screen and keys, what the
+// operator sees.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QLabel>
+
+#include "app/gui/pilot/PilotStart.h"
+
+namespace tacto::gui {
+
+class ScreenChoice;
+
+class SeatRows {
+public:
+    /// The rows are added to `form`, and belong to `parent`.
+    SeatRows(QFormLayout& form, QWidget& parent);
+    [[nodiscard]] ScreenChoice& screens() const { return *screen_; }
+    void writeTo(PilotStart& start) const;
+    /// Screen and keys are a person's.
+    void showFor(bool person);
+    void setBlind(bool blind) { blind_->setChecked(blind); }
+    /// What that means, to be placed below the form.
+    [[nodiscard]] QLabel* about() const { return about_; }
+
+private:
+    QFormLayout& form_;
+    ScreenChoice* screen_;
+    QComboBox* keys_;
+    QCheckBox* blind_;
+    QLabel* about_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,303 @@
+#include "app/gui/pilot/SessionConduct.h"
+
+#include <QScreen>
+#include <utility>
+
+#include "app/gui/pilot/OperatorPage.h"
+#include "app/gui/pilot/OperatorStrip.h"
+#include "app/gui/pilot/ParticipantWindow.h"
+#include "app/gui/pilot/ScreenChoice.h"
+#include "app/gui/theme/Text.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
+
+namespace tacto::gui {
+
+namespace {
+constexpr int kOnePress_ms = 100;
+}
+
+SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent)
+    : QObject(parent), controller_(controller), page_(page) {
+    connectPage();
+    connect(&desk_, &ParticipantDesk::screenChanged, this, &SessionConduct::show);
+    connect(&desk_, &ParticipantDesk::asked, this, &SessionConduct::ask);
+    connect(&desk_, &ParticipantDesk::closed, this, [this](quint64 id) {
+        page_.closeQuestion(id);
+        if (strip_ != nullptr) strip_->question().close();
+        emit changed();
+    });
+    connect(&desk_, &ParticipantDesk::obstacleChanged, this,
+            [this](const QString& why) { page_.setObstacle(running_ && start_.person ? why : QString()); });
+    connect(&controller_, &BenchController::finished, this, &SessionConduct::finish);
+}
+
+SessionConduct::~SessionConduct() {
+    desk_.end();
+    if (asker_.joinable()) asker_.join();
+}
+
+void SessionConduct::connectPage() {
+    connect(&page_, &OperatorPage::breakAfterTrialWanted, this, &SessionConduct::wantBreak);
+    connect(&page_, &OperatorPage::breakNowWanted, this, &SessionConduct::breakNow);
+    connect(&page_, &OperatorPage::abortWanted, this, &SessionConduct::abort);
+    connect(&page_, &OperatorPage::keysWanted, this, &SessionConduct::giveKeys);
+    connect(&page_.question(), &OperatorAsk::answered, this, [this](quint64 id, const PilotAnswer& answer) {
+        desk_.answerAsOperator(id, answer);
+        giveKeys();
+    });
+    connect(&page_.notes(), &SessionNotes::noted, this, &SessionConduct::keep);
+    connect(&page_.notes(), &SessionNotes::typingEnded, this, &SessionConduct::giveKeys);
+}
+
+void SessionConduct::connectStrip() {
+    connect(strip_, &OperatorStrip::breakWanted, this, &SessionConduct::wantBreak);
+    connect(strip_, &OperatorStrip::abortWanted, this, &SessionConduct::abort);
+    connect(strip_, &OperatorStrip::stopWanted, this, [this] { controller_.stop("operator (STOP)"); });
+    connect(strip_, &OperatorStrip::closeWanted, this, [this] { window_->openStrip(false); });
+    connect(&strip_->question(), &OperatorAsk::answered, this, [this](quint64 id, const PilotAnswer& answer) {
+        desk_.answerAsOperator(id, answer);
+        window_->openStrip(false);
+    });
+    connect(&strip_->notes(), &SessionNotes::noted, this, &SessionConduct::keep);
+}
+
+Result<RunOrder> SessionConduct::order() const {
+    auto source = ProtocolLibrary().find(start_.protocol);
+    if (!source) return failure(source);
+    auto declaration = readDeclaration(*source);
+    if (!declaration) return failure(declaration);
+    std::map<std::string, std::string> given{{"participant", start_.participant}, {"method", start_.method}};
+    if (!start_.unfinished.empty()) given["unfinished"] = start_.unfinished;
+    if (start_.blocks) given["blocks"] = std::to_string(*start_.blocks);
+    auto settings = applySettings(*declaration, given);
+    if (!settings) return failure(settings);
+    RunOrder order;
+    order.script = std::move(*source);
+    order.declaration = std::move(*declaration);
+    order.settings = std::move(*settings);
+    auto uri = DeviceUri::parse("sim:");
+    if (!uri) return failure(uri);
+    order.uris.push_back(std::move(*uri));
+    order.needed = order.declaration.needs;
+    order.seed = start_.seed;
+    order.realtime = start_.person;
+    order.notes = controller_.day().notes();
+    order.profile = controller_.profile();
+    order.limits = controller_.limits();
+    return order;
+}
+
+QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
+    if (running_) return tr("A session is running. Wait for its end or stop it (Esc).");
+    if (controller_.activity() != Activity::Closed && controller_.activity() != Activity::Live)
+        return tr("Another protocol is running. Wait for its end or stop it (Esc).");
+    mark_ = controller_.mark();
+    start_ = start;
+    auto made = order();
+    if (!made) return sentence(made.error());
+    order_ = std::move(*made);
+    if (screens_ != nullptr) screens_->disconnect(this);
+    screens_ = &screens;
+    connect(screens_, &ScreenChoice::lost, this, &SessionConduct::screenLost);
+    connect(screens_, &ScreenChoice::back, this, &SessionConduct::screenBack);
+    running_ = true;
+    seenFault_ = paused_ = codeConfirmed_ = false;
+    participantStops_ = faults_ = 0;
+    screen_ = {};
+    stoppedAt_.invalidate();
+    page_.begin(start.blind, true);
+    emit begun();
+    if (start_.person) openWindow();
+    emit changed();
+    if (start_.confirmsCode)
+        confirmCode();
+    else
+        run();
+    emit runningChanged();
+    return {};
+}
+
+QString SessionConduct::screenName() const { return screens_ == nullptr ? QString() : screens_->chosenName(); }
+
+void SessionConduct::openWindow() {
+    desk_.setScreenThere(true);
+    window_ = std::make_unique<ParticipantWindow>(desk_, [this](const char* by) { stopAsParticipant(by); });
+    window_->setKeys(start_.keys);
+    window_->setNote(start_.rehearsal ? tr("rehearsal · simulated") : tr("simulated"));
+    connect(window_.get(), &ParticipantWindow::changed, this, &SessionConduct::changed);
+    strip_ = new OperatorStrip;
+    connectStrip();
+    window_->setStrip(strip_);
+    if (auto* screen = screens_->chosen()) window_->showOn(*screen);
+}
+
+/// Before anything else, on the participant's own screen: no study is opened and nothing is made before.
+void SessionConduct::confirmCode() {
+    confirming_ = true;
+    desk_.begin(nullptr);
+    PilotScreen screen;
+    screen.phase = "checklist";
+    screen.operatorText = "The participant is asked whether the code is theirs.";
+    screen.operatorMayKnow = true;
+    desk_.show(screen);
+    const auto prompt = yesNoPrompt("code", fmt::format("Is {} your code?", start_.participant));
+    asker_ = std::thread([this, prompt] {
+        const auto said = desk_.ask(prompt);
+        const bool theirs = said && said->key() == "yes";
+        QMetaObject::invokeMethod(
+            this, [this, answered = said.has_value(), theirs] { codeAnswered(answered, theirs); },
+            Qt::QueuedConnection);
+    });
+}
+
+void SessionConduct::codeAnswered(bool answered, bool theirs) {
+    asker_.join();
+    confirming_ = false;
+    if (theirs) {
+        codeConfirmed_ = true;
+        return run();
+    }
+    const auto code = qtext(start_.participant);
+    refuse(answered ? tr("The participant says that %1 is not their code. Nothing was begun.").arg(code)
+                    : tr("Stopped before %1 was confirmed. Nothing was begun.").arg(code));
+}
+
+void SessionConduct::run() {
+    PilotSeats seats;
+    seats.study = start_.folder.toStdString();
+    seats.passphrase = start_.passphrase;
+    seats.exclusions = start_.exclusions;
+    if (start_.person) {
+        seats.people = &desk_;
+        seats.codeConfirmed = codeConfirmed_;
+        seats.begun = [this](std::shared_ptr<const Clock> clock) { desk_.begin(std::move(clock)); };
+        seats.takesStop = [this](const char* by) { return desk_.testsOperatorsStop() && desk_.stopBy(by); };
+    }
+    run_ = controller_.runPilot(order_, seats, mark_);
+}
+
+void SessionConduct::abort() {
+    controller_.stop("operator (abort)");
+    if (confirming_) desk_.cancel();
+}
+
+bool SessionConduct::stopAsParticipant(const char* by) {
+    if (!running_ || !start_.person) {
+        controller_.stop(by);
+        return false;
+    }
+    // StopKeys hears one press several times. Nothing can be on again so soon: that takes their "go on".
+    if (stoppedAt_.isValid() && stoppedAt_.elapsed() < kOnePress_ms) return true;
+    stoppedAt_.start();
+    if (confirming_) {
+        controller_.stop(by);
+        desk_.cancel();
+        return true;
+    }
+    const bool heard = desk_.stopBy(by);
+    if (!heard) controller_.stop(by);  // the session has not begun, or is over
+    if (window_) window_->noteStop();
+    ++participantStops_;
+    emit changed();
+    return heard;
+}
+
+void SessionConduct::show(const PilotScreen& screen) {
+    screen_ = screen;
+    page_.show(screen);
+    if (strip_ != nullptr) strip_->setWhere(whereText(screen));
+    emit screenChanged(screen);
+}
+
+void SessionConduct::ask(const PilotPrompt& prompt, quint64 id) {
+    page_.ask(prompt, id);
+    emit asked(prompt);
+    if (prompt.to == PromptTo::Participant) return;
+    // On the only screen the question comes up where the operator can reach it.
+    if (window_ && ScreenChoice::isOnly() && strip_ != nullptr) {
+        strip_->question().ask(prompt, id);
+        window_->openStrip(true);
+    } else {
+        emit attentionWanted();
+    }
+}
+
+void SessionConduct::refresh(const Telemetry& telemetry) {
+    if (!running_) return;
+    const auto feed = controller_.takeRunFeed();  // its trials name conditions: they are dropped
+    if (feed.progress && !start_.person)
+        emit progressed(qtext(feed.progress->label), int(feed.progress->done), int(feed.progress->total));
+    page_.refresh(telemetry);
+    const bool faulted = telemetry.state == InterlockState::Faulted;
+    if (faulted && !std::exchange(seenFault_, true)) {
+        ++faults_;
+        emit changed();
+    }
+    seenFault_ = faulted;
+}
+
+void SessionConduct::wantBreak(bool due) {
+    if (!due && std::exchange(paused_, false)) controller_.resume();
+    desk_.setBreak(due);
+    page_.setBreakDue(due);
+    if (strip_ != nullptr) strip_->setBreakDue(due);
+    if (window_) window_->showBreak(due);
+    if (!due) giveKeys();
+}
+
+void SessionConduct::breakNow() {
+    paused_ = true;
+    controller_.pause();
+    wantBreak(true);
+}
+
+void SessionConduct::keep(const QString& note) {
+    if (!controller_.markMoment(controller_.telemetry().at, note.isEmpty() ? tr("mark") : note)) return;
+    page_.notes().add(note);
+    if (strip_ != nullptr) strip_->notes().add(note);
+}
+
+void SessionConduct::giveKeys() {
+    if (window_) window_->takeKeys();
+}
+
+void SessionConduct::screenLost(const QString& name) {
+    if (!running_ || !start_.person) return;
+    controller_.stop("the participant's screen went");
+    desk_.setScreenThere(false);
+    page_.setObstacle(tr("the participant’s screen “%1” is gone").arg(name));
+}
+
+void SessionConduct::screenBack() {
+    if (!running_ || !window_) return;
+    desk_.setScreenThere(true);
+    if (auto* screen = screens_->chosen()) window_->showOn(*screen);
+}
+
+void SessionConduct::leaveSeats() {
+    running_ = false;
+    desk_.end();
+    strip_ = nullptr;
+    if (!window_) return;
+    window_->hide();
+    window_.release()->deleteLater();  // perhaps from its own press
+}
+
+void SessionConduct::refuse(const QString& why) {
+    leaveSeats();
+    emit refused(why);
+    emit attentionWanted();
+    emit runningChanged();
+}
+
+void SessionConduct::finish(const std::shared_ptr<const FinishedRun>& run) {
+    if (!running_ || confirming_ || run->number != run_) return;  // another page's
+    const auto& outcome = run->result.outcome;
+    if (outcome.error && run->result.session.empty()) return refuse(sentence(*outcome.error));
+    leaveSeats();
+    emit ended(run);
+    emit attentionWanted();
+    emit runningChanged();
+}
+
+}  // namespace tacto::gui

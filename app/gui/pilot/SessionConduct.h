@@ -1,0 +1,107 @@
+// SessionConduct.h - a pilot session while it runs in the window: the question for the code, the participant's window
+// and the operator's strip in it, stops, breaks, notes, and its end.
+//
+// The participant's window is a window of its own, full screen on the screen that was chosen; where there is one screen
+// only, the operator's page is a strip in it, behind F2. A screen that goes switches the output off and holds the
+// session back.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <memory>
+#include <thread>
+
+#include "app/gui/controller/BenchController.h"
+#include "app/gui/pilot/ParticipantDesk.h"
+#include "app/gui/pilot/PilotStart.h"
+
+namespace tacto::gui {
+
+class OperatorPage;
+class OperatorStrip;
+class ParticipantWindow;
+class ScreenChoice;
+
+class SessionConduct final : public QObject {
+    Q_OBJECT
+public:
+    /// Both outlive it.
+    SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent = nullptr);
+    ~SessionConduct() override;
+
+    /// Why it cannot begin, a sentence; empty where it does. begun() comes from within; ended() or refused() follows.
+    /// `screens` says where the participant's window is, as long as it runs.
+    [[nodiscard]] QString begin(const PilotStart& start, ScreenChoice& screens);
+    [[nodiscard]] bool running() const { return running_; }
+    [[nodiscard]] const PilotStart& start() const { return start_; }
+    [[nodiscard]] const PilotScreen& screen() const { return screen_; }
+    [[nodiscard]] int participantStops() const { return participantStops_; }
+    [[nodiscard]] int faults() const { return faults_; }
+    /// Null while no person sits at one.
+    [[nodiscard]] ParticipantWindow* window() const { return window_.get(); }
+    /// Of the screen on which it is.
+    [[nodiscard]] QString screenName() const;
+    static constexpr int kMostStops = 3;  ///< of the participant: the third ends the session
+
+    void refresh(const Telemetry& telemetry);
+    /// A stop by the participant's keys; false where no session of a person runs.
+    bool stopAsParticipant(const char* by);
+    /// From the next trial on, until they want it no more.
+    void wantBreak(bool due);
+    /// The trial under way is void: it is repeated after the break.
+    void breakNow();
+
+signals:
+    void begun();
+    void screenChanged(const tacto::PilotScreen& screen);
+    void asked(const tacto::PilotPrompt& prompt);
+    void changed();          ///< stops, faults, what the participant's window shows
+    void attentionWanted();  ///< the operator is asked something
+    void progressed(const QString& what, int done, int total);  ///< of a virtual participant
+    void refused(const QString& why);                           ///< nothing was begun
+    void ended(std::shared_ptr<const tacto::gui::FinishedRun> run);
+    void runningChanged();
+
+private:
+    [[nodiscard]] Result<RunOrder> order() const;
+    void connectPage();
+    void openWindow();
+    void connectStrip();
+    void confirmCode();
+    void codeAnswered(bool answered, bool theirs);
+    void run();
+    void abort();
+    void refuse(const QString& why);
+    void leaveSeats();
+    void finish(const std::shared_ptr<const FinishedRun>& run);
+    void show(const PilotScreen& screen);
+    void ask(const PilotPrompt& prompt, quint64 id);
+    void keep(const QString& note);
+    void giveKeys();
+    void screenLost(const QString& name);
+    void screenBack();
+
+    BenchController& controller_;
+    OperatorPage& page_;
+    ParticipantDesk desk_;
+    std::unique_ptr<ParticipantWindow> window_;
+    OperatorStrip* strip_ = nullptr;  ///< the window's, while it is there
+    ScreenChoice* screens_ = nullptr;
+    PilotStart start_;
+    RunOrder order_;
+    StopMark mark_{};
+    std::thread asker_;  ///< waits for the answer to the code
+    bool confirming_ = false;
+    bool codeConfirmed_ = false;
+    bool running_ = false;
+    std::uint64_t run_ = 0;
+    bool seenFault_ = false;
+    bool paused_ = false;      ///< by a break
+    QElapsedTimer stoppedAt_;  ///< by the participant
+    int participantStops_ = 0, faults_ = 0;
+    PilotScreen screen_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,162 @@
+#include "app/gui/pilot/SessionPath.h"
+
+#include <QTime>
+#include <QVBoxLayout>
+#include <cmath>
+#include <optional>
+
+#include "app/gui/runner/StepList.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kPilotPath = 240, kPathPad = 16;
+
+enum PilotStep { kChecklist, kStopTest, kSkin, kThresholds, kTraining, kTest, kRatings, kAfter, kSteps };
+
+using State = StepList::State;
+
+/// Where a phase, or what the operator is asked in none, stands on the path; `now`: the step so far.
+std::optional<int> stepOf(const std::string& name, int now) {
+    if (name == "checklist" || name == "code") return kChecklist;
+    if (name == "stop-test") return kStopTest;
+    if (name == "erythema" || name == "oedema") return now >= kRatings ? kAfter : now >= kThresholds ? now : int(kSkin);
+    if (name == "electrode-lot" || name == "electrodes-untouched") return kSkin;
+    if (name == "ascending" || name == "detection" || name == "range") return kThresholds;
+    if (name == "familiarisation" || name == "training") return kTraining;
+    if (name == "test" || name == "drift" || name == "break") return kTest;
+    if (name == "ratings") return kRatings;
+    if (name == "ended") return kAfter;
+    return {};
+}
+
+// The design's minutes at which each step begins; the end of the session is the last.
+constexpr double kBegins_min[kSteps + 1] = {0, 4, 6, 12, 23, 30, 58, 62, 66};
+
+}  // namespace
+
+SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
+    setObjectName("path");
+    setFixedWidth(scaledPx(kPilotPath));
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, kPathPad / 2, 0, kPathPad);
+    auto* top = new QVBoxLayout;
+    top->setContentsMargins(kPathPad, 0, kPathPad, kPathPad / 2);
+    top->setSpacing(2);
+    title_ = new QLabel(this);
+    title_->setWordWrap(true);
+    setTextSize(*title_, TextSize::Body, true);
+    below_ = new QLabel(this);
+    below_->setWordWrap(true);
+    setTextSize(*below_, TextSize::Small);
+    setTone(*below_, Tone::Quiet);
+    top->addWidget(title_);
+    top->addWidget(below_);
+    column->addLayout(top);
+    steps_ = new StepList({tr("Checklist"), tr("Stop test"), tr("Skin and electrodes"), tr("Thresholds and range"),
+                           tr("Training"), tr("Test"), tr("Ratings"), tr("Electrodes off, skin")},
+                          this);
+    column->addWidget(steps_);
+    column->addStretch();
+    auto* foot = new QVBoxLayout;
+    foot->setContentsMargins(kPathPad, 0, kPathPad, 0);
+    foot->setSpacing(2);
+    leftWord_ = new QLabel(tr("Time left"), this);
+    setTextSize(*leftWord_, TextSize::Small);
+    setTone(*leftWord_, Tone::Quiet);
+    left_ = new QLabel(this);
+    left_->setObjectName("timeLeft");
+    setTextSize(*left_, TextSize::Large);
+    foot->addWidget(leftWord_);
+    foot->addWidget(left_);
+    column->addLayout(foot);
+    clear();
+}
+
+void SessionPath::setTitle(const QString& title, const QString& below) {
+    title_->setText(title);
+    below_->setText(below);
+}
+
+void SessionPath::begin(int blocks, bool counts) {
+    screen_ = {};
+    blocks_ = blocks;
+    counts_ = counts;
+    reach(kChecklist);
+}
+
+void SessionPath::clear() {
+    counts_ = false;
+    reach(-1);
+}
+
+void SessionPath::end(bool broke) {
+    counts_ = false;
+    reach(broke ? step_ : int(kSteps));
+    if (broke) steps_->setState(step_, State::Troubled);
+}
+
+void SessionPath::show(const PilotScreen& screen) {
+    screen_ = screen;
+    reachFor(screen.phase);
+    if (step_ == kTest && screen.phase == "test" && screen.trial > 0) {
+        const int each = screen.blocks > 0 ? screen.trials / screen.blocks : screen.trials;
+        steps_->setNote(
+            kTest,
+            tr("block %1 · trial %2 of %3").arg(screen.block).arg(screen.trial - (screen.block - 1) * each).arg(each));
+    }
+    left_->setText(timeLeft());
+}
+
+void SessionPath::asked(const PilotPrompt& prompt) {
+    if (prompt.name == "stop-test" && step_ < kStopTest) reach(kStopTest);
+    if (prompt.to != PromptTo::Participant) reachFor(prompt.name);
+}
+
+void SessionPath::reachTest() { reach(kTest); }
+
+void SessionPath::reachFor(const std::string& name) {
+    if (const auto step = stepOf(name, step_); step && *step > step_) reach(*step);
+}
+
+/// Everything before is done; -1: nothing has begun.
+void SessionPath::reach(int step) {
+    step_ = std::max(0, step);
+    for (int i = 0; i < kSteps; ++i) {
+        const auto before = steps_->state(i);
+        const auto now = i < step ? State::Done : i == step ? State::UnderWay : State::ToDo;
+        steps_->setState(i, now);
+        steps_->setOutOfReach(i, tr("The session goes through its steps by itself."));
+        if (now == State::ToDo) steps_->setNote(i, {});
+        if (now == State::UnderWay && before != now) steps_->setNote(i, QTime::currentTime().toString("HH:mm"));
+    }
+    steps_->setShown(std::min(step_, kSteps - 1));  // all are done once the session has ended
+    const bool shown = step >= 0 && counts_;
+    leftWord_->setVisible(shown);
+    left_->setVisible(shown);
+    left_->setText(timeLeft());
+}
+
+QString SessionPath::timeLeft() const {
+    const double done_min = kBegins_min[step_];
+    const double whole = kBegins_min[kSteps];
+    const double test_min = (kBegins_min[kRatings] - kBegins_min[kTest]) * blocks_ / 5;
+    double rest = whole - kBegins_min[kRatings] + test_min;
+    if (step_ < kTest) {
+        rest += kBegins_min[kTest] - done_min;
+    } else if (step_ == kTest) {
+        if (screen_.trials > 0) rest -= test_min * std::max(0, screen_.trial - 1) / screen_.trials;
+    } else {
+        rest = whole - done_min;
+    }
+    return tr("about %1 min").arg(std::max(1, int(std::lround(rest))));
+}
+
+void SessionPath::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    steps_->fit();
+}
+
+}  // namespace tacto::gui

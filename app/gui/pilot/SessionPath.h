@@ -1,0 +1,51 @@
+// SessionPath.h - the steps of a pilot session at the left, with how each stands, and the time that is left.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QWidget>
+#include <string>
+
+#include "core/pilot/Prompt.h"
+
+namespace tacto::gui {
+
+class StepList;
+
+class SessionPath final : public QWidget {
+    Q_OBJECT
+public:
+    explicit SessionPath(QWidget* parent = nullptr);
+    void setTitle(const QString& title, const QString& below);
+    /// `blocks` of the test; `counts`: the time left is that of people.
+    void begin(int blocks, bool counts);
+    void show(const PilotScreen& screen);
+    void asked(const PilotPrompt& prompt);
+    /// The test is under way, though its screens are not shown.
+    void reachTest();
+    /// Nothing is under way any more; `broke`: before its end.
+    void end(bool broke);
+    /// Nothing has begun.
+    void clear();
+    using QWidget::show;
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void reach(int step);
+    void reachFor(const std::string& name);
+    [[nodiscard]] QString timeLeft() const;
+    QLabel* title_;
+    QLabel* below_;
+    StepList* steps_;
+    QLabel* leftWord_;
+    QLabel* left_;
+    PilotScreen screen_;
+    int step_ = 0;
+    int blocks_ = 5;
+    bool counts_ = false;
+};
+
+}  // namespace tacto::gui

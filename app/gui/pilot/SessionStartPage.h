@@ -1,0 +1,59 @@
+// SessionStartPage.h - a session of a participant of a study before it begins: what was broken off, what is run, how
+// both people sit, and the exclusion checklist. A virtual participant has none: it answers no to each.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QBoxLayout>
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QWidget>
+
+#include "app/gui/pilot/PilotStart.h"
+#include "app/gui/pilot/SeatRows.h"
+#include "core/study/Study.h"
+
+namespace tacto::gui {
+
+class ExclusionChecklist;
+class UnfinishedOffer;
+
+class SessionStartPage final : public QWidget {
+    Q_OBJECT
+public:
+    explicit SessionStartPage(QWidget* parent = nullptr);
+    /// Afresh for a session of `participant`.
+    void prepare(const Study& study, const Participant& participant);
+    /// All but the study's folder and passphrase.
+    [[nodiscard]] PilotStart start() const;
+    [[nodiscard]] ScreenChoice& screens() const { return seats_->screens(); }
+    /// A sentence in the way; empty for none.
+    void say(const QString& what);
+
+signals:
+    void beginWanted();
+    void backWanted();
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void judge();
+    std::string code_;
+    bool virtual_ = false;
+    bool rehearsal_ = false;
+    QLabel* head_;
+    QLabel* about_;
+    UnfinishedOffer* offer_;
+    QComboBox* protocol_;
+    QComboBox* method_;
+    std::unique_ptr<SeatRows> seats_;
+    QBoxLayout* body_ = nullptr;
+    QWidget* asks_;
+    ExclusionChecklist* checklist_;
+    QLabel* trouble_;
+    QPushButton* begin_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,100 @@
+#include "app/gui/pilot/UnfinishedOffer.h"
+
+#include <QButtonGroup>
+#include <QPainter>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/Theme.h"
+#include "app/run/PilotRows.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kOfferStripe = 5;  // pixels of amber at the left: something waits for an answer
+
+}  // namespace
+
+Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Participant& participant) {
+    const auto open = study.unfinished(participant.id);
+    if (!open) return std::optional<Unfinished>();
+    const auto rows = pilotRows(study, *open);
+    if (!rows) return failure(rows);
+    const auto whole = study.session(open->id);
+    if (!whole) return failure(whole);
+    Unfinished found;
+    found.number = open->number;
+    found.protocol = open->protocol;
+    found.answered = whole->answered;
+    found.brokenOff = QDateTime::fromSecsSinceEpoch(rows->lastAt.time_since_epoch().count());
+    found.mayGoOn = SystemTime::real().wall() - rows->lastAt <= kResumedWithin;
+    return std::optional(found);
+}
+
+UnfinishedOffer::UnfinishedOffer(QWidget* parent)
+    : QFrame(parent), says_(new QLabel(this)), goOn_(new QRadioButton(this)), end_(new QRadioButton(this)) {
+    setObjectName("unfinishedOffer");
+    setAccessibleName(tr("A session was broken off"));
+    setFrameShape(QFrame::StyledPanel);
+    setAutoFillBackground(true);
+    setBackgroundRole(QPalette::Base);
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(kOfferStripe * 3, kOfferStripe * 2, kOfferStripe * 2, kOfferStripe * 2);
+    says_->setObjectName("unfinishedSays");
+    says_->setWordWrap(true);
+    says_->setTextFormat(Qt::PlainText);
+    setTextSize(*says_, TextSize::Body, true);
+    column->addWidget(says_);
+    goOn_->setObjectName("goOnWithIt");
+    end_->setObjectName("endIt");
+    end_->setText(tr("End it as stopped, and begin another"));
+    end_->setToolTip(tr("What was answered is kept and counts as a stopped session."));
+    auto* both = new QButtonGroup(this);
+    for (auto* choice : {goOn_, end_}) {
+        both->addButton(choice);
+        column->addWidget(choice);
+        connect(choice, &QRadioButton::toggled, this, &UnfinishedOffer::changed);
+    }
+    hide();
+}
+
+void UnfinishedOffer::paintEvent(QPaintEvent* event) {
+    QFrame::paintEvent(event);
+    QPainter(this).fillRect(0, 0, kOfferStripe, height(), colours().amber);
+}
+
+void UnfinishedOffer::offer(const std::optional<Unfinished>& unfinished) {
+    if (unfinished == offered_) return;
+    offered_ = unfinished;
+    setVisible(offered_.has_value());
+    auto* both = goOn_->group();
+    both->setExclusive(false);
+    for (auto* choice : {goOn_, end_}) choice->setChecked(false);
+    both->setExclusive(true);
+    if (!offered_) return;
+    const bool today = offered_->brokenOff.date() == QDate::currentDate();
+    says_->setText(tr("Session %1 was broken off %2, after %3 answers.")
+                       .arg(offered_->number)
+                       .arg(today ? tr("at %1").arg(offered_->brokenOff.toString("HH:mm"))
+                                  : tr("on %1").arg(offered_->brokenOff.toString("yyyy-MM-dd HH:mm")))
+                       .arg(offered_->answered));
+    goOn_->setEnabled(offered_->mayGoOn);
+    goOn_->setText(offered_->mayGoOn ? tr("Go on: nothing is asked twice")
+                                     : tr("Go on: only within 2 h of the last answer"));
+    fit();
+    emit changed();
+}
+
+void UnfinishedOffer::resizeEvent(QResizeEvent* event) {
+    QFrame::resizeEvent(event);
+    fit();
+}
+
+/// All lines of the sentence, in a page that scrolls too.
+void UnfinishedOffer::fit() { says_->setMinimumHeight(std::max(0, says_->heightForWidth(says_->width()))); }
+
+std::string UnfinishedOffer::chosen() const {
+    return !offered_ ? "" : goOn_->isChecked() ? "resume" : end_->isChecked() ? "end" : "";
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,54 @@
+// UnfinishedOffer.h - a session that was broken off, offered: go on with it, or end it and begin another. Neither is
+// chosen beforehand.
+//
+// Thread-safety: the GUI thread; unfinishedOf() is as Study.
+#pragma once
+
+#include <QDateTime>
+#include <QFrame>
+#include <QLabel>
+#include <QRadioButton>
+#include <optional>
+
+#include "core/study/Study.h"
+
+namespace tacto::gui {
+
+struct Unfinished {
+    int number = 0;
+    std::string protocol;
+    int answered = 0;  ///< answers on disk
+    QDateTime brokenOff;
+    bool mayGoOn = true;  ///< it was not too long ago
+    bool operator==(const Unfinished&) const = default;
+};
+/// The participant's; nothing where there is none. Errors: as pilotRows().
+[[nodiscard]] Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Participant& participant);
+
+class UnfinishedOffer final : public QFrame {
+    Q_OBJECT
+public:
+    explicit UnfinishedOffer(QWidget* parent = nullptr);
+    /// Nothing: hides itself.
+    void offer(const std::optional<Unfinished>& unfinished);
+    [[nodiscard]] bool asks() const { return offered_.has_value(); }
+    /// "resume" or "end", as the protocol's setting; empty where nothing is offered or chosen.
+    [[nodiscard]] std::string chosen() const;
+    [[nodiscard]] const std::optional<Unfinished>& offered() const { return offered_; }
+
+signals:
+    void changed();
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void fit();
+    std::optional<Unfinished> offered_;
+    QLabel* says_;
+    QRadioButton* goOn_;
+    QRadioButton* end_;
+};
+
+}  // namespace tacto::gui

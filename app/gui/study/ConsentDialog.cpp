@@ -1,0 +1,78 @@
+#include "app/gui/study/ConsentDialog.h"
+
+#include <QDialogButtonBox>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+ProtocolParameter field(const char* name, const QString& label, ParameterType type, std::string value) {
+    ProtocolParameter made;
+    made.name = name;
+    made.label = label.toStdString();
+    made.type = type;
+    made.value = std::move(value);
+    return made;
+}
+
+constexpr int kConsentWide = 420;
+
+}  // namespace
+
+ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* parent)
+    : QDialog(parent), study_(study), code_(code), form_(new ParameterForm(this)), trouble_(new QLabel(this)) {
+    setObjectName("consentDialog");
+    setWindowTitle(tr("Consent of %1").arg(code));
+    setMinimumWidth(scaledPx(kConsentWide));
+    auto* column = new QVBoxLayout(this);
+    column->addWidget(heading(tr("Consent of %1").arg(code), this));
+    column->addWidget(
+        explanation(tr("The signed form stays on paper, apart from the code. What stands here is sealed."), this));
+    const auto* open = study_.study();
+    ProtocolDeclaration fields;
+    fields.parameters = {
+        field("version", tr("Version of the form that was signed"), ParameterType::Text,
+              open == nullptr ? std::string() : open->settings().consentVersion),
+        field("date", tr("Day on which it was signed"), ParameterType::Date,
+              open == nullptr ? std::string() : dateText(open->today())),
+        field("by", tr("Initials of who took it"), ParameterType::Text, std::string())};
+    form_->show(fields);
+    for (const auto& [name, tip] :
+         {std::pair("version", tr("Sessions need consent to the version in force.")),
+          std::pair("date", tr("No later than today.")), std::pair("by", tr("Of the investigator, not of the person."))})
+        form_->findChild<QWidget*>(name)->setToolTip(tip);
+    form_->referencePart().hide();  // a consent has none
+    column->addWidget(form_);
+    trouble_->setObjectName("consentTrouble");
+    trouble_->setTextFormat(Qt::PlainText);
+    trouble_->setWordWrap(true);
+    setTone(*trouble_, Tone::Warning);
+    column->addWidget(trouble_);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+    auto* note = buttons->addButton(tr("Note the consent"), QDialogButtonBox::ActionRole);
+    note->setObjectName("noteConsent");
+    makePrimary(*note);
+    for (auto* button : buttons->buttons()) static_cast<QPushButton*>(button)->setAutoDefault(false);
+    column->addWidget(buttons);
+    connect(note, &QPushButton::clicked, this, &ConsentDialog::note);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+}
+
+void ConsentDialog::note() {
+    auto* study = study_.study();
+    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nothing was noted."));
+    const auto date = parseDate(form_->text("date").toStdString());
+    if (!date) return trouble_->setText(tr("⚠ The day is missing. One as 2026-11-21 is expected."));
+    const auto noted = study->consent(code_.toStdString(),
+                                      {form_->text("version").toStdString(), *date, form_->text("by").toStdString()});
+    if (!noted) return trouble_->setText("⚠ " + sentence(noted.error()));
+    study_.noteChange();
+    accept();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,96 @@
+#include "app/gui/study/EndPartDialog.h"
+
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+constexpr int kEndPartWide = 480;
+}
+
+EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWidget* parent)
+    : QDialog(parent), study_(study), how_(how), code_(code), trouble_(new QLabel(this)) {
+    const bool withdraws = how == How::Withdraw;
+    setObjectName(withdraws ? "withdrawDialog" : "leaveDialog");
+    setWindowTitle(withdraws ? tr("%1 withdraws").arg(code) : tr("%1 leaves the study").arg(code));
+    setMinimumWidth(scaledPx(kEndPartWide));
+    auto* column = new QVBoxLayout(this);
+    column->addWidget(heading(windowTitle(), this));
+    const auto say = [&](const QString& what, const char* name) {
+        auto* label = new QLabel(what, this);
+        label->setObjectName(name);
+        label->setTextFormat(Qt::PlainText);
+        label->setWordWrap(true);
+        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        column->addWidget(label);
+    };
+    if (withdraws) {
+        say(tr("The key to everything that %1 did and answered is destroyed. Nobody opens it again, and nothing brings "
+               "it back. That someone withdrew, when, and after how many sessions stays in the study, and so do "
+               "adverse events.")
+                .arg(code),
+            "withdrawWhat");
+        say(tr("This program does not reach copies of the key file, backups, and spare blocks of a solid-state disk: "
+               "they still open the data for anyone with the passphrase. Delete the copies by hand."),
+            "withdrawCopies");
+        say(exportsText(), "withdrawExports");
+        auto* form = new QFormLayout;
+        typed_ = new QLineEdit(this);
+        typed_->setObjectName("withdrawCode");
+        typed_->setPlaceholderText(code);
+        typed_->setToolTip(tr("The participant’s code, typed once more."));
+        form->addRow(tr("Type the &code"), typed_);
+        column->addLayout(form);
+        connect(typed_, &QLineEdit::textChanged, this, &EndPartDialog::judge);
+    } else {
+        say(tr("%1 takes part in no further session. What was collected stays, and is part of results and exports. "
+               "If they want their data destroyed, they withdraw instead.")
+                .arg(code),
+            "leaveWhat");
+    }
+    trouble_->setObjectName("endPartTrouble");
+    trouble_->setTextFormat(Qt::PlainText);
+    trouble_->setWordWrap(true);
+    setTone(*trouble_, Tone::Warning);
+    column->addWidget(trouble_);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+    end_ = new ConfirmButton(withdraws ? tr("Destroy the key") : tr("Leave the study"), this);
+    end_->setObjectName("endPart");
+    buttons->addButton(end_, QDialogButtonBox::ActionRole);
+    for (auto* button : buttons->buttons()) static_cast<QPushButton*>(button)->setAutoDefault(false);
+    column->addWidget(buttons);
+    connect(end_, &QPushButton::clicked, this, &EndPartDialog::end);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    judge();
+}
+
+QString EndPartDialog::exportsText() const {
+    const auto* study = study_.study();
+    const auto all = study == nullptr ? std::vector<StudyExport>() : study->exports();
+    if (all.empty()) return tr("Nothing was exported from this study.");
+    QStringList places;
+    for (const auto& one : all) places << "• " + qtext(one.place);
+    return tr("Exports lie where they were written, and are deleted by hand:") + '\n' + places.join('\n');
+}
+
+void EndPartDialog::judge() {
+    end_->setEnabled(typed_ == nullptr || typed_->text().trimmed().compare(code_, Qt::CaseInsensitive) == 0);
+}
+
+void EndPartDialog::end() {
+    auto* study = study_.study();
+    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nothing was changed."));
+    const auto code = code_.toStdString();
+    const auto done = how_ == How::Withdraw ? study->withdraw(code) : study->leave(code);
+    if (!done) return trouble_->setText("⚠ " + sentence(done.error()));
+    study_.noteChange();
+    accept();
+}
+
+}  // namespace tacto::gui

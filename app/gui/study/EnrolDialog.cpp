@@ -1,0 +1,115 @@
+#include "app/gui/study/EnrolDialog.h"
+
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+constexpr int kMostEnrolSeed = 1'000'000;
+constexpr int kEnrolWide = 420;
+}  // namespace
+
+EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
+    : QDialog(parent),
+      study_(study),
+      form_(new QWidget(this)),
+      who_(new QComboBox(form_)),
+      seed_(new QSpinBox(form_)),
+      group_(new QComboBox(form_)),
+      own_(new QLineEdit(form_)),
+      trouble_(new QLabel(this)),
+      code_(new QLabel(this)),
+      next_(new QLabel(this)) {
+    setObjectName("enrolDialog");
+    setWindowTitle(tr("Enrol a participant"));
+    setMinimumWidth(scaledPx(kEnrolWide));
+    auto* column = new QVBoxLayout(this);
+    column->addWidget(heading(tr("Enrol a participant"), this));
+    column->addWidget(explanation(
+        tr("A participant is known here by a code alone. Never write a name, a birth date or a hospital number."),
+        this));
+    auto* form = new QFormLayout(form_);
+    form->setContentsMargins(0, 0, 0, 0);
+    who_->setObjectName("enrolWho");
+    who_->addItem(tr("a person"), false);
+    who_->addItem(tr("a virtual participant"), true);
+    form->addRow(tr("&Who"), who_);
+    seed_->setObjectName("enrolSeed");
+    seed_->setRange(1, kMostEnrolSeed);
+    seed_->setToolTip(tr("The same seed is the same virtual participant."));
+    form->addRow(tr("&Seed"), seed_);
+    group_->setObjectName("enrolGroup");
+    for (const auto& [word, group] : kParticipantGroups) group_->addItem(qtext(word), int(group));
+    form->addRow(tr("&Group"), group_);
+    own_->setObjectName("enrolCode");
+    own_->setPlaceholderText(tr("a new one is drawn"));
+    own_->setToolTip(tr("Only where the code comes from elsewhere. Its last character checks the others."));
+    form->addRow(tr("&Code"), own_);
+    column->addWidget(form_);
+    code_->setObjectName("enrolledCode");
+    code_->setAlignment(Qt::AlignCenter);
+    code_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    code_->setFont(textFont(TextSize::Display, QFont::Bold));
+    next_->setWordWrap(true);
+    for (auto* label : {code_, next_}) {
+        label->setTextFormat(Qt::PlainText);
+        label->hide();
+        column->addWidget(label);
+    }
+    trouble_->setObjectName("enrolTrouble");
+    trouble_->setTextFormat(Qt::PlainText);
+    trouble_->setWordWrap(true);
+    setTone(*trouble_, Tone::Warning);
+    column->addWidget(trouble_);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+    close_ = buttons->button(QDialogButtonBox::Cancel);
+    enrol_ = buttons->addButton(tr("Enrol"), QDialogButtonBox::ActionRole);
+    enrol_->setObjectName("enrolNow");
+    makePrimary(*enrol_);
+    for (auto* button : {close_, enrol_}) button->setAutoDefault(false);
+    column->addWidget(buttons);
+    connect(enrol_, &QPushButton::clicked, this, &EnrolDialog::enrol);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(who_, &QComboBox::currentIndexChanged, this, &EnrolDialog::judge);
+    judge();
+}
+
+void EnrolDialog::judge() {
+    const bool isVirtual = who_->currentData().toBool();
+    static_cast<QFormLayout*>(form_->layout())->setRowVisible(seed_, isVirtual);
+}
+
+void EnrolDialog::enrol() {
+    auto* study = study_.study();
+    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nobody was enrolled."));
+    Participant participant;
+    participant.code = own_->text().trimmed().toStdString();
+    participant.group = ParticipantGroup(group_->currentData().toInt());
+    if (who_->currentData().toBool()) participant.virtualSeed = std::uint64_t(seed_->value());
+    const auto enrolled = study->enrol(std::move(participant));
+    if (!enrolled) return trouble_->setText("⚠ " + sentence(enrolled.error()));
+    showCode(*enrolled);
+    study_.noteChange();
+}
+
+void EnrolDialog::showCode(const Participant& participant) {
+    trouble_->clear();
+    form_->hide();
+    enrol_->hide();
+    code_->setText(qtext(participant.code));
+    next_->setText(participant.virtualSeed
+                       ? tr("Enrolled. Note the consent to the form in force next, as for everyone.")
+                       : tr("Enrolled. Give the person this code on paper: they read it on their own screen at each "
+                            "session. Keep it apart from their name. Note their consent next."));
+    code_->show();
+    next_->show();
+    close_->setText(tr("Close"));
+    adjustSize();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,40 @@
+// EnrolDialog.h - enrols a participant and shows their code, once and large: for them to keep, and for nobody's notes.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QComboBox>
+#include <QDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
+
+#include "app/gui/study/OpenStudy.h"
+
+namespace tacto::gui {
+
+class EnrolDialog final : public QDialog {
+    Q_OBJECT
+public:
+    /// `study` outlives it.
+    EnrolDialog(OpenStudy& study, QWidget* parent);
+
+private:
+    void judge();
+    void enrol();
+    void showCode(const Participant& participant);
+    OpenStudy& study_;
+    QWidget* form_;
+    QComboBox* who_;
+    QSpinBox* seed_;
+    QComboBox* group_;
+    QLineEdit* own_;
+    QLabel* trouble_;
+    QLabel* code_;
+    QLabel* next_;
+    QPushButton* enrol_;
+    QPushButton* close_;
+};
+
+}  // namespace tacto::gui

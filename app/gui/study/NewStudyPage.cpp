@@ -1,0 +1,120 @@
+#include "app/gui/study/NewStudyPage.h"
+
+#include <QDir>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QScrollArea>
+#include <QStandardPaths>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+constexpr int kNewPad = 16, kFormWide = 900;
+}
+
+NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
+    : QWidget(parent),
+      study_(study),
+      folder_(new QLineEdit(this)),
+      form_(new StudyForm(this)),
+      trouble_(new QLabel(this)) {
+    setObjectName("newStudy");
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(kNewPad, kNewPad, kNewPad, kNewPad);
+    column->setSpacing(12);
+    column->addWidget(heading(tr("A new study"), this));
+    column->addWidget(explanation(
+        tr("As the ethics committee approved it. Settings and protocols are fixed with it: a later change is an "
+           "amendment with a reference of its own."),
+        this));
+    auto* place = new QWidget(this);
+    auto* row = new QHBoxLayout(place);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(8);
+    auto* word = new QLabel(tr("&Folder"), place);
+    word->setBuddy(folder_);
+    folder_->setObjectName("newStudyFolder");
+    folder_->setAccessibleName(tr("Folder of the new study"));
+    folder_->setToolTip(tr("A new or empty folder. Its keys lie elsewhere, in your own key folder."));
+    auto* choose = new QPushButton(tr("Ch&oose…"), place);
+    choose->setAutoDefault(false);
+    connect(choose, &QPushButton::clicked, this, [this] {
+        FileQuestion question;
+        question.title = tr("An empty folder for the study");
+        question.wants = FileQuestion::Wants::Folder;
+        askForFile(*this, question, [this](const QString& path) { folder_->setText(path); });
+    });
+    row->addWidget(word);
+    row->addWidget(folder_, 1);
+    row->addWidget(choose);
+    place->setMaximumWidth(scaledPx(kFormWide));
+    column->addWidget(place);
+    auto* area = new QScrollArea(this);
+    area->setObjectName("newStudyFields");
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    form_->setMaximumWidth(scaledPx(kFormWide));
+    area->setWidget(form_);
+    for (auto* ground : {static_cast<QWidget*>(form_), area->viewport()}) ground->setAutoFillBackground(false);
+    column->addWidget(area, 1);
+    trouble_->setObjectName("newStudyTrouble");
+    trouble_->setTextFormat(Qt::PlainText);
+    trouble_->setWordWrap(true);
+    setTone(*trouble_, Tone::Warning);
+    trouble_->hide();
+    column->addWidget(trouble_);
+    auto* foot = new QHBoxLayout;
+    foot->setSpacing(8);
+    auto* create = new QPushButton(tr("Create the study…"), this);
+    create->setObjectName("createStudy");
+    create->setToolTip(tr("Asks for a passphrase, then makes folder and keys."));
+    makePrimary(*create);
+    auto* cancel = new QPushButton(tr("Back"), this);
+    for (auto* button : {create, cancel}) {
+        button->setAutoDefault(false);
+        foot->addWidget(button);
+    }
+    foot->addStretch();
+    column->addLayout(foot);
+    connect(form_, &StudyForm::edited, trouble_, &QLabel::hide);
+    connect(create, &QPushButton::clicked, this, &NewStudyPage::askForPassphrase);
+    connect(cancel, &QPushButton::clicked, this, &NewStudyPage::cancelled);
+    connect(&study_, &OpenStudy::opened, this, [this] {
+        if (asks_) asks_->accept();
+    });
+    connect(&study_, &OpenStudy::refused, this, [this](const QString& why) {
+        if (asks_) asks_->refuse(why);
+    });
+}
+
+void NewStudyPage::clear() {
+    const QDir documents(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation));
+    folder_->setText(documents.filePath("Tactoscope/study"));
+    form_->clear();
+    trouble_->hide();
+}
+
+void NewStudyPage::askForPassphrase() {
+    const auto settings = form_->read();
+    const auto folder = folder_->text().trimmed();
+    const auto why = !settings          ? sentence(settings.error())
+                     : folder.isEmpty() ? tr("The folder is missing. A new or empty one is expected.")
+                     : Study::isThere(folder.toStdString())
+                         ? tr("%1 holds a study already. A new or empty folder is expected.").arg(folder)
+                         : QString();
+    trouble_->setText("⚠ " + why);
+    trouble_->setVisible(!why.isEmpty());
+    if (!why.isEmpty()) return;
+    asks_ = new PassphraseDialog(PassphraseDialog::Purpose::New, qtext(settings->title), this);
+    connect(asks_, &PassphraseDialog::given, this, [this, folder, settings = *settings] {
+        study_.create(folder, settings, asks_->passphrase());
+    });
+    openDialog(asks_);
+}
+
+}  // namespace tacto::gui

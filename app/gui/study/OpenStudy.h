@@ -1,0 +1,66 @@
+// OpenStudy.h - the study that the window has open: opened and made beside the window, since a passphrase takes a
+// second, changed at once, and lent to a session while that runs.
+//
+// While it is open no other program changes it. The passphrase lies in locked memory and in no setting.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <memory>
+#include <optional>
+
+#include "app/gui/sessions/Background.h"
+#include "core/sharing/BidsFiles.h"
+#include "core/study/Study.h"
+
+namespace tacto::gui {
+
+class OpenStudy final : public QObject {
+    Q_OBJECT
+public:
+    explicit OpenStudy(QObject* parent = nullptr, Study::Surroundings around = {});
+
+    /// Null where none is open, or while it is lent, opened or exported.
+    [[nodiscard]] Study* study() noexcept { return busy() || !study_ ? nullptr : &*study_; }
+    [[nodiscard]] bool busy() const { return work_.busy(); }
+    [[nodiscard]] QString folder() const { return folder_; }
+    [[nodiscard]] const std::shared_ptr<const Secret>& passphrase() const noexcept { return passphrase_; }
+
+    /// Its title, and whether it needs a passphrase. Errors: as Study::open().
+    struct Look {
+        QString title;
+        bool sealed = true;
+    };
+    [[nodiscard]] Result<Look> look(const QString& folder) const;
+    /// `passphrase` null: a rehearsal. opened() or refused() follows.
+    void open(const QString& folder, std::shared_ptr<const Secret> passphrase);
+    void create(const QString& folder, const StudySettings& settings, std::shared_ptr<const Secret> passphrase);
+    void close();
+    /// For a session, which opens it by itself; takeBack() opens it again.
+    void lend();
+    void takeBack();
+    /// exported() or refused() follows.
+    void exportBids(const QString& place);
+    /// After a change by study(): tells it.
+    void noteChange() { emit changed(); }
+
+signals:
+    void changed();  ///< what study() is or says
+    void opened();
+    void refused(const QString& why);
+    void exported(const QString& place);
+
+private:
+    using Make = std::function<Result<Study>()>;
+    void begin(Make make);
+
+    const Study::Surroundings around_;
+    QString folder_;
+    std::shared_ptr<const Secret> passphrase_;
+    std::optional<Study> study_;
+    Background work_;  // last: it ends before what it works on
+};
+
+}  // namespace tacto::gui

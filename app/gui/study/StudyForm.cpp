@@ -1,0 +1,229 @@
+#include "app/gui/study/StudyForm.h"
+
+#include <QApplication>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "app/run/StudyProgram.h"
+
+namespace tacto::gui {
+
+namespace {
+
+#define WORDS(text) QT_TRANSLATE_NOOP("Study", text)
+
+using Group = StudyGroup;
+
+constexpr int kTwoFormColumns = 700;
+
+QString translated(const char* text) { return QCoreApplication::translate("Study", text); }
+
+constexpr const char* kGroupTitles[kStudyGroups] = {WORDS("Approval"), WORDS("Participants"), WORDS("Electrodes"),
+                                                    WORDS("Train"), WORDS("Test")};
+
+std::vector<StudyFormField> describedFields() {
+    return {
+        {Group::Approval, "title", WORDS("Title"), WORDS("As the committee knows the study. It is not sealed."), {},
+         WORDS("nobody knows which study this is")},
+        {Group::Approval, "approval.reference", WORDS("Reference of the approval"),
+         WORDS("As the ethics committee wrote it. Without one no session begins."), {},
+         WORDS("no session can begin")},
+        {Group::Approval, "approval.committee", WORDS("Committee"), WORDS("Who approved it. May be left empty.")},
+        {Group::Approval, "approval.from", WORDS("First day"), WORDS("From this day on sessions can begin."), {},
+         WORDS("no session can begin")},
+        {Group::Approval, "approval.expires", WORDS("Last day"), WORDS("After this day no session begins."), {},
+         WORDS("no session can begin")},
+        {Group::Approval, "approval.protocol_version", WORDS("Version of the study plan"),
+         WORDS("The one that was approved. May be left empty.")},
+        {Group::Approval, "consent_version", WORDS("Version of the consent form"),
+         WORDS("The one in force. Each participant consents to it before their first session."), {},
+         WORDS("no consent can be noted")},
+        {Group::Approval,
+         "data_on_request",
+         WORDS("Data of who withdraws"),
+         WORDS("As the consent form promises. Destroyed means that their key is: nothing of theirs opens any more."),
+         {WORDS("are destroyed"), WORDS("are kept")}},
+
+        {Group::Participants, "participants_max", WORDS("Participants at most"),
+         WORDS("As many as the approval allows. Those who left count too.")},
+        {Group::Participants, "sessions_max", WORDS("Sessions of each at most"), WORDS("As the approval allows.")},
+        {Group::Participants, "gap_min_h", WORDS("Between two sessions at least"),
+         WORDS("From the beginning of one to that of the next.")},
+        {Group::Participants, "session_max_min", WORDS("A session at most"), WORDS("As the approval allows.")},
+
+        {Group::Site, "modality", WORDS("Felt through"), WORDS("What is felt comes from these."),
+         {WORDS("electrodes"), WORDS("massager")}},
+        {Group::Site,
+         "site",
+         WORDS("Site"),
+         WORDS("Chest, neck and head cannot be chosen."),
+         {WORDS("forearm"), WORDS("residual limb’s end"), WORDS("upper arm"), WORDS("hand")}},
+        {Group::Site, "nerve", WORDS("Over the nerve"), WORDS("Both electrodes lie over it."),
+         {WORDS("radial"), WORDS("median"), WORDS("ulnar")}},
+        {Group::Site, "limb", WORDS("Side"), WORDS("Both electrodes lie on one limb."), {WORDS("left"), WORDS("right")}},
+        {Group::Site, "electrode.type", WORDS("Electrodes"), WORDS("Kind or product.")},
+        {Group::Site, "electrode.area_cm2", WORDS("Area of one"),
+         WORDS("Of the smaller one. Limits of density are judged by it.")},
+        {Group::Site, "electrode.distance_mm", WORDS("Distance"), WORDS("From centre to centre.")},
+
+        {Group::Train, "cap_ma", WORDS("Current at most"), WORDS("No level is above it, whatever else allows more.")},
+        {Group::Train, "train.shape", WORDS("Shape"), WORDS("biphasic. Nothing else is presented to a person.")},
+        {Group::Train, "train.width_us", WORDS("Phase width"), WORDS("Duration of one phase.")},
+        {Group::Train, "train.gap_us", WORDS("Inter-phase gap"), WORDS("From one phase to the other.")},
+        {Group::Train, "train.pulses", WORDS("Pulses in a train"), WORDS("A whole number.")},
+        {Group::Train, "train.rate_hz", WORDS("Rate in the train"), WORDS("0 where a train has one pulse.")},
+
+        {Group::Test, "encodings", WORDS("Encodings"),
+         WORDS("standard, or standard,swapped: in the swapped one texture and pressure change places.")},
+        {Group::Test, "blocks", WORDS("Blocks"), WORDS("Of the test, with breaks between.")},
+        {Group::Test, "per_condition", WORDS("Trials of each condition"), WORDS("In a block.")},
+        {Group::Test, "catch", WORDS("Empty trials"), WORDS("In a block. The right answer is “nothing”.")},
+        {Group::Test, "blind", WORDS("Conditions hidden from the operator"), WORDS("Until the session has ended.")},
+    };
+}
+
+#undef WORDS
+
+const FieldInfo* storedField(std::string_view key) {
+    static const auto all = studyFields().kind().info;
+    const auto dot = key.find('.');
+    const auto* found = all.find(key.substr(0, dot));
+    return found == nullptr || dot == std::string_view::npos ? found : found->find(key.substr(dot + 1));
+}
+
+nlohmann::json& memberOf(nlohmann::json& record, std::string_view key) {
+    const auto dot = key.find('.');
+    auto& outer = record[std::string(key.substr(0, dot))];
+    return dot == std::string_view::npos ? outer : outer[std::string(key.substr(dot + 1))];
+}
+
+/// As the form of a protocol's parameters takes it.
+ProtocolParameter parameterOf(const StudyFormField& field, nlohmann::json defaults) {
+    const auto& stored = *storedField(field.key);
+    auto& value = memberOf(defaults, field.key);
+    ProtocolParameter made;
+    made.name = field.key;
+    made.label = translated(field.label).toStdString();
+    if (field.needed != nullptr) made.needed = translated(field.needed).toStdString();
+    if (!stored.words.empty()) {
+        made.type = ParameterType::Choice;
+        for (std::size_t i = 0; i < stored.words.size(); ++i)
+            made.choices.emplace_back(stored.words[i], i < field.words.size()
+                                                           ? translated(field.words[i]).toStdString()
+                                                           : std::string(stored.words[i]));
+        made.value = value;
+    } else if (stored.numbers) {
+        made.type = stored.numbers->whole ? ParameterType::Integer : ParameterType::Number;
+        made.unit = stored.numbers->unit;
+        made.min = stored.numbers->low;
+        made.max = stored.numbers->high;
+        made.value = value;
+    } else if (value.is_boolean()) {
+        made.type = ParameterType::Boolean;
+        made.value = value;
+    } else if (value.is_array()) {
+        made.type = ParameterType::Text;
+        std::string all;
+        for (const auto& each : value) all += (all.empty() ? "" : ",") + each.get<std::string>();
+        made.value = all;
+    } else {
+        const bool day = field.key == "approval.from" || field.key == "approval.expires";
+        made.type = day ? ParameterType::Date : ParameterType::Text;
+        made.value = day ? nlohmann::json("") : value;
+    }
+    return made;
+}
+
+}  // namespace
+
+const std::vector<StudyFormField>& studyForm() {
+    static const auto all = describedFields();
+    return all;
+}
+
+const std::vector<std::string_view>& studyFieldsOfTheProgram() {
+    static const std::vector<std::string_view> all{"id",     "kind",       "approval.protocol_sha256",
+                                                   "limits", "conditions", "scripts"};
+    return all;
+}
+
+StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
+    columns_ = new QBoxLayout(QBoxLayout::LeftToRight, this);
+    columns_->setContentsMargins(0, 0, 0, 0);
+    columns_->setSpacing(scaledPx(32));
+    QVBoxLayout* columns[] = {new QVBoxLayout, new QVBoxLayout};
+    for (auto* column : columns) columns_->addLayout(column, 1);
+    for (int g = 0; g < kStudyGroups; ++g) {
+        auto* column = columns[g < 2 ? 0 : 1];
+        auto* title = new QLabel(translated(kGroupTitles[g]), this);
+        setTextSize(*title, TextSize::Body, true);
+        column->addWidget(title);
+        auto* form = new ParameterForm(this);
+        connect(form, &ParameterForm::edited, this, &StudyForm::edited);
+        form->referencePart().hide();  // a study has none
+        column->addWidget(form);
+        column->addSpacing(scaledPx(8));
+        groups_.push_back(form);
+    }
+    for (auto* column : columns) column->addStretch();
+    clear();
+}
+
+/// One column where two have no room for their words.
+void StudyForm::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    columns_->setDirection(width() > scaledPx(kTwoFormColumns) ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+}
+
+void StudyForm::clear() {
+    const auto defaults = studyFields().write(StudySettings{});
+    for (int g = 0; g < kStudyGroups; ++g) {
+        ProtocolDeclaration fields;
+        for (const auto& field : studyForm()) {
+            if (int(field.group) == g) fields.parameters.push_back(parameterOf(field, defaults));
+        }
+        auto& form = *groups_[std::size_t(g)];
+        form.show(fields);
+        for (const auto& field : studyForm()) {
+            if (auto* editor = form.findChild<QWidget*>(qtext(field.key)))
+                editor->setToolTip(translated(field.tip));
+        }
+    }
+}
+
+void StudyForm::set(const std::string& key, const QString& text) {
+    for (auto* form : groups_) form->set(key, text);
+}
+
+Result<StudySettings> StudyForm::read() {
+    StudySettings settings;
+    auto json = studyFields().write(settings);
+    for (auto* form : groups_) {
+        if (const auto open = form->unanswered(); !open.isEmpty()) {
+            form->goToRefused();
+            return fail(ErrorCode::InvalidArgument, "{}", open.toStdString());
+        }
+        const auto read = form->read();
+        if (!read) {
+            form->goToRefused();
+            return failure(read);
+        }
+        for (const auto& [key, value] : read->parameters.items()) {
+            auto& into = memberOf(json, key);
+            if (!into.is_array()) {
+                into = value;
+                continue;
+            }
+            into = nlohmann::json::array();
+            for (const auto& part : qtext(value.get<std::string>()).split(',', Qt::SkipEmptyParts))
+                into.push_back(part.trimmed().toStdString());
+        }
+    }
+    auto filled = studyFields().read(json, RecordPlace{});
+    if (!filled) return tl::unexpected<Error>(asInvalidArgument(filled.error()));
+    if (auto stated = stateProgram(*filled); !stated) return failure(stated);
+    return filled;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,56 @@
+// StudyForm.h - the settings of a new study as people read them: where each stands in the form, its label, what it
+// does.
+//
+// Units, ranges, words and defaults are those of the core's table (studyFields() of core/study/StudySettings.h), which
+// alone judges.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QBoxLayout>
+#include <QWidget>
+#include <vector>
+
+#include "app/gui/runner/ParameterForm.h"
+#include "core/study/StudySettings.h"
+
+namespace tacto::gui {
+
+enum class StudyGroup { Approval, Participants, Site, Train, Test };
+inline constexpr int kStudyGroups = 5;
+
+struct StudyFormField {
+    StudyGroup group;
+    std::string_view key;  ///< "electrode.area_cm2" for a member of a record
+    const char* label;
+    const char* tip;
+    std::vector<const char*> words{};  ///< for the words of the file, in their order; empty: as they are
+    const char* needed = nullptr;      ///< what is not known without it; null: its default will do
+};
+[[nodiscard]] const std::vector<StudyFormField>& studyForm();
+/// Fields of the core that the program fills in by itself.
+[[nodiscard]] const std::vector<std::string_view>& studyFieldsOfTheProgram();
+
+class StudyForm final : public QWidget {
+    Q_OBJECT
+public:
+    explicit StudyForm(QWidget* parent = nullptr);
+    /// As written, with what the approval says of this program. Errors: of the first field that is refused or missing;
+    /// the form goes there.
+    [[nodiscard]] Result<StudySettings> read();
+    /// Writes into a field, as if it were typed.
+    void set(const std::string& key, const QString& text);
+    void clear();
+
+signals:
+    void edited();
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    QBoxLayout* columns_;
+    std::vector<ParameterForm*> groups_;
+};
+
+}  // namespace tacto::gui

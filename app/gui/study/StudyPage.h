@@ -1,0 +1,45 @@
+// StudyPage.h - studies in the Pilot workspace: one is opened or made, then listed.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QPointer>
+#include <QPushButton>
+#include <QStackedWidget>
+#include <QWidget>
+
+#include "app/gui/study/OpenStudy.h"
+
+namespace tacto::gui {
+
+class NewStudyPage;
+class PassphraseDialog;
+class StudyList;
+
+class StudyPage final : public QWidget {
+    Q_OBJECT
+public:
+    /// `study` outlives it.
+    explicit StudyPage(OpenStudy& study, QWidget* parent = nullptr);
+    /// Asks for its passphrase where it has one.
+    void open(const QString& folder);
+    [[nodiscard]] StudyList& list() { return *list_; }
+
+signals:
+    void sessionWanted(const QString& code);
+
+private:
+    enum Page { kNone, kNew, kList };
+    [[nodiscard]] QWidget* buildNone();
+    void chooseFolder();
+    void say(const QString& what);
+    OpenStudy& study_;
+    QStackedWidget* pages_;
+    NewStudyPage* new_;
+    StudyList* list_;
+    QLabel* trouble_ = nullptr;
+    QPointer<PassphraseDialog> asks_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,123 @@
+// What stands before a session of a study: a checklist without defaults, and what was broken off.
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QRadioButton>
+#include <QTest>
+#include <gmock/gmock.h>
+
+#include "app/gui/pilot/ExclusionChecklist.h"
+#include "app/gui/pilot/SessionStartPage.h"
+#include "app/gui/pilot/UnfinishedOffer.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/Person.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class SessionStart : public testing::Test {
+protected:
+    ~SessionStart() override {
+        gui::applyTextSize(100);
+        gui::applyTheme(gui::Theme::Light);
+    }
+    /// In a rehearsal: keys without a passphrase.
+    void prepare(std::optional<std::uint64_t> virtualSeed) {
+        study = Study::createRehearsal(scratch.path() / "study").value();
+        Participant enrolled;
+        enrolled.virtualSeed = virtualSeed;
+        who = study->enrol(enrolled).value();
+        ASSERT_TRUE(study->consent(who.code, {study->settings().consentVersion, study->today(), "KL"}));
+        page.resize(1000, 640);
+        page.prepare(*study, who);
+        page.show();
+        ASSERT_TRUE(QTest::qWaitForWindowExposed(&page));
+    }
+    void answer(const char* word) {
+        for (const auto& item : exclusionItems())
+            page.findChild<QRadioButton*>(QString::fromStdString(std::string(item.key)) + word)->click();
+    }
+    [[nodiscard]] QPushButton& begin() { return *page.findChild<QPushButton*>("beginSession"); }
+
+    ScratchDir scratch;
+    std::optional<Study> study;
+    Participant who;
+    gui::SessionStartPage page;
+};
+
+TEST_F(SessionStart, EveryQuestionIsAnsweredAndNoneBeforehand) {
+    RecordProperty("hazard", "H6");
+    prepare({});
+    const auto* checklist = page.findChild<gui::ExclusionChecklist*>();
+    EXPECT_TRUE(checklist->answers().empty());
+    EXPECT_FALSE(begin().isEnabled());
+    EXPECT_TRUE(page.start().exclusions.empty());
+    answer("-no");
+    EXPECT_TRUE(begin().isEnabled());
+    const auto all = page.start().exclusions;
+    ASSERT_EQ(all.size(), exclusionItems().size());
+    EXPECT_TRUE(exclusionGate(all));
+    page.findChild<QRadioButton*>("epilepsy-yes")->click();
+    const auto yes = exclusionGate(page.start().exclusions);
+    ASSERT_FALSE(yes) << "the study's gate says what a yes means; the page hides none";
+    EXPECT_EQ(yes.error().code, kGateRefused);
+    page.prepare(*study, who);
+    EXPECT_TRUE(checklist->answers().empty()) << "each session asks anew";
+    EXPECT_TRUE(page.start().confirmsCode) << "on their own screen";
+}
+
+TEST_F(SessionStart, AVirtualParticipantHasNoChecklistAndNoScreen) {
+    prepare(7);
+    EXPECT_FALSE(page.findChild<gui::ExclusionChecklist*>()->isVisible());
+    EXPECT_TRUE(begin().isEnabled());
+    EXPECT_FALSE(page.start().person);
+    EXPECT_EQ(page.start().participant, who.code);
+}
+
+TEST_F(SessionStart, ASessionThatWasBrokenOffIsOfferedWithItsTimeAndAnswers) {
+    RecordProperty("hazard", "H8");
+    prepare(7);
+    auto* offer = page.findChild<gui::UnfinishedOffer*>();
+    EXPECT_FALSE(offer->isVisible());
+    const auto at = QDateTime::currentDateTime().addSecs(-600);
+    offer->offer(gui::Unfinished{2, "pilot-thresholds", 27, at, true});
+    const auto says = page.findChild<QLabel*>("unfinishedSays")->text().toStdString();
+    EXPECT_THAT(says, HasSubstr("Session 2 was broken off"));
+    EXPECT_THAT(says, HasSubstr(at.toString("HH:mm").toStdString()));
+    EXPECT_THAT(says, HasSubstr("after 27 answers"));
+    EXPECT_FALSE(begin().isEnabled()) << "neither is chosen beforehand";
+    page.findChild<QRadioButton*>("goOnWithIt")->click();
+    EXPECT_TRUE(begin().isEnabled());
+    EXPECT_EQ(page.start().unfinished, "resume");
+    EXPECT_EQ(page.start().protocol, "pilot-thresholds") << "the one it was of";
+    page.findChild<QRadioButton*>("endIt")->click();
+    EXPECT_EQ(page.start().unfinished, "end");
+    offer->offer(gui::Unfinished{2, "pilot-thresholds", 27, at.addSecs(-7200), false});
+    EXPECT_FALSE(page.findChild<QRadioButton*>("goOnWithIt")->isEnabled()) << "too long ago";
+    EXPECT_EQ(page.start().unfinished, "");
+}
+
+TEST_F(SessionStart, LooksRightInBothThemesAndSizes) {
+    prepare({});
+    page.findChild<gui::UnfinishedOffer*>()->offer(
+        gui::Unfinished{1, "pilot-identification", 113, QDateTime::currentDateTime().addSecs(-600), true});
+    answer("-no");
+    page.say("P-7K3D has given no consent; a dated consent to version 2 is needed.");
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+            gui::applyTheme(theme);
+            page.resize(percent == 100 ? QSize(1160, 640) : QSize(1160, 900));
+            QTest::qWait(40);
+            shot(page, QString("session-start-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
+            EXPECT_EQ(faultsOf(page), "") << percent;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tacto::test

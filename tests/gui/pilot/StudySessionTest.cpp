@@ -1,0 +1,200 @@
+// Sessions of a study in the whole window: what is begun, what is refused with nothing made, what goes on.
+#include <QLineEdit>
+#include <QRadioButton>
+#include <QTableWidget>
+#include <filesystem>
+#include <gmock/gmock.h>
+
+#include "app/gui/pilot/ParticipantWindow.h"
+#include "app/gui/pilot/PilotWorkspace.h"
+#include "app/gui/pilot/SessionStartPage.h"
+#include "app/gui/study/StudyPage.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
+#include "app/run/StudyProgram.h"
+#include "core/study/Study.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/window/WindowFixture.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kWords = "correct horse 4711";
+
+class StudyInTheWindow : public Window {
+protected:
+    /// One participant who has consented; `virtualSeed` nothing: a person.
+    void make(std::optional<std::uint64_t> virtualSeed) {
+        StudySettings settings;
+        settings.title = "Four conditions";
+        settings.approval.reference = "EC-2026-17";
+        settings.approval.from = std::chrono::year(2020) / 1 / 1;
+        settings.approval.expires = std::chrono::year(2090) / 12 / 31;
+        settings.consentVersion = "2";
+        settings.blocks = 1;
+        ASSERT_TRUE(stateProgram(settings));
+        auto study = Study::create(place(), settings, Passphrase::from(kWords).value());
+        ASSERT_TRUE(study) << study.error().message;
+        Participant enrolled;
+        enrolled.virtualSeed = virtualSeed;
+        code = QString::fromStdString(study->enrol(enrolled).value().code);
+        ASSERT_TRUE(study->consent(code.toStdString(), {"2", study->today(), "KL"}));
+    }
+    void openIt() {
+        window.showWorkspace(4);
+        pilot = window.findChild<gui::PilotWorkspace*>();
+        pilot->findChild<gui::TabbedPage*>()->setCurrentIndex(1);
+        pilot->findChild<gui::StudyPage*>()->open(QString::fromStdString(place().string()));
+        QLineEdit* line = nullptr;
+        ASSERT_IN_TIME(comesTrue([&] {
+            line = window.findChild<QLineEdit*>("passphrase");
+            return line != nullptr && line->hasFocus();
+        }));
+        QTest::keyClicks(line, kWords);
+        QTest::keyClick(line, Qt::Key_Return);
+        ASSERT_NO_FATAL_FAILURE(seeList());
+    }
+    void seeList() {
+        auto* start = pilot->findChild<QPushButton*>("startSession");
+        ASSERT_IN_TIME(comesTrue([&] { return start->isVisible() && start->isEnabled(); }, 20'000));
+    }
+    void start() {
+        click(*pilot->findChild<QPushButton*>("startSession"));
+        ASSERT_TRUE(page().isVisible());
+    }
+    void answerNoToAll() {
+        for (const auto& item : exclusionItems())
+            page().findChild<QRadioButton*>(QString::fromStdString(std::string(item.key)) + "-no")->click();
+    }
+    void begin() { click(*page().findChild<QPushButton*>("beginSession")); }
+    [[nodiscard]] gui::SessionStartPage& page() { return *pilot->findChild<gui::SessionStartPage*>(); }
+    [[nodiscard]] std::string trouble() { return page().findChild<QLabel*>("sessionTrouble")->text().toStdString(); }
+    [[nodiscard]] std::filesystem::path place() const { return folder.path() / "study"; }
+    [[nodiscard]] bool nothingWasMade() const { return std::filesystem::is_empty(place() / "sessions"); }
+    [[nodiscard]] std::string cell(int row, int column) const {
+        return pilot->findChild<QTableWidget*>("studySessions")->item(row, column)->text().toStdString();
+    }
+
+    const ScratchDir folder;
+    QString code;
+    gui::PilotWorkspace* pilot = nullptr;
+};
+
+TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
+    RecordProperty("hazard", "H8");
+    ASSERT_NO_FATAL_FAILURE(make(7));
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    shot(window, "study-window-list");
+    EXPECT_EQ(faultsOf(window), "");
+    ASSERT_NO_FATAL_FAILURE(start());
+    shot(window, "study-window-start");
+    EXPECT_EQ(faultsOf(window), "");
+    begin();
+    ASSERT_TRUE(pilot->running()) << trouble();
+    ASSERT_IN_TIME(comesTrue([this] { return !nothingWasMade(); }, 20'000));
+    QTest::qWait(300);
+    window.controller().stop("operator (STOP)");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+    click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
+    ASSERT_NO_FATAL_FAILURE(seeList());
+    EXPECT_EQ(cell(0, 5), "broken off, may go on");
+    ASSERT_NO_FATAL_FAILURE(start());
+    const auto says = page().findChild<QLabel*>("unfinishedSays")->text().toStdString();
+    EXPECT_THAT(says, HasSubstr("Session 1 was broken off at "));
+    EXPECT_FALSE(page().findChild<QPushButton*>("beginSession")->isEnabled());
+    page().findChild<QRadioButton*>("goOnWithIt")->click();
+    begin();
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 100'000));
+    EXPECT_THAT(pilot->findChild<QLabel*>("pilotHeadline")->text().toStdString(), HasSubstr(code.toStdString()));
+    shot(window, "study-window-result");
+    EXPECT_EQ(faultsOf(window), "");
+    click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
+    ASSERT_NO_FATAL_FAILURE(seeList());
+    EXPECT_EQ(pilot->findChild<QTableWidget*>("studySessions")->rowCount(), 1) << "the same session";
+    EXPECT_EQ(cell(0, 5), "complete");
+}
+
+TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndIsRefusedOnTheSimulatedBenchWithNothingMade) {
+    RecordProperty("hazard", "H6");
+    ASSERT_NO_FATAL_FAILURE(make({}));
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    ASSERT_NO_FATAL_FAILURE(start());
+    answerNoToAll();
+    begin();
+    auto* theirs = pilot->participantWindow();
+    ASSERT_NE(theirs, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
+    EXPECT_EQ(theirs->title(), "Is " + code + " your code?");
+    shot(*theirs, "pilot-code");
+    EXPECT_EQ(faultsOf(*theirs), "");
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_2);  // no
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }));
+    EXPECT_THAT(trouble(), HasSubstr("is not their code. Nothing was begun."));
+    EXPECT_EQ(pilot->participantWindow(), nullptr);
+    EXPECT_TRUE(nothingWasMade());
+
+    ASSERT_IN_TIME(comesTrue(
+        [this] {
+            if (!pilot->running()) begin();  // not while the study is being opened again
+            return pilot->running();
+        },
+        20'000));
+    theirs = pilot->participantWindow();
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_1);  // yes
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+    EXPECT_THAT(trouble(),
+                HasSubstr("is a person and the devices are simulated; that is accepted in a rehearsal only"));
+    EXPECT_TRUE(nothingWasMade());
+    shot(window, "study-window-refused");
+}
+
+TEST_F(StudyInTheWindow, AStopInPlaceOfTheCodeBeginsNothing) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(make({}));
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    ASSERT_NO_FATAL_FAILURE(start());
+    answerNoToAll();
+    begin();
+    auto* theirs = pilot->participantWindow();
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }));
+    EXPECT_THAT(trouble(), HasSubstr("Stopped before"));
+    EXPECT_TRUE(nothingWasMade());
+}
+
+TEST_F(StudyInTheWindow, EveryPageLooksRightAtEverySize) {
+    ASSERT_NO_FATAL_FAILURE(make({}));
+    window.showWorkspace(4);
+    pilot = window.findChild<gui::PilotWorkspace*>();
+    auto* tabs = pilot->findChild<gui::TabbedPage*>();
+    const auto look = [&](const char* name) {
+        for (const auto& [size, percent, theme] :
+             {std::tuple(QSize(1280, 720), 100, gui::Theme::Light), {QSize(1280, 720), 200, gui::Theme::Dark}}) {
+            gui::applyTextSize(percent);
+            gui::applyTheme(theme);
+            window.resize(size);
+            // Texts grow before their places do.
+            EXPECT_TRUE(comesTrue([this] { return faultsOf(*pilot).empty(); }, 3000)) << name << faultsOf(*pilot);
+            shot(window, QString("pilot-%1-%2").arg(name).arg(percent));
+        }
+    };
+    look("rehearsal");
+    tabs->setCurrentIndex(1);
+    look("no-study");
+    click(*pilot->findChild<QPushButton*>("newStudyWanted"));
+    look("new-study");
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    look("study");
+    ASSERT_NO_FATAL_FAILURE(start());
+    look("start");
+    gui::applyTextSize(100);
+    gui::applyTheme(gui::Theme::Light);
+}
+
+}  // namespace
+}  // namespace tacto::test

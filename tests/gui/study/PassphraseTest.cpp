@@ -1,0 +1,85 @@
+// A passphrase at the window: typed into locked memory, shown as dots, wrong ones refused in place.
+#include <QClipboard>
+#include <QSettings>
+
+#include "app/gui/study/PassphraseEdit.h"
+#include "tests/gui/study/OpenedStudy.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+std::string textOf(const Secret& secret) {
+    return {reinterpret_cast<const char*>(secret.bytes().data()), secret.size()};
+}
+
+TEST(PassphraseEdit, HoldsWhatIsTypedAndShowsDots) {
+    RecordProperty("hazard", "H8");
+    gui::PassphraseEdit edit;
+    edit.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&edit));
+    QTest::keyClicks(&edit, "geheim 42");
+    EXPECT_EQ(textOf(edit.typed()), "geheim 42");
+    EXPECT_EQ(edit.text(), QString(9, u'●')) << "no copy of it is in the line";
+    QTest::keyClick(&edit, Qt::Key_Backspace);
+    EXPECT_EQ(textOf(edit.typed()), "geheim 4");
+    QGuiApplication::clipboard()->setText("ü€\n");
+    QTest::keyClick(&edit, Qt::Key_V, Qt::ControlModifier);
+    EXPECT_EQ(textOf(edit.typed()), "geheim 4ü€") << "letters of several bytes, and no line end";
+    QTest::keyClick(&edit, Qt::Key_Backspace);
+    EXPECT_EQ(textOf(edit.typed()), "geheim 4ü") << "a letter, not a byte";
+    QTest::keyClick(&edit, Qt::Key_C, Qt::ControlModifier);
+    EXPECT_EQ(QGuiApplication::clipboard()->text(), "ü€\n") << "nothing of it is copied";
+    edit.wipe();
+    EXPECT_TRUE(edit.isEmpty());
+    EXPECT_TRUE(edit.text().isEmpty());
+}
+
+TEST(PassphraseEdit, TakesNoMoreThanItHasRoomFor) {
+    RecordProperty("hazard", "H11");
+    gui::PassphraseEdit edit;
+    QGuiApplication::clipboard()->setText(QString(5000, 'x'));
+    QTest::keyClick(&edit, Qt::Key_V, Qt::ControlModifier);
+    EXPECT_EQ(edit.typed().size(), gui::PassphraseEdit::kMostBytes);
+}
+
+TEST_F(StudyInThePage, AWrongPassphraseIsOneSentenceAndIsAskedAgain) {
+    RecordProperty("hazard", "H8");
+    make();
+    page.open(folder());
+    auto* asks = dialog("passphraseDialog");
+    ASSERT_NE(asks, nullptr);
+    auto* line = asks->findChild<QLineEdit*>("passphrase");
+    auto* trouble = asks->findChild<QLabel*>("passphraseTrouble");
+    QTest::keyClicks(line, "wrong");
+    click(*asks->findChild<QPushButton*>("usePassphrase"));
+    ASSERT_IN_TIME(comesTrue([&] { return trouble->text().startsWith("⚠"); }));
+    EXPECT_THAT(trouble->text().toStdString(), HasSubstr("passphrase"));
+    EXPECT_FALSE(trouble->text().contains(". ")) << "one sentence: " << trouble->text().toStdString();
+    EXPECT_TRUE(line->text().isEmpty());
+    EXPECT_EQ(study.study(), nullptr);
+    shot(*asks, "passphrase-wrong");
+    EXPECT_EQ(faultsOf(*asks), "");
+    QTest::keyClicks(line, kWords);
+    QTest::keyClick(line, Qt::Key_Return);
+    ASSERT_IN_TIME(comesTrue([this] { return study.study() != nullptr; }));
+    EXPECT_TRUE(study.study()->hasKey());
+    for (const auto& key : QSettings().allKeys())
+        EXPECT_FALSE(QSettings().value(key).toString().contains("correct horse")) << key.toStdString();
+}
+
+TEST_F(StudyInThePage, ClosingForgetsThePassphraseAndLetsOthersIn) {
+    RecordProperty("hazard", "H8");
+    make();
+    open();
+    const auto words = Passphrase::from(kWords).value();
+    EXPECT_FALSE(Study::open(folder().toStdString(), &words, Study::Access::Change, around()))
+        << "one program at a time";
+    press("closeStudy");
+    EXPECT_EQ(study.passphrase(), nullptr);
+    EXPECT_TRUE(Study::open(folder().toStdString(), &words, Study::Access::Change, around()));
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,117 @@
+// The form of a new study derives from the core's table, and a study is made of it.
+#include <QScrollArea>
+#include <set>
+
+#include "app/gui/study/NewStudyPage.h"
+#include "app/gui/study/StudyForm.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/study/OpenedStudy.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(StudyForm, HasEveryFieldOfTheCoreOnceAndNoOther) {
+    std::multiset<std::string> described;
+    for (const auto& field : gui::studyForm()) described.emplace(field.key);
+    for (const auto key : gui::studyFieldsOfTheProgram()) described.emplace(key);
+    std::multiset<std::string> stored;
+    for (const auto& info : studyFields().infos()) {
+        const bool list = info.key == "limits" || info.key == "scripts";
+        if (info.members.empty() || list) stored.insert(info.key);
+        for (const auto& member : info.members) {
+            if (!list) stored.insert(info.key + "." + member.key);
+        }
+    }
+    EXPECT_EQ(described, stored);
+    const auto all = studyFields().kind().info;
+    for (const auto& field : gui::studyForm()) {
+        if (field.words.empty()) continue;
+        EXPECT_EQ(field.words.size(), all.find(field.key)->words.size()) << field.key;
+    }
+}
+
+TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
+    RecordProperty("hazard", "H9");
+    gui::StudyForm form;
+    form.show();
+    const auto missing = form.read();
+    ASSERT_FALSE(missing);
+    EXPECT_THAT(missing.error().message, HasSubstr("Title"));
+    form.set("title", "Four conditions");
+    form.set("approval.reference", "EC-1");
+    form.set("approval.from", "2026-11-01");
+    form.set("approval.expires", "2027-10-31");
+    form.set("consent_version", "2");
+    auto read = form.read();
+    ASSERT_TRUE(read) << read.error().message;
+    StudySettings expected;
+    expected.title = "Four conditions";
+    expected.approval.reference = "EC-1";
+    expected.approval.from = std::chrono::year(2026) / 11 / 1;
+    expected.approval.expires = std::chrono::year(2027) / 10 / 31;
+    expected.consentVersion = "2";
+    expected.limits = read->limits;
+    expected.scripts = read->scripts;
+    EXPECT_EQ(*read, expected);
+    EXPECT_FALSE(read->limits.empty());
+    EXPECT_FALSE(read->scripts.empty());
+    form.set("encodings", "standard, swapped");
+    form.set("site", "forearm");
+    form.set("electrode.area_cm2", "5.5");
+    read = form.read();
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->encodings, (std::vector<std::string>{"standard", "swapped"}));
+    EXPECT_EQ(read->site, ElectrodeSite::Forearm);
+    EXPECT_DOUBLE_EQ(read->electrode.area.value(), 5.5);
+    form.set("cap_ma", "16");
+    EXPECT_FALSE(form.read()) << "the table's range";
+    form.set("cap_ma", "15");
+    form.set("approval.expires", "2026-10-31");
+    EXPECT_FALSE(form.read()) << "the table's rule: it expires before it begins";
+}
+
+TEST_F(StudyInThePage, ANewStudyIsMade) {
+    RecordProperty("hazard", "H8");
+    press("newStudyWanted");
+    auto* made = page.findChild<gui::NewStudyPage*>();
+    ASSERT_TRUE(made->isVisible());
+    made->findChild<QLineEdit*>("newStudyFolder")->setText(folder());
+    press("createStudy");
+    EXPECT_THAT(made->findChild<QLabel*>("newStudyTrouble")->text().toStdString(), HasSubstr("Title"));
+    EXPECT_EQ(dialog("passphraseDialog"), nullptr);
+    auto* form = made->findChild<gui::StudyForm*>();
+    for (const auto& [key, text] : {std::pair("title", "Four conditions"), {"approval.reference", "EC-2026-17"},
+                                    {"approval.from", "2020-01-01"}, {"approval.expires", "2090-12-31"},
+                                    {"consent_version", "2"}})
+        form->set(key, text);
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        QTest::qWait(30);
+        shot(page, QString("study-new-%1").arg(theme == gui::Theme::Dark ? "dark" : "light"));
+        EXPECT_EQ(faultsOf(page), "");
+    }
+    gui::applyTheme(gui::Theme::Light);
+    press("createStudy");
+    auto* asks = dialog("passphraseDialog");
+    ASSERT_NE(asks, nullptr);
+    auto* go = asks->findChild<QPushButton*>("usePassphrase");
+    QTest::keyClicks(asks->findChild<QLineEdit*>("passphrase"), kWords);
+    EXPECT_FALSE(go->isEnabled()) << "a slip of the finger would seal it for ever";
+    QTest::keyClicks(asks->findChild<QLineEdit*>("passphraseAgain"), "correct horse 4712");
+    EXPECT_FALSE(go->isEnabled());
+    QTest::keyClick(asks->findChild<QLineEdit*>("passphraseAgain"), Qt::Key_Backspace);
+    QTest::keyClicks(asks->findChild<QLineEdit*>("passphraseAgain"), "1");
+    shot(*asks, "passphrase-new");
+    EXPECT_EQ(faultsOf(*asks), "");
+    ASSERT_TRUE(go->isEnabled());
+    click(*go);
+    ASSERT_IN_TIME(comesTrue([this] { return study.study() != nullptr; }));
+    EXPECT_EQ(study.study()->settings().title, "Four conditions");
+    EXPECT_TRUE(study.study()->stillApproved());
+    EXPECT_TRUE(page.list().isVisible());
+}
+
+}  // namespace
+}  // namespace tacto::test
