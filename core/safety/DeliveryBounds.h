@@ -65,13 +65,15 @@ public:
     }
     /// `programmed` with the most amplitude, phase width and gap.
     [[nodiscard]] PulseTrain largest(const PulseTrain& programmed) const noexcept;
-    /// `exposure`, a function of a train, at its worst over what may come out of `programmed`.
+    /// `exposure`, a function of a train and of a TrainRange, at its worst over what may come out of `programmed`.
     template <class Exposure>
     [[nodiscard]] TrainExposure worst(const PulseTrain& programmed, Exposure exposure) const noexcept {
-        PulseTrain out = largest(programmed);
-        TrainExposure worst = exposure(out);
-        const PulseTrain first = out;
+        const PulseTrain first = largest(programmed);
         const auto width = width_.times(programmed.phaseWidth), gap = gap_.times(programmed.interPhaseGap);
+        PulseTrain out = first;
+        out.phaseWidth = width.least;
+        out.interPhaseGap = gap.least;
+        TrainExposure worst = exposure(TrainRange{out, first});
         for (const Micros w : {width.least, width.most}) {
             for (const Micros g : {gap.least, gap.most}) {
                 out.phaseWidth = w;

@@ -47,10 +47,10 @@ std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain&
     const double area = gate::areaOf(setup);
     const DeliveryBounds bounds(setup);
     const auto [shortest, longest] = bounds.intervals(interval);
-    TrainExposure overRange = bounds.worst(train, [&, least = shortest](const PulseTrain& out) {
+    TrainExposure overRange = bounds.worst(train, [&, least = shortest](const auto& out) {
         return worstExposure(out, least, setup.load, setup.source, area);
     });
-    TrainExposure at500 = bounds.worst(train, [&, least = shortest](const PulseTrain& out) {
+    TrainExposure at500 = bounds.worst(train, [&, least = shortest](const auto& out) {
         return exposureOf(out, least, Load::resistor(Ohms(500)), setup.source, area);
     });
     // The command is judged as it is; that a train cannot be judged stays.

@@ -233,10 +233,10 @@ Result<ApprovedTrain> SafetyGate::grant(const AskedTrain& asked, std::uint64_t e
     judged.carried_V = s.carriedAt(now);
     judged.command = bounds.commandOf(train);
     const auto& source = s.setup->source;
-    judged.overRange = bounds.worst(train, [&](const PulseTrain& out) {
+    judged.overRange = bounds.worst(train, [&](const auto& out) {
         return worstExposure(out, judged.intervals.least, s.load, source, s.area, {judged.carried_V});
     });
-    judged.at500 = bounds.worst(train, [&](const PulseTrain& out) {
+    judged.at500 = bounds.worst(train, [&](const auto& out) {
         return exposureOf(out, judged.intervals.least, Load::resistor(Ohms(500)), source, s.area);
     });
     const double command_V = commandVoltage(judged.command, s.load.nominal, source);

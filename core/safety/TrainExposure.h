@@ -2,7 +2,10 @@
 //
 // Closed forms per segment (core/electrode); the charge that a pulse leaves on the load is carried into
 // the next pulse and the next train, and the larger of "first train from rest" and "steady state" is
-// given, so that the figures hold for any number of trains. A current source that would exceed its compliance
+// given, so that the figures hold for any number of trains. What a device makes of a phase width and a gap is known to
+// a range: on a load with a capacitor the sums of squares may be largest inside it, because what a longer phase adds a
+// shorter rest no longer discharges. They are enclosed there: every segment at its longest, from each end of what the
+// load may hold. A current source that would exceed its compliance
 // is judged both with and without it. A load's drift and lost contact are left out: they
 // would only make a limit look farther away than it is.
 //
@@ -36,6 +39,12 @@ struct TrainExposure {
     [[nodiscard]] double at(Quantity q) const noexcept { return values[indexOf(q)]; }
 };
 
+/// Trains that differ in phase width and inter-phase gap alone: what may come out of one that is programmed.
+struct TrainRange {
+    PulseTrain shortest;  ///< both at their least
+    PulseTrain longest;   ///< both at their most
+};
+
 /// Where a train finds the load: with up to this |voltage| on its capacitor, of either sign, from trains before it.
 /// The gate carries it from train to train; previews start from rest.
 struct Carried {
@@ -48,6 +57,10 @@ struct Carried {
 [[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
+/// The same of `trains`: of the longest one, but ∫i², ∫v² and heat are upper bounds for every train of the range.
+[[nodiscard]] TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load& load,
+                                       const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
+
 /// A of science.md section 4, V: the amplitude, or of a current I·|Z| of `load` at the end of the leading phase.
 [[nodiscard]] double commandVoltage(const PulseTrain& train, const Load& load, const SourceTraits& source) noexcept;
 
@@ -56,6 +69,8 @@ struct Carried {
 
 /// Worst case between load.min and load.max; CommandVoltage at load.nominal (I·|Z| at the end of the leading phase).
 [[nodiscard]] TrainExposure worstExposure(const PulseTrain& train, Seconds interval, const LoadRange& load,
+                                          const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
+[[nodiscard]] TrainExposure worstExposure(const TrainRange& trains, Seconds interval, const LoadRange& load,
                                           const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
 /// The windowed quantities from sums that fell into one window of windowOf(quantity) seconds; NaN for others.

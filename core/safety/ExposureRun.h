@@ -1,0 +1,54 @@
+// ExposureRun.h - internal: one train through a load, from each state in which it may find it, as sums.
+//
+// Thread-safety: pure functions; nothing allocates.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "core/electrode/LoadResponse.h"
+#include "core/safety/TrainExposure.h"
+
+namespace tacto::exposure {
+
+/// The larger of both; NaN wins, so that it is refused and not lost.
+[[nodiscard]] inline double larger(double a, double b) noexcept { return std::isnan(a) || a > b ? a : b; }
+
+/// What one run of a train adds up to, starting with some voltage on the load's capacitor.
+struct Run {
+    double peakVoltage = 0, peakCurrent = 0, phaseCharge = 0;  // Largest of any pulse
+    double netCharge = 0, energy = 0, squares = 0, volts = 0;  // Largest of any pulse, its rest included
+    double dissipated = 0;                                     // The same: energy less what the capacitor kept, J
+    TrainSums inDuration;                                      // Over n / rate
+    TrainSums whole;                                           // The same with the rest until the next train
+    double endOfTrain = 0;                                     // Capacitor voltage after n / rate, V
+    double endOfInterval = 0;                                  // and when the next train begins
+};
+
+/// Everything about a run but its start: constant while one exposure is computed.
+struct Plan {
+    Circuit circuit;
+    PulseSegments pulse;
+    DriveSegment betweenPulses;
+    std::array<double, 3> leastPulse_s{};  // each segment of the shortest train of the range
+    double mostBetweenPulses_s = 0;        // and the rest after them
+    DriveSegment afterTrain;
+    int pulses = 1;
+    SourceLimits limits;  // Infinite: what clipping takes away is counted as delivered
+};
+
+/// Of the segments of `longest` in the shortest train, which may lack its gap; in s.
+[[nodiscard]] std::array<double, 3> leastDurations(const PulseSegments& longest, const PulseSegments& shortest) noexcept;
+
+/// What the capacitor holds at that voltage, J; 0 without one.
+[[nodiscard]] double storedAt(const Plan& plan, double capacitorVoltage) noexcept;
+
+/// Quantity by quantity.
+[[nodiscard]] TrainSums largerSums(const TrainSums& a, const TrainSums& b) noexcept;
+[[nodiscard]] Run largerRun(const Run& a, const Run& b) noexcept;
+
+/// Worst over every state in which a train can find the load, up to |carried| V from others included, and over the
+/// trains of the plan's range. NaN where that is not known.
+[[nodiscard]] Run worstRun(const Plan& plan, double carried) noexcept;
+
+}  // namespace tacto::exposure
