@@ -15,15 +15,22 @@
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTableView>
+#include <QTableWidget>
 #include <QToolButton>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <qcustomplot.h>
 
+#include "app/gui/pilot/PilotWorkspace.h"
 #include "app/gui/runner/ScriptEditor.h"
+#include "app/gui/study/NewStudyPage.h"
+#include "app/gui/study/StudyForm.h"
+#include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SafetyBar.h"
+#include "app/run/StudyProgram.h"
+#include "core/study/Study.h"
 #include "tests/e2e/Hand.h"
 #include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
@@ -33,6 +40,7 @@ namespace tacto::test {
 namespace {
 
 constexpr int kStopLimit_ms = 2000;  // for a loaded machine; the time taken is recorded
+constexpr const char* kPassphrase = "correct horse 4711";
 constexpr int kOpenedBySeveral = 0;  // "Encoding profile" opens three, two questions before closing are one here
 
 /// How often app/gui calls the two functions that open dialogs.
@@ -62,6 +70,7 @@ protected:
         EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
         focus(window);
         stop = window.findChild<gui::SafetyBar*>()->findChild<QPushButton*>("stopButton");
+        makeStudy();
         openBench();
         openBench();  // two sessions, to be compared
     }
@@ -181,6 +190,53 @@ protected:
         ADD_FAILURE() << "no entry " << entry.toStdString();
     }
 
+    [[nodiscard]] gui::PilotWorkspace& studies() {
+        page(4);
+        auto& pilot = *window.findChild<gui::PilotWorkspace*>();
+        pilot.findChild<gui::TabbedPage*>()->setCurrentIndex(1);
+        return pilot;
+    }
+    [[nodiscard]] QString study() const { return QString::fromStdString((folder.path() / "study").string()); }
+    void makeStudy() {
+        StudySettings settings;
+        settings.title = "Four conditions";
+        settings.approval.reference = "EC-2026-17";
+        settings.approval.from = std::chrono::year(2020) / 1 / 1;
+        settings.approval.expires = std::chrono::year(2090) / 12 / 31;
+        settings.consentVersion = "2";
+        ASSERT_TRUE(stateProgram(settings));
+        auto made = Study::create(study().toStdString(), settings, Passphrase::from(kPassphrase).value());
+        ASSERT_TRUE(made) << made.error().message;
+        ASSERT_TRUE(made->enrol(Participant()));
+    }
+    /// A new study's form, filled in.
+    gui::NewStudyPage& newStudy() {
+        auto& pilot = studies();
+        pilot.findChild<QPushButton*>("newStudyWanted")->click();
+        auto* form = pilot.findChild<gui::StudyForm*>();
+        for (const auto& [field, text] :
+             {std::pair{"title", "T"}, std::pair{"approval.reference", "EC-1"}, std::pair{"approval.from", "2026-11-01"},
+              std::pair{"approval.expires", "2090-10-31"}, std::pair{"consent_version", "2"}})
+            form->set(field, text);
+        auto& made = *pilot.findChild<gui::NewStudyPage*>();
+        made.findChild<QLineEdit*>("newStudyFolder")->setText(QString::fromStdString((folder.path() / "new").string()));
+        return made;
+    }
+    /// The study is open from here on; its first participant is selected.
+    void openStudy() {
+        auto& pilot = studies();
+        auto* list = pilot.findChild<QTableWidget*>("participants");
+        if (list->isVisible() && list->rowCount() > 0) return list->selectRow(0);
+        pilot.findChild<gui::StudyPage*>()->open(study());
+        QLineEdit* line = nullptr;
+        ASSERT_IN_TIME(comesTrue([&] { return (line = window.findChild<QLineEdit*>("passphrase")) != nullptr; }));
+        line->setText(kPassphrase);
+        emit line->returnPressed();
+        ASSERT_IN_TIME(
+            comesTrue([&] { return newest() == nullptr && list->isVisible() && list->rowCount() > 0; }, 20'000));
+        list->selectRow(0);
+    }
+
     /// Each place of the program that opens a dialog.
     [[nodiscard]] std::vector<Opening> dialogs() {
         const auto menu = [this](const char* name, const char* entry) {
@@ -191,6 +247,18 @@ protected:
                                page(0, 0);
                                press(window, "Encoding profile…");
                                press(*newest(), button);
+                           }};
+        };
+        const auto ofStudy = [this](const char* button) {
+            return Opening{std::string("Study: ") + button, [this, button] {
+                               openStudy();
+                               studies().findChild<QPushButton*>(button)->click();
+                           }};
+        };
+        const auto ofParticipant = [this](const char* action) {
+            return Opening{std::string("Participant: ") + action, [this, action] {
+                               openStudy();
+                               studies().findChild<QAction*>(action)->trigger();
                            }};
         };
         return {
@@ -263,11 +331,26 @@ protected:
                  press(window, "Settings");
                  press(window, "Read the limits…");
              }},
-            {"Study folder",
+            {"Rehearsal's folder",
              [this] {
-                 page(4);
+                 auto& pilot = studies();
+                 pilot.findChild<gui::TabbedPage*>()->setCurrentIndex(0);
                  press(window, "Choose…");
              }},
+            {"Folder of a study", [this] { press(studies(), "Open a study…"); }},
+            {"Folder of a new study", [this] { press(newStudy(), "Choose…"); }},
+            {"Passphrase of a new study", [this] { press(newStudy(), "Create the study…"); }},
+            {"Passphrase of a study",
+             [this] {
+                 if (studies().findChild<gui::NewStudyPage*>()->isVisible()) press(studies(), "Back");
+                 studies().findChild<gui::StudyPage*>()->open(study());
+             }},
+            ofStudy("enrol"),
+            ofStudy("consentOne"),
+            ofStudy("exportStudy"),
+            ofParticipant("pageOfOne"),
+            ofParticipant("leaveOne"),
+            ofParticipant("withdrawOne"),
             {"Close",  // asked with the output off: what follows stops anew
              [this] {
                  window.controller().disarm();
@@ -300,6 +383,7 @@ protected:
         };
     }
 
+    const ScratchDir folder;
     gui::MainWindow window{simulatedRegistry};
     QPushButton* stop = nullptr;
     qint64 slowest_ms = 0;

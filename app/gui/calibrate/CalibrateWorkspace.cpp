@@ -63,3 +63,5 @@ void CalibrateWorkspace::showReady() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CalibrateWorkspace.cpp"

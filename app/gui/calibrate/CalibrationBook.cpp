@@ -146,3 +146,5 @@ QString standingTip(const CalibrationStanding& standing) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CalibrationBook.cpp"

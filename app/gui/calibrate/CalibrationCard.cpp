@@ -185,3 +185,5 @@ void CalibrationCard::showEvent(QShowEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CalibrationCard.cpp"

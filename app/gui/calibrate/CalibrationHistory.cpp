@@ -116,3 +116,5 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CalibrationHistory.cpp"

@@ -257,3 +257,5 @@ void CalibrationPlot::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CalibrationPlot.cpp"

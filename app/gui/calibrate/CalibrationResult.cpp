@@ -156,3 +156,5 @@ void CalibrationResult::addBudget(const json& budget) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CalibrationResult.cpp"

@@ -307,3 +307,5 @@ void CalibrationTrendView::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CalibrationTrendView.cpp"

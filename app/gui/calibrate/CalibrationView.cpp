@@ -176,3 +176,5 @@ void CalibrationView::resizeEvent(QResizeEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CalibrationView.cpp"

@@ -287,3 +287,5 @@ void CertificateDialog::list() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CertificateDialog.cpp"

@@ -270,3 +270,5 @@ void InstrumentDialog::remove() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_InstrumentDialog.cpp"

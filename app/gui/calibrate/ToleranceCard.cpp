@@ -124,3 +124,5 @@ void ToleranceCard::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ToleranceCard.cpp"

@@ -63,3 +63,5 @@ WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_WiringPage.cpp"

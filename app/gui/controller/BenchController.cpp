@@ -408,3 +408,5 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
 }
 
 }  // namespace tacto::gui
+
+#include "moc_BenchController.cpp"

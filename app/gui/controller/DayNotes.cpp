@@ -76,3 +76,5 @@ QString DayNotes::words() const {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_DayNotes.cpp"

@@ -45,3 +45,5 @@ void DeviceWatch::work(const std::function<Registry()>& makeRegistry, std::chron
 }
 
 }  // namespace tacto::gui
+
+#include "moc_DeviceWatch.cpp"

@@ -52,3 +52,5 @@ void WindowOperator::refuse() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_WindowOperator.cpp"

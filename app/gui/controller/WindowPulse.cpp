@@ -14,3 +14,5 @@ bool WindowPulse::runs() const noexcept {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_WindowPulse.cpp"

@@ -95,3 +95,5 @@ HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, std::uint64_
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CommandPanel.cpp"

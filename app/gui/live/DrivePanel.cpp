@@ -197,3 +197,5 @@ void DrivePanel::refresh(const Telemetry& telemetry) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_DrivePanel.cpp"

@@ -312,3 +312,5 @@ void LiveWorkspace::chooseRecording() {
 void LiveWorkspace::editProfile() { openDialog(new ProfileEditor(controller_, this)); }
 
 }  // namespace tacto::gui
+
+#include "moc_LiveWorkspace.cpp"

@@ -159,3 +159,5 @@ void ProfileEditor::chooseTarget() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ProfileEditor.cpp"

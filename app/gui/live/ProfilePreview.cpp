@@ -175,3 +175,5 @@ void ProfilePreview::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ProfilePreview.cpp"

@@ -125,3 +125,5 @@ void RigPanel::follow(const QString& material, double speed_mm_s, double force_n
 }
 
 }  // namespace tacto::gui
+
+#include "moc_RigPanel.cpp"

@@ -134,3 +134,5 @@ void RollingGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) const
 }
 
 }  // namespace tacto::gui
+
+#include "moc_RollingGraph.cpp"

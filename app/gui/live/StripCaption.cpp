@@ -98,3 +98,5 @@ void StripCaption::draw(QCPPainter* painter) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_StripCaption.cpp"

@@ -283,3 +283,5 @@ void StripPlots::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_StripPlots.cpp"

@@ -107,3 +107,5 @@ void TactilePlane::show(const Series& frames, double now_s, double roughness, do
 }
 
 }  // namespace tacto::gui
+
+#include "moc_TactilePlane.cpp"

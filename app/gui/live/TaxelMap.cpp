@@ -117,3 +117,5 @@ void TaxelMap::paintEvent(QPaintEvent*) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_TaxelMap.cpp"

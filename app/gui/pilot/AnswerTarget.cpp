@@ -149,3 +149,5 @@ void AnswerTarget::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_AnswerTarget.cpp"

@@ -55,3 +55,5 @@ std::vector<ExclusionAnswer> ExclusionChecklist::answers() const {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ExclusionChecklist.cpp"

@@ -79,3 +79,5 @@ void FactsCard::changeEvent(QEvent* event) {
 void FactsCard::dress() { picture_->setPixmap(iconPixmap(icon_, colours().text, kCardIcon, devicePixelRatioF())); }
 
 }  // namespace tacto::gui
+
+#include "moc_FactsCard.cpp"

@@ -160,3 +160,5 @@ void ImpedanceTrend::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ImpedanceTrend.cpp"

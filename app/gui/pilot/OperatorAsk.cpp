@@ -145,3 +145,5 @@ void OperatorAsk::addLine(const PilotPrompt& /*prompt*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_OperatorAsk.cpp"

@@ -276,3 +276,5 @@ void OperatorPage::resizeEvent(QResizeEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_OperatorPage.cpp"

@@ -59,3 +59,5 @@ void OperatorStrip::setBreakDue(bool due) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_OperatorStrip.cpp"

@@ -189,3 +189,5 @@ bool ParticipantDesk::stopBy(const char* by) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ParticipantDesk.cpp"

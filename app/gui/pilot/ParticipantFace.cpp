@@ -282,3 +282,5 @@ void ParticipantFace::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ParticipantFace.cpp"

@@ -240,3 +240,5 @@ void ParticipantField::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ParticipantField.cpp"

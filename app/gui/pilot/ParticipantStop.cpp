@@ -85,3 +85,5 @@ void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ParticipantStop.cpp"

@@ -350,3 +350,5 @@ void ParticipantWindow::resizeEvent(QResizeEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ParticipantWindow.cpp"

@@ -66,3 +66,5 @@ void PhaseBar::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_PhaseBar.cpp"

@@ -228,3 +228,5 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_PilotResult.cpp"

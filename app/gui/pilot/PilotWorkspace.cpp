@@ -185,3 +185,5 @@ QString PilotWorkspace::stopWords() const {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_PilotWorkspace.cpp"

@@ -167,3 +167,5 @@ void RehearsalPage::say(const QString& what) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_RehearsalPage.cpp"

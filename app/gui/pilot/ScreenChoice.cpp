@@ -56,3 +56,5 @@ QScreen* ScreenChoice::chosen() const {
 bool ScreenChoice::isOnly() { return QGuiApplication::screens().size() < 2; }
 
 }  // namespace tacto::gui
+
+#include "moc_ScreenChoice.cpp"

@@ -301,3 +301,5 @@ void SessionConduct::finish(const std::shared_ptr<const FinishedRun>& run) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionConduct.cpp"

@@ -84,3 +84,5 @@ void SessionNotes::add(const QString& note) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionNotes.cpp"

@@ -160,3 +160,5 @@ void SessionPath::resizeEvent(QResizeEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionPath.cpp"

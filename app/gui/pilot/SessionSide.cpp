@@ -68,3 +68,5 @@ void SessionSide::show(const SessionConduct& session) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionSide.cpp"

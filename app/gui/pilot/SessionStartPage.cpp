@@ -180,3 +180,5 @@ void SessionStartPage::say(const QString& what) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionStartPage.cpp"

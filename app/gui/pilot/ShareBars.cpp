@@ -46,3 +46,5 @@ void ShareBars::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ShareBars.cpp"

@@ -50,3 +50,5 @@ void TheirScreen::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_TheirScreen.cpp"

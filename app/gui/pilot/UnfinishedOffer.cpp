@@ -98,3 +98,5 @@ std::string UnfinishedOffer::chosen() const {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_UnfinishedOffer.cpp"

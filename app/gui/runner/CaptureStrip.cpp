@@ -92,3 +92,5 @@ void CaptureStrip::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CaptureStrip.cpp"

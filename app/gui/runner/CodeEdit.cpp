@@ -110,3 +110,5 @@ void CodeEdit::showMarks() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CodeEdit.cpp"

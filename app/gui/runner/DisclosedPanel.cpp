@@ -97,3 +97,5 @@ void DisclosedPanel::show(const nlohmann::json& disclosed) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_DisclosedPanel.cpp"

@@ -118,3 +118,5 @@ bool FindBar::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_FindBar.cpp"

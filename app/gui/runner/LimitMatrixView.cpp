@@ -236,3 +236,5 @@ void LimitMatrixView::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_LimitMatrixView.cpp"

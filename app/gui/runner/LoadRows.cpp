@@ -136,3 +136,5 @@ void LoadRows::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_LoadRows.cpp"

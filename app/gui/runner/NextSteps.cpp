@@ -97,3 +97,5 @@ void NextStepBar::show(const std::vector<NextStep>& steps) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_NextSteps.cpp"

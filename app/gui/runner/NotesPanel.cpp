@@ -62,3 +62,5 @@ RunNotes NotesPanel::notes() const {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_NotesPanel.cpp"

@@ -306,3 +306,5 @@ void ParameterForm::judge() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ParameterForm.cpp"

@@ -168,3 +168,5 @@ void ProcedurePages::resizeEvent(QResizeEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ProcedurePages.cpp"

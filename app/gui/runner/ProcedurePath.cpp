@@ -133,3 +133,5 @@ void ProcedurePath::resizeEvent(QResizeEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ProcedurePath.cpp"

@@ -171,3 +171,5 @@ void PromptPanel::answer(const QString& text) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_PromptPanel.cpp"

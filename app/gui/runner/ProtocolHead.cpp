@@ -113,3 +113,5 @@ void ProtocolHead::show(const QString& title, const QString& purpose) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ProtocolHead.cpp"

@@ -400,3 +400,5 @@ void ProtocolWorkspace::saved(const QString& path) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ProtocolWorkspace.cpp"

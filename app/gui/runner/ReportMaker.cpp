@@ -99,3 +99,5 @@ void ReportMaker::ended(int code, QProcess::ExitStatus status) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ReportMaker.cpp"

@@ -94,3 +94,5 @@ void ReportPrinter::print(const QString& pdf, std::shared_ptr<QPrinter> printer)
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ReportPrinter.cpp"

@@ -105,3 +105,5 @@ void ResultHead::show(const FinishedRun& run) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ResultHead.cpp"

@@ -158,3 +158,5 @@ void ResultTables::addConfusion(const ResultTable& table, const json& results) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ResultTables.cpp"

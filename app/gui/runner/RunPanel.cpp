@@ -261,3 +261,5 @@ void RunPanel::showButtons() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_RunPanel.cpp"

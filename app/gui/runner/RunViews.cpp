@@ -238,3 +238,5 @@ QString RunViews::end(const FinishedRun& run) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_RunViews.cpp"

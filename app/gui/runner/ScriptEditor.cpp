@@ -345,3 +345,5 @@ void ScriptEditor::leave() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScriptEditor.cpp"

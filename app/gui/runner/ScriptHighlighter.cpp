@@ -55,3 +55,5 @@ void ScriptHighlighter::highlightBlock(const QString& text) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScriptHighlighter.cpp"

@@ -198,3 +198,5 @@ void SignPage::show(const FinishedRun& run) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SignPage.cpp"

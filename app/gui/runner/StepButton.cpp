@@ -171,3 +171,5 @@ void StepButton::paintDown(QPainter& painter) const {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_StepButton.cpp"

@@ -111,3 +111,5 @@ void StepList::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_StepList.cpp"

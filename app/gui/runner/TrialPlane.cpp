@@ -138,3 +138,5 @@ void TrialPlane::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_TrialPlane.cpp"

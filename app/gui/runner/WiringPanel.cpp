@@ -164,3 +164,5 @@ void WiringPanel::judge() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_WiringPanel.cpp"

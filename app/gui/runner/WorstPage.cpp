@@ -98,3 +98,5 @@ QString WorstPage::judge(const BenchController& controller, const Result<Protoco
 }
 
 }  // namespace tacto::gui
+
+#include "moc_WorstPage.cpp"

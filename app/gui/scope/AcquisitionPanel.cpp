@@ -208,3 +208,5 @@ void AcquisitionPanel::say() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_AcquisitionPanel.cpp"

@@ -149,3 +149,5 @@ void CapturePipe::save(const ShownPtr& shown, double from_s, double to_s, const 
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CapturePipe.cpp"

@@ -102,3 +102,5 @@ QMenu* makeReadingsMenu(ChosenReadings& chosen, QWidget* parent) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ChosenReadings.cpp"

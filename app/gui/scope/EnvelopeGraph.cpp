@@ -306,3 +306,5 @@ void EnvelopeGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) cons
 }
 
 }  // namespace tacto::gui
+
+#include "moc_EnvelopeGraph.cpp"

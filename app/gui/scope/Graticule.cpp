@@ -75,3 +75,5 @@ void RecordGround::draw(QCPPainter* painter) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_Graticule.cpp"

@@ -170,3 +170,5 @@ void LanePanel::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_LanePanel.cpp"

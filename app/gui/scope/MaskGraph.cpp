@@ -94,3 +94,5 @@ void MaskGraph::draw(QCPPainter* painter) {
 void MaskGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) const { painter->fillRect(rect, band_); }
 
 }  // namespace tacto::gui
+
+#include "moc_MaskGraph.cpp"

@@ -184,3 +184,5 @@ void MaskPanel::restore(const QSettings& settings) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_MaskPanel.cpp"

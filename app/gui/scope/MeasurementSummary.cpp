@@ -293,3 +293,5 @@ void MeasurementSummary::restyle() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_MeasurementSummary.cpp"

@@ -229,3 +229,5 @@ void MeasurementTable::restyle() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_MeasurementTable.cpp"

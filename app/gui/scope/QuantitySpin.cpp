@@ -84,3 +84,5 @@ QSize QuantitySpin::sizeHint() const {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_QuantitySpin.cpp"

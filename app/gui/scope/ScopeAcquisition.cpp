@@ -194,3 +194,5 @@ QString ScopeAcquisition::statusText(const ShownCapture* shown, std::uint64_t sk
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeAcquisition.cpp"

@@ -90,3 +90,5 @@ void ScopeColumns::restore(QSettings& settings) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeColumns.cpp"

@@ -45,3 +45,5 @@ void ScopeControls::restore(const QSettings& settings) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeControls.cpp"

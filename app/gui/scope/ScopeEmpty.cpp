@@ -17,3 +17,5 @@ ScopeEmpty::ScopeEmpty(QWidget* parent)
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeEmpty.cpp"

@@ -115,3 +115,5 @@ void ScopeFiles::copyData() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeFiles.cpp"

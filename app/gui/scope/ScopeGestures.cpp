@@ -243,3 +243,5 @@ void ScopeGestures::nudge(int key, Qt::KeyboardModifiers modifiers) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeGestures.cpp"

@@ -389,3 +389,5 @@ void ScopeModel::dropTrigger() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeModel.cpp"

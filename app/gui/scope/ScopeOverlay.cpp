@@ -374,3 +374,5 @@ void ScopeOverlay::drawTag(QCPPainter& painter, const QPointF& centre, const QSt
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeOverlay.cpp"

@@ -371,3 +371,5 @@ void ScopeScreen::refreshOverlay() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeScreen.cpp"

@@ -40,3 +40,5 @@ void ScopeStatus::show(std::optional<int> percentRead, const QString& standing) 
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeStatus.cpp"

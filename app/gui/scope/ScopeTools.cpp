@@ -188,3 +188,5 @@ void ScopeTools::toggleLevelCursors() { level_->toggle(); }
 void ScopeTools::toggleBox() { box_->toggle(); }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeTools.cpp"

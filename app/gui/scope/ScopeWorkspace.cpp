@@ -392,3 +392,5 @@ void ScopeWorkspace::showSpectrum() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScopeWorkspace.cpp"

@@ -367,3 +367,5 @@ void SpectrumPanel::showModel() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SpectrumPanel.cpp"

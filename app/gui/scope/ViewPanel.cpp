@@ -181,3 +181,5 @@ void ViewPanel::restore(const QSettings& settings) {
 bool ViewPanel::wantsSpectrum() const { return spectrum_->isChecked(); }
 
 }  // namespace tacto::gui
+
+#include "moc_ViewPanel.cpp"

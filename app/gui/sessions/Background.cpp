@@ -45,3 +45,5 @@ void Background::cancel() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_Background.cpp"

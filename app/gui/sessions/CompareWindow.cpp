@@ -208,3 +208,5 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, std::siz
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CompareWindow.cpp"

@@ -18,3 +18,5 @@ void LabelSaves::save(const std::filesystem::path& session, const SessionLabels&
 }
 
 }  // namespace tacto::gui
+
+#include "moc_LabelSaves.cpp"

@@ -224,3 +224,5 @@ void SessionDetails::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionDetails.cpp"

@@ -286,3 +286,5 @@ const SessionEntry* SessionList::current() const {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionList.cpp"

@@ -167,3 +167,5 @@ void SessionModel::sort(int column, Qt::SortOrder order) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionModel.cpp"

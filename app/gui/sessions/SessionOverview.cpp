@@ -296,3 +296,5 @@ void SessionOverview::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionOverview.cpp"

@@ -189,3 +189,5 @@ void SessionPreview::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionPreview.cpp"

@@ -385,3 +385,5 @@ void SessionsWorkspace::dropEvent(QDropEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SessionsWorkspace.cpp"

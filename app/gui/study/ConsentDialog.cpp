@@ -76,3 +76,5 @@ void ConsentDialog::note() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ConsentDialog.cpp"

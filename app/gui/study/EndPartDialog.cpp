@@ -94,3 +94,5 @@ void EndPartDialog::end() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_EndPartDialog.cpp"

@@ -113,3 +113,5 @@ void EnrolDialog::showCode(const Participant& participant) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_EnrolDialog.cpp"

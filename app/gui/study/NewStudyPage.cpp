@@ -118,3 +118,5 @@ void NewStudyPage::askForPassphrase() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_NewStudyPage.cpp"

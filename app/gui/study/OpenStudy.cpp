@@ -95,3 +95,5 @@ void OpenStudy::exportBids(const QString& place) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_OpenStudy.cpp"

@@ -87,3 +87,5 @@ void PassphraseDialog::refuse(const QString& why) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_PassphraseDialog.cpp"

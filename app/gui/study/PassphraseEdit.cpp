@@ -125,3 +125,5 @@ void PassphraseEdit::mousePressEvent(QMouseEvent* event) {
 void PassphraseEdit::mouseReleaseEvent(QMouseEvent* event) { event->accept(); }
 
 }  // namespace tacto::gui
+
+#include "moc_PassphraseEdit.cpp"

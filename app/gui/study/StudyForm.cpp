@@ -227,3 +227,5 @@ Result<StudySettings> StudyForm::read() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_StudyForm.cpp"

@@ -374,3 +374,5 @@ void StudyList::askForExport() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_StudyList.cpp"

@@ -116,3 +116,5 @@ void StudyPage::say(const QString& what) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_StudyPage.cpp"

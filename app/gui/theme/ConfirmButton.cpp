@@ -46,3 +46,5 @@ void ConfirmButton::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ConfirmButton.cpp"

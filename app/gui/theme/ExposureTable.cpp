@@ -201,3 +201,5 @@ void ExposureTable::fill() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ExposureTable.cpp"

@@ -135,3 +135,5 @@ QDialog* makeLimitSetWindow(const std::vector<LimitSet>& sets, const QString& id
 }
 
 }  // namespace tacto::gui
+
+#include "moc_LimitSetView.cpp"

@@ -46,3 +46,5 @@ void MnemonicStyle::underline(bool held) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_MnemonicStyle.cpp"

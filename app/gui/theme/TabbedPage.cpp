@@ -36,3 +36,5 @@ void TabbedPage::addTab(QWidget* page, const QString& title, QWidget* tools) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_TabbedPage.cpp"

@@ -245,3 +245,5 @@ EmptyState::EmptyState(const QString& what, const QString& next, QWidget* parent
 }
 
 }  // namespace tacto::gui
+
+#include "moc_Theme.cpp"

@@ -77,3 +77,5 @@ void VerdictBlock::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_Verdict.cpp"

@@ -148,3 +148,5 @@ void ArmDialog::confirm() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ArmDialog.cpp"

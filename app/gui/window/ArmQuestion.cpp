@@ -49,3 +49,5 @@ void ArmQuestion::ask(ArmDialog::Purpose purpose) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ArmQuestion.cpp"

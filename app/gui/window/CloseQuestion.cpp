@@ -112,3 +112,5 @@ void CloseQuestion::discard() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_CloseQuestion.cpp"

@@ -76,3 +76,5 @@ void DayButton::changeEvent(QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_DayDialog.cpp"

@@ -261,3 +261,5 @@ void DeviceDock::refresh(const Telemetry& telemetry) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_DeviceDock.cpp"

@@ -208,3 +208,5 @@ bool DockColumn::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_DockColumn.cpp"

@@ -23,3 +23,5 @@ void DriveDock::takeFocus() {
 QString DriveDock::keyFigure() const { return panel_->headline(); }
 
 }  // namespace tacto::gui
+
+#include "moc_DriveDock.cpp"

@@ -89,3 +89,5 @@ void ExposureDock::refresh(const Telemetry& telemetry) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ExposureDock.cpp"

@@ -88,3 +88,5 @@ void FaultBanner::colour() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_FaultBanner.cpp"

@@ -133,3 +133,5 @@ void FoldingDock::dress() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_FoldingDock.cpp"

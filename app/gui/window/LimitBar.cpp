@@ -119,3 +119,5 @@ void LimitBar::paintEvent(QPaintEvent*) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_LimitBar.cpp"

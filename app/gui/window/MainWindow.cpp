@@ -446,3 +446,5 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_MainWindow.cpp"

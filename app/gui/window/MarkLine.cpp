@@ -122,3 +122,5 @@ void MarkLine::keyPressEvent(QKeyEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_MarkLine.cpp"

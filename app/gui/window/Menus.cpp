@@ -120,3 +120,5 @@ void Menus::showAbout() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_Menus.cpp"

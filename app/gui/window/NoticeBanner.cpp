@@ -97,3 +97,5 @@ void NoticeBanner::complain(const QString& what) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_NoticeBanner.cpp"

@@ -76,3 +76,5 @@ void RailButton::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_RailButton.cpp"

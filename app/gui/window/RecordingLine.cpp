@@ -86,3 +86,5 @@ void RecordingLine::showLog() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_RecordingLine.cpp"

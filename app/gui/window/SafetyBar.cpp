@@ -370,3 +370,5 @@ void SafetyBar::pressPause() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SafetyBar.cpp"

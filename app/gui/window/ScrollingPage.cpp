@@ -12,3 +12,5 @@ ScrollingPage::ScrollingPage(QWidget* page, QWidget* parent) : QScrollArea(paren
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ScrollingPage.cpp"

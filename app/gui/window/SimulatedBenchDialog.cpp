@@ -133,3 +133,5 @@ void SimulatedBenchDialog::openBench() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_SimulatedBenchDialog.cpp"

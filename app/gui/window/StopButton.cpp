@@ -74,3 +74,5 @@ void StopButton::paintEvent(QPaintEvent*) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_StopButton.cpp"

@@ -107,3 +107,5 @@ bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_StopKeys.cpp"

@@ -161,3 +161,5 @@ bool Tour::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_Tour.cpp"

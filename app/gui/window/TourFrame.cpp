@@ -61,3 +61,5 @@ void TourFrame::paintEvent(QPaintEvent*) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_TourFrame.cpp"

@@ -180,3 +180,5 @@ TourTarget WelcomeTour::runTarget() const {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_WelcomeTour.cpp"

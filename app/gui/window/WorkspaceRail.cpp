@@ -56,3 +56,5 @@ void WorkspaceRail::fit() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_WorkspaceRail.cpp"

@@ -56,3 +56,5 @@ std::optional<Error> HostBridge::failureOf(const QJSValue& thrown) const {
 }
 
 }  // namespace tacto
+
+#include "moc_HostBridge.cpp"

@@ -34,7 +34,7 @@ protected:
         settings.approval.from = std::chrono::year(2020) / 1 / 1;
         settings.approval.expires = std::chrono::year(2090) / 12 / 31;
         settings.consentVersion = "2";
-        settings.blocks = 1;
+        settings.blocks = 3;  // a session that is not over before it is stopped
         ASSERT_TRUE(stateProgram(settings));
         auto study = Study::create(place(), settings, Passphrase::from(kWords).value());
         ASSERT_TRUE(study) << study.error().message;
@@ -95,7 +95,6 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     begin();
     ASSERT_TRUE(pilot->running()) << trouble();
     ASSERT_IN_TIME(comesTrue([this] { return !nothingWasMade(); }, 20'000));
-    QTest::qWait(300);
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
