@@ -51,7 +51,7 @@ private:
 }  // namespace
 
 void declareCaptureOptions(QCommandLineParser& parser) {
-    parser.addOption({"format", "Reads the file as this format, whatever it looks like (csv-rigol, isf, …).", "ID"});
+    parser.addOption({"format", "Reads the file as this format, without detection (csv-rigol, isf, …).", "ID"});
     parser.addOption({"skip-rows", "Lines at the beginning of a table that are passed over.", "N"});
     parser.addOption(
         {"columns", "The channels to read, by name or number of the column, with commas between.", "LIST"});

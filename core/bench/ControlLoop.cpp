@@ -46,7 +46,7 @@ void ControlLoop::present(Presentation presentation) {
     inbox_.present(std::move(presentation));
 }
 
-/// Before anything else: what was approved before a silence must not be written after it, whichever thread wakes first.
+/// First of all: what was approved before a silence must not be written after it, no matter which thread wakes first.
 void ControlLoop::beat(Instant now) noexcept {
     const bool inTime = parts_.heartbeat.beat(parts_.clock.elapsed());
     const Instant asleep = parts_.clock.asleep();

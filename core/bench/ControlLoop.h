@@ -54,7 +54,7 @@ public:
     };
     ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner);
 
-    /// Begins the check; the interlock is in Checking. armed() tells the end.
+    /// Begins the check; the interlock is in Checking. armed() reports the end.
     void arm(ArmCommand command);
     /// What the oscilloscope showed of the check pulse: |Z|, or why it does not confirm it. Arming with
     /// `confirmByCapture` waits for it. From another thread.

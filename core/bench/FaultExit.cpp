@@ -36,7 +36,7 @@ Result<void> FaultExit::leave() {
         return fail(ErrorCode::NotArmed, "a fault of the program itself is not reset: {}. Restart the program",
                     interlock_.reason().view());
     }
-    // A massager is asked nothing: whether it is there, the next burst tells.
+    // A massager is not asked anything: the next burst shows whether it is there.
     if (auto* massager = output_.massager()) massager->forceOff();
     if (auto* stimulator = output_.stimulator()) {
         constexpr Instant kAnswerWithin = std::chrono::milliseconds(500);

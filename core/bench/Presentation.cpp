@@ -24,12 +24,12 @@ bool isTime(Seconds time, Seconds least, Seconds most) noexcept { return time >=
 Result<void> checkLevel(const StimulusLevel& level) {
     if (const auto* current = std::get_if<Milliamps>(&level)) {
         if (std::isfinite(current->value()) && current->value() >= 0) return {};
-        return fail(ErrorCode::InvalidArgument, "a presentation at {} mA; a finite current of 0 or more is accepted",
+        return fail(ErrorCode::InvalidArgument, "level {} mA: must be finite and not negative",
                     current->value());
     }
     const double intensity = std::get<VibrationIntensity>(level).value;
     if (intensity >= 0 && intensity <= 1) return {};
-    return fail(ErrorCode::InvalidArgument, "a presentation at intensity {}; 0 to 1 is accepted", intensity);
+    return fail(ErrorCode::InvalidArgument, "level at intensity {}: must be 0 to 1", intensity);
 }
 
 Result<void> checkOnsets(const Presentation& presentation) {

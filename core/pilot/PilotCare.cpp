@@ -77,7 +77,7 @@ std::string machineLacks(const DeviceSet& devices, const Profile& profile, Level
 
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
 
-/// Of the session's first part that came as far; null where none did.
+/// The impedance measured in the first part of the session that has one; null where none has.
 const nlohmann::json* PilotCare::firstImpedance() const {
     const auto parts = stage_.record().count(row::kResumed) + 1;
     for (std::size_t n = 1; n <= parts; ++n) {

@@ -40,7 +40,7 @@ nlohmann::json trainsJson(const Presented& presented) {
     return all;
 }
 
-/// Of the row that says that no answer came.
+/// Name of the row that says that no answer came.
 std::string silentName(const StageTrial& trial) { return trial.askedAgain ? trial.name + " again" : trial.name; }
 
 }  // namespace

@@ -64,11 +64,11 @@ Result<void> validate(const VibrationReports& reports) {
         return invalid("the report has {} bytes; 2 to {} are accepted, its number included", length, kMaxReport);
     }
     if (reports.stop.size() != length) {
-        return invalid("the stop report has {} bytes and the start report {}; equal lengths are accepted",
+        return invalid("the stop report has {} bytes and the start report {}; both reports must have the same length",
                        reports.stop.size(), length);
     }
     if (reports.stop[0] != reports.start[0]) {
-        return invalid("the stop report has the number {} and the start report {}; equal numbers are accepted",
+        return invalid("the stop report has the number {} and the start report {}; both must have the same number",
                        reports.stop[0], reports.start[0]);
     }
     if (reports.fields.empty()) return invalid("the report has no field for the intensity; one or more is needed");
@@ -127,7 +127,7 @@ namespace {
 
 /// The value that makes the device play for `duration` at least.
 Result<std::int64_t> valueFor(const DurationField& ends, Seconds duration) {
-    constexpr double kRounding = 1e-9;  // 0.1 s is 100 units of 0.001 s, whatever binary fractions say
+    constexpr double kRounding = 1e-9;  // 0.1 s is 100 units of 0.001 s despite binary fractions
     const double units = std::ceil(duration.count() / ends.unit.count() * (1 - kRounding));
     const double most = static_cast<double>(ends.at.max + ends.first);
     if (!(duration.count() > 0) || !(units <= most)) {

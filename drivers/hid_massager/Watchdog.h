@@ -1,6 +1,6 @@
 // Watchdog.h - keeps a massager's stop outside of this program, because nothing inside can send it after kill -9.
 //
-// A watchdog sends the stop when the program that made it ends without saying so, in whatever way, and when the program
+// A watchdog sends the stop when the program that made it ends in any way without saying so, and when the program
 // is silent for kSilence while output is on. A massager without a watchdog is not driven (safety.md, "The gate").
 //
 // Thread-safety: one caller at a time. Destruction after rest() ends the watchdog; without it the watchdog sends the

@@ -86,7 +86,7 @@ Result<TrainProgram> programTrain(const PulseTrain& train, Channel channel) {
         }
     }
     const std::uint64_t whole = period * static_cast<std::uint64_t>(train.pulses - 1) + pulse + 1;
-    // The gate refuses it before; here nothing that it gets wrong can start what no one ends.
+    // The gate refuses it earlier; here an error of the gate cannot start an output that does not end.
     if (whole > kCyclesLongestTrain) {
         return fail(ErrorCode::Unsupported,
                     "Pulse Pal: a train of {:.6g} s; it has no dead-man switch, and at most {:.4g} s is accepted",

@@ -58,7 +58,7 @@ public:
 
     /// Bytes that belonged to no frame.
     [[nodiscard]] std::uint64_t junkBytes() const noexcept { return junk_; }
-    /// Of those, what began like a frame and then was none: a wrong length, CRC, stuffing or end.
+    /// How many of those began like a frame but had a wrong length, CRC, stuffing or end.
     [[nodiscard]] std::uint64_t brokenFrames() const noexcept { return broken_; }
 
 private:

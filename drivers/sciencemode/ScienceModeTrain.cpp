@@ -37,7 +37,7 @@ Result<ScienceModeStimulator::Sent> ScienceModeStimulator::firePulse(const Pulse
     if (!sent) return failure(sent);
     const auto answer = exchange_->receive(kAnswerTime + Seconds(plan.points.duration()));
     if (exchange_->gone()) gone_ = true;
-    if (stoppedSince(offs)) return Sent::Stopped;  // whatever it says: the stop may have been faster
+    if (stoppedSince(offs)) return Sent::Stopped;  // even on an error: the stop may have been faster
     if (!answer) return failure(answer);
     ChannelConfigAck ack;
     if (const auto read = readChannelConfigAck(*answer, ack); !read) return failure(read);

@@ -85,7 +85,7 @@ private:
     LineCounts counts_;
 };
 
-/// A command's bytes, delimiter and a leading 00 included: the zero ends whatever junk came before it.
+/// A command's bytes, delimiter and a leading 00 included: the zero ends any junk before it.
 /// `payload` (after the token): at most kMaxPayload - 1 bytes.
 [[nodiscard]] std::vector<std::uint8_t> encodeCommand(Command command, std::uint8_t token,
                                                       std::span<const std::uint8_t> payload = {});

@@ -3,7 +3,7 @@
 //
 // A train handed to play() happens by itself as time passes: each pulse is computed in closed form when its onset is
 // reached, from the residual voltage that the one before left on the load's capacitor. cut() truncates what runs, at
-// that moment; so does the dead-man time. What is read depends on those calls and their times, not on when anybody
+// that moment; so does the dead-man time. What is read depends on those calls and their times, not on when anyone
 // looked. The newest kKept pulses stay readable.
 //
 // Thread-safety: every function from any thread; cut() is lock-free and never allocates.

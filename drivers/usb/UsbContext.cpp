@@ -27,7 +27,7 @@ struct UsbContext::Callbacks {
                 gone = *known;
                 self.present_.erase(known);
             } else {
-                return 0;  // told twice: registering lists what is there while it may also arrive
+                return 0;  // reported twice: registering lists what is there while it may also arrive
             }
             self.generation_.fetch_add(1, std::memory_order_release);
         } catch (...) {

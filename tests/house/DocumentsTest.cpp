@@ -66,7 +66,8 @@ void PrintTo(const Mention& mention, std::ostream* out) {
 std::vector<Mention> mentionsIn(const std::string& text) {
     static const std::regex lineEnd(R"(\n[ \t]*(?://+!?<?|\*|#|")?[ \t]*)");
     static const std::regex name(
-        R"re(([\w./-]*[\w-]\.md)\b(?:,? (?:sections? ((?:\d+(?:\.\d+)?(?: \([^)]*\))?(?:, | and | to )?)+)|(?:hazard )?(H\d+)|\\?"([^"\\]+)\\?"))?)re");
+        R"re(([\w./-]*[\w-]\.md)\b)re"
+        R"re((?:,? (?:sections? ((?:\d+(?:\.\d+)?(?: \([^)]*\))?(?:, | and | to )?)+)|(?:hazard )?(H\d+)|\\?"([^"\\]+)\\?"))?)re");
     static const std::regex number(R"(\d+(?:\.\d+)?)");
     std::vector<Mention> mentions;
     if (text.find(".md") == std::string::npos) return mentions;

@@ -49,7 +49,7 @@ Result<bool> BenchController::allVirtual(const std::vector<DeviceUri>& uris) con
 }
 
 void BenchController::stop(const char* by) noexcept {
-    stops_->raise();  // first, and whatever there is to switch off: see StopCounter.h
+    stops_->raise();  // first, even with nothing to switch off: see StopCounter.h
     const std::scoped_lock lock(benchMutex_);
     stoppedBy_ = by;
     if (script_ != nullptr && takesStop_ && takesStop_(by)) return;
@@ -403,7 +403,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     finished->result = prepared->finish();
     finished->html = run.files().report(".html");
     finished->pdf = run.files().report(".pdf");
-    *prepared = {};  // before its end is told: a study that it held can be opened then
+    *prepared = {};  // before its end is signalled: a study that it held can be opened then
     end();
 }
 

@@ -21,7 +21,7 @@ ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDi
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(
         explanation(tr("How touch becomes pulse trains. The encoding changes while the output is disarmed; "
-                       "the limits hold whatever stands here."),
+                       "the limits always apply."),
                     this));
     auto* split = new QHBoxLayout;
     auto* left = new QVBoxLayout;

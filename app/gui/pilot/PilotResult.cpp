@@ -43,7 +43,7 @@ QString rangeWords(const nlohmann::json& range) {
     return words;
 }
 
-/// Of thresholds alone.
+/// The headline of a session that measured thresholds only.
 QString thresholdSentence(const nlohmann::json& results) {
     auto who = textIn(results, "participant.code");
     if (who.isEmpty()) who = QObject::tr("The participant");

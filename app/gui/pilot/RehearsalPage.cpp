@@ -102,7 +102,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     blocks_->setObjectName("rehearsalBlocks");
     blocks_->setRange(1, kMostBlocks);
     blocks_->setValue(5);
-    blocks_->setToolTip(tr("Of 18 trials each: four of every condition and two empty ones."));
+    blocks_->setToolTip(tr("Each block has 18 trials: four per condition and two empty."));
     form->addRow(tr("Blocks of the test"), blocks_);
     seats_ = std::make_unique<SeatRows>(*form, *holder);
     column->addWidget(holder);

@@ -32,7 +32,7 @@ QString wordsOf(const json& value) {
     return value.is_string() ? visible(QString::fromStdString(value.get<std::string>())) : QString();
 }
 
-/// Of the limit, value and U together.
+/// The share of the limit that value and U use together.
 QString shareText(double used_pct) {
     if (!std::isfinite(used_pct)) return "–";
     if (used_pct > 0 && used_pct < 0.1) return QObject::tr("< 0.1 %");

@@ -46,7 +46,7 @@ public:
     void save(const ShownPtr& shown, double from_s, double to_s, const QString& path);
 
     [[nodiscard]] bool opening() const noexcept { return opening_; }
-    /// Progress of the file that is being read, 0 to 100. openingChanged() tells each.
+    /// Progress of the file that is being read, 0 to 100. openingChanged() reports each.
     [[nodiscard]] int percentRead() const noexcept { return percentRead_; }
     [[nodiscard]] std::uint64_t skippedCaptures() const noexcept { return skipped_; }
 

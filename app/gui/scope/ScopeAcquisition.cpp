@@ -158,7 +158,7 @@ QString ScopeAcquisition::runningText(const ShownCapture* shown, std::uint64_t s
     const auto level = quantityText(requested_.triggerLevel, requested_.triggerOnCurrent ? "A" : "V", 3);
     if (taken_ == 0 || sinceCapture_.elapsed() > kQuietAfter_ms) {
         if (shown != nullptr && shown->source.isEmpty() && shown->capture->untriggered) {
-            return tr("No trigger at %1: shown untriggered, not measured. %2").arg(level, outputText());
+            return tr("No trigger at %1. Showing an untriggered record; no measurements. %2").arg(level, outputText());
         }
         return tr("Waiting for a trigger at %1. %2").arg(level, outputText());
     }

@@ -112,8 +112,8 @@ void ScopeTools::addPanels(ToolRow& row) {
                     true, "average");
     connect(average_, &QToolButton::clicked, this, &ScopeTools::averageClicked);
     mask_ = tool(tr("Mask"),
-                 tr("Tests captures against a band around what is shown now. Its width stands in the controls. The "
-                    "output is not touched by it."),
+                 tr("Tests captures against a band around what is shown now. Its width stands in the controls. This "
+                    "does not affect the output."),
                  true, "mask");
     connect(mask_, &QToolButton::clicked, this, &ScopeTools::maskClicked);
     spectrum_ =

@@ -161,7 +161,7 @@ void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
         spectrum_.note = tr("Fewer than %1 samples are on the screen: zoom out.").arg(kFewest);
         return;
     }
-    // A power of two is quick whatever the zoom, and the same plan serves the next frame.
+    // A power of two is quick at any zoom, and the same plan serves the next frame.
     const std::size_t length = std::min(std::bit_floor(seen), kMaxSamples);
     first += (seen - length) / 2;
     if (trace.pyramid.over(first, first + length).gap) {

@@ -314,7 +314,7 @@ void SessionsWorkspace::askExport() {
     question.wants = FileQuestion::Wants::NewFile;
     question.folder = qtext(entry->path.parent_path().string());
     question.name = qtext(entry->path.stem().string()) + "-csv";
-    // This one, whatever is selected when the folder is chosen.
+    // This one, even if another is selected when the folder is chosen.
     const auto session = entry->path;
     askForFile(*this, question, [this, session](const QString& folder) { exportSession(session, folder); });
 }

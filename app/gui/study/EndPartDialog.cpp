@@ -31,9 +31,8 @@ EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWi
         column->addWidget(label);
     };
     if (withdraws) {
-        say(tr("The key to everything that %1 did and answered is destroyed. Nobody opens it again, and nothing brings "
-               "it back. That someone withdrew, when, and after how many sessions stays in the study, and so do "
-               "adverse events.")
+        say(tr("The key to everything that %1 did and answered is destroyed. The data can never be opened again. The "
+               "study keeps only that a participant withdrew, when, after how many sessions, and adverse events.")
                 .arg(code),
             "withdrawWhat");
         say(tr("This program does not reach copies of the key file, backups, and spare blocks of a solid-state disk: "

@@ -86,7 +86,8 @@ void EnrolDialog::judge() {
 
 void EnrolDialog::enrol() {
     auto* study = study_.study();
-    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nobody was enrolled."));
+    if (study == nullptr)
+        return trouble_->setText(tr("⚠ The study is not open any more. No participant was enrolled."));
     Participant participant;
     participant.code = own_->text().trimmed().toStdString();
     participant.group = ParticipantGroup(group_->currentData().toInt());

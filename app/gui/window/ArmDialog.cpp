@@ -116,7 +116,7 @@ void ArmDialog::judge() {
     arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
 }
 
-/// The first train surprises no one.
+/// The first train comes as no surprise.
 void ArmDialog::sayFirst() {
     const auto source = controller_.telemetry().driving;
     QString text = tr("Drive is off: no train follows until you choose one.");

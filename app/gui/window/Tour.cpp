@@ -45,7 +45,7 @@ Tour::Tour(std::vector<TourStep> steps, QWidget* window) : QFrame(window), steps
     leave_->setToolTip(tr("Help > Tour goes on from here."));
     back_ = new QPushButton(tr("Back"), this);
     next_ = new QPushButton(tr("Next"), this);
-    next_->setToolTip(tr("Passes this step over. It goes on by itself when the step is done."));
+    next_->setToolTip(tr("Skips this step. The tour goes on by itself when the step is done."));
     for (auto* button : {leave_, back_, next_}) {
         button->setAutoDefault(false);
         row->addWidget(button);

@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-// Of the rail.
+// Indices in the rail.
 constexpr int kLivePage = 0;
 constexpr int kSeparabilityPage = 3;
 constexpr int kSessionsPage = 5;

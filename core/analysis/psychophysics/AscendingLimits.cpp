@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kRise = 0.05;           // Of the level
+constexpr double kRise = 0.05;           // Share of the level
 constexpr double kLargestRise_ma = 1;    // IEC 60601-2-10, 201.12.1.101
 constexpr std::size_t kMostLeading = 3;  // Empty presentations at the beginning
 constexpr std::size_t kOneEmptyOf = 5;

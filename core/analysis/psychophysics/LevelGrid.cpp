@@ -7,7 +7,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kOnGrid = 1e-9;  // Of a step
+constexpr double kOnGrid = 1e-9;  // In steps
 
 double stepsDown(double value, double step) noexcept { return std::floor(value / step + kOnGrid); }
 

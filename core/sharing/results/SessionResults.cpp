@@ -28,7 +28,7 @@ std::optional<int> wholeNumber(const std::string& text) {
     return value;
 }
 
-/// What was said to a question, whatever its kind.
+/// The answer to a question of any kind.
 std::string saidIn(const json& body) {
     if (const auto keys = textsOr(body, "keys"); !keys.empty()) return fmt::format("{}", fmt::join(keys, ","));
     if (const auto key = textOr(body, "key"); !key.empty()) return key;

@@ -11,7 +11,7 @@
 
 namespace tacto::host::bench {
 
-/// A train as the oscilloscope saw it. NaN where the record could not be measured.
+/// A train as measured by the oscilloscope. NaN where the record could not be measured.
 struct SeenTrain {
     double onset_s = 0;
     double onsetUncertainty_s = 0;  ///< standard, against the onsets of other records; NaN = unknown

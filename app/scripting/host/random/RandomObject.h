@@ -10,7 +10,7 @@ namespace tacto::host::random {
 
 using Json = nlohmann::json;
 
-/// Of a list that blocks() or shuffle() makes.
+/// Limit of a list that blocks() or shuffle() makes.
 constexpr double kMostElements = 1e6;
 
 HostCall blocks, shuffle, uniform, sweeps;  // Random.cpp
