@@ -33,9 +33,9 @@ public:
         if (percent_ >= 0) say(stderr, "\r\033[K");
     }
     void show(double fraction) {
-        constexpr std::chrono::seconds kQuiet{1};
+        constexpr std::chrono::seconds kProgressDelay{1};
         const auto percent = static_cast<int>(100 * fraction);
-        if (!shown_ || percent == percent_ || std::chrono::steady_clock::now() - begun_ < kQuiet) return;
+        if (!shown_ || percent == percent_ || std::chrono::steady_clock::now() - begun_ < kProgressDelay) return;
         percent_ = percent;
         const auto filled = static_cast<std::size_t>(30 * fraction);
         say(stderr, "\r\033[Kreading [{}{}] {} %", std::string(filled, '#'), std::string(30 - filled, '.'), percent);

@@ -293,10 +293,10 @@ void Bench::idle(Seconds duration) noexcept {
     auto& s = *state_;
     if (!(duration.count() > 0 && duration.count() <= 3600)) return;
     const Instant until = s.time.now() + toInstant(duration);
-    constexpr Instant kLook = std::chrono::milliseconds(100);
+    constexpr Instant kPollInterval = std::chrono::milliseconds(100);
     while (s.time.now() < until) {
         attend();  // who lets time pass is there
-        s.time.pass(until, kLook);
+        s.time.pass(until, kPollInterval);
     }
 }
 

@@ -10,7 +10,7 @@ namespace tacto {
 namespace {
 
 constexpr Milliamps kContinuousStep{0.1};  // of a source without a grid (choice)
-constexpr Instant kToldWithin = std::chrono::milliseconds(500);
+constexpr Instant kAnswerTimeout = std::chrono::milliseconds(500);
 constexpr Instant kLevelLook = std::chrono::milliseconds(1);
 
 /// The first limit that forbids the train at that interval, by its name; empty when none does.
@@ -109,7 +109,7 @@ Result<Milliamps> BenchLevels::ceiling() {
 Result<Milliamps> BenchLevels::tell(const LevelRequest& request) {
     auto& desk = loop_->levels();
     desk.ask(request);
-    const Instant until = time_.now() + kToldWithin;
+    const Instant until = time_.now() + kAnswerTimeout;
     std::optional<Result<Milliamps>> answer;
     while (!(answer = desk.answer()) && time_.now() < until) time_.pass(until, kLevelLook);
     if (answer) return *answer;

@@ -110,7 +110,7 @@ void ControlLoop::step(Instant now) noexcept {
     if (arming_.checkDue()) postCheckOfArming(now);
     arming_.armOnCapture(now);
     watchForSilence(now);
-    updateWish(now);
+    updateCommand(now);
     levels_.serve(parts_.gate);
     if (presentation_.active())
         goOnPresenting(now);
@@ -255,7 +255,7 @@ void ControlLoop::watchForSilence(Instant now) noexcept {
     trip(judge_.silence(parts_.stimulator->trainEnd(), now), now);
 }
 
-void ControlLoop::updateWish(Instant now) noexcept {
+void ControlLoop::updateCommand(Instant now) noexcept {
     const auto state = parts_.interlock.state();
     const bool permitted = state == InterlockState::Armed || state == InterlockState::Delivering;
     if (!permitted || paused_.load(std::memory_order_acquire) || drive_.source == DriveSource::Off) {

@@ -121,9 +121,9 @@ Result<void> PilotCare::stopTest(PromptTo by) {
     screen.text = prompt.text;
     stage_.participant().show(screen);
     const auto asked = stage_.participant().ask(prompt);
-    constexpr auto kNever = std::chrono::nanoseconds::max();
-    const auto took = asked ? kNever : stage_.takeStop().value_or(kNever);
-    const bool pressed = took != kNever;
+    constexpr auto kNoStop = std::chrono::nanoseconds::max();
+    const auto took = asked ? kNoStop : stage_.takeStop().value_or(kNoStop);
+    const bool pressed = took != kNoStop;
     stage_.rest();
     const double took_ms = pressed ? std::chrono::duration<double, std::milli>(took).count() : kNaN;
     nlohmann::json body{{"by", nameOf(by)}, {"pressed", pressed}, {"off_ms", took_ms}};

@@ -47,8 +47,7 @@ constexpr Rule<InterlockState> kRequestRules[] = {
 constexpr Rule<InterlockState> kConfirmRules[] = {
     {ArmConfirmState, [](auto& now) { return now != InterlockState::Disarmed; },
      [](auto& now) {
-         return fail(ErrorCode::NotArmed, "cannot confirm arming while {}; the output must be disarmed",
-                     nameOf(now));
+         return fail(ErrorCode::NotArmed, "cannot confirm arming while {}; the output must be disarmed", nameOf(now));
      }},
 };
 

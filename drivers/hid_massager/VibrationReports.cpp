@@ -89,8 +89,8 @@ Result<void> validate(const VibrationReports& reports) {
                        reports.ends->unit.count());
     }
     const double keep = reports.keepAlive.count();
-    if (!(keep == 0 || (keep >= kKeepAliveLeast.count() && keep <= 60))) {
-        return invalid("the keep-alive is {} s; 0 (none) or {} to 60 s are accepted", keep, kKeepAliveLeast.count());
+    if (!(keep == 0 || (keep >= kMinKeepAlive.count() && keep <= 60))) {
+        return invalid("the keep-alive is {} s; 0 (none) or {} to 60 s are accepted", keep, kMinKeepAlive.count());
     }
     const double shortest = reports.shortestWrite.count();
     if (!(shortest >= 0 && shortest <= kMaxShortestWrite.count())) {

@@ -58,9 +58,9 @@ public:
 private:
     PulsePalStimulator(Connect connect, Channel channel, const Clock& clock);
     [[nodiscard]] Result<Handshake> reconnect();
-    [[nodiscard]] Result<Handshake> greet(Seconds patience, Seconds quiet);
+    [[nodiscard]] Result<Handshake> greet(Seconds timeout, Seconds quiet);
     [[nodiscard]] Result<void> write(const CommandBytes& command, Instant deadline);
-    [[nodiscard]] Result<void> program(std::span<const CommandBytes> commands, Seconds patience);
+    [[nodiscard]] Result<void> program(std::span<const CommandBytes> commands, Seconds timeout);
     [[nodiscard]] Result<void> readExactly(std::span<std::uint8_t> into, Instant deadline);
     void drain(Seconds quiet);  // throws away what was answered, until nothing came for so long
     [[nodiscard]] Result<void> ensureSilence();

@@ -23,7 +23,7 @@ namespace tacto::sciencemode {
 inline constexpr std::size_t kMaxPayload = 1 + 8 * (3 + 16 * 4);
 inline constexpr std::size_t kMaxBody = 2 + kMaxPayload;
 inline constexpr std::size_t kFrameOverhead = 10;
-inline constexpr std::size_t kFrameLeast = kFrameOverhead + 2;
+inline constexpr std::size_t kMinFrame = kFrameOverhead + 2;
 inline constexpr std::size_t kMaxFrame = kFrameOverhead + 2 * kMaxBody;  // every byte stuffed
 inline constexpr std::uint16_t kMaxCommand = 1023;
 inline constexpr std::uint8_t kMaxNumber = 63;

@@ -114,7 +114,7 @@ private:
                                          PulseReading& reading, Instant& written);
     [[nodiscard]] Result<StimulatorStatus> askStatus();
 
-    static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+    static constexpr std::uint64_t kNotInitialised = ~std::uint64_t{0};
     [[nodiscard]] bool stoppedSince(std::uint64_t offs) const noexcept {
         return offs_.load(std::memory_order_acquire) != offs;
     }
@@ -132,7 +132,7 @@ private:
 
     std::mutex io_;  // the transport's one caller; held for an exchange. Locked before the others
     std::unique_ptr<Exchange> exchange_;
-    std::uint64_t lowLevelOffs_ = kNever;  // offs_ when low level was initialised: any later stop ended it
+    std::uint64_t lowLevelOffs_ = kNotInitialised;  // offs_ when low level was initialised: any later stop ended it
     std::atomic<bool> gone_{false};
 
     std::mutex urgent_;  // the pointer below; held for writeUrgent(), which does not wait, and for replacing it

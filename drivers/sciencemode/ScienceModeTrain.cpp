@@ -76,7 +76,7 @@ Result<void> ScienceModeStimulator::deliver(ApprovedTrain&& train) {
     Instant first{0};
     const auto fired = firePulse(*plan, *request, offs, reading, first);
     if (!fired) {
-        lowLevelOffs_ = kNever;
+        lowLevelOffs_ = kNotInitialised;
         return failure(fired);
     }
     if (*fired == Sent::Stopped) return {};
@@ -134,7 +134,7 @@ void ScienceModeStimulator::firePlayed(Instant now) {
     if (!fired) {
         // No caller waits for this answer, so no other would switch off.
         forceOff();
-        lowLevelOffs_ = kNever;
+        lowLevelOffs_ = kNotInitialised;
     }
     const std::scoped_lock state(state_);
     if (!fired) {

@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    static constexpr double kNever = std::numeric_limits<double>::infinity();
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     /// What a pulse was made from, to make it again shorter.
     struct Recipe {
         DrivenPulse pulse;
@@ -113,7 +113,7 @@ private:
     mutable std::mutex mutex_;
     std::atomic<Instant::rep> cut_{std::numeric_limits<Instant::rep>::max()};
     // All below guarded by mutex_.
-    double allowedUntil_ = kNever;
+    double allowedUntil_ = kInfinity;
     Load load_;
     double fitted_s_ = 0;
     FaultSchedule faults_;

@@ -11,8 +11,8 @@ namespace {
 constexpr double kMargin = 0.06;
 constexpr int kTicks = 5;
 constexpr int kEdge = 4;  // pixels around the axes
-constexpr int kLeastChars = 24;
-constexpr int kLeastLines = 10;
+constexpr int kMinChars = 24;
+constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;
 constexpr double kAside = 0.006;   // of the range: readings going up stand left of their level, those down right
 constexpr double kNearest = 0.02;  // of the range: half the width of the frame around the nearest level
@@ -47,7 +47,7 @@ CalibrationPlot::CalibrationPlot(Kind kind, QWidget* parent) : QCustomPlot(paren
     build();
     addPlotMenu(*this, errors ? "calibration-errors" : "calibration");
     // Stated, or the legend in one row would say how narrow the window may become.
-    setMinimumSize(fontMetrics().averageCharWidth() * kLeastChars, fontMetrics().height() * kLeastLines);
+    setMinimumSize(fontMetrics().averageCharWidth() * kMinChars, fontMetrics().height() * kMinLines);
     clear();
 }
 

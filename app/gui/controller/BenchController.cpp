@@ -10,12 +10,12 @@
 namespace tacto::gui {
 
 // A socket is looked at that often; plugging in is not a thing of milliseconds.
-constexpr std::chrono::milliseconds kLookEvery(1000);
+constexpr std::chrono::milliseconds kWatchInterval(1000);
 
 BenchController::BenchController(MakeRegistry makeRegistry, QObject* parent)
     : QObject(parent),
       makeRegistry_(std::move(makeRegistry)),
-      watch_(makeRegistry_, kLookEvery),
+      watch_(makeRegistry_, kWatchInterval),
       thread_([this] { return serveLive(); }, [this] { closeOnThread(); }) {
     qRegisterMetaType<std::shared_ptr<const Capture>>();
     qRegisterMetaType<std::shared_ptr<const FinishedRun>>();
@@ -206,7 +206,7 @@ RunOrder BenchController::begun(const RunOrder& order, StopMark asked) {
     auto marked = order;
     marked.stops = stops_;
     marked.asked = asked;
-    marked.watched = [pulse = pulse_] { return pulse->runs(); };
+    marked.watched = [beat = heartbeat_] { return beat->runs(); };
     activity_ = Activity::Opening;
     emit changed();
     return marked;
@@ -333,7 +333,7 @@ void BenchController::openOnThread(const LiveOrder& order, StopMark asked) {
     };
     auto registry = makeRegistry_();
     auto live =
-        DrivenBench::open(registry, order, {limits_, stops_, asked, [pulse = pulse_] { return pulse->runs(); }});
+        DrivenBench::open(registry, order, {limits_, stops_, asked, [beat = heartbeat_] { return beat->runs(); }});
     if (!live) return give_up(live.error());
     publishBench(&(*live)->bench(), nullptr);  // from here on a stop reaches it
     if (stops_->movedSince(asked)) {

@@ -24,8 +24,8 @@
 #include "app/gui/controller/OpenBench.h"
 #include "app/gui/controller/RunFeed.h"
 #include "app/gui/controller/TaskThread.h"
+#include "app/gui/controller/WindowHeartbeat.h"
 #include "app/gui/controller/WindowOperator.h"
-#include "app/gui/controller/WindowPulse.h"
 #include "app/run/PilotRun.h"
 #include "app/run/ProtocolRun.h"
 #include "core/bench/BenchTap.h"
@@ -178,7 +178,7 @@ private:
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
 
     const MakeRegistry makeRegistry_;
-    const std::shared_ptr<WindowPulse> pulse_ = std::make_shared<WindowPulse>();
+    const std::shared_ptr<WindowHeartbeat> heartbeat_ = std::make_shared<WindowHeartbeat>();
     WindowOperator operator_;
     DeviceWatch watch_;
     DayNotes day_;

@@ -124,8 +124,8 @@ void ScopeWorkspace::connectPanels() {
         acquisition_->settingsChanged();
         say();
     });
-    connect(view, &ViewPanel::wishChanged, this, [this] {
-        pipe_.setWish(controls_->view().wish());
+    connect(view, &ViewPanel::mathOptionsChanged, this, [this] {
+        pipe_.setMathOptions(controls_->view().mathOptions());
         pipe_.recalculate(model_.shown());
     });
     connect(view, &ViewPanel::spectrumToggled, this, &ScopeWorkspace::showSpectrum);

@@ -20,7 +20,7 @@ namespace {
 constexpr int kGrid = 8;
 constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
-constexpr int kLeastMoments = 3;  // lines
+constexpr int kMinMoments = 3;  // lines
 constexpr int kWhyLines = 2;
 constexpr double kWrapped = 0.85;  // of a line's width is used where words wrap
 
@@ -97,7 +97,7 @@ QWidget* SessionOverview::buildHappened() {
     happened_->setObjectName("whatHappened");
     happened_->setAccessibleName(tr("What happened"));
     happened_->setTabChangesFocus(true);
-    happened_->setMinimumHeight(fontMetrics().height() * kLeastMoments);
+    happened_->setMinimumHeight(fontMetrics().height() * kMinMoments);
     column->addWidget(happened_, 1);
     return holder;
 }

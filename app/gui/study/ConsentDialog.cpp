@@ -35,17 +35,15 @@ ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* par
         explanation(tr("The signed form stays on paper, apart from the code. What stands here is sealed."), this));
     const auto* open = study_.study();
     ProtocolDeclaration fields;
-    fields.parameters = {
-        field("version", tr("Version of the form that was signed"), ParameterType::Text,
-              open == nullptr ? std::string() : open->settings().consentVersion),
-        field("date", tr("Day on which it was signed"), ParameterType::Date,
-              open == nullptr ? std::string() : dateText(open->today())),
-        field("by", tr("Investigator’s initials"), ParameterType::Text, std::string())};
+    fields.parameters = {field("version", tr("Version of the form that was signed"), ParameterType::Text,
+                               open == nullptr ? std::string() : open->settings().consentVersion),
+                         field("date", tr("Day on which it was signed"), ParameterType::Date,
+                               open == nullptr ? std::string() : dateText(open->today())),
+                         field("by", tr("Investigator’s initials"), ParameterType::Text, std::string())};
     form_->show(fields);
-    for (const auto& [name, tip] :
-         {std::pair("version", tr("Sessions need consent to the version in force.")),
-          std::pair("date", tr("No later than today.")),
-          std::pair("by", tr("The investigator’s initials, not the participant’s."))})
+    for (const auto& [name, tip] : {std::pair("version", tr("Sessions need consent to the version in force.")),
+                                    std::pair("date", tr("No later than today.")),
+                                    std::pair("by", tr("The investigator’s initials, not the participant’s."))})
         form_->findChild<QWidget*>(name)->setToolTip(tip);
     form_->referencePart().hide();  // a consent has none
     column->addWidget(form_);

@@ -10,7 +10,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kMostEnrolSeed = 1'000'000;
+constexpr int kMaxEnrolSeed = 1'000'000;
 constexpr int kEnrolWide = 420;
 }  // namespace
 
@@ -40,7 +40,7 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
     who_->addItem(tr("a virtual participant"), true);
     form->addRow(tr("&Who"), who_);
     seed_->setObjectName("enrolSeed");
-    seed_->setRange(1, kMostEnrolSeed);
+    seed_->setRange(1, kMaxEnrolSeed);
     seed_->setToolTip(tr("The same seed is the same virtual participant."));
     form->addRow(tr("&Seed"), seed_);
     group_->setObjectName("enrolGroup");

@@ -16,7 +16,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLook_ms = 100;
+constexpr int kPollInterval_ms = 100;
 constexpr std::chrono::seconds kAnswerWithin =
     std::chrono::duration_cast<std::chrono::seconds>(Interlock::kConfirmWithin);
 
@@ -91,7 +91,7 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
         if (controller_.stoppedSince(asked_)) return reject();
         sayFirst();
     });
-    look->start(kLook_ms);
+    look->start(kPollInterval_ms);
     QTimer::singleShot(kAnswerWithin, this, &QDialog::reject);
     connect(arm_, &QPushButton::clicked, this, &ArmDialog::confirm);
     connect(cancel, &QPushButton::clicked, this, &QDialog::reject);

@@ -232,9 +232,8 @@ void DeviceDock::choose(QTreeWidgetItem* item) {
 void DeviceDock::nameOpen() {
     const auto ticked = chosen().size();
     open_->setText(ticked == 0 ? tr("Open &simulated bench") : tr("&Open what is ticked (%1)").arg(ticked));
-    open_->setToolTip(ticked == 0
-                          ? tr("Opens a fingertip, a stimulator on 1 kΩ and an oscilloscope, all simulated.")
-                          : tr("Opens the ticked devices as one bench. No output before the bench is armed."));
+    open_->setToolTip(ticked == 0 ? tr("Opens a fingertip, a stimulator on 1 kΩ and an oscilloscope, all simulated.")
+                                  : tr("Opens the ticked devices as one bench. No output before the bench is armed."));
 }
 
 void DeviceDock::openChosen() {

@@ -50,10 +50,10 @@ constexpr Word<StreamUnit> kRestUnits[] = {{"m/s2", StreamUnit::MetrePerSecondSq
 constexpr Word<StreamUnit> kRestTaxelUnits[] = {{"Pa", StreamUnit::Pascal}, {"count", StreamUnit::Count}};
 
 RecordFields<SensorRest> buildRestFields() {
-    constexpr std::size_t kMostTaxels = 100'000;
+    constexpr std::size_t kMaxTaxels = 100'000;
     RecordFields<SensorRest> all;
     all.list("taxel_baseline", in(&SensorRest::levels, &RestLevels::taxelBaseline), numberKind<double>({}), 0,
-             kMostTaxels)
+             kMaxTaxels)
         .required = true;
     all.number("taxel_floor", in(&SensorRest::levels, &RestLevels::taxelFloor), {.low = 0}).required = true;
     all.number("mean_square", in(&SensorRest::levels, &RestLevels::slidingMeanSquare));

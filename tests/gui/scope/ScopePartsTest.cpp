@@ -415,9 +415,9 @@ protected:
     Exports() {
         screen.resize(900, 500);
         screen.QWidget::show();
-        gui::MathOptions wish;
-        wish.power = true;
-        model.show(prepared(twoPulses(), wish));
+        gui::MathOptions math;
+        math.power = true;
+        model.show(prepared(twoPulses(), math));
     }
     QByteArray bytes(const QString& path) {
         QFile file(path);

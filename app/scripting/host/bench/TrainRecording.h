@@ -41,7 +41,7 @@ public:
     [[nodiscard]] std::vector<SeenTrain>& seen() noexcept { return seen_; }
 
     /// How often the bench is looked at.
-    static constexpr Seconds kLook{0.02};
+    static constexpr Seconds kPollInterval{0.02};
 
 private:
     Bench& bench_;
@@ -62,7 +62,7 @@ Result<bool> TrainRecording::watch(Seconds limit, const Enough& enough) {
         if (enough()) return true;
         const Instant now = bench_.clock().now();
         if (now >= until) return false;
-        if (auto waited = bench_.wait(Seconds(std::min(toInstant(kLook), until - now))); !waited)
+        if (auto waited = bench_.wait(Seconds(std::min(toInstant(kPollInterval), until - now))); !waited)
             return failure(waited);
     }
 }

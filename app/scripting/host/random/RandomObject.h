@@ -11,7 +11,7 @@ namespace tacto::host::random {
 using Json = nlohmann::json;
 
 /// Limit of a list that blocks() or shuffle() makes.
-constexpr double kMostElements = 1e6;
+constexpr double kMaxElements = 1e6;
 
 HostCall blocks, shuffle, uniform, sweeps;  // Random.cpp
 
