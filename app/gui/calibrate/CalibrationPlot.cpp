@@ -3,6 +3,7 @@
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/PlotSheet.h"
+#include "app/report/Reach.h"
 
 namespace tacto::gui {
 
@@ -17,21 +18,9 @@ constexpr int kLegendColumns = 2;
 constexpr double kAside = 0.006;   // of the range: readings going up stand left of their level, those down right
 constexpr double kNearest = 0.02;  // of the range: half the width of the frame around the nearest level
 
-/// The smallest range that holds all it was shown; NaN is passed over.
-struct Reach {
-    double low = std::nan("");
-    double high = std::nan("");
-    void include(double value) {
-        if (!std::isfinite(value)) return;
-        low = std::fmin(low, value);
-        high = std::fmax(high, value);
-    }
-    [[nodiscard]] bool known() const { return std::isfinite(low); }
-    [[nodiscard]] double magnitude() const { return known() ? std::max(std::abs(low), std::abs(high)) : 1; }
-    [[nodiscard]] QCPRange range(double factor) const {
-        return known() ? padded(low * factor, high * factor, kMargin) : QCPRange(0, 1);
-    }
-};
+QCPRange rangeOf(const Reach& reach, double factor) {
+    return reach.known() ? padded(reach.low * factor, reach.high * factor, kMargin) : QCPRange(0, 1);
+}
 
 double bandAt(const CalibrationReadings& of, double command) { return of.tolerance_pct / 100 * std::abs(command); }
 
@@ -131,8 +120,8 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
         drawMeans(of, across, upward);
     }
     drawLine(of, across, upward);
-    xAxis->setRange(x.range(across.factor));
-    yAxis->setRange(y.range(upward.factor));
+    xAxis->setRange(rangeOf(x, across.factor));
+    yAxis->setRange(rangeOf(y, upward.factor));
     drawReadings(of, across, upward);
     if (kind_ == Kind::Errors) nameNearest(of, across, upward);
     xAxis->setLabel(tr("commanded (%1)").arg(across.unit));

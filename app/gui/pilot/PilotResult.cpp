@@ -10,6 +10,7 @@
 #include "app/gui/theme/RecordTable.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::gui {
 
@@ -17,10 +18,7 @@ namespace {
 
 constexpr int kResultPad = 16, kMatrixWide = 760;
 
-double numberIn(const nlohmann::json& record, const std::string& path) {
-    const auto& at = memberAt(record, path);
-    return at.is_number() ? at.get<double>() : std::nan("");
-}
+double numberIn(const nlohmann::json& record, const std::string& path) { return numberOr(memberAt(record, path)); }
 
 QString textIn(const nlohmann::json& record, const std::string& path) {
     const auto& at = memberAt(record, path);

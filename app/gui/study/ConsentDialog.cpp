@@ -1,9 +1,9 @@
 #include "app/gui/study/ConsentDialog.h"
 
-#include <QDialogButtonBox>
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -48,18 +48,11 @@ ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* par
     form_->referencePart().hide();  // a consent has none
     column->addWidget(form_);
     trouble_->setObjectName("consentTrouble");
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
-    column->addWidget(trouble_);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-    auto* note = buttons->addButton(tr("Note the consent"), QDialogButtonBox::ActionRole);
+    auto* note = new QPushButton(tr("Note the consent"), this);
     note->setObjectName("noteConsent");
     makePrimary(*note);
-    for (auto* button : buttons->buttons()) static_cast<QPushButton*>(button)->setAutoDefault(false);
-    column->addWidget(buttons);
+    addFoot(*this, *column, *trouble_, note);
     connect(note, &QPushButton::clicked, this, &ConsentDialog::note);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
 }
 
 void ConsentDialog::note() {

@@ -1,9 +1,9 @@
 #include "app/gui/study/EndPartDialog.h"
 
-#include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QVBoxLayout>
 
+#include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -54,18 +54,10 @@ EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWi
             "leaveWhat");
     }
     trouble_->setObjectName("endPartTrouble");
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
-    column->addWidget(trouble_);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     end_ = new ConfirmButton(withdraws ? tr("Destroy the key") : tr("Leave the study"), this);
     end_->setObjectName("endPart");
-    buttons->addButton(end_, QDialogButtonBox::ActionRole);
-    for (auto* button : buttons->buttons()) static_cast<QPushButton*>(button)->setAutoDefault(false);
-    column->addWidget(buttons);
+    addFoot(*this, *column, *trouble_, end_);
     connect(end_, &QPushButton::clicked, this, &EndPartDialog::end);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     judge();
 }
 

@@ -1,9 +1,9 @@
 #include "app/gui/study/EnrolDialog.h"
 
-#include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QVBoxLayout>
 
+#include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -62,19 +62,11 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
         column->addWidget(label);
     }
     trouble_->setObjectName("enrolTrouble");
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
-    column->addWidget(trouble_);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-    close_ = buttons->button(QDialogButtonBox::Cancel);
-    enrol_ = buttons->addButton(tr("Enrol"), QDialogButtonBox::ActionRole);
+    enrol_ = new QPushButton(tr("Enrol"), this);
     enrol_->setObjectName("enrolNow");
     makePrimary(*enrol_);
-    for (auto* button : {close_, enrol_}) button->setAutoDefault(false);
-    column->addWidget(buttons);
+    close_ = addFoot(*this, *column, *trouble_, enrol_);
     connect(enrol_, &QPushButton::clicked, this, &EnrolDialog::enrol);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(who_, &QComboBox::currentIndexChanged, this, &EnrolDialog::judge);
     judge();
 }

@@ -84,17 +84,8 @@ public:
 private:
     [[nodiscard]] BidsTrial trialOf(const json& body) const {
         BidsTrial made;
-        auto& trial = made.trial;
-        trial.number = countOr(body, "number");
-        if (const auto phase = trialPhaseFrom(textOr(body, "phase"))) trial.phase = *phase;
-        trial.block = countOr(body, "block");
-        trial.condition = textOr(body, "condition");
-        trial.response = textOr(body, "response");
-        trial.attempt = countOr(body, "attempt");
-        trial.rt_s = numberOr(body, "rt_s");
-        trial.current = Milliamps(numberOr(body, "current_ma"));
-        trial.interval_s = numberOr(body, "interval_s");
-        trial.trains = countOr(body, "trains");
+        made.trial = identificationTrialFrom(body);
+        const auto& trial = made.trial;
         made.intensity = numberOr(body, "intensity");
         made.impedance = Ohms(impedance_);
         made.voltage = Volts(trial.current.value() * impedance_ / 1000);
