@@ -21,7 +21,8 @@ public:
     static constexpr Instant kBeat = std::chrono::milliseconds(50);  ///< how often a caller beats meanwhile
 
     virtual ~Watchdog() = default;
-    static constexpr Instant kDeaf = std::chrono::milliseconds(500);  ///< so long it may leave beats unanswered
+    static constexpr Instant kUnansweredLimit =
+        std::chrono::milliseconds(500);  ///< how long it may leave beats unanswered
 
     /// Output is about to begin, or goes on. Never waits. False where the watchdog has ended or stands still: then
     /// there must be no output.
