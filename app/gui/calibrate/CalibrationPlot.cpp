@@ -30,9 +30,9 @@ CalibrationPlot::CalibrationPlot(Kind kind, QWidget* parent) : QCustomPlot(paren
     const bool errors = kind == Kind::Errors;
     setAccessibleName(errors ? tr("Error and tolerance") : tr("Measured against commanded"));
     setToolTip(errors ? tr("How far each reading lies from its command, inside or outside the tolerance band. A dot is "
-                           "a level's mean with its uncertainty. A cross marks a reading that stands out: it is kept.")
+                           "a level's mean with its uncertainty. A cross marks an outlier, which is kept.")
                       : tr("Each reading against its command, with the fitted line. Triangles point the way the sweep "
-                           "went. A cross marks a reading that stands out: it is kept."));
+                           "went. A cross marks an outlier, which is kept."));
     build();
     addPlotMenu(*this, errors ? "calibration-errors" : "calibration");
     // Stated, or the legend in one row would say how narrow the window may become.
@@ -51,7 +51,7 @@ void CalibrationPlot::build() {
     bars_->setErrorType(QCPErrorBars::etValueError);
     up_->setName(tr("going up"));
     down_->setName(tr("going down"));
-    marked_->setName(tr("stands out, kept"));
+    marked_->setName(tr("outlier, kept"));
     means_->setName(tr("mean ± U (95 %)"));
     bandTop_->setName(tr("tolerance"));
     axisRect()->setMinimumMargins(QMargins(kEdge, kEdge, kEdge, kEdge));

@@ -76,7 +76,7 @@ void CalibrationResult::addSummary(const json& found) {
     const double outliers = numberOr(found, "outliers"), missing = numberOr(found, "not_measured");
     if (outliers > 0) readings += tr(", marked as standing out and kept: %1").arg(outliers);
     if (missing > 0) readings += tr(", not measured: %1").arg(missing);
-    add(tr("Readings"), readings, tr("A reading that stands out is marked and stays in every number."));
+    add(tr("Readings"), readings, tr("An outlier is marked and stays in every number."));
     static_cast<QVBoxLayout*>(layout())->addLayout(form);
 }
 

@@ -69,7 +69,7 @@ QWidget* InstrumentDialog::buildChoice() {
         auto* chooser = new QComboBox(holder);
         chooser->setObjectName(qtext(word));
         chooser->setAccessibleName(kindTitle(kind));
-        chooser->setToolTip(tr("What is saved of this kind, and until when its certificate holds."));
+        chooser->setToolTip(tr("Saved instruments of this kind, and until when their certificates are valid."));
         chooser->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         chooser->setMinimumContentsLength(kNameChars);
         connect(chooser, &QComboBox::currentIndexChanged, this, &InstrumentDialog::compose);

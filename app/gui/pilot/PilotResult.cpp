@@ -80,7 +80,7 @@ PilotResult::PilotResult(QWidget* parent)
       head_(new QLabel(this)),
       why_(new QLabel(this)),
       more_(new QLabel(this)),
-      matrixTitle_(new QLabel(tr("What was felt, in rows; what was answered, in columns"), this)),
+      matrixTitle_(new QLabel(tr("Stimulus in rows; answer in columns"), this)),
       matrix_(new QTableWidget(this)),
       blocks_(new QLabel(this)),
       note_(new QLabel(this)),
@@ -127,7 +127,7 @@ PilotResult::PilotResult(QWidget* parent)
     row->setSpacing(8);
     goOn_->setIcon(icon("run", Ink::Primary));
     makePrimary(*goOn_);
-    goOn_->setToolTip(tr("What was answered is not asked again; the order stays."));
+    goOn_->setToolTip(tr("Answered trials are not repeated; the order stays the same."));
     another_->setObjectName("anotherRehearsal");
     for (auto* button : {goOn_, another_, place_}) {
         button->setAutoDefault(false);

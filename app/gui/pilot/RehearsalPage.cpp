@@ -68,7 +68,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     row->setContentsMargins(0, 0, 0, 0);
     folder_->setObjectName("studyFolder");
     folder_->setAccessibleName(tr("Folder of the rehearsal"));
-    folder_->setToolTip(tr("A new folder, or the folder of a rehearsal that goes on."));
+    folder_->setToolTip(tr("A new folder, or the folder of a rehearsal to continue."));
     auto* choose = new QPushButton(tr("Ch&oose…"), place);
     choose->setAutoDefault(false);
     connect(choose, &QPushButton::clicked, this, [this] {

@@ -106,7 +106,7 @@ void ProcedurePath::showRun() {
     steps_->setState(kRun, StepList::State::UnderWay);
     steps_->setOutOfReach(kRun, {});
     steps_->setState(kResult, StepList::State::ToDo);
-    steps_->setOutOfReach(kResult, tr("There is no result yet: the run goes on."));
+    steps_->setOutOfReach(kResult, tr("There is no result yet: the run is not finished."));
     for (const auto step : {kRun, kResult}) steps_->setNote(step, {});
 }
 

@@ -28,9 +28,10 @@ SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(thi
     notes_ = new NotesPanel(day, this);
     notes_->setMaximumWidth(scaledPx(kNotesWidth));
     left->addWidget(notes_);
-    auto* tip = new QLabel(tr("These are taken when a run begins and stand on the first page of its report, beside the "
-                              "lines for signatures."),
-                           this);
+    auto* tip =
+        new QLabel(tr("These are recorded when a run begins and appear on the first page of its report, beside the "
+                      "lines for signatures."),
+                   this);
     tip->setWordWrap(true);
     tip->setMaximumWidth(scaledPx(kNotesWidth));
     setTone(*tip, Tone::Quiet);

@@ -96,7 +96,7 @@ void CapturePipe::open(const QString& path) {
                 if (shown) {
                     emit prepared(shown);
                 } else {
-                    emit failed(tr("The capture could not be opened: %1. What is shown stays.").arg(why));
+                    emit failed(tr("The capture could not be opened: %1. The picture stays.").arg(why));
                 }
             },
             Qt::QueuedConnection);

@@ -45,7 +45,7 @@ MaskPanel::MaskPanel(QWidget* parent)
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     for (const auto& [spin, name] : fields) {
         spin->setAccessibleName(tr("Mask: %1").arg(name));
-        spin->setToolTip(tr("How far a capture may be from the reference. Other widths make the mask anew."));
+        spin->setToolTip(tr("How far a capture may be from the reference. Changing a width makes a new mask."));
         spin->setKeyboardTracking(false);
         form->addRow(name, spin);
         connect(spin, &QDoubleSpinBox::valueChanged, this, &MaskPanel::bandChanged);

@@ -101,7 +101,7 @@ void ScopeAcquisition::fail(const QString& why) {
         state == InterlockState::Armed || state == InterlockState::Delivering || state == InterlockState::Checking;
     emit stopped(
         tr("⚠ The oscilloscope stopped: %1. %2 The last capture stays. When the oscilloscope is back, press Run.")
-            .arg(what, on ? tr("The output is not switched off by this and goes on unmeasured: STOP ends it.")
+            .arg(what, on ? tr("This does not switch the output off; it continues unmeasured. STOP ends it.")
                           : tr("Output is off.")));
 }
 
@@ -178,7 +178,7 @@ QString ScopeAcquisition::statusText(const ShownCapture* shown, std::uint64_t sk
     }
     switch (controller_.activity()) {
         case Activity::Running:
-            return tr("A protocol has the oscilloscope. Capturing goes on after it.");
+            return tr("A protocol is using the oscilloscope. Capturing continues after it.");
         case Activity::Closed:
             return tr("No bench is open. The last capture stays.");
         case Activity::Opening:

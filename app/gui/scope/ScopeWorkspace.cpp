@@ -316,7 +316,7 @@ bool ScopeWorkspace::outlives(const ShownCapture& next) const {
 bool ScopeWorkspace::openCaptureFile(const QString& path) {
     const QFileInfo file(path);
     if (!file.isFile() || !file.isReadable()) {
-        status_->tellProblem(tr("%1 cannot be read. What is shown stays.").arg(path));
+        status_->tellProblem(tr("%1 cannot be read. The picture stays.").arg(path));
         showState();
         return false;
     }

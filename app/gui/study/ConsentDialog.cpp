@@ -32,7 +32,7 @@ ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* par
     auto* column = new QVBoxLayout(this);
     column->addWidget(heading(tr("Consent of %1").arg(code), this));
     column->addWidget(
-        explanation(tr("The signed form stays on paper, apart from the code. What stands here is sealed."), this));
+        explanation(tr("The signed form stays on paper, apart from the code. What you enter here is sealed."), this));
     const auto* open = study_.study();
     ProtocolDeclaration fields;
     fields.parameters = {field("version", tr("Version of the form that was signed"), ParameterType::Text,

@@ -48,7 +48,7 @@ EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWi
         column->addLayout(form);
         connect(typed_, &QLineEdit::textChanged, this, &EndPartDialog::judge);
     } else {
-        say(tr("%1 takes part in no further session. What was collected stays, and is part of results and exports. "
+        say(tr("%1 takes part in no further session. The collected data stay, and are part of results and exports. "
                "If they want their data destroyed, they withdraw instead.")
                 .arg(code),
             "leaveWhat");

@@ -73,7 +73,7 @@ std::vector<StudyFormField> describedFields() {
         {Group::Site,
          "modality",
          WORDS("Felt through"),
-         WORDS("What is felt comes from these."),
+         WORDS("The output device that the participant feels."),
          {WORDS("electrodes"), WORDS("massager")}},
         {Group::Site,
          "site",

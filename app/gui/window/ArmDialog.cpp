@@ -71,7 +71,7 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
     setTone(*trouble_, Tone::Warning);
     layout->addWidget(trouble_);
     connected_ = new QCheckBox(tr("I checked that this load is connected"), this);
-    connected_->setToolTip(tr("This stimulator cannot measure its load: your word stands in for the reading."));
+    connected_->setToolTip(tr("This stimulator cannot measure its load: your confirmation replaces the reading."));
     connected_->setVisible(!readsBack_);
     layout->addWidget(connected_);
 

@@ -42,7 +42,7 @@ Tour::Tour(std::vector<TourStep> steps, QWidget* window) : QFrame(window), steps
     row->addWidget(place_);
     row->addStretch();
     leave_ = new QPushButton(tr("Leave"), this);
-    leave_->setToolTip(tr("Help > Tour goes on from here."));
+    leave_->setToolTip(tr("Help > Tour continues from here."));
     back_ = new QPushButton(tr("Back"), this);
     next_ = new QPushButton(tr("Next"), this);
     next_->setToolTip(tr("Skips this step. The tour goes on by itself when the step is done."));

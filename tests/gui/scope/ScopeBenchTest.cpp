@@ -95,7 +95,7 @@ TEST_F(Scope, AnOscilloscopeThatFailsDuringDeliveryTellsThatTheOutputGoesOn) {
     deliver();
     ASSERT_IN_TIME(comes([&] { return triggered(); }));
     ASSERT_IN_TIME(comes([&] { return !scope.running(); }));
-    EXPECT_THAT(status(), AllOf(HasSubstr("answered with garbage"), HasSubstr("goes on unmeasured: STOP ends it")));
+    EXPECT_THAT(status(), AllOf(HasSubstr("answered with garbage"), HasSubstr("continues unmeasured. STOP ends it")));
     EXPECT_NE(controller.telemetry().state, InterlockState::Disarmed);
     EXPECT_TRUE(triggered()) << "the last capture stays";
     controller.close();
