@@ -53,8 +53,8 @@ Result<std::unique_ptr<BenchPulse>> BenchPulse::create(PulseOrder order, science
         if (!record) return failure(record);
         if (const auto left = (*record)->fault()) {
             return fail(ErrorCode::NotArmed,
-                        "the stimulator was left in a fault by an earlier run: {}. See to its cause and reset it: run "
-                        "with --reset-fault, or Bench > Reset fault in the window",
+                        "the stimulator was left in a fault by an earlier run: {}. Fix the cause, then reset the "
+                        "fault: run with --reset-fault, or Bench > Reset fault in the window",
                         left->reason.view());
         }
         made->record_ = std::move(*record);
@@ -95,7 +95,7 @@ Result<void> BenchPulse::request() {
 }
 
 Result<PulseOutcome> BenchPulse::deliver() {
-    // Of a unit whose past is not known nothing is approved before.
+    // Nothing is approved earlier on a unit whose past is unknown.
     while (!stopped_ && record_ && clock_.now() < record_->quietUntil())
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (stopped_) return fail(ErrorCode::Stopped, "stopped: nothing was delivered");
@@ -141,7 +141,7 @@ Result<PulseFinding> BenchPulse::send(Result<ApprovedTrain> approved, bool isChe
     }
     session_.post(std::move(*approved), clock_.now(), isCheck);
     const TrainReport told = report();
-    // Whatever is returned, the destructor switches off, and the session did where the device failed.
+    // On every return the destructor switches off, and the session did where the device failed.
     if (stopped_) return fail(ErrorCode::Stopped, "stopped. Output is off.");
     if (told.outcome == TrainOutcome::Voided) {
         return fail(ErrorCode::Timeout,

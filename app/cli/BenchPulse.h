@@ -26,7 +26,7 @@ struct PulseOrder {
     std::optional<SquareCentimetres> electrodeArea;  ///< without it density rows are not evaluated
 };
 
-/// What one pulse told.
+/// What one pulse showed.
 struct PulseFinding {
     Milliamps current{0};
     ElectrodeState electrode = ElectrodeState::NotMeasured;

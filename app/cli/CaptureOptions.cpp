@@ -33,9 +33,9 @@ public:
         if (percent_ >= 0) say(stderr, "\r\033[K");
     }
     void show(double fraction) {
-        constexpr std::chrono::seconds kQuiet{1};
+        constexpr std::chrono::seconds kProgressDelay{1};
         const auto percent = static_cast<int>(100 * fraction);
-        if (!shown_ || percent == percent_ || std::chrono::steady_clock::now() - begun_ < kQuiet) return;
+        if (!shown_ || percent == percent_ || std::chrono::steady_clock::now() - begun_ < kProgressDelay) return;
         percent_ = percent;
         const auto filled = static_cast<std::size_t>(30 * fraction);
         say(stderr, "\r\033[Kreading [{}{}] {} %", std::string(filled, '#'), std::string(30 - filled, '.'), percent);
@@ -51,7 +51,7 @@ private:
 }  // namespace
 
 void declareCaptureOptions(QCommandLineParser& parser) {
-    parser.addOption({"format", "Reads the file as this format, whatever it looks like (csv-rigol, isf, …).", "ID"});
+    parser.addOption({"format", "Reads the file as this format, without detection (csv-rigol, isf, …).", "ID"});
     parser.addOption({"skip-rows", "Lines at the beginning of a table that are passed over.", "N"});
     parser.addOption(
         {"columns", "The channels to read, by name or number of the column, with commas between.", "LIST"});

@@ -31,7 +31,7 @@ enum Exit : int {
 
 /// Prints the error's sentence on stderr and returns its exit code.
 [[nodiscard]] int failWith(const Error& error);
-/// The same for whatever a file or device is at fault: exit code 3, even where the sentence is about a value.
+/// The same where a file or device is at fault: exit code 3, even where the sentence is about a value.
 [[nodiscard]] int couldNotRun(const Error& error);
 /// The same for a wrong command line: exit code 2.
 [[nodiscard]] int usage(const std::string& sentence);

@@ -15,7 +15,7 @@
 namespace tacto::cli {
 
 namespace {
-constexpr int kLook_ms = 50;
+constexpr int kPollInterval_ms = 50;
 constexpr std::size_t kMaxLine = 256;
 }  // namespace
 
@@ -31,7 +31,7 @@ Answer askFor(std::string_view word, std::string_view prompt, Seconds within, co
     while (!interrupts.signalled()) {
         if (steady_clock::now() >= deadline) return Answer::TooLate;
         pollfd input{STDIN_FILENO, POLLIN, 0};
-        if (poll(&input, 1, kLook_ms) <= 0) continue;
+        if (poll(&input, 1, kPollInterval_ms) <= 0) continue;
         std::array<char, kMaxLine> chunk{};
         const auto got = read(STDIN_FILENO, chunk.data(), chunk.size());
         if (got <= 0 || line.size() > kMaxLine) return interrupts.signalled() ? Answer::Signalled : Answer::Otherwise;

@@ -11,7 +11,7 @@ namespace tacto::cli {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLookEvery(250);
+constexpr std::chrono::milliseconds kPollInterval(250);
 
 void declareDevices(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
@@ -46,7 +46,7 @@ void watch(const Registry& registry, std::vector<DeviceIdentity> known, const Si
         }
     };
     while (!interrupts.signalled()) {
-        std::this_thread::sleep_for(kLookEvery);
+        std::this_thread::sleep_for(kPollInterval);
         auto now = registry.list();
         missing(known, now, "- ");
         missing(now, known, "+ ");

@@ -11,8 +11,8 @@ namespace {
 void declareReport(QCommandLineParser& parser) {
     parser.addOptions(
         {{"out", "The report to write; its ending says which kind: .pdf or .html.", "report.pdf"},
-         {"participant", "Of a study: one page in plain words for the participant with that code.", "CODE"},
-         {"for", "Of a study: study (the default; names codes) or committee (names none).", "READER"}});
+         {"participant", "For a study: one page in plain words for the participant with that code.", "CODE"},
+         {"for", "For a study: study (the default; names codes) or committee (names none).", "READER"}});
     declarePassphrase(parser);
 }
 

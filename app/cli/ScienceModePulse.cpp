@@ -166,7 +166,7 @@ int pulse(const QCommandLineParser& parser) {
             "sciencemode pulse: --device asks for measure=current, which reads no impedance back; the pulse "
             "needs measure=voltage");
     }
-    // Whatever the gate has against it is a refusal.
+    // Every reason that the gate gives is a refusal.
     const auto refused = [](const Error& error) {
         say(stderr, "tactoscope-cli: {}\n", lines(error.message));
         return static_cast<int>(kStopped);

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using sensorboard::SampleFormat;
 
-constexpr double kSecondsLeast = 0.5;
+constexpr double kMinSeconds = 0.5;
 constexpr double kMaxSeconds = 3600;
 constexpr double kSecondsUsual = 2;
 
@@ -125,8 +125,8 @@ int runSensor(const QCommandLineParser& parser) {
             fmt::format("sensor status: one URI is expected, and \"{}\" is a second one", given.at(2).toStdString()));
     const auto seconds = parser.isSet("seconds") ? numberOption(parser, "seconds") : Result<double>(kSecondsUsual);
     if (!seconds) return failWith(seconds.error());
-    if (!(*seconds >= kSecondsLeast && *seconds <= kMaxSeconds))
-        return usage(fmt::format("--seconds is {}; {} to {} s is expected", *seconds, kSecondsLeast, kMaxSeconds));
+    if (!(*seconds >= kMinSeconds && *seconds <= kMaxSeconds))
+        return usage(fmt::format("--seconds is {}; {} to {} s is expected", *seconds, kMinSeconds, kMaxSeconds));
     const auto uri = DeviceUri::parse(given.size() == 2 ? given.at(1).toStdString() : std::string("sensor:"));
     if (!uri) return failWith(uri.error());
     if (uri->scheme != "sensor")

@@ -41,7 +41,7 @@ void declareStudyOptions(QCommandLineParser& parser) {
     parser.addOption({"virtual", "Enrols a virtual participant of this seed.", "SEED"});
     parser.addOption({"version", "Version of the consent form that was signed.", "V"});
     parser.addOption({"date", "Day on which it was signed.", "DATE"});
-    parser.addOption({"by", "Initials of who took it.", "INITIALS"});
+    parser.addOption({"by", "The investigator's initials.", "INITIALS"});
     parser.addOption({"confirm", "The code once more: the participant's records are lost for good.", "CODE"});
     parser.addOption({"session", "Number of the participant's session; the last where left out.", "N"});
     parser.addOption({"what", "What happened; never a name.", "TEXT"});

@@ -8,7 +8,7 @@ namespace tacto::cli {
 namespace {
 
 /// For what is done by hand, as fitting a load.
-constexpr Seconds kHandsWithin{3600};
+constexpr Seconds kQuestionTimeout{3600};
 
 }  // namespace
 
@@ -24,7 +24,7 @@ Result<nlohmann::json> TerminalOperator::ask(const OperatorQuestion& question) {
     if (!isConfirmation || answers_.contains(question.name) || !canAsk()) return preset_.ask(question);
     if (beforeAsking_) beforeAsking_();
     const bool arms = !question.confirms.empty();
-    const Seconds within = arms ? Interlock::kConfirmWithin : kHandsWithin;
+    const Seconds within = arms ? Interlock::kConfirmWithin : kQuestionTimeout;
     const auto prompt = fmt::format("{}\nType \"{}\" within {:g} s; anything else {}: ", question.text, question.word,
                                     within.count(), arms ? "delivers nothing" : "ends the run");
     switch (askFor(question.word, prompt, within, interrupts_)) {

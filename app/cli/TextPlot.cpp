@@ -28,7 +28,7 @@ bool isDrawn(float value) noexcept { return std::isfinite(value) && value >= 0; 
 class Canvas {
 public:
     Canvas(const TextPlot& plot, int columns, int rows)
-        : plot_(plot), columns_(std::clamp(columns, kColumnsLeast, kMaxColumns)), rows_(std::max(rows, 3)) {
+        : plot_(plot), columns_(std::clamp(columns, kMinColumns, kMaxColumns)), rows_(std::max(rows, 3)) {
         double most = 0;
         for (const float value : plot.values) most = isDrawn(value) ? std::max(most, double{value}) : most;
         top_ = roundUp(most, {1, 2, 2.5, 4, 5, 8});

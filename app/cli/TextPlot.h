@@ -19,7 +19,7 @@ struct TextPlot {
     std::string markText;                                    ///< beside the pointer
 };
 
-inline constexpr int kColumnsLeast = 40;
+inline constexpr int kMinColumns = 40;
 inline constexpr int kMaxColumns = 80;
 
 /// The drawing, lines ending in '\n', none longer than `columns` (taken as 40 to 80). `rows` of curve, at least 3. The

@@ -80,7 +80,8 @@ int runCommand(const Command& command, int argc, char** argv) {
         std::fflush(nullptr);
         std::_Exit(code);  // a script that does not end would run on among what is taken down
     } catch (const std::exception& surprise) {
-        // Of a library: nothing of ours throws. Devices were switched off when their bench was unwound.
+        // From a library: this program's own code does not throw. Devices were switched off when their bench was
+        // unwound.
         say(stderr, "tactoscope-cli: {}: unexpected error: {}\n", command.name, surprise.what());
         return kCouldNotRun;
     }

@@ -22,7 +22,8 @@ p { margin: 0 0 12px; } .quiet { color: var(--quiet); }
 .verdict .symbol { color: var(--mark); font-size: 30px; line-height: 1.2; }
 .verdict strong { color: var(--mark); font-size: 24px; line-height: 1.3; }
 .verdict ul { margin: 6px 0 0; padding-left: 20px; }
-figure { margin: 24px 0; } figure svg { display: block; width: 100%; height: auto; background: #fff; border-radius: 4px; }
+figure { margin: 24px 0; }
+figure svg { display: block; width: 100%; height: auto; background: #fff; border-radius: 4px; }
 figcaption { margin-top: 8px; } figcaption span { display: block; color: var(--quiet); font-size: 13px; }
 .scroll { overflow-x: auto; margin: 16px 0 24px; }
 table { border-collapse: collapse; font-size: 13.5px; }
@@ -32,7 +33,8 @@ thead th { border-top: 1.5px solid var(--text); border-bottom: 1px solid var(--t
 tbody tr:last-child td { border-bottom: 1.5px solid var(--text); }
 .matrix { font-size: 13px; } .matrix th[scope=row] { font-weight: normal; min-width: 150px; }
 .matrix td, .matrix th { padding: 4px 8px; } .matrix small { display: block; color: var(--quiet); font-size: 11px; }
-.close { background: #fcecc4; color: #222; font-weight: bold; } .broken { background: #f2cccc; color: #9c0006; font-weight: bold; }
+.close { background: #fcecc4; color: #222; font-weight: bold; }
+.broken { background: #f2cccc; color: #9c0006; font-weight: bold; }
 .open { background: repeating-linear-gradient(135deg, transparent 0 5px, var(--rule) 5px 6px); }
 .matrix .close small, .matrix .broken small { color: #444; font-weight: normal; }
 .number { text-align: right; white-space: nowrap; }

@@ -151,7 +151,7 @@ private:
 
 constexpr std::size_t kLong = 24;  // rows from which a narrow table is set in columns side by side
 constexpr double kColumnGap = 26;
-constexpr std::size_t kAtLeast = 3;  // rows that stay with the header
+constexpr std::size_t kMinRows = 3;  // rows that stay with the header
 
 double setCaption(PdfPages& pages, const QString& caption, bool draw) {
     const QFont font = textFont(12, true);
@@ -168,7 +168,7 @@ double beginningOf(const TableSetter& setter, double caption, std::size_t rows) 
     const double whole = caption + setter.wholeHeight();
     if (whole < PdfPages::kHeight / 6) return whole;
     double start = caption + setter.headerHeight();
-    for (std::size_t r = 0; r < std::min(kAtLeast, rows); ++r) start += setter.rowHeight(r);
+    for (std::size_t r = 0; r < std::min(kMinRows, rows); ++r) start += setter.rowHeight(r);
     return start;
 }
 
@@ -193,7 +193,7 @@ void setSideBySide(PdfPages& pages, TableSetter& setter, const QString& caption,
     QString title = caption;
     for (std::size_t first = 0; first < rows;) {
         const double head = setCaption(pages, title, false) + setter.headerHeight();
-        pages.require(head + double(kAtLeast) * row);
+        pages.require(head + double(kMinRows) * row);
         const auto fitting = std::max<std::size_t>(1, static_cast<std::size_t>((pages.left() - head - 1) / row));
         const std::size_t down = std::min(fitting, (rows - first + columns - 1) / columns);
         setCaption(pages, title, true);

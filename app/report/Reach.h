@@ -19,7 +19,8 @@ struct Reach {
         high = std::fmax(high, value);
     }
     [[nodiscard]] bool known() const { return std::isfinite(low); }
-    [[nodiscard]] double magnitude() const { return std::max(std::abs(low), std::abs(high)); }
+    /// 1 where nothing is known.
+    [[nodiscard]] double magnitude() const { return known() ? std::max(std::abs(low), std::abs(high)) : 1; }
 };
 
 }  // namespace tacto

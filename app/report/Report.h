@@ -22,7 +22,7 @@ enum class ReportFormat { Pdf, Html };
 /// Writes `model` to `path`.
 /// Errors: Unsupported when a font is missing, naming the package; InvalidArgument for another ending than .pdf,
 /// .html or .htm; Io when the file cannot be written.
-/// `installed` tells whether a font is there; the default asks Qt.
+/// `installed` says whether a font is there; the default asks Qt.
 [[nodiscard]] Result<void> writeReport(const ReportModel& model, const QString& path,
                                        const FontCheck& installed = fontInstalled);
 

@@ -19,20 +19,18 @@ struct Rule {
 constexpr std::array<Rule, 9> kRules{
     {{"load-safety",
       "Each value passes when value + U keeps its limit, fails when value − U does not, and is indeterminate between. "
-      "What was not measured is not evaluated and holds up a pass."},
+      "Values that were not measured are not evaluated and prevent a pass."},
      {"stimulator-calibration",
       "Each level passes when |error| + U is within the tolerance, fails when |error| − U is not, and is indeterminate "
       "between; the worse sweep direction is judged. The verdict is the worst level's."},
      {"separability",
       "Separable when each pair of conditions is at least 5 just-noticeable differences apart in one dimension and no "
-      "coefficient of variation exceeds 5 %, each judged by its one-sided 95 % confidence bound, and the accuracy's 95 "
-      "% "
-      "interval begins at 95 % or above. The 5 differences and the 5 % are choices of this program."},
+      "coefficient of variation exceeds 5 %, each judged by its one-sided 95 % confidence bound, and the accuracy's "
+      "95 % interval begins at 95 % or above. The 5 differences and the 5 % are choices of this program."},
      {"transitions",
       "No step from one captured train to the next may exceed the just-noticeable differences wanted, uncertainty "
       "included; a change must be complete in the time wanted or, where steps of that size cannot, in the fewest "
-      "trains "
-      "that they take (choice); no latency may differ from its design by more than the tolerance."},
+      "trains that they take (choice); no latency may differ from its design by more than the tolerance."},
      {"encoding-comparison", "A comparison: the encodings are set side by side, and none is judged."},
      {"sensor-calibration",
       "Accepted when the 95 % interval of d′ between the two references begins at 1 or above: the scale then tells "

@@ -38,7 +38,7 @@ bool isSimulated(const ReportModel& model, const Figure& figure) {
     return isSimulated(model, {"stimulator", "oscilloscope", "massager"});
 }
 
-/// Of all devices, those that are simulated.
+/// True when every device is simulated.
 bool isAllSimulated(const ReportModel& model) {
     return model.simulated && std::all_of(model.devices.begin(), model.devices.end(),
                                           [](const ReportDevice& device) { return device.simulated; });
@@ -184,8 +184,8 @@ void addComputed(const ReportModel& model, Captions& captions, std::vector<Repor
     if (!anyJudged) return;  // a session without a stimulator
     blocks.emplace_back(captions.heading("Computed from approved trains"));
     blocks.emplace_back(ParagraphBlock{
-        "What the gate computed for the trains that it approved, worst case over the permitted loads. None of it was "
-        "measured; what was captured stands among the results.",
+        "What the safety check computed for the trains that it approved, worst case over the permitted loads. None of "
+        "it was measured; captured values are among the results.",
         true});
     const Figure figure{ExposureFigure{model.exposure}, {}};
     blocks.emplace_back(FigureBlock{

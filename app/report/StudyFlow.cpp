@@ -178,7 +178,7 @@ TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
     const auto shared = sharedStudy(study);
     TableBlock table;
     table.caption = caption;
-    table.columns = {{"Participant"}, {"Session", true}, {"Gate"}, {"What was said"}};
+    table.columns = {{"Participant"}, {"Session", true}, {"Check"}, {"What was said"}};
     for (const auto& participant : study.participants) {
         for (const auto& session : participant.sessions) {
             for (const auto& each : session.rows) {
@@ -188,7 +188,7 @@ TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
             }
         }
     }
-    if (table.rows.empty()) table.rows.push_back({"–", "–", "–", "every gate of every session held"});
+    if (table.rows.empty()) table.rows.push_back({"–", "–", "–", "every check before every session passed"});
     return table;
 }
 

@@ -39,7 +39,7 @@ std::vector<EncodingResult> encodingsOf(const ParticipantRecord& participant) {
     return had;
 }
 
-/// Of the people who were asked.
+/// Comparisons by the participants who were asked.
 std::vector<EncodingComparison> comparisons(const StudyRecord& study, const char* item) {
     std::vector<EncodingComparison> all;
     for (const auto& participant : study.participants) {

@@ -14,7 +14,7 @@ namespace tacto {
 /// "Easier to tell: swapped. More like touch: no difference."; empty where the person was not asked.
 [[nodiscard]] QString preferenceText(const ParticipantRecord& participant);
 
-/// A row for each encoding, and one for no difference; without a caption. Nothing where no one was asked.
+/// A row for each encoding, and one for no difference; without a caption. Empty where no participant was asked.
 [[nodiscard]] std::optional<TableBlock> preferencesTable(const StudyRecord& study);
 /// The orders in which those people had the encodings, whether they are balanced, and why nothing is tested.
 [[nodiscard]] QString preferencesNote(const StudyRecord& study);

@@ -126,7 +126,7 @@ void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const An
 }
 
 QString learningText(const Identification& found) {
-    if (!std::isfinite(found.learning.value)) return "cannot be told";
+    if (!std::isfinite(found.learning.value)) return "cannot be determined";
     return QString("%1 (%2 to %3) in log odds per block")
         .arg(number(found.learning.value, 2), number(found.learning.low, 2), number(found.learning.high, 2));
 }

@@ -18,7 +18,7 @@
 
 namespace tacto {
 
-/// Of the protocol that this program was built with.
+/// Hash of the protocol that this program was built with.
 [[nodiscard]] std::string shippedLoadSafetySha256();
 
 /// How far the trains of a profile go.

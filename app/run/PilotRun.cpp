@@ -47,7 +47,7 @@ void fitSource(DeviceUri& uri) {
     if (!has("step")) uri.parameters.emplace_back("step", "0.5mA");
 }
 
-/// Of a virtual participant to the checklist: no, but for the item that the settings name.
+/// A virtual participant's answers to the checklist: no to every item except the one that the settings name.
 Result<std::vector<ExclusionAnswer>> simulatedAnswers(const RunOrder& order) {
     auto answers = nothingExcludes();
     const auto yes = textOf(order, "exclusions");
@@ -226,7 +226,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     settings_.code = who_.code;
     settings_.isVirtual = who_.virtualSeed.has_value();
     settings_.session = unfinished_ ? unfinished_->number : who_.sessions + 1;
-    if (earlier_.seed) order.seed = *earlier_.seed;  // The session's, whatever the command says now
+    if (earlier_.seed) order.seed = *earlier_.seed;  // The session's seed replaces the command's
     settings_.seed = order.seed;
     chooseEncoding();
     settings_.unit = study.modality == Modality::Massager ? LevelUnit::Intensity : LevelUnit::Current;

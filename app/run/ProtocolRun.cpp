@@ -12,7 +12,7 @@ namespace tacto {
 
 namespace {
 
-/// Whatever ended output: safety's doing or a person's, not a mistake in a script.
+/// What ended the output: safety or a person, not a mistake in a script.
 bool endedBySafety(const ScriptOutcome& outcome, const Bench& bench) {
     if (bench.faults() > outcome.expectedFaults) return true;
     if (!outcome.error) return outcome.verdict == ScriptVerdict::Stopped;
@@ -63,8 +63,8 @@ Result<void> ProtocolRun::leaveFault() {
     if (seen.state != InterlockState::Faulted) return {};
     if (order_.resetFault) return bench().resetFault();
     return fail(ErrorCode::NotArmed,
-                "the stimulator is in a fault, {}. Output is off. See to its cause, then run again with --reset-fault, "
-                "or reset it in the window (Bench > Reset fault)",
+                "the stimulator is in a fault, {}. Output is off. Fix the cause, then reset the fault: run again with "
+                "--reset-fault, or Bench > Reset fault in the window",
                 seen.reason.view());
 }
 
@@ -154,8 +154,8 @@ RunResult ProtocolRun::finish() {
         result.outcome.reasons = {result.troubles.front().message};
         result.troubles.erase(result.troubles.begin());
     }
-    // Of what is on disk, as everything else (hazard H8). A script that was given up still holds its bench, whose marks
-    // are missing then.
+    // Read from disk, as everything else (hazard H8). A script that was given up still holds its bench; the marks of
+    // that bench are then missing.
     const auto reader = SessionReader::open(result.session, opened_->seal);
     auto marks = reader ? sessionMarks(*reader) : failure(reader);
     result.marks = marks ? std::move(*marks) : originMarks(about, {});

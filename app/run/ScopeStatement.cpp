@@ -12,7 +12,7 @@ KnownCertificate knownCertificate(const DeviceIdentity& oscilloscope) {
     if (!store) return {{}, false, fmt::format("no certificate is used: {}", store.error().message)};
     if (store->all().empty()) return {};
     if (oscilloscope.serial.empty()) {
-        return {{}, false, "the oscilloscope tells no serial number: no certificate is used for it"};
+        return {{}, false, "the oscilloscope reports no serial number: no certificate is used for it"};
     }
     const auto today = utcToday();
     const auto found = store->newest(oscilloscope.serial, today);

@@ -25,7 +25,7 @@ SignalStop::SignalStop() {
     static_cast<void>(once);
     const auto set = stopSignals();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
-    std::signal(SIGPIPE, SIG_IGN);  // a reader that went away is told by what writes
+    std::signal(SIGPIPE, SIG_IGN);  // a write reports a reader that went away
     thread_ = std::thread([this] { wait(); });
 }
 

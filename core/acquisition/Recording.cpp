@@ -35,7 +35,7 @@ constexpr std::array<UnitEntry, 8> kUnits{{
     {"count", StreamKind::Taxels, StreamUnit::Count, 1},
 }};
 constexpr Word<double> kPerSecond[] = {{"s", 1}, {"ms", 1e3}, {"us", 1e6}};
-constexpr std::size_t kMostEntries = 100'000;
+constexpr std::size_t kMaxEntries = 100'000;
 
 /// A stream as the JSON file describes it.
 struct DescribedStream {
@@ -81,8 +81,8 @@ RecordFields<DescribedRecording> buildRecordingFields() {
               {.mayBeEmpty = true});
     all.flag("simulated", &R::simulated);
     all.add("baseline", in(&R::declared, &DeclaredIntervals::baseline), interval);
-    all.list("contact", in(&R::declared, &DeclaredIntervals::contact), interval, 0, kMostEntries);
-    all.list("streams", &R::described, streamFields().kind(), 1, kMostEntries).required = true;
+    all.list("contact", in(&R::declared, &DeclaredIntervals::contact), interval, 0, kMaxEntries);
+    all.list("streams", &R::described, streamFields().kind(), 1, kMaxEntries).required = true;
     all.passOverUnknownKeys();  // a recording may carry more keys; none of them can loosen a limit
     return all;
 }

@@ -21,10 +21,10 @@ std::string excerpt(std::string_view cell) {
 }
 
 std::string joined(const std::vector<std::string>& names) {
-    constexpr std::size_t kMost = 12;
+    constexpr std::size_t kMaxNames = 12;
     std::string out;
-    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) out += (i == 0 ? "" : ", ") + excerpt(names[i]);
-    return names.size() > kMost ? out + ", ..." : out;
+    for (std::size_t i = 0; i < std::min(names.size(), kMaxNames); ++i) out += (i == 0 ? "" : ", ") + excerpt(names[i]);
+    return names.size() > kMaxNames ? out + ", ..." : out;
 }
 
 /// The header's names without the empty ones that trailing commas leave.

@@ -1,5 +1,6 @@
 #include "core/base/JsonFields.h"
 
+#include <cmath>
 #include <limits>
 
 namespace tacto {
@@ -19,9 +20,17 @@ std::string textOr(const nlohmann::json& object, const char* key) {
     return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+nlohmann::json numberOrNull(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+double numberOr(const nlohmann::json& value) {
+    return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
 double numberOr(const nlohmann::json& object, const char* key) {
     const auto* found = find(object, key);
-    return found != nullptr && found->is_number() ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
+    return found != nullptr ? numberOr(*found) : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::uint64_t countOr(const nlohmann::json& object, const char* key) {

@@ -19,9 +19,12 @@ inline constexpr JsonLimits kRowLimits{.bytes = 256'000'000, .depth = 64};
 [[nodiscard]] std::string textOr(const nlohmann::json& object, const char* key);
 /// NaN where there is no number: null is how NaN is written.
 [[nodiscard]] double numberOr(const nlohmann::json& object, const char* key);
+[[nodiscard]] double numberOr(const nlohmann::json& value);
 [[nodiscard]] std::uint64_t countOr(const nlohmann::json& object, const char* key);
 [[nodiscard]] bool flagOr(const nlohmann::json& object, const char* key);
 [[nodiscard]] std::vector<std::string> textsOr(const nlohmann::json& object, const char* key);
+/// null for NaN and infinity.
+[[nodiscard]] nlohmann::json numberOrNull(double value);
 /// null where there is none.
 [[nodiscard]] nlohmann::json valueOr(const nlohmann::json& object, const char* key);
 

@@ -135,10 +135,10 @@ std::string dumpJson(const json& value, int indent, bool ascii) {
 }
 
 std::string shownJson(const json& value) {
-    constexpr std::size_t kMost = 60;
+    constexpr std::size_t kMaxExcerpt = 60;
     std::string text = dumpJson(value);
-    if (text.size() <= kMost) return text;
-    std::size_t end = kMost - 3;
+    if (text.size() <= kMaxExcerpt) return text;
+    std::size_t end = kMaxExcerpt - 3;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // whole characters only
     return text.substr(0, end) + "...";
 }

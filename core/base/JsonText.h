@@ -3,7 +3,7 @@
 //
 // JSON leaves open what a key that stands twice means, how deep it may nest and how large a number may be; here all of
 // that is refused, by name (hazard H10: a key that stands twice loses a ceiling, 400 000 brackets lose the stack).
-// tests/base/JsonTextTest.cpp looks that no other parser is called in core, drivers and app.
+// tests/base/JsonTextTest.cpp checks that no other parser is called in core, drivers and app.
 //
 // Thread-safety: pure functions, but for documentsIn(), which reads a folder. No exception whatever the text, memory
 // apart.

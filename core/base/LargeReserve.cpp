@@ -8,8 +8,8 @@ namespace tacto {
 
 void askForHugePages(void* block, std::size_t bytes) noexcept {
 #ifdef MADV_HUGEPAGE
-    constexpr std::size_t kWorthIt = 0x40000;
-    if (block == nullptr || bytes < kWorthIt) return;
+    constexpr std::size_t kMinBytes = 0x40000;
+    if (block == nullptr || bytes < kMinBytes) return;
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(block) % page) % page;
     // A kernel without them says no, and nothing is different.

@@ -16,7 +16,7 @@ enum class Newlines { Escape, Keep };
 /// turn the reading direction or cannot be seen as "\u202e". Everything else stays as it is.
 [[nodiscard]] std::string printable(std::string_view text, Newlines newlines = Newlines::Escape);
 
-/// Of a UTF-8 text: its code points.
+/// The number of code points in a UTF-8 text.
 [[nodiscard]] std::size_t charactersOf(std::string_view utf8) noexcept;
 
 }  // namespace tacto

@@ -1,7 +1,7 @@
 // ArmingSequence.h - from the operator's second step to Armed: configures the gate, has the check pulse approved, and
 // arms the interlock on what the check pulse, an oscilloscope or the operator's word says about the load.
 //
-// The control loop posts the check pulse and hands over its report; whatever goes wrong disarms.
+// The control loop posts the check pulse and hands over its report; any error disarms.
 //
 // Thread-safety: expect() and result() any thread; the rest has one caller, the control loop.
 #pragma once

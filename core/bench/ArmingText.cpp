@@ -27,9 +27,9 @@ LoadRange rangeOf(const Profile& profile, OutputMode mode, const Load& load) {
                                          : LoadRange::between(profile.loadLow, profile.loadHigh);
 }
 
-/// The largest peaks that the encoding can ask for, whichever |Z| of the range is measured.
+/// The largest peaks that the encoding can ask for at any |Z| in the range.
 std::string mostOf(const SourceTraits& source, const EncodingProfile& encoding, const LoadRange& range) {
-    PulseTrain unit = encoding.train;  // |Z| is that of a pulse, of whatever height
+    PulseTrain unit = encoding.train;  // |Z| is that of a pulse of any height
     if (source.drive == Drive::Current)
         unit.amplitude = Milliamps(1);
     else

@@ -188,7 +188,7 @@ Result<void> Bench::drive(DriveSource source, double roughness, double pressure)
     s.driving.store(source, std::memory_order_release);
     s.refusalsSeen = s.loop->refusals();
     s.loop->drive({source, roughness, pressure});
-    // A stop in between has told the loop to drive nothing; what was wished before it is not kept for the next arming.
+    // A stop in between made the loop drive nothing; the command set before it is not kept for the next arming.
     if (source != DriveSource::Off && s.order.stopped()) {
         s.driving.store(DriveSource::Off, std::memory_order_release);
         s.loop->drive({});
@@ -293,10 +293,10 @@ void Bench::idle(Seconds duration) noexcept {
     auto& s = *state_;
     if (!(duration.count() > 0 && duration.count() <= 3600)) return;
     const Instant until = s.time.now() + toInstant(duration);
-    constexpr Instant kLook = std::chrono::milliseconds(100);
+    constexpr Instant kPollInterval = std::chrono::milliseconds(100);
     while (s.time.now() < until) {
         attend();  // who lets time pass is there
-        s.time.pass(until, kLook);
+        s.time.pass(until, kPollInterval);
     }
 }
 

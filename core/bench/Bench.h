@@ -102,7 +102,7 @@ public:
     /// open, that has to show the pulse, within 20 %, and a load in the declared range; it replaces a request for
     /// captures. Errors: NotArmed with what is missing; LimitExceeded; Device; Stopped.
     [[nodiscard]] Result<void> arm(const ArmRequest& request);
-    /// The same check of the load, after which the bench is disarmed, whatever came of it. Nothing but the check pulse
+    /// The same check of the load, after which the bench is always disarmed. Nothing but the check pulse
     /// is delivered. The value is |Z|, or nothing where the stimulator does not read back. Errors: as arm().
     [[nodiscard]] Result<std::optional<Ohms>> checkImpedance(const ArmRequest& request);
     /// What the operator confirms before this load is armed. See core/bench/ArmingText.h.
@@ -148,7 +148,7 @@ public:
     /// is approved by the gate, delivered, read back and judged as any other. Where the last impedance reading would be
     /// more than 5 s old by the last onset, one check pulse comes first, also before an empty one.
     /// Nothing else may drive the output. A stop, a pause or a fault ends it (see Presented::end) and makes it void.
-    /// `passing` is told again and again, on the caller's thread, how long ago it began: what a screen shows meanwhile.
+    /// `passing` is called repeatedly, on the caller's thread, with the time since it began, for a screen to show.
     /// It depends on nothing else, least of all on when a train comes. May be empty.
     /// Errors, with which nothing was begun: InvalidArgument as validate(), and for a current that is not on the
     /// device's grid; Unsupported where the output takes no such level; NotArmed unless armed; Stopped; Device; Io.
@@ -186,7 +186,7 @@ public:
     [[nodiscard]] Result<void> useCalibration(bool use);
     [[nodiscard]] const Profile& profile() const noexcept;
     [[nodiscard]] const std::vector<LimitSet>& limits() const noexcept;
-    /// What the gate is told when this load is armed: for previews.
+    /// What the gate receives when this load is armed: for previews.
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
 
     /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault or when the sensor that drives

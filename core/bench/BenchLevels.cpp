@@ -10,7 +10,7 @@ namespace tacto {
 namespace {
 
 constexpr Milliamps kContinuousStep{0.1};  // of a source without a grid (choice)
-constexpr Instant kToldWithin = std::chrono::milliseconds(500);
+constexpr Instant kAnswerTimeout = std::chrono::milliseconds(500);
 constexpr Instant kLevelLook = std::chrono::milliseconds(1);
 
 /// The first limit that forbids the train at that interval, by its name; empty when none does.
@@ -42,7 +42,7 @@ Milliamps BenchLevels::step() const noexcept {
 Result<void> BenchLevels::checkSettable(const StimulusLevel& level) const {
     const bool isCurrent = std::holds_alternative<Milliamps>(level);
     if (isCurrent != (output_.stimulator() != nullptr) || !output_.isOpen()) {
-        return fail(ErrorCode::Unsupported, "a presentation at {} on {}; {} is accepted", textOf(level),
+        return fail(ErrorCode::Unsupported, "level at {} on {}: must be {}", textOf(level),
                     output_.device() != nullptr ? output_.device()->identity().name : "no output",
                     output_.massager() != nullptr ? "an intensity" : "a current");
     }
@@ -69,7 +69,7 @@ Result<void> BenchLevels::accept(Milliamps level) {
     if (!train) return failure(train);
     const auto ceiling = tell({.what = LevelRequest::What::Accept, .train = *train});
     if (!ceiling) return failure(ceiling);
-    return notes_.level("level-accepted", level, *ceiling);
+    return notes_.level(row::kLevelAccepted, level, *ceiling);
 }
 
 Result<void> BenchLevels::reportDiscomfort(Milliamps level) {
@@ -86,7 +86,7 @@ Result<void> BenchLevels::reportDiscomfort(Milliamps level) {
     // A gate that was not configured for a person yet learns it from the limit when it is armed.
     const auto ceiling = tell({.what = LevelRequest::What::Discomfort, .train = *train, .uncomfortable = level});
     if (!ceiling && ceiling.error().code != ErrorCode::NotArmed) return failure(ceiling);
-    return notes_.level("level-too-strong", level, ceiling ? *ceiling : limit);
+    return notes_.level(row::kLevelTooStrong, level, ceiling ? *ceiling : limit);
 }
 
 Result<void> BenchLevels::ascend(bool begin) {
@@ -109,14 +109,14 @@ Result<Milliamps> BenchLevels::ceiling() {
 Result<Milliamps> BenchLevels::tell(const LevelRequest& request) {
     auto& desk = loop_->levels();
     desk.ask(request);
-    const Instant until = time_.now() + kToldWithin;
+    const Instant until = time_.now() + kAnswerTimeout;
     std::optional<Result<Milliamps>> answer;
     while (!(answer = desk.answer()) && time_.now() < until) time_.pass(until, kLevelLook);
     if (answer) return *answer;
     return fail(ErrorCode::Device, "the control loop does not run: it has not heard of a level within 0.5 s");
 }
 
-/// What stands against a level, whatever was accepted; empty when nothing does.
+/// The reason against a level, accepted or not; empty when there is none.
 std::string BenchLevels::hindranceTo(Milliamps level, Seconds interval, const GateSetup& setup) const {
     const auto& person = *config_.person;
     if (!(level.value() <= output_.source().amplitudeMax)) return "the device's largest";

@@ -1,4 +1,4 @@
-// BenchLevels.h - what the participant says about levels, told to the gate and recorded; and which levels there are.
+// BenchLevels.h - passes what the participant says about levels to the gate and records it; knows which levels exist.
 //
 // Thread-safety: one caller, the bench's.
 #pragma once

@@ -14,6 +14,12 @@
 
 namespace tacto {
 
+/// Kinds of the events that level() writes (resources/design/pilot.md, section 6).
+namespace row {
+inline constexpr const char* kLevelAccepted = "level-accepted";
+inline constexpr const char* kLevelTooStrong = "level-too-strong";
+}  // namespace row
+
 class BenchNotes {
 public:
     /// Both outlive the notes; `session` may be null.
@@ -25,7 +31,7 @@ public:
     [[nodiscard]] Result<void> profile(const Profile& before, const Profile& next) const;
     /// Load range, area, limits and calibration that every train of this arming is judged by. Errors: the same.
     [[nodiscard]] Result<void> arming(const ArmRequest& request, const GateSetup& setup, const Profile& profile) const;
-    /// `kind`, a literal: a level that a participant has accepted, or called too strong, and the ceiling after it.
+    /// `kind`, one of the above: a level that a participant accepted, or called too strong, and the ceiling after it.
     /// Errors: the same.
     [[nodiscard]] Result<void> level(const char* kind, Milliamps level, Milliamps ceiling) const;
     /// Last of all, since counts grow until the end. Without this event the marks of a session are not known.

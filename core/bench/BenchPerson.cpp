@@ -13,7 +13,7 @@ Result<void> checkWhere(const BenchConfig& config) {
         const auto& identity = device->identity();
         if (config.virtualParticipant && !identity.simulated) {
             return fail(ErrorCode::InvalidArgument,
-                        "a virtual participant on {}, which is a device; a simulated one is accepted", identity.name);
+                        "a virtual participant cannot use the real device {}; use a simulated one", identity.name);
         }
         if (!config.virtualParticipant && identity.simulated && !config.rehearsal) {
             return fail(ErrorCode::InvalidArgument,

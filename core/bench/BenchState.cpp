@@ -37,7 +37,7 @@ Bench::State::~State() {
     off("the bench closes");
     time.endLoop();
     heartbeat.end();
-    off("the bench closes");  // whatever the loop's last step may have handed over
+    off("the bench closes");  // including what the loop's last step may have handed over
     time.endDevices();
     output.off();
     if (loop) loop->noteState(config.clock->now());

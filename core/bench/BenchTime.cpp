@@ -60,7 +60,7 @@ void BenchTime::turn(Instant until) noexcept {
 }
 
 Result<bool> BenchTime::advance(Instant until, const std::function<bool()>& done) {
-    constexpr Instant kLook = std::chrono::milliseconds(2);
+    constexpr Instant kPollInterval = std::chrono::milliseconds(2);
     for (std::uint64_t turns = 0;; ++turns) {
         if (const auto well = watch_(); !well) return failure(well);
         if (done()) return true;
@@ -70,7 +70,7 @@ Result<bool> BenchTime::advance(Instant until, const std::function<bool()>& done
             order_.waitWhilePaused();
             turn(until);
         } else {
-            order_.waitForStop(std::min(kLook, until - clock_.now()));
+            order_.waitForStop(std::min(kPollInterval, until - clock_.now()));
         }
     }
 }

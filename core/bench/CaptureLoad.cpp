@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-/// Below this a current is not told from none (the limit of the load-safety check too).
+/// Below this a current is not distinguished from none (the limit of the load-safety check too).
 constexpr double kFewestSteps = 10;
 
 /// The least that |Z| can be where `current` stays within its channel's last steps.

@@ -1,4 +1,4 @@
-// CaptureLoad.h - what one capture tells of its pulses: of the load that they met, for a stimulator that cannot read it
+// CaptureLoad.h - what one capture shows of its pulses: of the load that they met, for a stimulator that cannot read it
 // back, of their amplitude, and whether they are what was commanded.
 //
 // Thread-safety: pure function.

@@ -46,7 +46,7 @@ void ControlLoop::present(Presentation presentation) {
     inbox_.present(std::move(presentation));
 }
 
-/// Before anything else: what was approved before a silence must not be written after it, whichever thread wakes first.
+/// First of all: what was approved before a silence must not be written after it, no matter which thread wakes first.
 void ControlLoop::beat(Instant now) noexcept {
     const bool inTime = parts_.heartbeat.beat(parts_.clock.elapsed());
     const Instant asleep = parts_.clock.asleep();
@@ -110,7 +110,7 @@ void ControlLoop::step(Instant now) noexcept {
     if (arming_.checkDue()) postCheckOfArming(now);
     arming_.armOnCapture(now);
     watchForSilence(now);
-    updateWish(now);
+    updateCommand(now);
     levels_.serve(parts_.gate);
     if (presentation_.active())
         goOnPresenting(now);
@@ -255,7 +255,7 @@ void ControlLoop::watchForSilence(Instant now) noexcept {
     trip(judge_.silence(parts_.stimulator->trainEnd(), now), now);
 }
 
-void ControlLoop::updateWish(Instant now) noexcept {
+void ControlLoop::updateCommand(Instant now) noexcept {
     const auto state = parts_.interlock.state();
     const bool permitted = state == InterlockState::Armed || state == InterlockState::Delivering;
     if (!permitted || paused_.load(std::memory_order_acquire) || drive_.source == DriveSource::Off) {

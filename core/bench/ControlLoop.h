@@ -20,11 +20,11 @@
 #include "core/bench/DeliveryJudge.h"
 #include "core/bench/ExposureWatch.h"
 #include "core/bench/FingerWatch.h"
-#include "core/bench/LevelDesk.h"
+#include "core/bench/LevelRequests.h"
 #include "core/bench/LoopInbox.h"
 #include "core/bench/LoopJournal.h"
 #include "core/bench/MassagerSession.h"
-#include "core/bench/OrderWatch.h"
+#include "core/bench/OwnerWatchdog.h"
 #include "core/bench/PresentationRun.h"
 #include "core/bench/SampleTaps.h"
 #include "core/bench/StimulatorSession.h"
@@ -54,7 +54,7 @@ public:
     };
     ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner);
 
-    /// Begins the check; the interlock is in Checking. armed() tells the end.
+    /// Begins the check; the interlock is in Checking. armed() reports the end.
     void arm(ArmCommand command);
     /// What the oscilloscope showed of the check pulse: |Z|, or why it does not confirm it. Arming with
     /// `confirmByCapture` waits for it. From another thread.
@@ -69,7 +69,7 @@ public:
     /// As PresentationRun::beganAt().
     [[nodiscard]] std::optional<Instant> presentationBegan() { return presentation_.beganAt(); }
     /// Where the participant's word on levels is handed in.
-    [[nodiscard]] LevelDesk& levels() noexcept { return levels_; }
+    [[nodiscard]] LevelRequests& levels() noexcept { return levels_; }
     void pauseOutput(bool paused) noexcept {
         paused_.store(paused, std::memory_order_release);
         if (paused) pausedSince_.store(true, std::memory_order_release);
@@ -128,7 +128,7 @@ private:
     [[nodiscard]] bool mayPost(bool isCheck) const noexcept;
     void judgeCheck(const TrainReport& report) noexcept;
     void watchForSilence(Instant now) noexcept;
-    void updateWish(Instant now) noexcept;
+    void updateCommand(Instant now) noexcept;
     void sendTrain(Instant now) noexcept;
     void sendBurst(Instant now) noexcept;
     void goOnPresenting(Instant now) noexcept;
@@ -153,9 +153,9 @@ private:
     std::atomic<std::uint64_t> refusals_{0};
     std::atomic<std::uint64_t> faults_{0};
     LoopInbox inbox_;
-    LevelDesk levels_;
+    LevelRequests levels_;
     PresentationRun presentation_;
-    OrderWatch order_;
+    OwnerWatchdog order_;
     ExposureWatch exposure_;
 
     // The loop's own:

@@ -73,8 +73,8 @@ std::optional<LoopFault> DeliveryJudge::amplitude(const SeenAmplitude& seen) con
     if (seen.onset < load_.armedAt || interlock_.state() == InterlockState::Faulted) return std::nullopt;
     const auto* unit = source_.drive == Drive::Current ? "mA" : "V";
     return LoopFault{off < 0 ? FaultCause::DeviceFault : FaultCause::LimitBroken,
-                     faultText("{} {:.4g} {} where {:.4g} {} was commanded; at most 20 % beside it is accepted",
-                               seen.by, seen.amplitude, unit, seen.expected, unit)};
+                     faultText("{} {:.4g} {}; {:.4g} {} was commanded, and it must be within 20 % of that", seen.by,
+                               seen.amplitude, unit, seen.expected, unit)};
 }
 
 std::optional<LoopFault> DeliveryJudge::load(const SeenLoad& seen, bool permitted, Instant now) {

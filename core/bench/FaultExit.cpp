@@ -22,10 +22,10 @@ Result<void> FaultExit::ask(Session& session, Role role, Instant within, const c
 Result<void> FaultExit::letReportsBeJudged() {
     constexpr std::uint64_t kSteps = 2;  // one may be under way
     constexpr Instant kWithin = std::chrono::milliseconds(500);
-    constexpr Instant kLook = std::chrono::milliseconds(1);
+    constexpr Instant kPollInterval = std::chrono::milliseconds(1);
     const auto begin = loop_.telemetry().steps;
     const Instant until = time_.now() + kWithin;
-    while (loop_.telemetry().steps < begin + kSteps && time_.now() < until) time_.pass(until, kLook);
+    while (loop_.telemetry().steps < begin + kSteps && time_.now() < until) time_.pass(until, kPollInterval);
     if (loop_.telemetry().steps >= begin + kSteps) return {};
     return fail(ErrorCode::NotArmed, "not reset: the control loop does not run");
 }
@@ -36,7 +36,7 @@ Result<void> FaultExit::leave() {
         return fail(ErrorCode::NotArmed, "a fault of the program itself is not reset: {}. Restart the program",
                     interlock_.reason().view());
     }
-    // A massager is asked nothing: whether it is there, the next burst tells.
+    // A massager is not asked anything: the next burst shows whether it is there.
     if (auto* massager = output_.massager()) massager->forceOff();
     if (auto* stimulator = output_.stimulator()) {
         constexpr Instant kAnswerWithin = std::chrono::milliseconds(500);

@@ -29,14 +29,14 @@ public:
 
     /// Takes what arrived, for journal, taps and `shown`.
     void read(Instant now, Telemetry& shown) noexcept;
-    /// What has failed since the last time: a sensor that is gone ends the output, whatever drives it. A plug was
+    /// What has failed since the last time: a sensor that is gone ends the output of any source. A plug was
     /// pulled at the finger.
     [[nodiscard]] std::optional<LoopFault> failure() noexcept;
     /// Losses that the sensor reports, once in ten seconds while it goes on losing.
     void noteLosses(Instant now) noexcept;
     /// R drives the output: every flag of it is in the session before the bench closes, since it may never close.
     void noteFlags(Instant now) noexcept;
-    /// Of all fingers so far.
+    /// Flags of all fingers so far.
     [[nodiscard]] RoughnessFlags flags() const noexcept;
 
 private:

@@ -44,12 +44,12 @@ public:
     void arm(ArmCommand command);
     void drive(const DriveCommand& command);
     void present(Presentation presentation);
-    /// Of two in one step the first was never used: what counts is what R was for before it.
+    /// If two arrive in one step, the first is dropped; the R before it counts.
     void finger(NextFinger next);
     void planner(std::unique_ptr<TrainPlanner> next);
     void confirm(const Result<Ohms>& seen);
     void load(const SeenLoad& seen);
-    /// Of several in one step the one that is furthest off.
+    /// If several arrive in one step, the one furthest off counts.
     void amplitude(const SeenAmplitude& seen);
 
     /// All that came since the last time. Nothing when there is nothing, and while another thread hands something in:

@@ -1,6 +1,6 @@
 // LoopJournal.h - what the control loop writes into the session, one function for each kind of record.
 //
-// Without a recorder it is a null object: nothing is written, and nothing need be asked before.
+// Without a recorder it is a null object that writes nothing; callers need no null check.
 //
 // Thread-safety: one caller, the control loop. Never blocks; allocates at a change of the interlock alone.
 #pragma once

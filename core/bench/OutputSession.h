@@ -82,7 +82,7 @@ protected:
         return written;
     }
 
-    /// False while the loop is silent. Then whatever the device still does on its own has to end; said once, for the
+    /// False while the loop is silent. Then what the device still does on its own has to end; reported once, for the
     /// loop to find when it comes back.
     [[nodiscard]] bool watchLoop(Instant now) noexcept {
         if (loopAlive()) {

@@ -24,19 +24,18 @@ bool isTime(Seconds time, Seconds least, Seconds most) noexcept { return time >=
 Result<void> checkLevel(const StimulusLevel& level) {
     if (const auto* current = std::get_if<Milliamps>(&level)) {
         if (std::isfinite(current->value()) && current->value() >= 0) return {};
-        return fail(ErrorCode::InvalidArgument, "a presentation at {} mA; a finite current of 0 or more is accepted",
-                    current->value());
+        return fail(ErrorCode::InvalidArgument, "level {} mA: must be finite and not negative", current->value());
     }
     const double intensity = std::get<VibrationIntensity>(level).value;
     if (intensity >= 0 && intensity <= 1) return {};
-    return fail(ErrorCode::InvalidArgument, "a presentation at intensity {}; 0 to 1 is accepted", intensity);
+    return fail(ErrorCode::InvalidArgument, "level at intensity {}: must be 0 to 1", intensity);
 }
 
 Result<void> checkOnsets(const Presentation& presentation) {
     const auto& onsets = presentation.onsets;
-    if (onsets.empty() || onsets.size() > Presentation::kMostTrains) {
+    if (onsets.empty() || onsets.size() > Presentation::kMaxTrains) {
         return fail(ErrorCode::InvalidArgument, "a presentation with {} onsets; 1 to {} are accepted", onsets.size(),
-                    Presentation::kMostTrains);
+                    Presentation::kMaxTrains);
     }
     if (!isTime(onsets.front(), Seconds(0), Presentation::kLongest)) {
         return fail(ErrorCode::InvalidArgument, "a first onset at {} s; 0 to {} s is accepted", onsets.front().count(),
@@ -68,7 +67,7 @@ std::string_view nameOf(PresentationEnd end) noexcept { return wordFor(kPresenta
 Presentation testPresentation(StimulusLevel level, Seconds interval, Seconds window) {
     Presentation made{.level = level, .interval = interval, .duration = window + Presentation::kTail};
     // One beyond the most: validate() then says so, and a wrong interval does not run on for ever.
-    for (std::size_t k = 0; k <= Presentation::kMostTrains; ++k) {
+    for (std::size_t k = 0; k <= Presentation::kMaxTrains; ++k) {
         const Seconds onset = static_cast<double>(k) * interval;
         if (!(onset <= window * (1 + kRounding))) break;
         made.onsets.push_back(onset);

@@ -30,12 +30,12 @@ using StimulusLevel = std::variant<Milliamps, VibrationIntensity>;
 
 struct Presentation {
     StimulusLevel level = Milliamps(0);
-    std::vector<Seconds> onsets{};  ///< from the beginning, ascending, at least `interval` apart; 1 to kMostTrains
+    std::vector<Seconds> onsets{};  ///< from the beginning, ascending, at least `interval` apart; 1 to kMaxTrains
     Seconds interval{0};            ///< > 0, that each train is judged at: the shortest at which another may follow
     Seconds duration{0};            ///< of the whole, at least kTail after the last onset, at most kLongest
     Instant notBefore{0};           ///< of the bench's clock: it begins then, or as soon after as the bench is ready
 
-    static constexpr std::size_t kMostTrains = 64;
+    static constexpr std::size_t kMaxTrains = 64;
     static constexpr Seconds kLongest{60};
     static constexpr Seconds kTail{0.2};  ///< for the last train and its status
     bool operator==(const Presentation&) const = default;

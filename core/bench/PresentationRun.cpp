@@ -46,7 +46,7 @@ PresentationRun::Due PresentationRun::next(const Sight& sight) noexcept {
     while (next_ < what_->onsets.size() && onset() < sight.now + ControlLoop::kPeriod) {
         if (sight.now > onset() + Presented::kLatest) {
             end(sight.now, PresentationEnd::Late,
-                fmt::format("train {} would have begun {:.0f} ms late; at most {:.0f} ms is accepted", next_ + 1,
+                fmt::format("train {} is {:.0f} ms late; the limit is {:.0f} ms", next_ + 1,
                             1e3 * toSeconds(sight.now - onset()), 1e3 * toSeconds(Presented::kLatest)));
             return Due::Nothing;
         }

@@ -71,7 +71,7 @@ Instant ScopeSession::serve(Instant now) noexcept {
     try {
         serveDevice(now);
     } catch (const std::bad_alloc&) {
-        // A record may be the largest thing that the program holds. Its place is given back, and the run told.
+        // A record may be the largest thing that the program holds. Its memory is given back, and the run learns of it.
         device_.disarm();
         const std::scoped_lock lock(mutex_);
         error_ = Error{ErrorCode::Device, "no memory left"};  // short enough to need none

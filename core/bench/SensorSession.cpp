@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 constexpr Instant kReadEvery = std::chrono::milliseconds(2);
-constexpr Instant kLookEvery = std::chrono::milliseconds(100);  // whether a device that failed was asked for
+constexpr Instant kRecoveryPollInterval = std::chrono::milliseconds(100);  // whether a device that failed was asked for
 constexpr double kRingSeconds = 1;
 }  // namespace
 
@@ -38,12 +38,12 @@ SensorSession::SensorSession(TactileSensor& device) : device_(device) {
 
 Instant SensorSession::serve(Instant now) noexcept {
     if (healthAsked_.exchange(false, std::memory_order_acq_rel)) answerHealth();
-    if (failed()) return now + kLookEvery;
+    if (failed()) return now + kRecoveryPollInterval;
     for (auto& block : blocks_) block.clear();
     if (const auto read = device_.read(blocks_); !read) {
         fail(read.error().message);
         failures_.fetch_add(1, std::memory_order_acq_rel);
-        return now + kLookEvery;
+        return now + kRecoveryPollInterval;
     }
     hand();
     if (device_.finished()) finished_.store(true, std::memory_order_release);

@@ -16,7 +16,7 @@ DeviceGrid gridOf(const SourceTraits& source) noexcept {
 
 namespace {
 
-/// What is programmed stays this near to the command, whatever a calibration says.
+/// The programmed value stays this near to the command with any calibration.
 constexpr double kMaxCorrection = 0.2;
 
 double levelOf(const PulseTrain& train) noexcept {
@@ -26,8 +26,8 @@ double levelOf(const PulseTrain& train) noexcept {
 Result<void> staysNear(std::string_view what, double programmed, double command) {
     if (std::abs(programmed - command) <= kMaxCorrection * command) return {};
     return fail(ErrorCode::LimitExceeded,
-                "the calibration would program {:.4g} for {} {:.4g}; at most 20 % beside it is "
-                "accepted: the stimulator is out of order, or the calibration is not its own",
+                "the calibration would program {:.4g} for {} {:.4g}; it must be within 20 %: the stimulator is out of "
+                "order, or the calibration is not its own",
                 programmed, what, command);
 }
 

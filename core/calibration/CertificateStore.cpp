@@ -68,7 +68,7 @@ Result<EnteredCertificate*> CertificateStore::standing(std::string_view number, 
     }
     if (serials.size() > 1) {
         return fail(ErrorCode::InvalidArgument,
-                    "certificate \"{}\" is entered for the serial numbers {}; one of them is expected beside it",
+                    "certificate \"{}\" is entered for the serial numbers {}; it must be given with one of them",
                     number, fmt::join(serials, ", "));
     }
     return found;

@@ -20,16 +20,16 @@ struct ReportRow {
 };
 
 struct DeviceReport {
-    static constexpr std::size_t kMost = 12;  ///< as many as an event of a session takes
+    static constexpr std::size_t kMaxRows = 12;  ///< as many as an event of a session takes
 
-    /// More than kMost are left out.
+    /// More than kMaxRows are left out.
     constexpr void add(const ReportRow& row) noexcept {
-        if (count < kMost) all[count++] = row;
+        if (count < kMaxRows) all[count++] = row;
     }
     [[nodiscard]] std::span<const ReportRow> rows() const noexcept { return {all.data(), count}; }
 
     std::uint64_t losses = 0;  ///< things lost or spoilt so far: when it has grown, the operator should know
-    std::array<ReportRow, kMost> all{};
+    std::array<ReportRow, kMaxRows> all{};
     std::size_t count = 0;
 };
 

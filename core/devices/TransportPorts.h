@@ -16,7 +16,7 @@
 
 namespace tacto {
 
-/// A place where such a device may be; whether it is one it tells when it is asked.
+/// A place where such a device may be; only its answer shows whether it is one.
 struct TransportPort {
     std::string serial;    ///< USB serial number; may be empty
     std::string place;     ///< which socket, for messages and where there is no serial number

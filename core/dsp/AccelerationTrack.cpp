@@ -36,8 +36,8 @@ void AccelerationTrack::clear() noexcept {
     grid_.reset();
     windowsFront_ = waiting_ = offset_ = end_ = normalised_ = nextWindow_ = hops_ = 0;
     anchor_ = 0;
-    first_ = kNever;
-    newest_ = -kNever;
+    first_ = kInfinity_s;
+    newest_ = -kInfinity_s;
     running_ = false;
     losses_ = {};
 }
@@ -93,7 +93,7 @@ void AccelerationTrack::push(std::span<const double> stamps, const double* value
 
 void AccelerationTrack::begin(double t_s, const double* sample) noexcept {
     filter_.restart(sample);
-    if (first_ == kNever) first_ = t_s;
+    if (first_ == kInfinity_s) first_ = t_s;
     nextWindow_ = end_;
     anchor_ = t_s;
     hops_ = 0;

@@ -61,7 +61,6 @@ public:
         return std::span(stamps_).subspan(window.first - offset_, length_);
     }
     void popWindow() noexcept;
-    [[nodiscard]] std::size_t windowsWaiting() const noexcept { return waiting_; }
     /// True when the next push() may not fit: the oldest windows must go first.
     [[nodiscard]] bool full() const noexcept;
 

@@ -15,16 +15,18 @@ constexpr double kForceKept_s = 4;  // more than any frame waits
 std::size_t roomFor(double rate_hz) { return static_cast<std::size_t>(2 * kForceKept_s * rate_hz) + 256; }
 }  // namespace
 
-ForceTrack::ForceTrack(double rate_hz) : samples_(2, roomFor(rate_hz)), firstContact_(kNever) {}
+ForceTrack::ForceTrack(double rate_hz) : samples_(2, roomFor(rate_hz)), firstContact_(kInfinity_s) {}
 
 void ForceTrack::clear() noexcept {
     samples_.clear();
     contact_ = false;
-    firstContact_ = kNever;
+    firstContact_ = kInfinity_s;
     normaliseCursor_ = readCursor_ = stale_ = invalid_ = outOfOrder_ = 0;
 }
 
-double ForceTrack::newest_s() const noexcept { return samples_.end() == 0 ? -kNever : samples_.t(samples_.end() - 1); }
+double ForceTrack::newest_s() const noexcept {
+    return samples_.end() == 0 ? -kInfinity_s : samples_.t(samples_.end() - 1);
+}
 
 void ForceTrack::push(double t_s, double force_n) noexcept {
     if (!std::isfinite(t_s) || !std::isfinite(force_n)) {
@@ -40,7 +42,7 @@ void ForceTrack::push(double t_s, double force_n) noexcept {
         contact_ = false;  // lost in the silence: it must start again
     }
     contact_ = contact_ ? !(force_n < kContactEnd_n) : force_n >= kContactStart_n;
-    if (contact_ && firstContact_ == kNever) firstContact_ = t_s;
+    if (contact_ && firstContact_ == kInfinity_s) firstContact_ = t_s;
     const double row[2] = {force_n, contact_ ? 1.0 : 0.0};
     samples_.push(t_s, row);
     // What was dropped for want of room is no place for a cursor.
@@ -57,7 +59,7 @@ double ForceTrack::Line::divisor(double t_s) const noexcept {
 }
 
 ForceTrack::Line ForceTrack::lineAt(std::size_t& cursor, double t_s, double start_s) const noexcept {
-    Line line{0, 0, 0, kNever};
+    Line line{0, 0, 0, kInfinity_s};
     if (samples_.empty()) return line;
     advance(cursor, t_s);
     line.from = samples_.t(cursor);

@@ -128,16 +128,16 @@ double RoughnessChain::State::streamBegin_s() const noexcept {
 
 double RoughnessChain::State::firstContact_s() const noexcept {
     if (force) return force->firstContact_s();
-    if (!declared.contact) return -kNever;
-    return declared.contact->empty() ? kNever : declared.contact->front().begin_s;
+    if (!declared.contact) return -kInfinity_s;
+    return declared.contact->empty() ? kInfinity_s : declared.contact->front().begin_s;
 }
 
 double RoughnessChain::State::forceKnown_s() const noexcept {
-    if (!force || finished) return kNever;
+    if (!force || finished) return kInfinity_s;
     const double start = streamBegin_s();
     // Before its first sample, and in a long silence, force is not waited for for ever.
     const double spoken = std::max(force->newest_s(), start);
-    if (horizon_s() > spoken + ForceTrack::kLongestBridge_s + kSkew_s) return kNever;
+    if (horizon_s() > spoken + ForceTrack::kLongestBridge_s + kSkew_s) return kInfinity_s;
     return force->newest_s();
 }
 
@@ -170,7 +170,7 @@ void RoughnessChain::State::take(std::size_t stream, const SampleBlock& block, s
 
 void RoughnessChain::State::takeSlice(std::span<const SampleBlock> blocks) {
     // In step with the slowest, so that a whole file waits for nothing that a live bench would not wait for.
-    double until = kNever;
+    double until = kInfinity_s;
     for (std::size_t s = 0; s < streams.size(); ++s) {
         if (taken[s] < blocks[s].samples()) until = std::min(until, blocks[s].t_s[taken[s]]);
     }
@@ -217,7 +217,7 @@ bool RoughnessChain::State::ready(double centre_s, double end_s) const noexcept 
 void RoughnessChain::State::advance(std::vector<RoughnessFrame>& frames, bool forced) {
     const double known = forceKnown_s();
     if (acceleration) {
-        auto stretch = acceleration->unnormalised(forced ? kNever : known);
+        auto stretch = acceleration->unnormalised(forced ? kInfinity_s : known);
         if (!stretch.stamps.empty()) {
             if (force) {
                 force->normalise(stretch.stamps, std::span(stretch.axes).first(accelerationInfo->channels),

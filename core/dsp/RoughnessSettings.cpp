@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/RecordFields.h"
+#include "core/dsp/UnitWords.h"
 
 namespace tacto {
 
@@ -13,7 +14,6 @@ namespace {
 constexpr Word<SpectralFeature> kSpectralFeatures[] = {{"h", SpectralFeature::Relative},
                                                        {"h_abs", SpectralFeature::Absolute}};
 constexpr Word<TaxelFeature> kTaxelFeatures[] = {{"static", TaxelFeature::Static}, {"dynamic", TaxelFeature::Dynamic}};
-constexpr Word<StreamUnit> kRestUnits[] = {{"m/s2", StreamUnit::MetrePerSecondSquared}, {"count", StreamUnit::Count}};
 
 tl::unexpected<Error> refused(std::string_view key, double value, std::string_view expected) {
     return fail(ErrorCode::InvalidArgument, "\"{}\" is {}; {} was expected", key, value, expected);

@@ -12,7 +12,7 @@
 namespace tacto {
 
 /// The time of what has not happened.
-inline constexpr double kNever = std::numeric_limits<double>::infinity();
+inline constexpr double kInfinity_s = std::numeric_limits<double>::infinity();
 
 class SampleHistory {
 public:

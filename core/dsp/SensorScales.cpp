@@ -4,13 +4,11 @@
 
 #include "core/base/NaN.h"
 #include "core/base/RecordFields.h"
+#include "core/dsp/UnitWords.h"
 
 namespace tacto {
 
 namespace {
-
-constexpr Word<StreamUnit> kForceUnits[] = {{"N", StreamUnit::Newton}, {"count", StreamUnit::Count}};
-constexpr Word<StreamUnit> kTaxelUnits[] = {{"Pa", StreamUnit::Pascal}, {"count", StreamUnit::Count}};
 
 // As a file has them: the force with its unit, the taxels column by column.
 struct ForceScale {

@@ -41,19 +41,19 @@ TaxelTrack::TaxelTrack(const StreamInfo& info, std::optional<TimeInterval> decla
       baseline_(info.channels),
       above_(info.channels),
       trailing_(info.channels),
-      first_(kNever),
-      firstContact_(kNever),
-      validFrom_(kNever) {
+      first_(kInfinity_s),
+      firstContact_(kInfinity_s),
+      validFrom_(kInfinity_s) {
     for (auto* stretch : {&inDeclared_, &beforeContact_, &atStart_}) stretch->sum.resize(info.channels);
 }
 
 void TaxelTrack::clear() noexcept {
     samples_.clear();
     for (auto* stretch : {&inDeclared_, &beforeContact_, &atStart_}) stretch->clear();
-    first_ = firstContact_ = kNever;
+    first_ = firstContact_ = kInfinity_s;
     settled_ = cursor_ = window_ = invalid_ = outOfOrder_ = 0;
     known_ = preset_;
-    if (!preset_) validFrom_ = kNever;
+    if (!preset_) validFrom_ = kInfinity_s;
     assumed_ = assumed_ && preset_;
 }
 
@@ -62,10 +62,12 @@ void TaxelTrack::preset(const RestLevels& rest) {
     baseline_ = rest.taxelBaseline;
     floor_ = rest.taxelFloor;
     known_ = preset_ = true;
-    validFrom_ = -kNever;
+    validFrom_ = -kInfinity_s;
 }
 
-double TaxelTrack::newest_s() const noexcept { return samples_.end() == 0 ? -kNever : samples_.t(samples_.end() - 1); }
+double TaxelTrack::newest_s() const noexcept {
+    return samples_.end() == 0 ? -kInfinity_s : samples_.t(samples_.end() - 1);
+}
 
 void TaxelTrack::push(double t_s, const double* values) noexcept {
     if (!std::isfinite(t_s) || !std::all_of(values, values + taxels_, [](double x) { return std::isfinite(x); })) {
@@ -107,7 +109,7 @@ void TaxelTrack::decide(double known_s) noexcept {
     if (firstContact_ - first_ >= kShortestRest_s && beforeContact_.count > 0)
         return adopt(beforeContact_, firstContact_);
     assumed_ = true;
-    adopt(atStart_, -kNever);
+    adopt(atStart_, -kInfinity_s);
 }
 
 void TaxelTrack::close() noexcept {
@@ -116,7 +118,7 @@ void TaxelTrack::close() noexcept {
     if (firstContact_ - first_ >= kShortestRest_s && beforeContact_.count > 0)
         return adopt(beforeContact_, firstContact_);
     assumed_ = true;
-    adopt(atStart_, -kNever);
+    adopt(atStart_, -kInfinity_s);
 }
 
 void TaxelTrack::adopt(const Stretch& stretch, double validFrom_s) noexcept {

@@ -104,8 +104,6 @@ public:
     /// Adds a whole pulse as segmentsOf() makes it (one, two or three segments) and, if its duration is above 0, the
     /// `rest` until the next one.
     void addPulse(const PulseSegments& pulse, const DriveSegment& rest) noexcept;
-    /// Replaces the circuit (drift, lost contact) and keeps the capacitor's voltage.
-    void setCircuit(const Circuit& circuit) noexcept { circuit_ = circuit; }
 
     [[nodiscard]] const PulseTotals& totals() const noexcept { return totals_; }
     [[nodiscard]] double capacitorVoltage() const noexcept { return totals_.endCapacitorVoltage; }

@@ -4,7 +4,7 @@
 // that 0 stays 0 and nothing jumps. The unit is that of the quantity: V or mA for an amplitude, s for a time.
 //
 // A stimulator that is off by more than 20 % anywhere in its range is out of order (IEC 60601-2-10 allows its output
-// ± 20 %): its calibration is refused, not applied. So whatever stands in a calibration file, no command grows by more
+// ± 20 %): its calibration is refused, not applied. So no calibration file makes a command grow by more
 // than a quarter.
 //
 // Thread-safety: values; pure functions that do not allocate, but for the text of an error.

@@ -62,8 +62,8 @@ Result<Volts> heldAmplitude(Hold hold, Volts amplitude, std::optional<Ohms> arme
         return fail(ErrorCode::InvalidArgument, "an impedance of {} ohm after {} ohm; finite ones above 0 are needed",
                     now->value(), armed->value());
     }
-    constexpr double kMost = 2;
-    if (!(ratio <= kMost && ratio >= 1 / kMost)) {
+    constexpr double kMaxRatio = 2;
+    if (!(ratio <= kMaxRatio && ratio >= 1 / kMaxRatio)) {
         return fail(
             ErrorCode::LimitExceeded,
             "the impedance went from {:.4g} ohm when armed to {:.4g} ohm; the {} is held up to twice or half of it",

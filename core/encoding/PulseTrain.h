@@ -34,7 +34,7 @@ struct Amplitude : std::variant<Volts, Milliamps> {
 };
 
 [[nodiscard]] inline bool isCurrent(const Amplitude& a) noexcept { return std::holds_alternative<Milliamps>(a); }
-/// The amplitude in V or A, whichever it is.
+/// The amplitude in V or A, depending on the drive.
 [[nodiscard]] double siValue(const Amplitude& a) noexcept;
 
 struct PulseTrain {
@@ -56,7 +56,7 @@ struct PulseTrain {
     bool operator==(const PulseTrain&) const = default;
 };
 
-/// `train` with `change` applied to its amplitude, in V or mA, whichever it is.
+/// `train` with `change` applied to its amplitude, in V or mA, depending on the drive.
 template <class Change>
 [[nodiscard]] PulseTrain withAmplitude(PulseTrain train, Change change) noexcept {
     if (const auto* volts = std::get_if<Volts>(&train.amplitude)) {

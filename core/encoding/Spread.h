@@ -13,7 +13,7 @@ struct Spread {
     double relative = 0;  ///< of the value: 0.01 is 1 %
     double absolute = 0;  ///< in the value's own unit
 
-    /// The most and the least that a value may be. Nothing stays nothing: an output that is told 0 is off. NaN stays.
+    /// The most and the least that a value may be. Zero stays zero: an output that is commanded 0 is off. NaN stays.
     [[nodiscard]] double above(double value) const noexcept {
         return value > 0 ? value * (1 + relative) + absolute : value;
     }

@@ -43,7 +43,7 @@ ResponseRange rangeOf(const StepEnds& ends, std::span<const StepTrain> designed)
 }
 
 Result<std::vector<StepTrain>> designedTrains(const EncodingProfile& profile, const StepEnds& ends) {
-    constexpr std::size_t kMost = 10'000;
+    constexpr std::size_t kMaxResponseTrains = 10'000;
     constexpr std::size_t kAfterArrival = 2;
     if (auto valid = validate(profile); !valid) return failure(valid);
     const double since = ends.sinceOnset.count();
@@ -60,12 +60,12 @@ Result<std::vector<StepTrain>> designedTrains(const EncodingProfile& profile, co
     std::vector<StepTrain> trains;
     std::size_t left = kAfterArrival + 1;
     while (left > 0) {
-        if (trains.size() == kMost) {
+        if (trains.size() == kMaxResponseTrains) {
             return fail(ErrorCode::InvalidArgument,
                         "limits of {} times and {} V/s of amplitude and {} times of interval per train let a step "
                         "take more than {} trains",
                         profile.amplitudeRatioPerTrain, profile.amplitudeSlew_V_per_s, profile.intervalRatioPerTrain,
-                        kMost);
+                        kMaxResponseTrains);
         }
         series.want(ends.after, now);
         now = *series.due();

@@ -17,7 +17,7 @@
 namespace tacto {
 
 /// Just-noticeable differences. A quarter is 2.4 % of an amplitude and 3.8 % of an interval: above what an oscilloscope
-/// leaves open, and below what anybody feels.
+/// leaves open, and below what a person feels.
 inline constexpr double kCarried = 0.25;
 
 /// A train after the step.

@@ -37,7 +37,7 @@ public:
 
 private:
     TextBlocks(std::optional<ByteFile> file, std::string_view text, std::string name);
-    /// UTF-8, whatever the text is written in; 0 at the end.
+    /// UTF-8, converted from any encoding of the file; 0 at the end.
     [[nodiscard]] Result<std::size_t> fill(char* into, std::size_t count);
     [[nodiscard]] Result<std::size_t> fillRaw(char* into, std::size_t count);
     [[nodiscard]] Result<std::size_t> fillFromUtf16(char* into, std::size_t count);

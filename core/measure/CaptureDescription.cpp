@@ -14,8 +14,6 @@ using nlohmann::json;
 constexpr std::string_view kMark = "# tactoscope {";
 constexpr std::string_view kComment = "# tactoscope ";
 
-json orNull(double value) { return std::isfinite(value) ? json(value) : json(); }
-
 /// A tolerance: stated, and not below zero.
 double toleranceOr(const json& object, const char* key) {
     const double value = numberOr(object, key);
@@ -32,18 +30,18 @@ json describeCapture(const Capture& capture) {
                             {"low", channel.low},
                             {"high", channel.high},
                             {"lsb", channel.lsb},
-                            {"gain_tolerance", orNull(channel.gainTolerance)},
-                            {"offset_tolerance", orNull(channel.offsetTolerance)},
-                            {"linearity_tolerance", orNull(channel.linearityTolerance)},
-                            {"probe_tolerance", orNull(channel.probeTolerance)},
+                            {"gain_tolerance", numberOrNull(channel.gainTolerance)},
+                            {"offset_tolerance", numberOrNull(channel.offsetTolerance)},
+                            {"linearity_tolerance", numberOrNull(channel.linearityTolerance)},
+                            {"probe_tolerance", numberOrNull(channel.probeTolerance)},
                             {"stated_by", channel.statedBy}});
     }
     return {{"rate_hz", capture.rate_hz},
             {"start_s", capture.start_s},
-            {"trigger_s", orNull(capture.trigger_s)},
+            {"trigger_s", numberOrNull(capture.trigger_s)},
             {"simulated", capture.simulated},
-            {"timebase_tolerance", orNull(capture.timeBaseTolerance)},
-            {"stamp_tolerance_s", orNull(capture.stampTolerance_s)},
+            {"timebase_tolerance", numberOrNull(capture.timeBaseTolerance)},
+            {"stamp_tolerance_s", numberOrNull(capture.stampTolerance_s)},
             {"channels", std::move(channels)}};
 }
 

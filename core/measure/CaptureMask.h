@@ -64,7 +64,7 @@ public:
 
     [[nodiscard]] const std::vector<Channel>& channels() const noexcept { return channels_; }
     [[nodiscard]] double rate_hz() const noexcept { return rate_hz_; }
-    /// Of the first sample, from the trigger.
+    /// Time of the first sample, from the trigger.
     [[nodiscard]] double start_s() const noexcept { return start_s_; }
     [[nodiscard]] const MaskBand& band() const noexcept { return band_; }
 

@@ -4,7 +4,7 @@
 // Clipping is known from the channel's range alone: a sample that stands at either end of it, which is where the
 // full-scale codes are. Without a range nothing is called clipped, for the highest value of a record may be the
 // signal's own. Where a top then keeps the record's extreme from sample to sample although the signal is noisy where it
-// rests, the noise was cut off: such a phase is flat-topped, is measured, and the reader is told.
+// rests, the noise was cut off: such a phase is flat-topped, is measured, and flagged for the reader.
 //
 // A top is flat when it keeps the extreme in 95 % of at least 10 samples that are at least half of the phase, and the
 // resting signal jitters over three codes or more: noise that does so leaves one code 95 % of the time nowhere. Noise

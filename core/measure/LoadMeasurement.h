@@ -65,8 +65,8 @@ struct LoadMeasurement {
 [[nodiscard]] Result<LoadMeasurement> measureLoad(const Capture& capture, std::size_t voltage, std::size_t current,
                                                   const MeasureOptions& options = {});
 
-/// Of each pulse of the current that `measured` found, which is measureChannel()'s of `current`: for a caller that has
-/// it already. The channels must be in V and A.
+/// The load of each current pulse in `measured`, the result of measureChannel() for `current`, for a caller that has it
+/// already. The channels must be in V and A.
 [[nodiscard]] std::vector<PulseLoad> loadOfPulses(const Capture& capture, std::size_t voltage, std::size_t current,
                                                   const ChannelMeasurement& measured);
 

@@ -5,7 +5,7 @@
 // answered from the samples at its ends, so the answer is exact at any zoom. A missing sample (NaN) is never an
 // extreme; that it is missing is remembered beside them.
 //
-// The samples stay the caller's: extend() is told of the whole record each time it grows (or moves in memory), and
+// The samples stay the caller's: extend() is given the whole record each time it grows (or moves in memory), and
 // only what is new is read.
 //
 // Thread-safety: extend() and clear() by one owner; several threads may read while it is not extended.

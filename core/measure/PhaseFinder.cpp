@@ -19,7 +19,7 @@ constexpr double kThreshold = 0.15;
 constexpr double kThresholdInNoise = 6;
 constexpr double kRelease = 0.6;  // of the threshold: hysteresis
 
-constexpr float kNever = std::numeric_limits<float>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Single samples beyond the threshold are noise where real phases are much larger.
 void dropGlitches(PhaseSpans& phases) {
@@ -35,10 +35,10 @@ void dropGlitches(PhaseSpans& phases) {
 
 /// What lies beyond a phase's threshold and comes back from it, in the channel's unit.
 struct Thresholds {
-    float above = kNever;
-    float below = -kNever;
-    float aboveRelease = kNever;
-    float belowRelease = -kNever;
+    float above = kInfinity;
+    float below = -kInfinity;
+    float aboveRelease = kInfinity;
+    float belowRelease = -kInfinity;
 
     Thresholds(const StateLevels& levels, Sides sides) {
         const auto threshold = [&](double state) {

@@ -77,7 +77,7 @@ std::string machineLacks(const DeviceSet& devices, const Profile& profile, Level
 
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
 
-/// Of the session's first part that came as far; null where none did.
+/// The impedance measured in the first part of the session that has one; null where none has.
 const nlohmann::json* PilotCare::firstImpedance() const {
     const auto parts = stage_.record().count(row::kResumed) + 1;
     for (std::size_t n = 1; n <= parts; ++n) {
@@ -121,9 +121,9 @@ Result<void> PilotCare::stopTest(PromptTo by) {
     screen.text = prompt.text;
     stage_.participant().show(screen);
     const auto asked = stage_.participant().ask(prompt);
-    constexpr auto kNever = std::chrono::nanoseconds::max();
-    const auto took = asked ? kNever : stage_.takeStop().value_or(kNever);
-    const bool pressed = took != kNever;
+    constexpr auto kNoStop = std::chrono::nanoseconds::max();
+    const auto took = asked ? kNoStop : stage_.takeStop().value_or(kNoStop);
+    const bool pressed = took != kNoStop;
     stage_.rest();
     const double took_ms = pressed ? std::chrono::duration<double, std::milli>(took).count() : kNaN;
     nlohmann::json body{{"by", nameOf(by)}, {"pressed", pressed}, {"off_ms", took_ms}};

@@ -11,8 +11,8 @@
 
 namespace tacto {
 
-/// What a stimulator, or a massager, and a study's trains lack before they may be at a participant: one sentence without
-/// its end; empty where nothing is missing.
+/// What a stimulator, or a massager, and a study's trains lack before they may be used on a participant: one sentence
+/// without its full stop; empty where nothing is missing.
 [[nodiscard]] std::string machineLacks(const DeviceSet& devices, const Profile& profile, LevelUnit unit);
 
 class PilotCare {

@@ -13,7 +13,7 @@ namespace {
 constexpr Seconds kAnswerWithin{10};  // from the appearance of the targets
 constexpr Seconds kFeedback{1.5};
 constexpr Seconds kDriftRest{300};  // recovery took about 15 min (Kaczmarek 2000): three of them
-constexpr int kMostOnDemand = 5;    // of each condition
+constexpr int kMaxOnDemand = 5;     // of each condition
 
 nlohmann::json toJson(const std::vector<PlannedTrial>& planned, const std::vector<Condition>& conditions) {
     nlohmann::json all = nlohmann::json::array();
@@ -166,7 +166,7 @@ Result<void> PilotIdentification::familiarise() {
     std::vector<PromptTarget> offered = conditionPrompt(labels()).targets;
     offered.resize(labels().size());
     offered.insert(offered.begin(), {"go-on", "Go on"});
-    const auto most = kMostOnDemand * static_cast<int>(labels().size());
+    const auto most = kMaxOnDemand * static_cast<int>(labels().size());
     for (int n = 1; n <= most; ++n) {
         const auto wanted = stage_.ask(row::kPhase, fmt::format("on demand {}", n),
                                        choicePrompt("on-demand", "Feel one again, or go on?", offered));

@@ -54,9 +54,7 @@ std::size_t PilotRecord::begun(const std::string& name) const {
     return found != begun_.end() ? found->second : 0;
 }
 
-namespace {
-
-IdentificationTrial trialFrom(const nlohmann::json& body) {
+IdentificationTrial identificationTrialFrom(const nlohmann::json& body) {
     IdentificationTrial trial;
     trial.number = countOr(body, "number");
     if (const auto phase = trialPhaseFrom(textOr(body, "phase"))) trial.phase = *phase;
@@ -70,8 +68,6 @@ IdentificationTrial trialFrom(const nlohmann::json& body) {
     trial.trains = countOr(body, "trains");
     return trial;
 }
-
-}  // namespace
 
 PilotTrials pilotTrials(const std::vector<SessionRow>& rows) {
     PilotTrials out;
@@ -87,12 +83,12 @@ PilotTrials pilotTrials(const std::vector<SessionRow>& rows) {
         if (each.name == row::kTrialBegin) attempts[number] = countOr(each.body, "attempt");
         if (each.name == row::kNoAnswer) {
             attempts.erase(number);
-            silent[number] = trialFrom(each.body);
+            silent[number] = identificationTrialFrom(each.body);
         }
         if (each.name != row::kAnswer) continue;
         attempts.erase(number);
         silent.erase(number);
-        out.trials.push_back(trialFrom(each.body));
+        out.trials.push_back(identificationTrialFrom(each.body));
     }
     for (const auto& [number, trial] : silent) out.trials.push_back(trial);
     for (const auto& [number, attempt] : attempts) out.open.push_back({number, attempt});

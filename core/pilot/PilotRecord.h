@@ -40,8 +40,6 @@ inline constexpr const char* kStopTest = "stop-test";
 inline constexpr const char* kSkin = "skin";
 inline constexpr const char* kImpedance = "impedance";
 inline constexpr const char* kPhase = "phase";
-inline constexpr const char* kLevelAccepted = "level-accepted";
-inline constexpr const char* kLevelTooStrong = "level-too-strong";
 inline constexpr const char* kEstimate = "estimate";
 inline constexpr const char* kRange = "range";
 inline constexpr const char* kDrift = "drift";
@@ -110,6 +108,9 @@ struct OpenTrial {
     std::size_t attempt = 1;
     bool operator==(const OpenTrial&) const = default;
 };
+
+/// The trial in the body of an `answer` or `no-answer` row; what is missing keeps its default, or is NaN.
+[[nodiscard]] IdentificationTrial identificationTrialFrom(const nlohmann::json& body);
 
 /// What the rows of all parts of a session say of its trials with a number: those of the plan.
 struct PilotTrials {

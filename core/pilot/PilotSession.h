@@ -29,7 +29,7 @@ public:
     /// Plan and checklist; in a later part the row `resumed` comes first. `resumedFrom` names the part before and its
     /// chain head. `withTrials`: the plan has trials. Errors: as PilotStage.
     [[nodiscard]] Result<void> begin(bool withTrials);
-    /// Of a part that is not the first: what its first row says.
+    /// This part continues the session of `part`; begin() then states it in the first row.
     void resumesFrom(std::string part, std::string chainHead);
 
     /// Asks before each block whether the study is still approved. Empty: nothing is asked.
@@ -43,9 +43,9 @@ public:
     [[nodiscard]] PilotIdentification& identification() noexcept { return identification_; }
     void cancel() noexcept { stage_.cancel(); }
 
-    /// Of `run pilot-thresholds` (pilot.md section 10).
+    /// Results of `run pilot-thresholds` (pilot.md section 10).
     [[nodiscard]] nlohmann::json thresholdResults() const;
-    /// Of `run pilot-identification`. Errors: as identify() and fitOf().
+    /// Results of `run pilot-identification`. Errors: as identify() and fitOf().
     [[nodiscard]] Result<nlohmann::json> identificationResults() const;
     /// What every result says first.
     [[nodiscard]] Result<std::string> headlineText() const;

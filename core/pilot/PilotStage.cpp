@@ -15,11 +15,11 @@ namespace {
 constexpr Word<PilotEnd> kPilotEnds[] = {
     {"unfinished", PilotEnd::Unfinished}, {"complete", PilotEnd::Complete}, {"stopped", PilotEnd::Stopped}};
 
-constexpr std::size_t kMostStops = 3;   // of the participant: the third ends the session
-constexpr std::size_t kMostFaults = 2;  // the second ends it
-constexpr std::size_t kMostLate = 5;    // presentations in a row that the bench could not begin in time
-constexpr Seconds kLeastPause{2};       // from an answer to the next first train
-constexpr Seconds kDot{0.5};            // the dot is shown so long before it
+constexpr std::size_t kMaxStops = 3;   // of the participant: the third ends the session
+constexpr std::size_t kMaxFaults = 2;  // the second ends it
+constexpr std::size_t kMaxLate = 5;    // presentations in a row that the bench could not begin in time
+constexpr Seconds kMinPause{2};        // from an answer to the next first train
+constexpr Seconds kDot{0.5};           // the dot is shown so long before it
 /// Until when a bench in person mode may wait for an answer: prompts of trials are shorter.
 constexpr Seconds kAskingTakes{60};
 
@@ -40,7 +40,7 @@ nlohmann::json trainsJson(const Presented& presented) {
     return all;
 }
 
-/// Of the row that says that no answer came.
+/// Name of the row that says that no answer came.
 std::string silentName(const StageTrial& trial) { return trial.askedAgain ? trial.name + " again" : trial.name; }
 
 }  // namespace
@@ -117,7 +117,7 @@ std::optional<std::chrono::nanoseconds> PilotStage::takeStop() noexcept {
 Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
     if (const auto* answered = record_.find(row::kAnswer, trial.name)) return replay(trial, *answered);
     if (const auto* silent = record_.find(row::kNoAnswer, silentName(trial))) return replay(trial, *silent);
-    for (std::size_t late = 0; late < kMostLate;) {
+    for (std::size_t late = 0; late < kMaxLate;) {
         if (auto armed = ready(); !armed) return failure(armed);
         const auto number = record_.begun(trial.name) + 1;
         auto answer = attempt(trial, number);
@@ -136,7 +136,7 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
         return StageAnswer{"stop", kNaN, number, true, false};
     }
     return fail(ErrorCode::Timeout, "{}: the bench could not begin a presentation in time {} times in a row",
-                trial.name, kMostLate);
+                trial.name, kMaxLate);
 }
 
 Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body) {
@@ -178,7 +178,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     participant_.show(screen);
     auto presentation = trial.presentation;
     Random pauses(settings_.seed, "pause before " + trial.name);
-    const auto earliest = lastAnswer_ + toInstant(kLeastPause) + toInstant(pauses.uniform());
+    const auto earliest = lastAnswer_ + toInstant(kMinPause) + toInstant(pauses.uniform());
     presentation.notBefore = std::max(earliest, bench_.clock().now() + toInstant(kDot));
     if (trial.screen.state != ScreenState::Rest) participant_.show(trial.screen);
     auto presented = present(presentation, trial.screen);
@@ -354,13 +354,13 @@ Result<void> PilotStage::recover(const std::string& during, const Error& why) {
             return kept ? Result<void>(tl::unexpected<Error>(why)) : kept;
         }
         if (auto kept = record_.write(row::kParticipantStop, during, {{"by", by}}); !kept) return kept;
-        if (record_.count(row::kParticipantStop) >= kMostStops)
+        if (record_.count(row::kParticipantStop) >= kMaxStops)
             return end(PilotEnd::Stopped, "the participant stopped for the third time, which ends the session");
         return askToGoOn("Stopped. Nothing is on. Go on when you want to.");
     }
     if (why.code == ErrorCode::Device) {
         if (auto kept = record_.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
-        if (record_.count(row::kFault) >= kMostFaults)
+        if (record_.count(row::kFault) >= kMaxFaults)
             return end(PilotEnd::Stopped, "a second fault ends the session: " + why.message);
         const auto seated = participant_.ask(
             goOnPrompt("Output is off: " + why.message + ". See to the electrodes, then go on.", PromptTo::Operator));

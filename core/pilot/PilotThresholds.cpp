@@ -119,7 +119,7 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     const auto word = strengthWordFrom(answer->response);
     if (!word) return failure(word);
     const bool tooStrong = *word == StrengthWord::TooStrong;
-    // Of an empty presentation it counts for the last level of the series.
+    // "Too strong" for an empty presentation counts for the last level of the series.
     const double level = next.empty() && tooStrong ? limits.result().series.back().highest : next.level;
     if (auto told = stage_.judged(level, tooStrong, trial.name, answer->replayed); !told) return told;
     return limits.answer(*word);

@@ -31,7 +31,7 @@ public:
     [[nodiscard]] Result<void> detection(DetectionMethod method);
     [[nodiscard]] Result<void> range();
 
-    /// Of the results: detection and range are null before they were measured.
+    /// As part of the results; detection and range are null until they are measured.
     [[nodiscard]] nlohmann::json toJson() const;
     /// As its row says it; null before it was measured.
     [[nodiscard]] const nlohmann::json& rangeJson() const noexcept { return rangeRow_; }

@@ -20,7 +20,7 @@ enum class PromptTo { Participant, Operator, Both };
 [[nodiscard]] std::string_view nameOf(PromptTo to) noexcept;  // "participant", "operator", "both"
 
 enum class PromptKind {
-    Hold,       ///< hold a key, a pedal or the target until told otherwise; key "held"
+    Hold,       ///< hold a key, a pedal or the target until asked to release it; key "held"
     Strength,   ///< "nothing", "weak", "strong", "too-strong"
     Interval,   ///< "first", "second"
     Condition,  ///< the four conditions in a 2 × 2 field (rough, smooth; firm, light), then "none" and "not-sure"

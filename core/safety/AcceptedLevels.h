@@ -41,7 +41,6 @@ public:
     void endAscending() noexcept { ascending_ = false; }
 
     [[nodiscard]] Milliamps discomfortLimit() const noexcept { return Milliamps(discomfort_); }
-    [[nodiscard]] Milliamps highestAccepted() const noexcept { return Milliamps(highest_); }
 
 private:
     [[nodiscard]] bool sameKind(const PulseTrain& train) const noexcept;
@@ -49,8 +48,8 @@ private:
     double discomfort_ = 0;
     double cap_ = std::numeric_limits<double>::infinity();  // Infinite: the study has none
     double step_ = 0;
-    double highest_ = 0;     // Of kind_, in this session
-    double seriesLast_ = 0;  // Of kind_, in this ascending series
+    double highest_ = 0;     // For trains of kind_, in this session
+    double seriesLast_ = 0;  // For trains of kind_, in this ascending series
     bool ascending_ = false;
     PulseTrain kind_;  // Amplitude ignored
 };

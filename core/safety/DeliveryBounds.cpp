@@ -8,7 +8,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kLeastRatio = 0.01;  // as CalibrationLine: with less, a window would last for ever
+constexpr double kMinRatio = 0.01;  // as CalibrationLine: with less, a window would last for ever
 
 /// What widens the bounds beyond what is programmed.
 struct Widening {
@@ -72,7 +72,7 @@ double QuantityBounds::leastRatio(double programmed) const noexcept {
     if (line_) {
         for (const double at : {line_->lowest, line_->highest}) ratio = std::min(ratio, least(at) / at);
     }
-    return std::clamp(ratio, kLeastRatio, 1.0);
+    return std::clamp(ratio, kMinRatio, 1.0);
 }
 
 DeliveryBounds::DeliveryBounds(const GateSetup& setup) noexcept

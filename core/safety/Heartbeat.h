@@ -36,19 +36,19 @@ public:
     /// The loop has switched the outputs off and voided every approval: it beats again.
     void revive(Instant now) noexcept { last_.store(now.count(), std::memory_order_release); }
     /// The loop ends on purpose: not alive until the next beat.
-    void end() noexcept { last_.store(kNever, std::memory_order_release); }
+    void end() noexcept { last_.store(kNoBeat, std::memory_order_release); }
     [[nodiscard]] bool alive(Instant now) const noexcept {
         return !gate::firstBroken(kAliveConditions, Pulse{last_.load(std::memory_order_acquire), now});
     }
     /// How long ago the last beat was; nothing before the first and after end().
     [[nodiscard]] std::optional<Instant> silence(Instant now) const noexcept {
         const auto last = last_.load(std::memory_order_acquire);
-        if (last == kNever) return std::nullopt;
+        if (last == kNoBeat) return std::nullopt;
         return now - Instant(last);
     }
 
 private:
-    static constexpr Instant::rep kNever = std::numeric_limits<Instant::rep>::min();
+    static constexpr Instant::rep kNoBeat = std::numeric_limits<Instant::rep>::min();
     /// The last beat, and now.
     struct Pulse {
         Instant::rep last;
@@ -56,13 +56,13 @@ private:
         [[nodiscard]] bool silent() const noexcept { return now.count() - last > kSilence.count(); }
     };
     static constexpr gate::Condition<Pulse> kBeatConditions[] = {
-        {gate::HeartLate, [](auto& p) noexcept { return p.last != kNever && p.silent(); }},
+        {gate::HeartLate, [](auto& p) noexcept { return p.last != kNoBeat && p.silent(); }},
     };
     static constexpr gate::Condition<Pulse> kAliveConditions[] = {
-        {gate::HeartNever, [](auto& p) noexcept { return p.last == kNever; }},
+        {gate::HeartNever, [](auto& p) noexcept { return p.last == kNoBeat; }},
         {gate::HeartSilent, [](auto& p) noexcept { return p.silent(); }},
     };
-    std::atomic<Instant::rep> last_{kNever};
+    std::atomic<Instant::rep> last_{kNoBeat};
 };
 
 }  // namespace tacto

@@ -32,7 +32,7 @@ struct Move {
 constexpr Rule<Move> kMoveRules[] = {
     {InterlockMove, [](auto& m) { return m.now != m.from; },
      [](auto& m) {
-         return fail(ErrorCode::NotArmed, "cannot {} while {}; the interlock must be {}", m.what, nameOf(m.now),
+         return fail(ErrorCode::NotArmed, "cannot {} while {}; the output must be {}", m.what, nameOf(m.now),
                      nameOf(m.from));
      }},
 };
@@ -40,15 +40,14 @@ constexpr Rule<Move> kMoveRules[] = {
 constexpr Rule<InterlockState> kRequestRules[] = {
     {ArmRequestState, [](auto& now) { return now != InterlockState::Disarmed; },
      [](auto& now) {
-         return fail(ErrorCode::NotArmed, "cannot start arming while {}; the interlock must be disarmed", nameOf(now));
+         return fail(ErrorCode::NotArmed, "cannot start arming while {}; the output must be disarmed", nameOf(now));
      }},
 };
 
 constexpr Rule<InterlockState> kConfirmRules[] = {
     {ArmConfirmState, [](auto& now) { return now != InterlockState::Disarmed; },
      [](auto& now) {
-         return fail(ErrorCode::NotArmed, "cannot confirm arming while {}; the interlock must be disarmed",
-                     nameOf(now));
+         return fail(ErrorCode::NotArmed, "cannot confirm arming while {}; the output must be disarmed", nameOf(now));
      }},
 };
 
@@ -79,7 +78,7 @@ struct Arming {
 constexpr Rule<Arming> kArmRules[] = {
     {ArmState, [](auto& a) { return a.state != InterlockState::Checking; },
      [](auto& a) {
-         return fail(ErrorCode::NotArmed, "cannot arm while {}; the interlock must be checking", nameOf(a.state));
+         return fail(ErrorCode::NotArmed, "cannot arm while {}; the load check must be running", nameOf(a.state));
      }},
     {ArmLimits, [](auto& a) { return !a.evidence.limitsLoaded; },
      [](auto&) { return fail(ErrorCode::NotArmed, "cannot arm: no limit set is loaded"); }},
@@ -129,7 +128,7 @@ struct Reset {
 
 constexpr Rule<Reset> kResetRules[] = {
     {ResetState, [](auto& r) { return r.state != InterlockState::Faulted; },
-     [](auto& r) { return fail(ErrorCode::NotArmed, "nothing to reset: the interlock is {}", nameOf(r.state)); }},
+     [](auto& r) { return fail(ErrorCode::NotArmed, "nothing to reset: the output is {}", nameOf(r.state)); }},
     {ResetCause, [](auto& r) { return r.causes != 0; },
      [](auto& r) {
          return fail(ErrorCode::NotArmed, "cannot reset while the fault persists: {} ({})", nameOf(r.firstCause()),

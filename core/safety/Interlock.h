@@ -111,10 +111,10 @@ private:
     FixedText<159> reason_;
     std::uint32_t causes_ = 0;  // Bit per FaultCause still present
     bool deviceLost_ = false;
-    std::uint64_t ticket_ = 0;  // Of the pending request; 0 = none
+    std::uint64_t ticket_ = 0;  // The pending request's; 0 = none
     std::uint64_t lastTicket_ = 0;
     Instant requestedAt_{0};
-    UnitRecord* record_ = nullptr;  // Of the unit; null: faults end with the program
+    UnitRecord* record_ = nullptr;  // The unit's; null: faults end with the program
 };
 
 }  // namespace tacto

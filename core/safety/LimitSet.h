@@ -1,5 +1,5 @@
 // LimitSet.h - limits as data: what a standard, an agency or the paper allows, each figure with its source
-// and with how sure we are of it. Shipped in resources/limits/*.json; the format is described there.
+// and with how sure we are of it. Shipped in resources/limits/*.json; safety.md, Limit sets, describes the format.
 //
 // Thread-safety: plain data and pure functions.
 #pragma once

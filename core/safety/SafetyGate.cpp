@@ -177,7 +177,7 @@ Result<void> SafetyGate::configure(const GateSetup& setup) {
 Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
     State& s = *state_;
     // No rule: there is nothing to judge with.
-    if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured");
+    if (!s.setup) return fail(ErrorCode::NotArmed, "limits and load are not set");
     const Reading reading{s, magnitude.value(), at, clock_.now()};
     auto sound = judge(kStampRules, reading);
     if (sound && at < s.impedanceAt) return {};
@@ -203,7 +203,7 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
     const State& s = *state_;
     const AskedTrain asked{s, request.train, request.interval, request.onset, clock_.now()};
     // No rule: there is nothing to judge with.
-    if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured: no limits, source and load are known");
+    if (!s.setup) return fail(ErrorCode::NotArmed, "limits, source and load are not set");
     if (auto sound = checkRequest(request.train, request.interval, s.setup->source); !sound) return failure(sound);
     if (auto kept = checkAsked(asked); !kept) return failure(kept);
     return grant(asked, epoch);
@@ -214,7 +214,7 @@ Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
     const State& s = *state_;
     const AskedTrain asked{s, s.check, std::max(kCheckInterval, s.check.duration()), onset, clock_.now()};
     // No rule: there is nothing to judge with.
-    if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured: no limits, source and load are known");
+    if (!s.setup) return fail(ErrorCode::NotArmed, "limits, source and load are not set");
     if (auto kept = checkAskedCheck(asked); !kept) return failure(kept);
     return grant(asked, epoch);
 }

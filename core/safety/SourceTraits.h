@@ -37,7 +37,7 @@ struct SourceTraits {
     Micros widthMax{4000};
     int pulsesMax = 1000;
     Seconds deadMan{0};           ///< output stops by itself this long after the last keep-alive; 0 = none
-    bool readsBack = true;        ///< status() tells open, short and impedance after each train
+    bool readsBack = true;        ///< status() reports open, short and impedance after each train
     Milliamps checkCurrent{0.5};  ///< amplitude of the impedance check on a current source
     Volts checkVoltage{1};        ///< the same on a voltage source
     StatedAccuracy accuracy;

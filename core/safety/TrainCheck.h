@@ -54,7 +54,7 @@ inline constexpr double kNetChargeLimit = 0.01;         ///< of phase charge
 inline constexpr double kNetChargeUncertainty = 0.005;  ///< above it the net charge reads not evaluated
 
 /// `status` is the newest read-back, or nothing; `trainEnd` when the train ended; `now` when this is asked. A status
-/// read before the train's end tells open and short, but does not release. A device that cannot read back is
+/// read before the train's end shows open and short, but does not release. A device that cannot read back is
 /// not judged here: the bench skips the rule where there is no status.
 [[nodiscard]] TrainJudgement judgeTrain(OutputMode mode, const std::optional<TrainReadBack>& status, Instant trainEnd,
                                         Instant now) noexcept;

@@ -29,9 +29,9 @@ public:
     UnitClaim(const UnitClaim&) = delete;
     UnitClaim& operator=(const UnitClaim&) = delete;
 
-    /// True when no other record than `record` was driven from since the computer was started.
+    /// True when the unit was driven from no other record than `record` since the computer started.
     [[nodiscard]] bool isOf(std::uint64_t record) const noexcept;
-    /// True when the last program to drive the unit left it in a fault, or that cannot be told.
+    /// True when the last program to drive the unit left it in a fault, or whether it did is unknown.
     [[nodiscard]] bool faulted() const noexcept;
 
     /// From here on the unit is driven from `record`.

@@ -1,5 +1,5 @@
 // SealedText.h - bytes that only a key opens: XChaCha20-Poly1305-IETF with a random nonce, padded so that the length
-// tells little, bound to a place by additional data that are not stored.
+// reveals little, bound to a place by additional data that are not stored.
 //
 //   24 bytes of nonce, then the ciphertext with its tag of 16 bytes; as text in URL-safe base64 without padding
 //

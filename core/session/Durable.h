@@ -14,7 +14,7 @@ namespace tacto {
 /// The same of the names in its folder. A folder that cannot be synced (some network file systems) is no reason to
 /// refuse a session.
 void syncFolderOf(const std::filesystem::path& file) noexcept;
-/// Removes an SQLite file with its journals, whatever of them is there.
+/// Removes an SQLite file and those of its journals that exist.
 void removeDraft(const std::filesystem::path& draft);
 
 }  // namespace tacto

@@ -30,7 +30,7 @@ public:
     RowSeal& operator=(const RowSeal&) = delete;
 
     /// The sealed text as printable characters without quotes or escapes: it stands in a JSON string. Twice the same
-    /// text gives two seals. Its length tells that of `text` to a block only.
+    /// text gives two seals. Its length reveals that of `text` to a block only.
     [[nodiscard]] virtual std::string sealText(std::int64_t seq, std::string_view kind,
                                                std::string_view text) const = 0;
     /// Errors: ParseError for what this seal did not make for this row: altered, moved, or of another key.

@@ -84,7 +84,7 @@ constexpr ShownOfEvent kShownOfEvents[] = {
 constexpr const char* kSealedKey = "sealed";
 constexpr const char* kSealedName = "sealed";
 
-/// A level in a sentence tells what was felt: every number becomes "…".
+/// A level in a sentence reveals what was felt: every number becomes "…".
 std::string withoutNumbers(std::string_view text) {
     std::string out;
     bool inNumber = false;
@@ -169,7 +169,7 @@ Result<InsideRow> openedRow(const RowSeal* seal, std::int64_t seq, std::string_v
     if (!inside) return failure(inside);
     const auto exact = valueOr(*inside, "t_ns");
     if (!exact.is_number_integer() || wholeSecond(Instant(exact.get<std::int64_t>())) != at)
-        return fail(ErrorCode::ParseError, "row {} of the session tells another time inside than outside", seq);
+        return fail(ErrorCode::ParseError, "row {} of the session states another time inside than outside", seq);
     return InsideRow{Instant(exact.get<std::int64_t>()), textOr(*inside, "name"), valueOr(*inside, "body"), false};
 }
 

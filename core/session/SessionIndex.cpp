@@ -52,7 +52,7 @@ bool hasSettled(const Stamp& stamp) {
     return std::chrono::nanoseconds(now).count() - stamp.newest_ns > kTick_ns;
 }
 
-/// Of a row, so that one that was altered by accident is not taken for what was read.
+/// Checksum of a row, so that one altered by accident is noticed.
 std::string checkOf(std::string_view path, std::string_view stamp, std::string_view body) {
     return sha256Hex(fmt::format("{}\n{}\n{}", path, stamp, body));
 }

@@ -32,7 +32,7 @@ public:
     /// that had to be read with how many are done, says whether to go on: what was read until then is kept.
     [[nodiscard]] std::vector<ListedSession> list(const std::vector<std::filesystem::path>& sessions,
                                                   const std::function<bool(std::size_t done)>& going) const;
-    /// Reads the session itself, whatever the index says, and corrects it.
+    /// Reads the session itself and corrects the index.
     [[nodiscard]] ListedSession read(const std::filesystem::path& session) const;
 
 private:

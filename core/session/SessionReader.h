@@ -1,7 +1,7 @@
 // SessionReader.h - gives back what a session file holds. Never changes the file.
 //
-// Of a sealed session (SealedRow.h) a reader without its key gives the rows that there are, marked as sealed, with what
-// they show; what cannot be given at all (samples, captures) is refused as Unsupported.
+// A reader without the key of a sealed session (SealedRow.h) returns its rows, marked as sealed, with what they show;
+// what stays hidden entirely (samples, captures) is refused as Unsupported.
 //
 // A session that was cut off by a crash (a *-wal file beside it) is read with what was committed before the cut. An
 // older schema is migrated in a private copy. Reading does not judge: that is verifySession(), SessionVerify.h.

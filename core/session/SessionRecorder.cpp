@@ -101,7 +101,7 @@ struct SessionRecorder::State {
         return std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
     }
     SampleBlock scratch;         // Writing side only, as the next two
-    std::uint64_t reported = 0;  // Of ring->dropped(), what the session knows already
+    std::uint64_t reported = 0;  // The part of ring->dropped() that the session has recorded
     Instant latest{0};
     std::atomic<bool> marksWait{false};
 

@@ -32,10 +32,10 @@ public:
                                                      std::string_view about,
                                                      std::shared_ptr<const RowSeal> seal = nullptr);
 
-    /// Opens a session that no one writes, to add annotations after its last row. Errors: ParseError for one that is
+    /// Opens a session that no writer holds, to add annotations after its last row. Errors: ParseError for one that is
     /// damaged; Io.
     [[nodiscard]] static Result<SessionStore> annotate(const std::filesystem::path& path);
-    /// Opens a file that no one writes, to add rows after its last one (core/session/Ledger.h). Errors: as annotate().
+    /// Opens a file that no writer holds, to add rows after its last one (Ledger.h). Errors: as annotate().
     [[nodiscard]] static Result<SessionStore> continued(const std::filesystem::path& path);
 
     /// What commit() promises for rows that were not added by addNow(). PowerLoss unless set.
@@ -54,7 +54,7 @@ public:
                                                   std::span<const std::byte> data);
     [[nodiscard]] Result<void> commit();
     /// Writes the queued chunks and commits on another thread, while the caller hashes the next ones; what it meets is
-    /// told by the next call here.
+    /// reported by the next call here.
     [[nodiscard]] Result<void> commitInBackground();
     /// The result of a commit started before, if it has ended. Never waits.
     [[nodiscard]] Result<void> collect();
@@ -108,7 +108,7 @@ private:
     [[nodiscard]] Result<void> begin(Durability durability);
     /// The same without a look at the queue.
     [[nodiscard]] Result<void> open(Durability durability);
-    /// Waits for a commit started before, and tells how it went.
+    /// Waits for a commit started before, and returns how it went.
     [[nodiscard]] Result<void> settle();
     void recycle(std::vector<QueuedChunk>& chunks);
 

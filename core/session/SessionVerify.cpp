@@ -140,7 +140,7 @@ private:
                     problem("row {} ({}) is not sealed, and the session is", entry.seq, entry.kind);
             }
             if (sealed_ && entry.t_ns % 1'000'000'000 != 0)
-                problem("row {} ({}) tells its time finer than a second", entry.seq, entry.kind);
+                problem("row {} ({}) states its time finer than a second", entry.seq, entry.kind);
             if (auto done = checkKind(entry, body ? *body : nlohmann::json(), *chunk, *capture); !done) return done;
             ++report_.rows;
             if (annotates) {

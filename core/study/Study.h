@@ -199,8 +199,9 @@ public:
     [[nodiscard]] Result<std::vector<std::pair<std::string, AdverseEvent>>> adverseEvents() const;
     /// How many; also without the key.
     [[nodiscard]] std::size_t adverseEventCount() const noexcept;
-    /// Of the order in which exports label participants: from the study's key, so that who has the study's folder alone
-    /// cannot tell a label's place in the enrolment. The same each time. Errors: Unsupported without the key.
+    /// Seed of the order in which exports label participants, derived from the study's key so that someone with only
+    /// the study folder cannot tell a label's place in the enrolment. The same each time. Errors: Unsupported without
+    /// the key.
     [[nodiscard]] Result<std::uint64_t> labelSeed() const;
     /// Participants that the first approval allowed, whatever was amended since.
     [[nodiscard]] int firstPlaces() const noexcept;

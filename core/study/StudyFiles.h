@@ -20,7 +20,7 @@ struct StudyFiles {
     [[nodiscard]] std::filesystem::path lock() const { return folder / "study.lock"; }
     [[nodiscard]] std::filesystem::path sessions() const { return folder / "sessions"; }
     [[nodiscard]] std::filesystem::path session(std::string_view file) const;
-    /// Of a rehearsal.
+    /// A rehearsal's keys.
     [[nodiscard]] std::filesystem::path keys() const { return folder / "rehearsal-keys.json"; }
 };
 

@@ -1,7 +1,7 @@
 // BurstTimer.h - when a massager is to be written what: the burst, its repetitions, and the stop that ends it. Times
 // only: no bytes, no device, no clock of its own.
 //
-//   * A stop goes out at once, whatever was written just before; when that was too soon for the device, once more after
+//   * A stop goes out at once, even just after another write; when that was too soon for the device, once more after
 //     the shortest write interval.
 //   * A stop that could not be written is tried again every kRetry, before anything else, until the device takes it.
 //   * A burst ends by itself: the stop is due its duration after the device took it.

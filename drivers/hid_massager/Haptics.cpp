@@ -26,7 +26,7 @@ constexpr std::int64_t kRumbleContinuous = 0x1005;
 constexpr std::int64_t kFirstInkContinuous = 0x100B;  // to 0x1011: a pen's, which last too
 constexpr std::int64_t kLastInkContinuous = 0x1011;
 constexpr Seconds kMillisecond{0.001};
-constexpr std::int64_t kPlayMost_ms = 1000;  // as the longest burst
+constexpr std::int64_t kMaxPlay_ms = 1000;  // as the longest burst
 
 ReportField plain(const HidField& field) {
     return {field.bit, field.bits, ByteOrder::Little, field.min, field.max, VibrationRole::Intensity};
@@ -122,7 +122,7 @@ Result<VibrationReports> hapticReports(const HapticControls& controls, std::span
         if (!isFinite(waveform) || finite != nullptr || !entry.duration) continue;
         if (!controls.repeatCount || controls.repeatCount->max < 0) continue;
         const auto milliseconds = valueOf(plain(*entry.duration), list);
-        if (milliseconds <= 0 || milliseconds > kPlayMost_ms ||
+        if (milliseconds <= 0 || milliseconds > kMaxPlay_ms ||
             (controls.retriggerPeriod && !holds(*controls.retriggerPeriod, milliseconds)))
             continue;
         finite = &entry;

@@ -4,7 +4,7 @@
 // implicit, the device's own begin at 3 (HID Usage Tables 1.4, section 17; hid-vibration.md). Names differ
 // between headers, so only the numbers count.
 //
-// A burst that the device ends by itself is preferred, because it ends whatever becomes of this program (H2):
+// A burst that the device ends by itself is preferred, because it ends even if this program dies (H2):
 //   1. a waveform that lasts, 0x1004 (buzz) or 0x1005 (rumble), with a cutoff time (0E:28, ms) in the output report;
 //   2. a waveform of known duration (the duration list, ms) with a repeat count (0E:24: plays after the first) and,
 //      where the report has one, the retrigger period set to that duration;

@@ -98,7 +98,7 @@ public:
     bool runsOnVirtualClock() const noexcept override { return false; }
 
     std::vector<DeviceIdentity> list() const override {
-        // A template that cannot be read is told by open(); what the others describe is still listed.
+        // open() reports a template that cannot be read; what the others describe is still listed.
         const auto templates = loadMassagerTemplates(parts_.templates).value_or(std::vector<MassagerTemplate>{});
         std::vector<DeviceIdentity> found;
         for (const auto& one : candidates(templates, nullptr)) {

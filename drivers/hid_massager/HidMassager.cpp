@@ -135,7 +135,7 @@ Result<void> HidMassager::reconnect(std::unique_lock<std::mutex>& lock) {
 void HidMassager::forceOff() noexcept {
     {
         const std::scoped_lock urgent(urgent_);
-        // The report follows all the same: it is what tells that the device took the stop.
+        // The report follows all the same: it shows that the device took the stop.
         if (port_) static_cast<void>(port_->stopNow());
     }
     {

@@ -4,7 +4,7 @@
 // ends it with the stop report. The stop report goes out on every way out as well: forceOff(), an error, a report that
 // the device was too slow to take, opening and closing; one that fails is tried again every 50 ms.
 //
-// A fault is told from slowness: a write that fails, or that the device takes only part of, is Device; one that is
+// A fault is not slowness: a write that fails, or that the device takes only part of, is Device; one that is
 // still under way after kTimeout is Timeout, its burst is given up and stopped when the write returns.
 //
 // A watchdog holds the stop as well, for when this program dies or stands still. It is started when the device is

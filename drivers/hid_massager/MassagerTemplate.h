@@ -26,7 +26,7 @@ struct MassagerTemplate {
     std::string title;
     std::string source;  ///< where its figures are from
     std::vector<TemplateDevice> devices;
-    std::optional<Usage> usage;        ///< of the top-level collection; nothing: whichever the device has
+    std::optional<Usage> usage;        ///< of the top-level collection; nothing: any that the device has
     std::uint8_t report = 0;           ///< number of the output report; 0 where the device has none
     std::vector<std::size_t> lengths;  ///< accepted, the number's byte included; the device's own descriptor chooses
     struct Constant {

@@ -84,7 +84,7 @@ ValueKind<ReportField> fieldKind() {
     static const Word<VibrationRole> roles[] = {{nameOf(VibrationRole::Intensity), VibrationRole::Intensity},
                                                 {nameOf(VibrationRole::Weak), VibrationRole::Weak},
                                                 {nameOf(VibrationRole::Strong), VibrationRole::Strong}};
-    constexpr double kFar = 4294967296;  // 2^32
+    constexpr double kMaxFieldValue = 4294967296;  // 2^32
     using F = StoredField;
     RecordFields<F> stored;
     stored.word("role", &F::role, roles).required = true;
@@ -92,8 +92,8 @@ ValueKind<ReportField> fieldKind() {
     stored.number("bit", &F::bit, {.low = 0, .high = 7});
     stored.number("bits", &F::bits, {.low = 1, .high = 32});
     stored.word("endian", &F::order, kByteOrders);
-    stored.number("min", &F::min, {.low = -kFar, .high = kFar});
-    stored.number("max", &F::max, {.low = -kFar, .high = kFar}).required = true;
+    stored.number("min", &F::min, {.low = -kMaxFieldValue, .high = kMaxFieldValue});
+    stored.number("max", &F::max, {.low = -kMaxFieldValue, .high = kMaxFieldValue}).required = true;
     return storedAs<ReportField, F>(
         stored,
         [](const F& field) {

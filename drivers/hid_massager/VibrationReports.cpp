@@ -64,11 +64,11 @@ Result<void> validate(const VibrationReports& reports) {
         return invalid("the report has {} bytes; 2 to {} are accepted, its number included", length, kMaxReport);
     }
     if (reports.stop.size() != length) {
-        return invalid("the stop report has {} bytes and the start report {}; equal lengths are accepted",
+        return invalid("the stop report has {} bytes and the start report {}; both reports must have the same length",
                        reports.stop.size(), length);
     }
     if (reports.stop[0] != reports.start[0]) {
-        return invalid("the stop report has the number {} and the start report {}; equal numbers are accepted",
+        return invalid("the stop report has the number {} and the start report {}; both must have the same number",
                        reports.stop[0], reports.start[0]);
     }
     if (reports.fields.empty()) return invalid("the report has no field for the intensity; one or more is needed");
@@ -89,8 +89,8 @@ Result<void> validate(const VibrationReports& reports) {
                        reports.ends->unit.count());
     }
     const double keep = reports.keepAlive.count();
-    if (!(keep == 0 || (keep >= kKeepAliveLeast.count() && keep <= 60))) {
-        return invalid("the keep-alive is {} s; 0 (none) or {} to 60 s are accepted", keep, kKeepAliveLeast.count());
+    if (!(keep == 0 || (keep >= kMinKeepAlive.count() && keep <= 60))) {
+        return invalid("the keep-alive is {} s; 0 (none) or {} to 60 s are accepted", keep, kMinKeepAlive.count());
     }
     const double shortest = reports.shortestWrite.count();
     if (!(shortest >= 0 && shortest <= kMaxShortestWrite.count())) {
@@ -127,7 +127,7 @@ namespace {
 
 /// The value that makes the device play for `duration` at least.
 Result<std::int64_t> valueFor(const DurationField& ends, Seconds duration) {
-    constexpr double kRounding = 1e-9;  // 0.1 s is 100 units of 0.001 s, whatever binary fractions say
+    constexpr double kRounding = 1e-9;  // 0.1 s is 100 units of 0.001 s despite binary fractions
     const double units = std::ceil(duration.count() / ends.unit.count() * (1 - kRounding));
     const double most = static_cast<double>(ends.at.max + ends.first);
     if (!(duration.count() > 0) || !(units <= most)) {

@@ -59,7 +59,7 @@ struct VibrationReports {
 
 inline constexpr std::size_t kMaxReport = 4096;    ///< bytes
 inline constexpr Seconds kMaxShortestWrite{0.04};  ///< a burst must still begin within the 50 ms of its approval
-inline constexpr Seconds kKeepAliveLeast{0.005};
+inline constexpr Seconds kMinKeepAlive{0.005};
 
 /// Errors: InvalidArgument naming the field and what would fit: outside its report, over another field, over the report
 /// number, a range that its bits cannot hold, reports of different length, times that cannot be kept. `ends` counts as

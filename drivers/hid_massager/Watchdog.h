@@ -1,6 +1,6 @@
 // Watchdog.h - keeps a massager's stop outside of this program, because nothing inside can send it after kill -9.
 //
-// A watchdog sends the stop when the program that made it ends without saying so, in whatever way, and when the program
+// A watchdog sends the stop when the program that made it ends in any way without saying so, and when the program
 // is silent for kSilence while output is on. A massager without a watchdog is not driven (safety.md, "The gate").
 //
 // Thread-safety: one caller at a time. Destruction after rest() ends the watchdog; without it the watchdog sends the
@@ -21,7 +21,8 @@ public:
     static constexpr Instant kBeat = std::chrono::milliseconds(50);  ///< how often a caller beats meanwhile
 
     virtual ~Watchdog() = default;
-    static constexpr Instant kDeaf = std::chrono::milliseconds(500);  ///< so long it may leave beats unanswered
+    static constexpr Instant kUnansweredLimit =
+        std::chrono::milliseconds(500);  ///< how long it may leave beats unanswered
 
     /// Output is about to begin, or goes on. Never waits. False where the watchdog has ended or stands still: then
     /// there must be no output.

@@ -127,7 +127,7 @@ bool WatchdogProcess::beat() noexcept {
     // At rest there was nothing to answer.
     if (resting_ || !unanswered_) unanswered_ = now;
     resting_ = false;
-    return now - *unanswered_ <= kDeaf && send(line_, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT) == 1;
+    return now - *unanswered_ <= kUnansweredLimit && send(line_, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT) == 1;
 }
 
 void WatchdogProcess::rest() noexcept {

@@ -1,4 +1,4 @@
-// tactoscope-watchdog - sends a massager's stop report when the program that started it dies in whatever way (kill -9,
+// tactoscope-watchdog - sends a massager's stop report when the program that started it dies in any way (kill -9,
 // abort, out of memory), or is silent while output is on. Started by drivers/hid_massager/WatchdogProcess; of no use
 // by itself.
 //

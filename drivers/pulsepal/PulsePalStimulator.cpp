@@ -10,11 +10,11 @@ namespace {
 
 /// From the trigger's last byte to the onset: it is scheduled for the cycle after the next, and two more are spare.
 constexpr Instant kTriggerDelay = std::chrono::microseconds(200);
-/// By how much the device's clock may run slow, and ours still tells a train's end: 100 ppm twice (two crystals).
+/// How slow the device's clock may run while ours still predicts a train's end: 100 ppm twice (two crystals).
 constexpr double kClockError = 200e-6;
 /// A device that says nothing for so long has answered all that another program asked before us: it takes a command
 /// every 50 µs, and a USB frame is 1 ms.
-constexpr Seconds kQuiet{0.005};
+constexpr Seconds kLineSilence{0.005};
 
 }  // namespace
 
@@ -59,7 +59,7 @@ Result<Handshake> PulsePalStimulator::reconnect() {
     }
     const auto offs = offs_.load(std::memory_order_acquire);
     if (auto aborted = write(abortTwice(), clock_.now() + toInstant(kTimeout)); !aborted) return failure(aborted);
-    auto found = greet(kGreetingTimeout, kQuiet);
+    auto found = greet(kGreetingTimeout, kLineSilence);
     if (!found) return found;
     std::vector<CommandBytes> commands;
     for (int number = 1; number <= kChannels; ++number) {
@@ -96,9 +96,9 @@ void PulsePalStimulator::drain(Seconds quiet) {
     }
 }
 
-Result<Handshake> PulsePalStimulator::greet(Seconds patience, Seconds quiet) {
+Result<Handshake> PulsePalStimulator::greet(Seconds timeout, Seconds quiet) {
     drain(quiet);
-    const Instant deadline = clock_.now() + toInstant(patience);
+    const Instant deadline = clock_.now() + toInstant(timeout);
     std::array<std::uint8_t, kHandshakeSize> reply{};
     if (auto asked = write(handshake(), deadline); !asked) return failure(asked);
     const auto answered = readExactly(reply, deadline);
@@ -106,14 +106,14 @@ Result<Handshake> PulsePalStimulator::greet(Seconds patience, Seconds quiet) {
         return fail(ErrorCode::Timeout,
                     "Pulse Pal: no answer to the handshake within {:.2g} s; one that was cut off in the middle of a "
                     "command waits for a click on its joystick",
-                    patience.count());
+                    timeout.count());
     }
     if (!answered) return failure(answered);
     return readHandshake(reply);
 }
 
-Result<void> PulsePalStimulator::program(std::span<const CommandBytes> commands, Seconds patience) {
-    const Instant deadline = clock_.now() + toInstant(patience);
+Result<void> PulsePalStimulator::program(std::span<const CommandBytes> commands, Seconds timeout) {
+    const Instant deadline = clock_.now() + toInstant(timeout);
     for (const auto& command : commands) {
         if (auto sent = write(command, deadline); !sent) return sent;
     }

@@ -35,7 +35,7 @@ public:
     /// The firmware gives up a half-received command after 0.5 s.
     static constexpr Seconds kGreetingTimeout{0.6};
 
-    /// Connects, ends whatever the device was doing, asks what it is and quiets all four channels. `uri` is what opens
+    /// Connects, ends what the device was doing, asks what it is and turns all four channels off. `uri` is what opens
     /// it again, `serial` its USB serial number. `clock` outlives the device.
     /// Errors: as `connect`; InvalidArgument for a channel that is not 1 to 4; ParseError, Unsupported for another
     /// device; Timeout for one that does not answer; Device.
@@ -58,9 +58,9 @@ public:
 private:
     PulsePalStimulator(Connect connect, Channel channel, const Clock& clock);
     [[nodiscard]] Result<Handshake> reconnect();
-    [[nodiscard]] Result<Handshake> greet(Seconds patience, Seconds quiet);
+    [[nodiscard]] Result<Handshake> greet(Seconds timeout, Seconds quiet);
     [[nodiscard]] Result<void> write(const CommandBytes& command, Instant deadline);
-    [[nodiscard]] Result<void> program(std::span<const CommandBytes> commands, Seconds patience);
+    [[nodiscard]] Result<void> program(std::span<const CommandBytes> commands, Seconds timeout);
     [[nodiscard]] Result<void> readExactly(std::span<std::uint8_t> into, Instant deadline);
     void drain(Seconds quiet);  // throws away what was answered, until nothing came for so long
     [[nodiscard]] Result<void> ensureSilence();

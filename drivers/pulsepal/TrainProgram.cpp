@@ -6,8 +6,8 @@ namespace {
 
 /// The output changes on every cycle, but a phase of one is the converter's settling time (wire notes; the maker's
 /// menu takes 1). Two make a plateau.
-constexpr std::uint32_t kPhaseCyclesLeast = 2;
-constexpr std::uint32_t kPauseCyclesLeast = 2;
+constexpr std::uint32_t kMinPhaseCycles = 2;
+constexpr std::uint32_t kMinPauseCycles = 2;
 /// The last cycle lies behind the train's end.
 constexpr auto kCyclesLongestTrain = static_cast<std::uint64_t>(Micros(kLongestWithoutDeadMan) / kCycle) + 1;
 
@@ -26,7 +26,7 @@ SourceTraits sourceTraits() noexcept {
     traits.amplitudeMax = kMaxVolts;
     traits.compliance = Volts(kMaxVolts);
     traits.widthStep = kCycle;
-    traits.widthMin = kCycle * static_cast<double>(kPhaseCyclesLeast);
+    traits.widthMin = kCycle * static_cast<double>(kMinPhaseCycles);
     traits.widthMax = Micros(100'000);
     traits.pulsesMax = 1000;
     traits.deadMan = Seconds(0);
@@ -64,9 +64,9 @@ Result<TrainProgram> programTrain(const PulseTrain& train, Channel channel) {
     if (!phase2) return unsupported(phase2);
     const auto width1 = Cycles::of(train.phaseWidth, "phase width");
     if (!width1) return unsupported(width1);
-    if (width1->count() < kPhaseCyclesLeast) {
+    if (width1->count() < kMinPhaseCycles) {
         return fail(ErrorCode::Unsupported, "Pulse Pal: phase width {:.6g} us; {:.0f} us or more is accepted",
-                    train.phaseWidth.count(), kCycle.count() * kPhaseCyclesLeast);
+                    train.phaseWidth.count(), kCycle.count() * kMinPhaseCycles);
     }
     const auto gap = Cycles::of(biphasic ? train.interPhaseGap : Micros(0), "inter-phase gap");
     if (!gap) return unsupported(gap);
@@ -74,19 +74,19 @@ Result<TrainProgram> programTrain(const PulseTrain& train, Channel channel) {
     if (!width2) return unsupported(width2);
 
     const std::uint64_t pulse = std::uint64_t{width1->count()} + gap->count() + width2->count();
-    std::uint64_t period = pulse + kPauseCyclesLeast;  // of a single pulse no rate is asked
+    std::uint64_t period = pulse + kMinPauseCycles;  // of a single pulse no rate is asked
     if (train.pulses > 1) {
         const auto asked = Cycles::of(Seconds(1 / train.rate.value()), "period");
         if (!asked) return unsupported(asked);
         period = asked->count();
-        if (period < pulse + kPauseCyclesLeast) {
+        if (period < pulse + kMinPauseCycles) {
             return fail(ErrorCode::Unsupported,
                         "Pulse Pal: {:.6g} Hz leaves {} cycles between pulses; {} or more are accepted",
-                        train.rate.value(), static_cast<std::int64_t>(period - pulse), kPauseCyclesLeast);
+                        train.rate.value(), static_cast<std::int64_t>(period - pulse), kMinPauseCycles);
         }
     }
     const std::uint64_t whole = period * static_cast<std::uint64_t>(train.pulses - 1) + pulse + 1;
-    // The gate refuses it before; here nothing that it gets wrong can start what no one ends.
+    // The gate refuses it earlier; here an error of the gate cannot start an output that does not end.
     if (whole > kCyclesLongestTrain) {
         return fail(ErrorCode::Unsupported,
                     "Pulse Pal: a train of {:.6g} s; it has no dead-man switch, and at most {:.4g} s is accepted",

@@ -35,7 +35,7 @@ enum class ResultCode : std::uint8_t {
 
 inline constexpr std::size_t kSamples = 128;
 
-/// Of LL_CHANNEL_CONFIG: what the device measured during its own pulse.
+/// The answer to LL_CHANNEL_CONFIG: what the device measured during its own pulse.
 struct ChannelConfigAck {
     ResultCode result = ResultCode::Ok;
     bool complete = false;  ///< false: a result alone, nothing below is stated

@@ -5,15 +5,15 @@
 namespace tacto::sciencemode {
 namespace {
 
-constexpr int kZeroCurrent = 300;  // what 0 mA is on the wire
-constexpr double kHair = 1e-6;     // of a step: the representation of decimal steps in binary
+constexpr int kZeroCurrent = 300;        // what 0 mA is on the wire
+constexpr double kStepTolerance = 1e-6;  // of a step: the representation of decimal steps in binary
 
 /// `value` in steps, when it lies on one.
 std::optional<long> stepsOf(double value, double step) noexcept {
     const double steps = value / step;
     if (!(std::abs(steps) <= 1e9)) return std::nullopt;
     const double whole = std::round(steps);
-    if (!(std::abs(steps - whole) <= kHair)) return std::nullopt;
+    if (!(std::abs(steps - whole) <= kStepTolerance)) return std::nullopt;
     return static_cast<long>(whole);
 }
 
@@ -33,7 +33,7 @@ std::optional<Points> takePoints(std::span<const std::uint8_t>& bytes, std::size
     for (std::size_t i = 0; i < count; ++i) {
         const auto point = decodePoint(bytes.first<4>());
         bytes = bytes.subspan(4);
-        if (point.time.count() < kPointLeast_us || !(std::abs(point.current.value()) <= kCurrentMost_mA)) {
+        if (point.time.count() < kMinPoint_us || !(std::abs(point.current.value()) <= kMaxCurrent_mA)) {
             return std::nullopt;
         }
         static_cast<void>(points.add(point));  // at most 16 are asked for
@@ -88,15 +88,15 @@ bool Points::add(const Point& point) noexcept {
 
 Result<PointBytes> encodePoint(const Point& point) {
     const auto time = stepsOf(point.time.count(), 1);
-    if (!time || *time < kPointLeast_us || *time > kPointMost_us) {
+    if (!time || *time < kMinPoint_us || *time > kMaxPoint_us) {
         return fail(ErrorCode::InvalidArgument, "a ScienceMode point of {} µs cannot be sent: whole µs from {} to {}",
-                    point.time.count(), kPointLeast_us, kPointMost_us);
+                    point.time.count(), kMinPoint_us, kMaxPoint_us);
     }
     const auto half = stepsOf(point.current.value(), kCurrentStep_mA);
-    if (!half || !(std::abs(point.current.value()) <= kCurrentMost_mA)) {
+    if (!half || !(std::abs(point.current.value()) <= kMaxCurrent_mA)) {
         return fail(ErrorCode::InvalidArgument,
                     "a ScienceMode point of {} mA cannot be sent: steps of {} mA from -{} to {} mA",
-                    point.current.value(), kCurrentStep_mA, kCurrentMost_mA, kCurrentMost_mA);
+                    point.current.value(), kCurrentStep_mA, kMaxCurrent_mA, kMaxCurrent_mA);
     }
     const auto t = static_cast<unsigned>(*time);
     const auto c = static_cast<unsigned>(*half + kZeroCurrent);

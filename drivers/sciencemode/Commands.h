@@ -38,10 +38,10 @@ enum class Command : std::uint16_t {
 enum class HighVoltage : std::uint8_t { Default = 0, Off = 1, V30 = 2, V60 = 3, V90 = 4, V120 = 5, V150 = 6 };
 enum class Measurement : std::uint8_t { None = 0, Current = 1, Voltage = 2, Source = 3 };
 
-inline constexpr double kCurrentMost_mA = 130;
+inline constexpr double kMaxCurrent_mA = 130;
 inline constexpr double kCurrentStep_mA = 0.5;
-inline constexpr int kPointLeast_us = 10;
-inline constexpr int kPointMost_us = 4095;  // 12 bits
+inline constexpr int kMinPoint_us = 10;
+inline constexpr int kMaxPoint_us = 4095;  // 12 bits
 inline constexpr std::size_t kMaxPoints = 16;
 inline constexpr std::size_t kChannels = 4;  // 2 bits, and a connector bit
 

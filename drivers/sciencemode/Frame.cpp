@@ -81,7 +81,7 @@ FrameDecoder::Finding FrameDecoder::examine() noexcept {
             if (examined_ % 2 == 1 && byte != kEscape) return Finding::Broken;
             if (examined_ == 4) {
                 length_ = wordAt(&buffer_[2]);
-                if (length_ < kFrameLeast || length_ > kMaxFrame) return Finding::Broken;
+                if (length_ < kMinFrame || length_ > kMaxFrame) return Finding::Broken;
             }
         } else if (examined_ + 1 == length_) {
             const std::span<const std::uint8_t> stuffed(buffer_.data() + kHeader, length_ - kFrameOverhead);

@@ -23,7 +23,7 @@ namespace tacto::sciencemode {
 inline constexpr std::size_t kMaxPayload = 1 + 8 * (3 + 16 * 4);
 inline constexpr std::size_t kMaxBody = 2 + kMaxPayload;
 inline constexpr std::size_t kFrameOverhead = 10;
-inline constexpr std::size_t kFrameLeast = kFrameOverhead + 2;
+inline constexpr std::size_t kMinFrame = kFrameOverhead + 2;
 inline constexpr std::size_t kMaxFrame = kFrameOverhead + 2 * kMaxBody;  // every byte stuffed
 inline constexpr std::uint16_t kMaxCommand = 1023;
 inline constexpr std::uint8_t kMaxNumber = 63;
@@ -58,7 +58,7 @@ public:
 
     /// Bytes that belonged to no frame.
     [[nodiscard]] std::uint64_t junkBytes() const noexcept { return junk_; }
-    /// Of those, what began like a frame and then was none: a wrong length, CRC, stuffing or end.
+    /// How many of those began like a frame but had a wrong length, CRC, stuffing or end.
     [[nodiscard]] std::uint64_t brokenFrames() const noexcept { return broken_; }
 
 private:

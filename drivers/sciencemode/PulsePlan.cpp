@@ -5,21 +5,21 @@
 namespace tacto::sciencemode {
 namespace {
 
-constexpr double kHair = 1e-6;
+constexpr double kRounding_us = 1e-6;
 constexpr double kCompliance_V = 150;  // the device's highest supply
 
 /// Adds `duration` at `current`, as several points where one is too short for it. Errors: as encodePoint(), but Device.
 Result<void> addStretch(Points& points, std::string_view what, Micros duration, double current_mA) {
     const double us = std::round(duration.count());
-    if (!(std::abs(duration.count() - us) <= kHair) || !(us >= kPointLeast_us)) {
+    if (!(std::abs(duration.count() - us) <= kRounding_us) || !(us >= kMinPoint_us)) {
         return fail(ErrorCode::Device, "the stimulator refused a {} of {} µs: whole µs from {} up", what,
-                    duration.count(), kPointLeast_us);
+                    duration.count(), kMinPoint_us);
     }
-    const int pieces = static_cast<int>(std::ceil(us / kPointMost_us));
+    const int pieces = static_cast<int>(std::ceil(us / kMaxPoint_us));
     if (!(pieces <= static_cast<int>(kMaxPoints - points.count))) {
         return fail(ErrorCode::Device,
                     "the stimulator refused a pulse whose {} of {} µs does not fit its {} points of at most {} µs",
-                    what, us, kMaxPoints, kPointMost_us);
+                    what, us, kMaxPoints, kMaxPoint_us);
     }
     const int total = static_cast<int>(us);
     for (int piece = 0; piece < pieces; ++piece) {
@@ -51,12 +51,12 @@ SourceTraits sourceTraits(bool readsBack) noexcept {
     traits.drive = Drive::Current;
     traits.gap = GapState::HighImpedance;  // a point of 0 mA carries no current
     traits.amplitudeStep = kCurrentStep_mA;
-    traits.amplitudeMax = kCurrentMost_mA;
+    traits.amplitudeMax = kMaxCurrent_mA;
     traits.compliance = Volts(kCompliance_V);
-    traits.currentLimit = Milliamps(kCurrentMost_mA);
+    traits.currentLimit = Milliamps(kMaxCurrent_mA);
     traits.widthStep = Micros(1);
-    traits.widthMin = Micros(kPointLeast_us);
-    traits.widthMax = Micros(kPointMost_us);
+    traits.widthMin = Micros(kMinPoint_us);
+    traits.widthMax = Micros(kMaxPoint_us);
     traits.pulsesMax = 1000;
     traits.deadMan = Seconds(2);
     traits.readsBack = readsBack;
@@ -73,9 +73,9 @@ Result<PulsePlan> planPulse(const PulseTrain& train) {
     PulsePlan plan;
     plan.amplitude = *current;
     plan.leading = train.phaseWidth;
-    if (!(plan.leading.count() <= kPointMost_us)) {
+    if (!(plan.leading.count() <= kMaxPoint_us)) {
         return fail(ErrorCode::Device, "the stimulator refused a phase width of {} µs: {} to {} µs",
-                    plan.leading.count(), kPointLeast_us, kPointMost_us);
+                    plan.leading.count(), kMinPoint_us, kMaxPoint_us);
     }
     if (train.shape != PulseShape::Monophasic) {
         plan.gap = train.interPhaseGap;

@@ -103,7 +103,7 @@ auto theOneThatAnswers(const DeviceUri& uri, TransportPorts* ports, const Clock&
             if (made) return made;
             reason = made.error();
         }
-        // The first reason is told, but what the port with that address says before all others.
+        // The first reason is reported, unless the port with that address gives one: its reason takes precedence.
         if (!problem || named(port)) problem = std::move(reason);
         if (named(port)) break;
     }

@@ -57,7 +57,7 @@ ScienceModeStimulator::~ScienceModeStimulator() {
 void ScienceModeStimulator::disconnect() {
     exchange_.reset();
     gone_ = true;
-    lowLevelOffs_ = kNever;
+    lowLevelOffs_ = kNotInitialised;
     std::unique_ptr<Transport> old;  // closed after the lock is let go
     const std::scoped_lock urgent(urgent_);
     old = std::move(transport_);
@@ -87,7 +87,7 @@ void ScienceModeStimulator::endEverything() {
     for (const auto stop : {Command::LowLevelStop, Command::MidLevelStop}) {
         static_cast<void>(exchange_->ask(stop));
     }
-    lowLevelOffs_ = kNever;
+    lowLevelOffs_ = kNotInitialised;
 }
 
 Result<void> ScienceModeStimulator::command(Command command, const Payload& payload, std::uint64_t offs) {
@@ -106,7 +106,7 @@ Result<void> ScienceModeStimulator::command(Command command, const Payload& payl
 
 Result<void> ScienceModeStimulator::ensureLowLevel(std::uint64_t offs) {
     if (lowLevelOffs_ == offs) return {};
-    lowLevelOffs_ = kNever;
+    lowLevelOffs_ = kNotInitialised;
     if (auto done =
             command(Command::LowLevelInit, payloadOf(LowLevelInit{settings_.highVoltage, settings_.measurement}), offs);
         !done) {

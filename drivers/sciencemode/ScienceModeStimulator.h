@@ -65,9 +65,9 @@ public:
     [[nodiscard]] const SourceTraits& traits() const noexcept override { return traits_; }
     /// Returns with the ack of the first pulse: 50 ms at most after the pulse's own end. Refuses, besides what
     /// Stimulator says, what planPulse() refuses, an expired approval, and a train while another is in progress. A
-    /// train that forceOff() overtakes is cut, which is no error; an electrode that is off is told by status().
+    /// train that forceOff() overtakes is cut, which is no error; status() reports an electrode that is off.
     [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
-    /// During a train, what its last pulse told; otherwise the device is asked. What ended a train early is the error
+    /// During a train, what its last pulse said; otherwise the device is asked. What ended a train early is the error
     /// of the status() after it, once. `imbalance` is a lower bound (see ReadBack.h) and mostly absent.
     [[nodiscard]] Result<StimulatorStatus> status() override;
     /// Asks the device nothing: this driver sends every pulse itself, so a train ends with the program. Errors: Device
@@ -80,7 +80,7 @@ public:
     Instant serve(Instant now) noexcept;
 
     [[nodiscard]] ExchangeCounts counts();
-    /// What the newest low-level pulse told, its samples among it; nothing measured before the first. Any thread.
+    /// What the newest low-level pulse reported, including its samples; nothing measured before the first. Any thread.
     [[nodiscard]] PulseReading lastReading() const {
         const std::scoped_lock state(state_);
         return reading_;
@@ -114,7 +114,7 @@ private:
                                          PulseReading& reading, Instant& written);
     [[nodiscard]] Result<StimulatorStatus> askStatus();
 
-    static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+    static constexpr std::uint64_t kNotInitialised = ~std::uint64_t{0};
     [[nodiscard]] bool stoppedSince(std::uint64_t offs) const noexcept {
         return offs_.load(std::memory_order_acquire) != offs;
     }
@@ -132,7 +132,7 @@ private:
 
     std::mutex io_;  // the transport's one caller; held for an exchange. Locked before the others
     std::unique_ptr<Exchange> exchange_;
-    std::uint64_t lowLevelOffs_ = kNever;  // offs_ when low level was initialised: any later stop ended it
+    std::uint64_t lowLevelOffs_ = kNotInitialised;  // offs_ when low level was initialised: any later stop ended it
     std::atomic<bool> gone_{false};
 
     std::mutex urgent_;  // the pointer below; held for writeUrgent(), which does not wait, and for replacing it

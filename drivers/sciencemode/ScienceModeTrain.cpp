@@ -37,7 +37,7 @@ Result<ScienceModeStimulator::Sent> ScienceModeStimulator::firePulse(const Pulse
     if (!sent) return failure(sent);
     const auto answer = exchange_->receive(kAnswerTime + Seconds(plan.points.duration()));
     if (exchange_->gone()) gone_ = true;
-    if (stoppedSince(offs)) return Sent::Stopped;  // whatever it says: the stop may have been faster
+    if (stoppedSince(offs)) return Sent::Stopped;  // even on an error: the stop may have been faster
     if (!answer) return failure(answer);
     ChannelConfigAck ack;
     if (const auto read = readChannelConfigAck(*answer, ack); !read) return failure(read);
@@ -76,7 +76,7 @@ Result<void> ScienceModeStimulator::deliver(ApprovedTrain&& train) {
     Instant first{0};
     const auto fired = firePulse(*plan, *request, offs, reading, first);
     if (!fired) {
-        lowLevelOffs_ = kNever;
+        lowLevelOffs_ = kNotInitialised;
         return failure(fired);
     }
     if (*fired == Sent::Stopped) return {};
@@ -134,7 +134,7 @@ void ScienceModeStimulator::firePlayed(Instant now) {
     if (!fired) {
         // No caller waits for this answer, so no other would switch off.
         forceOff();
-        lowLevelOffs_ = kNever;
+        lowLevelOffs_ = kNotInitialised;
     }
     const std::scoped_lock state(state_);
     if (!fired) {

@@ -133,7 +133,7 @@ Result<std::optional<Frame>> BoardLink::await(Command command, Reply answer, std
         if (left <= Instant(0) || counts().bytes - begin > kMaxNoise) return std::optional<Frame>{};
         const auto came = fill(Seconds(left));
         if (!came) return failure(came);
-        // The transport waited as long as it was told to, whatever the clock says.
+        // The transport waited for its full timeout, whatever the clock says.
         if (!*came) return std::optional<Frame>{};
     }
 }

@@ -1,6 +1,6 @@
 // BoardLink.h - questions to a board and the frames that come from it, over a Transport.
 //
-// ask() waits, within bounds: three attempts of 0.3 s, 64 KiB of whatever else comes. A board that floods the line with
+// ask() waits, within bounds: three attempts of 0.3 s, 64 KiB of other data. A board that floods the line with
 // noise, or says nothing, is refused in the end, never waited for.
 //
 // listen() starts a thread that reads what comes, so that it is known when it came: a session looks every 2 ms at best,

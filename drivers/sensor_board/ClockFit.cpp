@@ -9,14 +9,14 @@ namespace tacto::sensorboard {
 namespace {
 constexpr std::size_t kRecent = 15;  // windows, half a minute, whose shortest delay gives the offset
 constexpr int kHalvings = 3;
-constexpr std::size_t kKeptLeast = 4;  // points that the halvings leave
-constexpr double kRamp_s = 8e-3;       // over which a shift is spread: a usual block of acceleration
-constexpr double kSettle_s = 1;        // time in which a correction is meant to be caught up
-constexpr double kDoubtMost_s = 5e-3;  // a host that was busy for longer says nothing of how often it looks
-constexpr double kDoubtOver = 64;      // messages: some 0.2 s
-constexpr double kStepLeast_s = 1e-4;  // a smaller shift is no step: under half a sample at 4 kHz
-constexpr double kCrystal = 100e-6;    // how far crystals are off, by their makers' tolerances
-constexpr double kFinest_s = 1e-6;     // the board's microsecond: no spread is taken to be less
+constexpr std::size_t kMinKept = 4;   // points that the halvings leave
+constexpr double kRamp_s = 8e-3;      // over which a shift is spread: a usual block of acceleration
+constexpr double kSettle_s = 1;       // time in which a correction is meant to be caught up
+constexpr double kMaxDoubt_s = 5e-3;  // a host that was busy for longer says nothing of how often it looks
+constexpr double kDoubtOver = 64;     // messages: some 0.2 s
+constexpr double kMinStep_s = 1e-4;   // a smaller shift is no step: under half a sample at 4 kHz
+constexpr double kCrystal = 100e-6;   // how far crystals are off, by their makers' tolerances
+constexpr double kFinest_s = 1e-6;    // the board's microsecond: no spread is taken to be less
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 }  // namespace
 
@@ -46,7 +46,7 @@ void ClockFit::observe(std::uint64_t device_us, Instant arrival, Seconds doubt) 
         windowEnds_ = x + (windows_.size() < kFirstWindows ? kFirstWindow_s : kWindow_s);
     }
     if (y - slope_ * x < lowest_.y - slope_ * lowest_.x) lowest_ = {x, y};
-    doubt_s_ += (std::min(doubt.count(), kDoubtMost_s) - doubt_s_) / kDoubtOver;
+    doubt_s_ += (std::min(doubt.count(), kMaxDoubt_s) - doubt_s_) / kDoubtOver;
     // A shorter delay than any before counts at once, a longer one when its window ends.
     base_ = std::min(base_, y - slope_ * x);
     follow(x, y);
@@ -77,7 +77,7 @@ void ClockFit::closeWindow() {
 }
 
 std::optional<ClockFit::Line> ClockFit::fit() {
-    if (windows_.size() < kWindowsLeast) return std::nullopt;
+    if (windows_.size() < kMinWindows) return std::nullopt;
     kept_.assign(windows_.begin(), windows_.end());
     wider_ = kept_;
     Line line;
@@ -97,7 +97,7 @@ std::optional<ClockFit::Line> ClockFit::fit() {
         if (!(xx > 0)) return std::nullopt;
         line.slope = xy / xx;
         const auto miss = [&](const Point& p) { return p.y - meanY - line.slope * (p.x - meanX); };
-        if (round == kHalvings || kept_.size() / 2 < kKeptLeast) {
+        if (round == kHalvings || kept_.size() / 2 < kMinKept) {
             const auto [low, high] = std::ranges::minmax_element(wider_, {}, miss);
             const auto [begin, end] = std::ranges::minmax_element(kept_, {}, &Point::x);
             line.extent = end->x - begin->x;
@@ -175,7 +175,7 @@ void ClockFit::follow(double x, double y) {
     if (const double early = correctionAt(x) - y; early > 0) {
         shiftBack(x, early);
         report_.largestStep_s = std::max(report_.largestStep_s, early);
-        if (early >= kStepLeast_s) ++report_.steps;
+        if (early >= kMinStep_s) ++report_.steps;
     }
     report_.correction_s = correctionAt(x);
 }

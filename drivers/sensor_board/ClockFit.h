@@ -66,8 +66,8 @@ public:
     static constexpr double kWindow_s = 2;
     static constexpr double kFirstWindow_s = 0.25;
     static constexpr std::size_t kFirstWindows = 16;
-    static constexpr std::size_t kWindows = 300;     ///< 10 minutes, nearly
-    static constexpr std::size_t kWindowsLeast = 8;  ///< before there is a drift
+    static constexpr std::size_t kWindows = 300;   ///< 10 minutes, nearly
+    static constexpr std::size_t kMinWindows = 8;  ///< before there is a drift
     static constexpr double kMaxSlew = 0.005;
     static constexpr double kMargin_s = 0.5e-3;
 

@@ -9,7 +9,7 @@ namespace tacto::sensorboard {
 namespace {
 
 constexpr std::size_t kNameBytes = 24, kSerialBytes = 16, kFirmwareBytes = 16, kDateBytes = 10, kReferenceBytes = 24;
-constexpr std::uint32_t kRateMost_mhz = 1'000'000'000;  // 1 MHz
+constexpr std::uint32_t kMaxRate_mhz = 1'000'000'000;  // 1 MHz
 
 std::optional<StreamKind> kindOf(std::uint8_t wire) noexcept {
     switch (wire) {
@@ -153,7 +153,7 @@ Result<StreamConfiguration> readConfiguration(const Frame& frame) {
         return wrong("its {} stream has {} columns; {} to {} were expected", nameOf(made.kind), columns, range.least,
                      range.most);
     }
-    if (made.rate_mhz < 1000 || made.rate_mhz > kRateMost_mhz) {
+    if (made.rate_mhz < 1000 || made.rate_mhz > kMaxRate_mhz) {
         return wrong("its {} stream has a rate of {} Hz; 1 Hz to 1 MHz was expected", nameOf(made.kind),
                      made.rate_hz());
     }

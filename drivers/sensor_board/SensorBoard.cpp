@@ -83,15 +83,15 @@ Result<void> SensorBoard::takeBlock(const Frame& frame, std::span<SampleBlock> b
 }
 
 Result<void> SensorBoard::observe(std::uint64_t device_us) {
-    if (const double early = fit_.early_s(device_us, link_.arrival()); early > kJumpMost_s) {
+    if (const double early = fit_.early_s(device_us, link_.arrival()); early > kMaxJump_s) {
         return fail(ErrorCode::Device, "its clock jumped ahead by {:.3g} s; {} s at most were expected", early,
-                    kJumpMost_s);
+                    kMaxJump_s);
     }
     fit_.observe(device_us, link_.arrival(), link_.doubt());
     const auto& drift = fit_.report().drift_ppm;
-    if (drift && !(std::abs(*drift) - *fit_.report().uncertainty_ppm <= kDriftMost_ppm)) {
+    if (drift && !(std::abs(*drift) - *fit_.report().uncertainty_ppm <= kMaxDrift_ppm)) {
         return fail(ErrorCode::Device, "its clock runs {:+.2f} % wrong; ± {} % at most was expected", *drift * 1e-4,
-                    kDriftMost_ppm * 1e-4);
+                    kMaxDrift_ppm * 1e-4);
     }
     return {};
 }

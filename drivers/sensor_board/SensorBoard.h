@@ -51,8 +51,8 @@ class SensorBoard final : public TactileSensor {
 public:
     static constexpr std::size_t kGarbageBytes = 4096;
     static constexpr Seconds kGarbageTime{0.5};
-    static constexpr double kJumpMost_s = 0.1;
-    static constexpr double kDriftMost_ppm = 10'000;
+    static constexpr double kMaxJump_s = 0.1;
+    static constexpr double kMaxDrift_ppm = 10'000;
     static constexpr std::uint64_t kMaxLate = 8;    ///< late blocks in a row: the board began again
     static constexpr std::size_t kMaxRead = 65536;  ///< bytes taken by one read()
 

@@ -46,7 +46,7 @@ std::optional<Frame> FrameDecoder::finish() noexcept {
     if (held_ == 0) return std::nullopt;
     const auto size = unstuff();
     held_ = 0;
-    if (!size || *size < kContentLeast || *size > kMaxContent) {
+    if (!size || *size < kMinContent || *size > kMaxContent) {
         ++counts_.malformed;
         return std::nullopt;
     }

@@ -19,9 +19,9 @@ namespace tacto::sensorboard {
 
 inline constexpr std::uint8_t kVersion = 1;
 inline constexpr std::size_t kMaxContent = 254;  ///< version to CRC
-inline constexpr std::size_t kContentLeast = 6;  ///< version, type, CRC
+inline constexpr std::size_t kMinContent = 6;    ///< version, type, CRC
 inline constexpr std::size_t kMaxStuffed = 255;  ///< before the delimiter
-inline constexpr std::size_t kMaxPayload = kMaxContent - kContentLeast;
+inline constexpr std::size_t kMaxPayload = kMaxContent - kMinContent;
 
 enum class Command : std::uint8_t {
     Hello = 0x01,
@@ -85,7 +85,7 @@ private:
     LineCounts counts_;
 };
 
-/// A command's bytes, delimiter and a leading 00 included: the zero ends whatever junk came before it.
+/// A command's bytes, delimiter and a leading 00 included: the zero ends any junk before it.
 /// `payload` (after the token): at most kMaxPayload - 1 bytes.
 [[nodiscard]] std::vector<std::uint8_t> encodeCommand(Command command, std::uint8_t token,
                                                       std::span<const std::uint8_t> payload = {});

@@ -21,9 +21,9 @@ FaultSchedule faultsIn(UriParameters& from, std::initializer_list<Fault> accepte
 /// What it delivers is what is programmed, as far as it states; nothing where it is out of order by what it was given.
 KnownLines statedBy(const SourceTraits& traits) {
     constexpr double kShortest_s = 1e-3, kLongest_s = 100;  // intervals
-    constexpr double kLeastOfMost = 1e-3;                   // of a source without a grid
+    constexpr double kMinShareOfMax = 1e-3;                 // of a source without a grid
     const auto& stated = traits.accuracy;
-    const double least = traits.amplitudeStep > 0 ? traits.amplitudeStep : kLeastOfMost * traits.amplitudeMax;
+    const double least = traits.amplitudeStep > 0 ? traits.amplitudeStep : kMinShareOfMax * traits.amplitudeMax;
     if (!stated.amplitude || !stated.phaseWidth || !stated.gap || !stated.interval) return std::nullopt;
     if (!(stated.phaseWidth->relative <= kLargestMiscalibration) || !(least < traits.amplitudeMax)) return std::nullopt;
     const auto line = [](double lowest, double highest, const Spread& spread) {

@@ -79,13 +79,13 @@ std::optional<PulseTotals> SimulatedCircuit::lastPulse(Instant now) {
 
 double SimulatedCircuit::endOfOutput() const noexcept {
     const auto cut = cut_.load(std::memory_order_acquire);
-    const double cut_s = cut == std::numeric_limits<Instant::rep>::max() ? kNever : toSeconds(Instant(cut));
+    const double cut_s = cut == std::numeric_limits<Instant::rep>::max() ? kInfinity : toSeconds(Instant(cut));
     return std::min(cut_s, allowedUntil_);
 }
 
 void SimulatedCircuit::advance(double now_s) {
     const double ends = endOfOutput();
-    const double end_s = ends <= now_s ? ends : kNever;  // a dead-man moment still ahead may yet move
+    const double end_s = ends <= now_s ? ends : kInfinity;  // a dead-man moment still ahead may yet move
     if (!pulses_.empty() && !pulses_.back().cut && end_s >= pulses_.back().onset_s && end_s < pulses_.back().end_s) {
         compute(pulses_.back(), end_s);
     }

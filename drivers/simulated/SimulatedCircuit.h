@@ -3,7 +3,7 @@
 //
 // A train handed to play() happens by itself as time passes: each pulse is computed in closed form when its onset is
 // reached, from the residual voltage that the one before left on the load's capacitor. cut() truncates what runs, at
-// that moment; so does the dead-man time. What is read depends on those calls and their times, not on when anybody
+// that moment; so does the dead-man time. What is read depends on those calls and their times, not on when anyone
 // looked. The newest kKept pulses stay readable.
 //
 // Thread-safety: every function from any thread; cut() is lock-free and never allocates.
@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    static constexpr double kNever = std::numeric_limits<double>::infinity();
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     /// What a pulse was made from, to make it again shorter.
     struct Recipe {
         DrivenPulse pulse;
@@ -113,7 +113,7 @@ private:
     mutable std::mutex mutex_;
     std::atomic<Instant::rep> cut_{std::numeric_limits<Instant::rep>::max()};
     // All below guarded by mutex_.
-    double allowedUntil_ = kNever;
+    double allowedUntil_ = kInfinity;
     Load load_;
     double fitted_s_ = 0;
     FaultSchedule faults_;

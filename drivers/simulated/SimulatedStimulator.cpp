@@ -92,7 +92,7 @@ DrivenPulse SimulatedStimulator::drivenPulse(const PulseTrain& train, Instant no
         gain *= 1 + std::min(kMaxDrift, kDriftPerSecond * toSeconds(now - *since));
     }
     gain *= 1 + settings_.coldGain * std::exp(-toSeconds(now - opened_) / kWarmUp.count());
-    // An amplitude of 0 is an output that stays off, whatever the offset.
+    // At an amplitude of 0 the output stays off at any offset.
     magnitude = magnitude > 0 ? std::max(0.0, gain * magnitude + settings_.offset) : 0;
     const double sign = train.polarity == Polarity::Positive ? 1 : -1;
     const double lead = sign * magnitude;

@@ -24,7 +24,7 @@ public:
     [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
     [[nodiscard]] SimulatedCircuit& circuit() noexcept { return circuit_; }
 
-    /// Of a reference source in place of the load, V; 0: none.
+    /// Voltage of a reference source in place of the load, V; 0: none.
     [[nodiscard]] double reference() const noexcept { return reference_V_.load(std::memory_order_acquire); }
     void setReference(double volts) noexcept { reference_V_.store(volts, std::memory_order_release); }
 

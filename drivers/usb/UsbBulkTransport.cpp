@@ -101,7 +101,7 @@ UsbBulkTransport::~UsbBulkTransport() {
         return parts_->line.gone;
     }();
     if (parts_->lowersReady && !gone) {
-        // A device that does not answer cannot be told, and that can no longer be reported.
+        // A device that does not answer cannot be notified, and that can no longer be reported.
         (void)setLineState(*parts_->device, *parts_->pair.communication, false, kFarewellTimeout);
     }
 }

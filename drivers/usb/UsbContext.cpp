@@ -27,7 +27,7 @@ struct UsbContext::Callbacks {
                 gone = *known;
                 self.present_.erase(known);
             } else {
-                return 0;  // told twice: registering lists what is there while it may also arrive
+                return 0;  // reported twice: registering lists what is there while it may also arrive
             }
             self.generation_.fetch_add(1, std::memory_order_release);
         } catch (...) {
@@ -77,8 +77,8 @@ UsbContext::~UsbContext() {
 
 void UsbContext::runEvents() noexcept {
     while (!ending_) {
-        timeval patience{60, 0};
-        const int code = libusb_handle_events_timeout_completed(context_, &patience, nullptr);
+        timeval timeout{60, 0};
+        const int code = libusb_handle_events_timeout_completed(context_, &timeout, nullptr);
         // An error that stays must not take a whole core.
         if (code != 0 && code != LIBUSB_ERROR_INTERRUPTED) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }

@@ -10,7 +10,7 @@ struct libusb_device;
 
 namespace tacto {
 
-/// What a device is found again by after a re-plug, in whatever socket.
+/// Identifies a device after a re-plug in any socket.
 struct UsbIdentity {
     std::uint16_t vendor = 0;
     std::uint16_t product = 0;

@@ -30,7 +30,7 @@ public:
     /// Puts all transfers under way. Errors: Device; Io.
     [[nodiscard]] Result<void> start();
     /// As Transport::read(). After a failed transfer the endpoint is cleared and started again, and the failure is
-    /// told once. Tends the outbox while it waits.
+    /// reported once. Tends the outbox while it waits.
     [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into, Seconds timeout);
     [[nodiscard]] std::uint64_t dropped() const noexcept;
     /// Ends all transfers.

@@ -10,7 +10,7 @@ namespace tacto {
 namespace {
 
 /// How long close() lets a stop reach the device: ten times what a full-speed bus needs for 64 bytes among others.
-constexpr auto kFarewell = std::chrono::milliseconds(100);
+constexpr auto kCloseTimeout = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -159,7 +159,7 @@ void UsbOutbox::close() noexcept {
     std::unique_lock lock(line_.mutex);
     if (!closed_) tend(lock);
     closed_ = true;
-    line_.changed.wait_for(lock, kFarewell, [&] { return line_.gone || (!urgentNow_ && nextLength_ == 0); });
+    line_.changed.wait_for(lock, kCloseTimeout, [&] { return line_.gone || (!urgentNow_ && nextLength_ == 0); });
     nextLength_ = 0;
     if (urgentNow_) libusb_cancel_transfer(urgent_.get());
     line_.changed.wait(lock, [&] { return !urgentNow_ && !sendingNow_; });

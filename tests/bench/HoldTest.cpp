@@ -136,8 +136,8 @@ TEST_F(SeenLoadTest, IsLookedAtBySmallPulseBeforeAnythingIsArmed) {
     for (const auto& [uri, why, after] :
          {Case{"sim:stimulator?readback=no&load=300ohm", "the declared load is 1 kohm", kDisarmed},
           Case{"sim:stimulator?readback=no&load=open", "electrode is open", kDisarmed},
-          Case{"sim:stimulator?readback=no&flaws=none&gain=1.3", "1.3 V where 1 V was commanded", kFaulted},
-          Case{"sim:stimulator?readback=no&flaws=none&gain=0.7", " V where 1 V was commanded", kFaulted}}) {
+          Case{"sim:stimulator?readback=no&flaws=none&gain=1.3", "1.3 V; 1 V was commanded", kFaulted},
+          Case{"sim:stimulator?readback=no&flaws=none&gain=0.7", " V; 1 V was commanded", kFaulted}}) {
         open({uri});
         const auto armed = arm();
         ASSERT_FALSE(armed) << uri;

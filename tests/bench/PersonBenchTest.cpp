@@ -118,7 +118,7 @@ TEST_F(PersonBenchTest, AVirtualParticipantIsOnSimulationsAndAPersonOnDevices) {
     const auto virtualOnReal = openStating(false, true);
     ASSERT_FALSE(virtualOnReal);
     EXPECT_EQ(virtualOnReal.error().message,
-              "a virtual participant on a stating unit, which is a device; a simulated one is accepted");
+              "a virtual participant cannot use the real device a stating unit; use a simulated one");
     const auto personOnSimulated = openStating(true, false);
     ASSERT_FALSE(personOnSimulated);
     EXPECT_EQ(personOnSimulated.error().message,

@@ -81,8 +81,8 @@ TEST_F(StudyExport, AnAdverseEventIsCountedByEverybodyAndReadByTheCommittee) {
     const auto session =
         jsonOf(desk_.run({"study", "show", study(), "--json"})).at("sessions").at(0).at("id").get<std::string>();
     const auto noted =
-        desk_.run({"study", "adverse-event", study(), session, "--what", "burning", "--severity", "3", "--relation", "4",
-                   "--serious", "--action", "cooled", "--outcome", "gone", "--reported", "--json"});
+        desk_.run({"study", "adverse-event", study(), session, "--what", "burning", "--severity", "3", "--relation",
+                   "4", "--serious", "--action", "cooled", "--outcome", "gone", "--reported", "--json"});
     ASSERT_EQ(noted.code, 0) << noted.err;
     EXPECT_EQ(jsonOf(noted), Json({{"session", session}, {"adverse_events", 1}}));
     EXPECT_EQ(jsonOf(desk_.run({"study", "show", study(), "--json"})).at("adverse_events"), 1);

@@ -28,8 +28,10 @@ void writeRecording(const ScratchDir& folder, const std::string& origin = {}) {
     folder.write("t.csv", taxels);
     folder.write("recording.json",
                  "{" + origin + R"("title": "made up", "baseline": [100, 100.5], "contact": [[101, 102]], "streams": [
-        {"kind": "acceleration", "file": "a.csv", "time_column": "time", "time_unit": "s", "columns": ["X"], "unit": "m/s2"},
-        {"kind": "taxels", "file": "t.csv", "time_column": "ms", "time_unit": "ms", "columns": ["a", "b"], "unit": "count"}]})");
+        {"kind": "acceleration", "file": "a.csv", "time_column": "time", "time_unit": "s", "columns": ["X"],
+         "unit": "m/s2"},
+        {"kind": "taxels", "file": "t.csv", "time_column": "ms", "time_unit": "ms", "columns": ["a", "b"],
+         "unit": "count"}]})");
 }
 
 Capture pulseCapture(double start_s) {

@@ -518,7 +518,7 @@ TEST_F(StopEverywhere, DISABLED_WhileTextIsDragged) {
 }
 
 /// A box that Qt, or a library, opens with a local event loop.
-TEST_F(StopEverywhere, DISABLED_BehindABoxThatSomebodyElseOpensModally) {
+TEST_F(StopEverywhere, DISABLED_BehindABoxThatALibraryOpensModally) {
     ASSERT_NO_FATAL_FAILURE(deliver());
     bool stopped = false;
     QTimer::singleShot(0, [&] {

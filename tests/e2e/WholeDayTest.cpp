@@ -43,7 +43,7 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     ASSERT_IN_TIME(comesTrue([&] { return arm->isVisible(); }));
     picture("3-arming");
     EXPECT_EQ(state(), InterlockState::Disarmed) << "the first step arms nothing";
-    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
+    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 100);
     click(*arm);
     ASSERT_IN_TIME(comesTrue([&] { return state() == InterlockState::Armed; }));
     controller.drive(DriveSource::Sensor);

@@ -38,7 +38,8 @@ TEST(EncodingProfile, ReadsEveryKey) {
         "amplitude_min_v": 5, "amplitude_max_v": 30, "interval_min_s": 0.25, "interval_max_s": 1,
         "amplitude_curve": "power", "amplitude_beta": 2, "interval_curve": "logarithmic", "interval_beta": 3,
         "assignment": "swapped", "shape": "asymmetric", "polarity": "negative", "phase_width_us": 150,
-        "inter_phase_gap_us": 50, "recharge_ratio": 8, "pulses": 4, "rate_hz": 80, "amplitude_slew_v_per_s": 20, "amplitude_ratio_per_train": 1.25,
+        "inter_phase_gap_us": 50, "recharge_ratio": 8, "pulses": 4, "rate_hz": 80, "amplitude_slew_v_per_s": 20,
+        "amplitude_ratio_per_train": 1.25,
         "interval_ratio_per_train": 1.5, "hold": "energy", "conditions": [{"name": "a", "R": 0.1, "P": 0.9}]})"));
     ASSERT_TRUE(profile) << profile.error().message;
     EXPECT_EQ(profile->amplitudeMin, Volts(5));

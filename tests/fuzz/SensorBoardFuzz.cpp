@@ -55,7 +55,7 @@ public:
         const auto block = readBlock(frame);
         if (!block || track_.take(*block) != StreamTrack::Verdict::Next) return;
         const auto end = StreamTrack::endOf(*block);
-        if (clock_.started() && clock_.early_s(end, now) > SensorBoard::kJumpMost_s) return;
+        if (clock_.started() && clock_.early_s(end, now) > SensorBoard::kMaxJump_s) return;
         clock_.observe(end, now);
         const auto before = samples_.samples();
         track_.append(*block, clock_, samples_);

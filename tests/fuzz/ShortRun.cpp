@@ -34,7 +34,7 @@ namespace {
 using tacto::fuzz::Bytes;
 
 /// One input that takes longer hangs. A sound one takes milliseconds, also under a sanitizer on a busy machine.
-constexpr unsigned kInputMost_s = 20;
+constexpr unsigned kMaxInput_s = 20;
 constexpr int kMisused = 2;
 
 struct Options {
@@ -108,7 +108,7 @@ std::optional<std::vector<Bytes>> wordsAt(const std::filesystem::path& dictionar
 void run(const Bytes& input, Shared& shared) {
     shared.size = input.size();
     std::ranges::copy(input, shared.input);
-    ::alarm(kInputMost_s);
+    ::alarm(kMaxInput_s);
     // A copy of its exact size, so that a sanitizer sees a byte read behind the end.
     const Bytes exact(input);
     LLVMFuzzerTestOneInput(exact.data(), exact.size());
@@ -139,7 +139,7 @@ int keep(const Shared& shared, int status, std::uint64_t seed, const std::filesy
     std::string how = "ended the process with status " + std::to_string(WEXITSTATUS(status));
     if (WIFSIGNALED(status)) how = std::string("died: ") + strsignal(WTERMSIG(status));
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
-        how = "took longer than " + std::to_string(kInputMost_s) + " s";
+        how = "took longer than " + std::to_string(kMaxInput_s) + " s";
     }
     std::fprintf(stderr,
                  "After %llu files and %llu inputs made of them (seed %llu): an input of %zu bytes %s.\nAgain: %s %s\n",

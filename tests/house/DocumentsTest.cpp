@@ -65,8 +65,9 @@ void PrintTo(const Mention& mention, std::ostream* out) {
 /// The documents named in a text, with the sections named after them, over the ends of comment lines.
 std::vector<Mention> mentionsIn(const std::string& text) {
     static const std::regex lineEnd(R"(\n[ \t]*(?://+!?<?|\*|#|")?[ \t]*)");
-    static const std::regex name(
-        R"re(([\w./-]*[\w-]\.md)\b(?:,? (?:sections? ((?:\d+(?:\.\d+)?(?: \([^)]*\))?(?:, | and | to )?)+)|(?:hazard )?(H\d+)|\\?"([^"\\]+)\\?"))?)re");
+    static const std::regex name(R"re(([\w./-]*[\w-]\.md)\b)re"
+                                 R"re((?:,? (?:sections? ((?:\d+(?:\.\d+)?(?: \([^)]*\))?(?:, | and | to )?)+)|)re"
+                                 R"re((?:hazard )?(H\d+)|\\?"([^"\\]+)\\?"))?)re");
     static const std::regex number(R"(\d+(?:\.\d+)?)");
     std::vector<Mention> mentions;
     if (text.find(".md") == std::string::npos) return mentions;

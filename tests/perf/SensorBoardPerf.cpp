@@ -15,7 +15,7 @@ namespace {
 using namespace sensorboard;
 
 constexpr double kStream_s = 10;
-constexpr Instant kLook = std::chrono::milliseconds(2);
+constexpr Instant kPollInterval = std::chrono::milliseconds(2);
 using Tape = std::vector<std::vector<std::uint8_t>>;  // what each look finds
 
 /// An emulated board that answers while the streams are opened, then a tape of what it goes on to send.
@@ -46,7 +46,7 @@ public:
         std::vector<std::uint8_t> bytes(4096);
         Instant now = clock_.now();
         while (toSeconds(now - clock_.now()) < kStream_s) {
-            now += kLook;
+            now += kPollInterval;
             const auto got = board_.transmit(bytes, now);
             tape.emplace_back(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(got));
             if (got == 0) tape.back().push_back(0);  // nothing between two frames
@@ -104,7 +104,7 @@ void BM_SensorBoardRead(benchmark::State& state) {
         state.ResumeTiming();
         watch.begin();
         for (; tape.next < tape.tape.size(); ++tape.next, tape.given = false) {
-            clock.advanceTo(clock.now() + kLook);
+            clock.advanceTo(clock.now() + kPollInterval);
             for (auto& block : blocks) block.clear();
             benchmark::DoNotOptimize((*board)->read(blocks).has_value());
             benchmark::DoNotOptimize(blocks.data());

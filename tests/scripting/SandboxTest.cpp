@@ -120,8 +120,9 @@ TEST(Sandbox, ShowsNothingOfTheObjectBehindIt) {
     EXPECT_EQ(outcomeOf(R"js(function run() {
         const own = ["arm", "attempt", "calibration", "capture", "conditions", "devices", "disarm", "drive",
                      "electrodeArea", "exposure", "finished", "fitLoad", "lift", "live", "loads", "measureReference",
-                     "measureRest", "measureSlide", "measureWeight", "predict", "present", "profilometer", "readReference", "replayed",
-                     "sensorStreams", "setElectrodeArea", "setEncoding", "setReferences", "step", "surfaces", "time", "traverse",
+                     "measureRest", "measureSlide", "measureWeight", "predict", "present", "profilometer",
+                     "readReference", "replayed", "sensorStreams", "setElectrodeArea", "setEncoding", "setReferences",
+                     "step", "surfaces", "time", "traverse",
                      "tripBySilence", "tripWhenArming", "tripWhileDelivering", "useCalibration",
                      "useFingertipScales", "wait", "weights"];
         if (Object.getOwnPropertyNames(bench).sort().join() !== own.join()) {

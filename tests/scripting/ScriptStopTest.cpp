@@ -139,7 +139,7 @@ TEST(ScriptStop, WakesABlockedHostCall) {
     EXPECT_LT(stopping.took, milliseconds(700));
 }
 
-TEST(ScriptStop, WakesAQuestionThatNobodyAnswers) {
+TEST(ScriptStop, WakesAQuestionThatTheOperatorDoesNotAnswer) {
     RecordProperty("hazard", "H10");
     RunBench rig;
     NobodyAtTheDesk desk;

@@ -29,7 +29,7 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     tabs_->addTab(sensor_, tr("Fingertip se&nsor"));
     tabs_->setTabToolTip(1, tr("Rest, weights and reference surfaces: what R and the forces mean on this rig"));
     tabs_->addTab(stored_, tr("S&tored calibrations"));
-    tabs_->setTabToolTip(2, tr("How the calibration stands today, and everything that was stored before"));
+    tabs_->setTabToolTip(2, tr("The state of the calibration today, and everything stored before"));
     column->addWidget(tabs_, 1);
     for (auto* runner : runners())
         connect(runner, &ProtocolWorkspace::attentionWanted, this, [this, runner] { tabs_->setCurrentWidget(runner); });

@@ -78,7 +78,7 @@ CalibrationStanding CalibrationBook::standing(const StimulatorId& stimulator) co
     }
     if (stimulator.serial.empty()) {
         found.state = CalibrationState::NoSerial;
-        found.why = tr("It tells no serial number, so no calibration can be kept for it.");
+        found.why = tr("It reports no serial number, so no calibration can be kept for it.");
         return found;
     }
     auto unit = stimulator.unit;

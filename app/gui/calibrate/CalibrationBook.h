@@ -18,7 +18,7 @@ namespace tacto::gui {
 
 /// A stimulator as far as its calibration goes.
 struct StimulatorId {
-    std::string serial;  ///< empty: it tells none, and cannot be calibrated
+    std::string serial;  ///< empty: it reports none, and cannot be calibrated
     std::string name;
     std::string unit;  ///< "V" or "mA"; empty: not known before it is opened
     bool simulated = false;

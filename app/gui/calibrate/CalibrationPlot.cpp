@@ -3,6 +3,7 @@
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/PlotSheet.h"
+#include "app/report/Reach.h"
 
 namespace tacto::gui {
 
@@ -11,27 +12,15 @@ namespace {
 constexpr double kMargin = 0.06;
 constexpr int kTicks = 5;
 constexpr int kEdge = 4;  // pixels around the axes
-constexpr int kLeastChars = 24;
-constexpr int kLeastLines = 10;
+constexpr int kMinChars = 24;
+constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;
 constexpr double kAside = 0.006;   // of the range: readings going up stand left of their level, those down right
 constexpr double kNearest = 0.02;  // of the range: half the width of the frame around the nearest level
 
-/// The smallest range that holds all it was shown; NaN is passed over.
-struct Reach {
-    double low = std::nan("");
-    double high = std::nan("");
-    void include(double value) {
-        if (!std::isfinite(value)) return;
-        low = std::fmin(low, value);
-        high = std::fmax(high, value);
-    }
-    [[nodiscard]] bool known() const { return std::isfinite(low); }
-    [[nodiscard]] double magnitude() const { return known() ? std::max(std::abs(low), std::abs(high)) : 1; }
-    [[nodiscard]] QCPRange range(double factor) const {
-        return known() ? padded(low * factor, high * factor, kMargin) : QCPRange(0, 1);
-    }
-};
+QCPRange rangeOf(const Reach& reach, double factor) {
+    return reach.known() ? padded(reach.low * factor, reach.high * factor, kMargin) : QCPRange(0, 1);
+}
 
 double bandAt(const CalibrationReadings& of, double command) { return of.tolerance_pct / 100 * std::abs(command); }
 
@@ -41,13 +30,13 @@ CalibrationPlot::CalibrationPlot(Kind kind, QWidget* parent) : QCustomPlot(paren
     const bool errors = kind == Kind::Errors;
     setAccessibleName(errors ? tr("Error and tolerance") : tr("Measured against commanded"));
     setToolTip(errors ? tr("How far each reading lies from its command, inside or outside the tolerance band. A dot is "
-                           "a level's mean with its uncertainty. A cross marks a reading that stands out: it is kept.")
+                           "a level's mean with its uncertainty. A cross marks an outlier, which is kept.")
                       : tr("Each reading against its command, with the fitted line. Triangles point the way the sweep "
-                           "went. A cross marks a reading that stands out: it is kept."));
+                           "went. A cross marks an outlier, which is kept."));
     build();
     addPlotMenu(*this, errors ? "calibration-errors" : "calibration");
     // Stated, or the legend in one row would say how narrow the window may become.
-    setMinimumSize(fontMetrics().averageCharWidth() * kLeastChars, fontMetrics().height() * kLeastLines);
+    setMinimumSize(fontMetrics().averageCharWidth() * kMinChars, fontMetrics().height() * kMinLines);
     clear();
 }
 
@@ -62,7 +51,7 @@ void CalibrationPlot::build() {
     bars_->setErrorType(QCPErrorBars::etValueError);
     up_->setName(tr("going up"));
     down_->setName(tr("going down"));
-    marked_->setName(tr("stands out, kept"));
+    marked_->setName(tr("outlier, kept"));
     means_->setName(tr("mean ± U (95 %)"));
     bandTop_->setName(tr("tolerance"));
     axisRect()->setMinimumMargins(QMargins(kEdge, kEdge, kEdge, kEdge));
@@ -131,8 +120,8 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
         drawMeans(of, across, upward);
     }
     drawLine(of, across, upward);
-    xAxis->setRange(x.range(across.factor));
-    yAxis->setRange(y.range(upward.factor));
+    xAxis->setRange(rangeOf(x, across.factor));
+    yAxis->setRange(rangeOf(y, upward.factor));
     drawReadings(of, across, upward);
     if (kind_ == Kind::Errors) nameNearest(of, across, upward);
     xAxis->setLabel(tr("commanded (%1)").arg(across.unit));

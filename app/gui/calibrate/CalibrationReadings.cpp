@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/JsonFields.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -19,17 +21,6 @@ constexpr std::array kQuantities{Quantity{"amplitude", "amplitude"}, Quantity{"i
 /// A source whose current follows a measured load is programmed to a slightly different one each time.
 constexpr double kSameCurrent = 0.02;
 constexpr double kSameCommand = 1e-9;
-
-double number(const nlohmann::json& in, const char* key) {
-    if (!in.is_object()) return std::nan("");
-    const auto at = in.find(key);
-    return at != in.end() && at->is_number() ? at->get<double>() : std::nan("");
-}
-
-std::string text(const nlohmann::json& in, const char* key) {
-    const auto at = in.find(key);
-    return at != in.end() && at->is_string() ? at->get<std::string>() : std::string();
-}
 
 const char* keyOf(const std::string& quantity) {
     for (const auto& one : kQuantities) {
@@ -66,7 +57,7 @@ const ToleranceUse* CalibrationReadings::nearest() const {
 
 std::string calibratedQuantity(const nlohmann::json& trial) {
     if (!trial.is_object() || !trial.contains("commanded") || !trial["commanded"].is_object()) return {};
-    const auto condition = text(trial, "condition");
+    const auto condition = textOr(trial, "condition");
     const auto word = condition.substr(0, condition.find(' '));
     return keyOf(word) != nullptr ? word : std::string();
 }
@@ -76,19 +67,19 @@ CalibrationReading readingFrom(const nlohmann::json& trial) {
     CalibrationReading reading;
     reading.commanded = std::nan("");
     if (key == nullptr) return reading;
-    reading.commanded = number(trial["commanded"], key);
-    reading.measured = number(trial, key);
-    const auto condition = text(trial, "condition");
+    reading.commanded = numberOr(trial["commanded"], key);
+    reading.measured = numberOr(trial, key);
+    const auto condition = textOr(trial, "condition");
     reading.direction = directionOf(condition.substr(condition.rfind(' ') + 1));
     return reading;
 }
 
 QString unitFrom(const nlohmann::json& trial) {
-    return calibratedQuantity(trial) == "amplitude" ? QString::fromStdString(text(trial, "unit")) : QString("s");
+    return calibratedQuantity(trial) == "amplitude" ? QString::fromStdString(textOr(trial, "unit")) : QString("s");
 }
 
 double toleranceOf(const std::string& quantity, const nlohmann::json& parameters) {
-    const double found = number(parameters, quantity == "amplitude" ? "tolerance_pct" : "timing_tolerance_pct");
+    const double found = numberOr(parameters, quantity == "amplitude" ? "tolerance_pct" : "timing_tolerance_pct");
     return std::isfinite(found) ? found : 0;
 }
 
@@ -97,34 +88,34 @@ std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, con
         return std::nullopt;
     CalibrationReadings out;
     out.quantity = quantity;
-    out.unit = QString::fromStdString(text(found, "unit"));
-    const double tolerance = number(found, "tolerance_pct");
+    out.unit = QString::fromStdString(textOr(found, "unit"));
+    const double tolerance = numberOr(found, "tolerance_pct");
     out.tolerance_pct = std::isfinite(tolerance) ? tolerance : 0;
     for (const auto& row : found["readings"]) {
         CalibrationReading reading;
-        reading.commanded = number(row, "commanded");
-        reading.measured = number(row, "measured");
-        reading.direction = directionOf(text(row, "direction"));
+        reading.commanded = numberOr(row, "commanded");
+        reading.measured = numberOr(row, "measured");
+        reading.direction = directionOf(textOr(row, "direction"));
         reading.outlier = row.value("outlier", false);
         out.readings.push_back(reading);
     }
-    out.verdict = QString::fromStdString(text(found, "verdict"));
+    out.verdict = QString::fromStdString(textOr(found, "verdict"));
     Calibration fit;
-    fit.gain = number(found, "gain");
-    fit.offset = number(found, "offset");
+    fit.gain = numberOr(found, "gain");
+    fit.offset = numberOr(found, "offset");
     for (const auto& row : found["levels"]) {
         CalibrationLevel level;
-        level.commanded = number(row, "commanded");
-        level.mean = number(row, "mean");
-        level.meanUp = number(row, "mean_up");
-        level.meanDown = number(row, "mean_down");
+        level.commanded = numberOr(row, "commanded");
+        level.mean = numberOr(row, "mean");
+        level.meanUp = numberOr(row, "mean_up");
+        level.meanDown = numberOr(row, "mean_down");
         fit.levels.push_back(level);
-        out.uncertainty.push_back(number(row, "expanded_uncertainty"));
+        out.uncertainty.push_back(numberOr(row, "expanded_uncertainty"));
         // A session of an earlier version has the mean's error alone.
         const bool worst = row.contains("worst_error");
-        const ToleranceUse use{level.commanded, number(row, worst ? "worst_error" : "error"),
-                               number(row, worst ? "worst_expanded_uncertainty" : "expanded_uncertainty"),
-                               number(row, "tolerance")};
+        const ToleranceUse use{level.commanded, numberOr(row, worst ? "worst_error" : "error"),
+                               numberOr(row, worst ? "worst_expanded_uncertainty" : "expanded_uncertainty"),
+                               numberOr(row, "tolerance")};
         if (std::isfinite(use.share())) out.used.push_back(use);
     }
     out.fit = std::move(fit);

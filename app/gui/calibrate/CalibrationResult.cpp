@@ -9,6 +9,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::gui {
 
@@ -16,20 +17,12 @@ namespace {
 
 using nlohmann::json;
 
-double numberIn(const json& in, const char* key) {
-    const auto at = in.find(key);
-    return at != in.end() && at->is_number() ? at->get<double>() : std::nan("");
-}
-
 QString countIn(const json& in, const char* key) {
-    const double count = numberIn(in, key);
+    const double count = numberOr(in, key);
     return std::isnan(count) ? QString("–") : QString::number(count);
 }
 
-QString words(const json& in, const char* key) {
-    const auto at = in.find(key);
-    return at != in.end() && at->is_string() ? QString::fromStdString(at->get<std::string>()) : QString();
-}
+QString words(const json& in, const char* key) { return QString::fromStdString(textOr(in, key)); }
 
 /// A value whose uncertainty may be larger than itself keeps its decimals from the uncertainty.
 QString plusMinus(double value, double expanded, const QString& unit) {
@@ -67,23 +60,23 @@ void CalibrationResult::addSummary(const json& found) {
         shown->setToolTip(tip);
         form->addRow(name, shown);
     };
-    add(tr("Gain"), plusMinus(numberIn(found, "gain"), numberIn(found, "gain_expanded_uncertainty"), {}),
+    add(tr("Gain"), plusMinus(numberOr(found, "gain"), numberOr(found, "gain_expanded_uncertainty"), {}),
         tr("Delivered over commanded, of the fitted line, with its uncertainty (95 %)."));
-    add(tr("Offset"), plusMinus(numberIn(found, "offset"), numberIn(found, "offset_expanded_uncertainty"), unit_),
+    add(tr("Offset"), plusMinus(numberOr(found, "offset"), numberOr(found, "offset_expanded_uncertainty"), unit_),
         tr("What the fitted line delivers for a command of 0, with its uncertainty (95 %)."));
-    add(tr("U at the largest command"), quantityText(numberIn(found, "expanded_uncertainty"), unit_, 2),
+    add(tr("U at the largest command"), quantityText(numberOr(found, "expanded_uncertainty"), unit_, 2),
         tr("Expanded uncertainty (95 %): the budget below says what it is made of."));
-    add(tr("Largest residual"), quantityText(numberIn(found, "residual_max_pct_fs"), "% FS", 2),
+    add(tr("Largest residual"), quantityText(numberOr(found, "residual_max_pct_fs"), "% FS", 2),
         tr("The largest distance of a level's mean from the line, in % of the largest command."));
-    add(tr("Repeatability"), quantityText(numberIn(found, "repeatability_pct_fs"), "% FS", 2),
+    add(tr("Repeatability"), quantityText(numberOr(found, "repeatability_pct_fs"), "% FS", 2),
         tr("Standard deviation of repeats in the same direction, in % of the largest command."));
-    add(tr("Hysteresis"), quantityText(numberIn(found, "hysteresis_pct_fs"), "% FS", 2),
+    add(tr("Hysteresis"), quantityText(numberOr(found, "hysteresis_pct_fs"), "% FS", 2),
         tr("The largest difference between going up and down at one level, in % of the largest command."));
     auto readings = tr("n = %1").arg(countIn(found, "n"));
-    const double outliers = numberIn(found, "outliers"), missing = numberIn(found, "not_measured");
+    const double outliers = numberOr(found, "outliers"), missing = numberOr(found, "not_measured");
     if (outliers > 0) readings += tr(", marked as standing out and kept: %1").arg(outliers);
     if (missing > 0) readings += tr(", not measured: %1").arg(missing);
-    add(tr("Readings"), readings, tr("A reading that stands out is marked and stays in every number."));
+    add(tr("Readings"), readings, tr("An outlier is marked and stays in every number."));
     static_cast<QVBoxLayout*>(layout())->addLayout(form);
 }
 
@@ -110,7 +103,7 @@ void CalibrationResult::addLevels(const json& levels) {
         row["judged_error"] = row.value(error, json());
         row["judged_u"] = row.value(expanded, json());
         const double used =
-            (std::abs(numberIn(row, "judged_error")) + numberIn(row, "judged_u")) / numberIn(row, "tolerance");
+            (std::abs(numberOr(row, "judged_error")) + numberOr(row, "judged_u")) / numberOr(row, "tolerance");
         row["used"] = std::isfinite(used) ? json(used) : json();
     }
     addTable(tr("Levels"), "calibrationLevels",
@@ -135,7 +128,7 @@ void CalibrationResult::addBudget(const json& budget) {
         if (row.contains("degrees_of_freedom") && !row["degrees_of_freedom"].is_number())
             row["degrees_of_freedom"] = "∞";
     }
-    const double factor = numberIn(budget, "coverage_factor");
+    const double factor = numberOr(budget, "coverage_factor");
     const auto method = words(budget, "method");
     rows.push_back(
         {{"name", tr("combined").toStdString()},

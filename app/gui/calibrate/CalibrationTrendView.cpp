@@ -17,8 +17,8 @@ constexpr int kLaneTicks = 3;
 constexpr double kPad = 0.15;  // of a lane's span, above and below
 constexpr double kDay_s = 86400;
 constexpr int kDayPadding = 12;  // days, where there is one calibration only
-constexpr int kMostJumps = 2;    // in words; the plot marks all
-constexpr int kLeastLines = 16;
+constexpr int kMaxJumps = 2;     // in words; the plot marks all
+constexpr int kMinLines = 16;
 
 double secondsOf(CalibrationDate day) {
     return std::chrono::duration<double>(std::chrono::sys_days(day).time_since_epoch()).count();
@@ -67,7 +67,7 @@ void CalibrationTrendView::buildPlot() {
     plot_->setToolTip(
         tr("Each stored calibration, with its U (95 %): of the gain as it is, of the offset at the lowest command that "
            "was calibrated. A thick line joins two that differ by more than both U explain."));
-    plot_->setMinimumHeight(fontMetrics().height() * kLeastLines);
+    plot_->setMinimumHeight(fontMetrics().height() * kMinLines);
     plot_->plotLayout()->clear();
     plot_->plotLayout()->setRowSpacing(4);
     auto* margins = new QCPMarginGroup(plot_);
@@ -264,7 +264,7 @@ QString CalibrationTrendView::jumpText(const std::vector<TrendJump>& jumps) cons
                       : tr("Where no U is stated, changes are not judged.");
     }
     QStringList all;
-    for (auto jump = jumps.rbegin(); jump != jumps.rend() && all.size() < kMostJumps; ++jump) {
+    for (auto jump = jumps.rbegin(); jump != jumps.rend() && all.size() < kMaxJumps; ++jump) {
         const bool gain = jump->what == TrendJump::What::Gain;
         const auto text = [&](double value) {
             return gain ? quantityText(100 * value, "%", 2) : quantityText(value, unit(), 2);
@@ -273,7 +273,7 @@ QString CalibrationTrendView::jumpText(const std::vector<TrendJump>& jumps) cons
                    .arg(dayText(jump->from), dayText(jump->to), gain ? tr("gain") : tr("offset"),
                         signedText(text(jump->change), jump->change), text(jump->explained));
     }
-    if (int(jumps.size()) > kMostJumps) all << tr("Earlier ones are marked in the plot.");
+    if (int(jumps.size()) > kMaxJumps) all << tr("Earlier ones are marked in the plot.");
     return all.join(" ") + tr(" Find the cause before you rely on it.");
 }
 

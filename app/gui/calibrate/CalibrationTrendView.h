@@ -21,7 +21,7 @@ public:
     explicit CalibrationTrendView(QWidget* parent = nullptr);
     /// All that was stored of one stimulator, in that order.
     void show(std::vector<StoredCalibration> stored);
-    /// Of the quantity that is shown.
+    /// Points of the quantity that is shown.
     [[nodiscard]] const std::vector<TrendPoint>& points() const { return points_; }
 
 protected:

@@ -146,7 +146,7 @@ void CalibrationView::say() {
         said << tr("gain %1").arg(shown.fit->gain, 0, 'f', 4);
         said << tr("offset %1").arg(quantityText(shown.fit->offset, shown.unit, 3));
     }
-    said << (marked == 0 ? tr("none stands out") : tr("standing out, marked and kept: %1").arg(marked));
+    said << (marked == 0 ? tr("no outliers") : tr("outliers, marked and kept: %1").arg(marked));
     says_->setText(said.join(" · "));
     says_->setToolTip(says_->text());
 }

@@ -141,14 +141,14 @@ void CertificateDialog::buildForm() {
         connect(edit, &QLineEdit::textChanged, this, &CertificateDialog::judge);
         return edit;
     };
-    const std::array tips{tr("Maker and model."), tr("As the instrument tells it: two alike are told apart by it."),
-                          tr("As it stands on the certificate."), tr("Who issued it.")};
+    const std::array tips{tr("Maker and model."), tr("As the instrument reports it. It tells two of a model apart."),
+                          tr("As on the certificate."), tr("Who issued it.")};
     for (std::size_t i = 0; i < texts_.size(); ++i) {
         const auto& text = kCertificateTexts[i];
         texts_[i] = field(titled(qtext(text.title)), qtext(text.key), tips[i]);
     }
-    date_ = field(tr("Date"), "date", tr("Of the calibration, as 2026-11-21."));
-    due_ = field(tr("Due"), "due", tr("The last day on which it is used, as 2027-11-20."));
+    date_ = field(tr("Date"), "date", tr("Calibration date, for example 2026-11-21."));
+    due_ = field(tr("Due"), "due", tr("The last day on which it is used, for example 2027-11-20."));
     for (auto* day : {date_, due_}) day->setPlaceholderText("2026-11-21");
     for (std::size_t i = 0; i < figures_.size(); ++i) {
         const auto& figure = kCertificateFigures[i];

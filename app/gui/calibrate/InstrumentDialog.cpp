@@ -69,7 +69,7 @@ QWidget* InstrumentDialog::buildChoice() {
         auto* chooser = new QComboBox(holder);
         chooser->setObjectName(qtext(word));
         chooser->setAccessibleName(kindTitle(kind));
-        chooser->setToolTip(tr("What is saved of this kind, and until when its certificate holds."));
+        chooser->setToolTip(tr("Saved instruments of this kind, and until when their certificates are valid."));
         chooser->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         chooser->setMinimumContentsLength(kNameChars);
         connect(chooser, &QComboBox::currentIndexChanged, this, &InstrumentDialog::compose);
@@ -110,7 +110,7 @@ QWidget* InstrumentDialog::buildForm() {
     serial_ = field(tr("S&erial number"), "presetSerial", tr("May be left empty."));
     where_ = field(tr("&Address"), "presetAddress",
                    tr("How it is reached, as sigrok:rigol-ds:conn=tcp-raw/192.0.2.1/5555?voltage=CH1&current=CH2."));
-    ohms_ = field(tr("&Resistance (Ω)"), "presetOhms", tr("Of the shunt that the current is read across."));
+    ohms_ = field(tr("&Resistance (Ω)"), "presetOhms", tr("Resistance of the current shunt."));
     accuracy_ = field(tr("A&ccuracy (± %)"), "presetAccuracy",
                       tr("Gain of an oscilloscope, tolerance of a shunt or probe, 0 to 50 %. Empty: not known."));
     timeBase_ = field(tr("&Time base (± ppm)"), "presetTimeBase", tr("0 to 100000 ppm. Empty: not known."));

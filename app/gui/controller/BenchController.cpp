@@ -10,12 +10,12 @@
 namespace tacto::gui {
 
 // A socket is looked at that often; plugging in is not a thing of milliseconds.
-constexpr std::chrono::milliseconds kLookEvery(1000);
+constexpr std::chrono::milliseconds kWatchInterval(1000);
 
 BenchController::BenchController(MakeRegistry makeRegistry, QObject* parent)
     : QObject(parent),
       makeRegistry_(std::move(makeRegistry)),
-      watch_(makeRegistry_, kLookEvery),
+      watch_(makeRegistry_, kWatchInterval),
       thread_([this] { return serveLive(); }, [this] { closeOnThread(); }) {
     qRegisterMetaType<std::shared_ptr<const Capture>>();
     qRegisterMetaType<std::shared_ptr<const FinishedRun>>();
@@ -49,7 +49,7 @@ Result<bool> BenchController::allVirtual(const std::vector<DeviceUri>& uris) con
 }
 
 void BenchController::stop(const char* by) noexcept {
-    stops_->raise();  // first, and whatever there is to switch off: see StopCounter.h
+    stops_->raise();  // first, even with nothing to switch off: see StopCounter.h
     const std::scoped_lock lock(benchMutex_);
     stoppedBy_ = by;
     if (script_ != nullptr && takesStop_ && takesStop_(by)) return;
@@ -206,7 +206,7 @@ RunOrder BenchController::begun(const RunOrder& order, StopMark asked) {
     auto marked = order;
     marked.stops = stops_;
     marked.asked = asked;
-    marked.watched = [pulse = pulse_] { return pulse->runs(); };
+    marked.watched = [beat = heartbeat_] { return beat->runs(); };
     activity_ = Activity::Opening;
     emit changed();
     return marked;
@@ -333,7 +333,7 @@ void BenchController::openOnThread(const LiveOrder& order, StopMark asked) {
     };
     auto registry = makeRegistry_();
     auto live =
-        DrivenBench::open(registry, order, {limits_, stops_, asked, [pulse = pulse_] { return pulse->runs(); }});
+        DrivenBench::open(registry, order, {limits_, stops_, asked, [beat = heartbeat_] { return beat->runs(); }});
     if (!live) return give_up(live.error());
     publishBench(&(*live)->bench(), nullptr);  // from here on a stop reaches it
     if (stops_->movedSince(asked)) {
@@ -403,7 +403,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     finished->result = prepared->finish();
     finished->html = run.files().report(".html");
     finished->pdf = run.files().report(".pdf");
-    *prepared = {};  // before its end is told: a study that it held can be opened then
+    *prepared = {};  // before its end is signalled: a study that it held can be opened then
     end();
 }
 

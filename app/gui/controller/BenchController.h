@@ -2,7 +2,7 @@
 // look.
 //
 // The bench lives on a thread of its own; nothing here blocks the window. Calls are carried out in order on that
-// thread; what fails is told by failed(). stop() goes straight to the outputs, past every queue, and ends everything
+// thread; failed() reports what fails. stop() goes straight to the outputs, past every queue, and ends everything
 // that was asked for before it, whether it waits, opens devices or runs: what may start output is carried out only if
 // no stop came since it was asked for.
 //
@@ -24,8 +24,8 @@
 #include "app/gui/controller/OpenBench.h"
 #include "app/gui/controller/RunFeed.h"
 #include "app/gui/controller/TaskThread.h"
+#include "app/gui/controller/WindowHeartbeat.h"
 #include "app/gui/controller/WindowOperator.h"
-#include "app/gui/controller/WindowPulse.h"
 #include "app/run/PilotRun.h"
 #include "app/run/ProtocolRun.h"
 #include "core/bench/BenchTap.h"
@@ -100,7 +100,7 @@ public:
     /// the bench disarmed.
     void arm(const ArmRequest& request, StopMark asked);
     void arm(const ArmRequest& request) { arm(request, mark()); }
-    /// The impedance check by itself, confirmed as arming is; it always ends disarmed. checked() tells what it found.
+    /// The impedance check by itself, confirmed as arming is; it always ends disarmed. checked() reports what it found.
     void checkImpedance(const ArmRequest& request, StopMark asked);
     void checkImpedance(const ArmRequest& request) { checkImpedance(request, mark()); }
     /// At once, past what waits to be done; ends a running protocol.
@@ -124,14 +124,14 @@ public:
     void setSpeed(double speed);
     /// Puts a surface under a simulated finger; an empty material lifts it.
     void present(const std::string& material, double speed_mm_s, double force_n);
-    /// The output is off first. loadFitted() tells that the load is there; every capture after it is of that load.
+    /// The output is off first. loadFitted() says that the load is there; every capture after it is of that load.
     void fitLoad(const std::string& load);
     /// From now on captures come by captured(), one per trigger, until stopScope() or scopeStopped(). `single`: one,
     /// then none. `untriggeredAfter`: one also whenever no trigger has come for that long (where open()->untriggered).
     void runScope(const ScopeSettings& settings, bool single, std::optional<Seconds> untriggeredAfter = {});
     void stopScope();
 
-    /// Closes a live bench and runs a protocol on one of its own. finished() tells the end, whatever it is, in one step
+    /// Closes a live bench and runs a protocol on one of its own. finished() reports every kind of end, in one step
     /// with the change to Closed: no run can begin between the two. Returns the run's number, which no other run of
     /// this controller has.
     std::uint64_t run(const RunOrder& order, StopMark asked);
@@ -152,7 +152,7 @@ signals:
     void captured(std::shared_ptr<const tacto::Capture> capture);
     void loadFitted(const QString& load);
     /// The oscilloscope failed or refused its settings: no capture comes until runScope(). Half a sentence. The output
-    /// is not touched by it. failed() says it too, for who looks elsewhere.
+    /// is not affected. failed() reports it as well.
     void scopeStopped(const QString& why);
     void finished(std::shared_ptr<const tacto::gui::FinishedRun> run);
 
@@ -178,7 +178,7 @@ private:
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
 
     const MakeRegistry makeRegistry_;
-    const std::shared_ptr<WindowPulse> pulse_ = std::make_shared<WindowPulse>();
+    const std::shared_ptr<WindowHeartbeat> heartbeat_ = std::make_shared<WindowHeartbeat>();
     WindowOperator operator_;
     DeviceWatch watch_;
     DayNotes day_;

@@ -17,8 +17,8 @@ Result<nlohmann::json> WindowOperator::ask(const OperatorQuestion& question) {
     refused_ = false;
     emit asked(*open_);  // queued: the window lives on another thread
     const auto ended = [this] { return answer_ || refused_ || cancelled_; };
-    constexpr std::chrono::milliseconds kTold{100};
-    while (!changed_.wait_for(lock, kTold, ended)) {
+    constexpr std::chrono::milliseconds kPollInterval{100};
+    while (!changed_.wait_for(lock, kPollInterval, ended)) {
         if (present) present();
     }
     open_.reset();

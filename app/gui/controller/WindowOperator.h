@@ -16,7 +16,7 @@ class WindowOperator final : public QObject, public Operator {
     Q_OBJECT
 public:
     [[nodiscard]] Seconds unwatchedFor() const override { return Seconds(2); }
-    /// Answers given in advance (by name) are used before anybody is asked.
+    /// Answers given in advance (by name) are used before the operator is asked.
     void prepare(std::map<std::string, std::string> answers);
     [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question) override;
     void cancel() noexcept override;

@@ -268,7 +268,7 @@ bool LiveWorkspace::openRecording(const QString& path) {
     std::error_code error;
     if (!std::filesystem::exists(std::filesystem::is_directory(file, error) ? file / "recording.json" : file, error)) {
         const auto recording = Recording::open(file);
-        emit refusedRecording(recording ? tr("%1 has just gone away.").arg(path)
+        emit refusedRecording(recording ? tr("%1 no longer exists.").arg(path)
                                         : QString::fromStdString(recording.error().message));
         return false;
     }

@@ -136,7 +136,7 @@ void ProfileEditor::saveFile(const QString& path) {
     if (!now.profile) return;
     const auto written = writeWholeFile(path, QByteArray::fromStdString(dumpJson(toJson(*now.profile), 2) + "\n"));
     if (written) return say(tr("Saved to %1.").arg(path), false);
-    say(tr("%1 was not written: %2. What was there before is untouched.")
+    say(tr("%1 was not written: %2. The previous file is unchanged.")
             .arg(path, QString::fromStdString(written.error().message)),
         true);
 }

@@ -13,7 +13,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kLook_ms = 100;
+constexpr int kPollInterval_ms = 100;
 }
 
 ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDialog(parent), controller_(controller) {
@@ -21,7 +21,7 @@ ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDi
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(
         explanation(tr("How touch becomes pulse trains. The encoding changes while the output is disarmed; "
-                       "the limits hold whatever stands here."),
+                       "the limits always apply."),
                     this));
     auto* split = new QHBoxLayout;
     auto* left = new QVBoxLayout;
@@ -69,7 +69,7 @@ ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDi
         preview_->setImpedance(telemetry.impedance_ohm);
         facts_->setText(preview_->facts());
     });
-    look_.start(kLook_ms);
+    look_.start(kPollInterval_ms);
     tabs_->setFocus();
     const auto room = screen()->availableSize() * 0.9;
     resize(QSize(fontMetrics().averageCharWidth() * 135, fontMetrics().height() * 40).boundedTo(room));

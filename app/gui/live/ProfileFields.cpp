@@ -24,7 +24,7 @@ std::vector<ProfileField> describedFields() {
         {Tab::Encoding, "amplitude_min_v", WORDS("Smallest amplitude"),
          WORDS("At index 0: the smoothest surface, or when swapped the lightest touch.")},
         {Tab::Encoding, "amplitude_max_v", WORDS("Largest amplitude"),
-         WORDS("At index 1. The limits of the output hold whatever stands here.")},
+         WORDS("At index 1. The output limits always apply.")},
         {Tab::Encoding,
          "amplitude_curve",
          WORDS("Its curve"),

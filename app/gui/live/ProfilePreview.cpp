@@ -33,7 +33,7 @@ ProfilePreview::ProfilePreview(QWidget* parent)
     : QCustomPlot(parent), impedance_ohm_(std::nan("")), roughness_(std::nan("")), pressure_(std::nan("")) {
     setAccessibleName(tr("Preview of the encoding"));
     setToolTip(
-        tr("What the profile makes of R and P, with a dot where touch stands now; and one pulse at the largest "
+        tr("What the profile makes of R and P, with a dot at the present touch; and one pulse at the largest "
            "amplitude."));
     addPlotMenu(*this, "encoding");
     auto* unused = axisRect();

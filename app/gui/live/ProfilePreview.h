@@ -15,7 +15,7 @@ class ProfilePreview final : public QCustomPlot {
     Q_OBJECT
 public:
     explicit ProfilePreview(QWidget* parent = nullptr);
-    /// A profile that passed validate(); `smallestLoad` is what charge is told for until an impedance is measured.
+    /// A profile that passed validate(); charge is shown for `smallestLoad` until an impedance is measured.
     void show(const EncodingProfile& profile, Ohms smallestLoad);
     /// Where touch stands; NaN where it is absent.
     void setPoint(double roughness, double pressure);

@@ -11,8 +11,8 @@ constexpr double kDash_px = 5;
 
 /// The pixel that a place lies in: floor(), without the call that it is on plain x86-64. Far outside stays outside.
 int columnAt(double place) {
-    constexpr int kFar = 1 << 20;
-    return static_cast<int>(std::clamp(place, -double(kFar), double(kFar)) + kFar) - kFar;
+    constexpr int kMaxPixel = 1 << 20;
+    return static_cast<int>(std::clamp(place, -double(kMaxPixel), double(kMaxPixel)) + kMaxPixel) - kMaxPixel;
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ public:
     [[nodiscard]] int lineHeight() const;
 
     void setTitle(const QString& text);
-    /// Of one digit form, so that it does not jump. One that describes the picture stands back.
+    /// Digits have equal widths, so that the value does not jump. A value that describes the picture is drawn fainter.
     void setValue(const QString& text, bool describes = false);
     /// An empty key takes no room.
     void setKey(std::size_t index, const QString& text);

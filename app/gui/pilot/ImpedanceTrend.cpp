@@ -13,7 +13,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kMayMove = 0.3;  // of the start: beyond it electrodes are seated anew
-constexpr int kPoint_px = 7, kLeastPlot = 120;
+constexpr int kPoint_px = 7, kMinPlot = 120;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ ImpedanceTrend::ImpedanceTrend(QWidget* parent)
     for (auto* label : {title_, now_}) setTextSize(*label, TextSize::Body, true);
     column->addWidget(plot_, 1);
     plot_->setAccessibleName(tr("Impedance over the session"));
-    plot_->setMinimumHeight(kLeastPlot);
+    plot_->setMinimumHeight(kMinPlot);
     plot_->axisRect()->setupFullAxesBox();
     for (auto* axis : {plot_->xAxis2, plot_->yAxis2}) axis->setTicks(false);
     for (auto* axis : {plot_->xAxis, plot_->yAxis}) axis->grid()->setVisible(false);

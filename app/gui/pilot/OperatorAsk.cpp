@@ -51,7 +51,7 @@ void OperatorAsk::ask(const PilotPrompt& prompt, quint64 id) {
     if (prompt.to == PromptTo::Both)
         column_->addWidget(explanation(tr("The participant has to press it as well."), body_));
     if (prompt.name == "stop-test")
-        column_->addWidget(explanation(tr("STOP is what answers it: the red one, or Esc in this window."), body_));
+        column_->addWidget(explanation(tr("Press the red STOP button or Esc."), body_));
     else if (prompt.kind == PromptKind::Text)
         addLine(prompt);
     else if (prompt.kind == PromptKind::Several)

@@ -118,7 +118,7 @@ QWidget* OperatorPage::buildBar() {
     now_->setObjectName("breakNow");
     now_->setAutoDefault(false);
     now_->setToolTip(
-        tr("No further train comes, and the trial under way is repeated after the break. STOP ends a train that is "
+        tr("No further train follows, and the present trial is repeated after the break. STOP ends a train that is "
            "under way."));
     connect(now_, &QPushButton::clicked, this, &OperatorPage::breakNowWanted);
     kept_ = new ElidedLabel(bar);

@@ -36,7 +36,7 @@ public:
     /// What keeps the next presentation from starting; empty for nothing.
     void setObstacle(const QString& why);
     void setBreakDue(bool due);
-    /// Of a session whose screens are not shown: a virtual participant's.
+    /// Progress of a session whose screens are not shown: a virtual participant's.
     void setProgress(const QString& what, int done, int total);
     [[nodiscard]] OperatorAsk& question() { return *ask_; }
     [[nodiscard]] SessionNotes& notes() { return *notes_; }

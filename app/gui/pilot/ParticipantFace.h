@@ -1,5 +1,5 @@
 // ParticipantFace.h - what stands on the participant's screen, and where: progress, the question, the answers, STOP,
-// the time to answer. It is told what goes on and knows nothing else.
+// the time to answer. It shows what it is given and knows nothing else.
 //
 // At 1440 x 900 as the design's picture. Elsewhere the targets get their 20 mm first: the second line goes, then the
 // question gets smaller; STOP keeps its place.

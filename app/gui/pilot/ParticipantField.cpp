@@ -137,12 +137,6 @@ void ParticipantField::setChosen(int target, bool chosen) { targets_.at(std::siz
 
 bool ParticipantField::chosen(int target) const { return targets_.at(std::size_t(target))->isChecked(); }
 
-int ParticipantField::smallestSide() const {
-    int least = targets_.empty() ? 0 : std::min(width(), height());
-    for (const auto* target : targets_) least = std::min({least, target->width(), target->height()});
-    return least;
-}
-
 void ParticipantField::arrange() {
     if (content_ != Content::Targets || targets_.empty()) return;
     const int count = int(targets_.size());

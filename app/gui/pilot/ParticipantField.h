@@ -48,10 +48,8 @@ public:
     /// Chosen of Several.
     void setChosen(int target, bool chosen);
     [[nodiscard]] bool chosen(int target) const;
-    /// Of the prompt shown; the one with that index, which may be the last of Several: done.
+    /// Targets of the prompt that is shown, in the order of its keys; with Several the last is "done".
     [[nodiscard]] const std::vector<AnswerTarget*>& targets() const { return targets_; }
-    /// The smallest side of the targets shown; 0 for none.
-    [[nodiscard]] int smallestSide() const;
 
 signals:
     void chosenAt(int target, tacto::gui::SteadyTime at);

@@ -55,7 +55,7 @@ bool ParticipantStop::event(QEvent* event) {
     return QAbstractButton::event(event);
 }
 
-void ParticipantStop::mousePressEvent(QMouseEvent* /*event*/) { press(); }  // whichever button
+void ParticipantStop::mousePressEvent(QMouseEvent* /*event*/) { press(); }  // any button
 
 void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
@@ -67,8 +67,8 @@ void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
     painter.setPen(style.ink);
     const int room = width() * 9 / 10;
     const auto keys = tr("Space · Esc · Pause");
-    const auto foot = tr("It stops at once. No one asks why.\nIt goes on only when you say so.");
-    const auto longest = tr("It stops at once. No one asks why.");
+    const auto foot = tr("It stops immediately. You do not have to say why.\nIt goes on only when you say so.");
+    const auto longest = tr("It stops immediately. You do not have to say why.");
     const auto word = fitted(text(), textFont(TextSize::Display, QFont::Bold), word_px_, room);
     const auto lines = fitted(longest, textFont(TextSize::Body), lines_px_, room);
     const QFontMetrics above(word), below(lines);

@@ -5,7 +5,7 @@
 // same for every condition in every phase, and when they change is the session's. Keys count here only, so what the
 // operator types in a window of their own answers nothing. A press before the targets is reported and no answer; a key
 // that is still held from before is none either. Without the keys, or while the operator's strip lies over it, the
-// desk is told what is in the way, and no presentation starts.
+// desk learns what is in the way, and no presentation starts.
 //
 // Thread-safety: the GUI thread.
 #pragma once

@@ -10,6 +10,7 @@
 #include "app/gui/theme/RecordTable.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::gui {
 
@@ -17,10 +18,7 @@ namespace {
 
 constexpr int kResultPad = 16, kMatrixWide = 760;
 
-double numberIn(const nlohmann::json& record, const std::string& path) {
-    const auto& at = memberAt(record, path);
-    return at.is_number() ? at.get<double>() : std::nan("");
-}
+double numberIn(const nlohmann::json& record, const std::string& path) { return numberOr(memberAt(record, path)); }
 
 QString textIn(const nlohmann::json& record, const std::string& path) {
     const auto& at = memberAt(record, path);
@@ -43,7 +41,7 @@ QString rangeWords(const nlohmann::json& range) {
     return words;
 }
 
-/// Of thresholds alone.
+/// The headline of a session that measured thresholds only.
 QString thresholdSentence(const nlohmann::json& results) {
     auto who = textIn(results, "participant.code");
     if (who.isEmpty()) who = QObject::tr("The participant");
@@ -82,7 +80,7 @@ PilotResult::PilotResult(QWidget* parent)
       head_(new QLabel(this)),
       why_(new QLabel(this)),
       more_(new QLabel(this)),
-      matrixTitle_(new QLabel(tr("What was felt, in rows; what was answered, in columns"), this)),
+      matrixTitle_(new QLabel(tr("Stimulus in rows; answer in columns"), this)),
       matrix_(new QTableWidget(this)),
       blocks_(new QLabel(this)),
       note_(new QLabel(this)),
@@ -129,7 +127,7 @@ PilotResult::PilotResult(QWidget* parent)
     row->setSpacing(8);
     goOn_->setIcon(icon("run", Ink::Primary));
     makePrimary(*goOn_);
-    goOn_->setToolTip(tr("What was answered is not asked again; the order stays."));
+    goOn_->setToolTip(tr("Answered trials are not repeated; the order stays the same."));
     another_->setObjectName("anotherRehearsal");
     for (auto* button : {goOn_, another_, place_}) {
         button->setAutoDefault(false);

@@ -18,7 +18,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPagePad = 16, kFormWide = 620;
-constexpr int kMostBlocks = 10, kMostSeed = 1'000'000;
+constexpr int kMaxBlocks = 10, kMaxSeed = 1'000'000;
 
 QString newFolder() {
     const QDir documents(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation));
@@ -68,7 +68,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     row->setContentsMargins(0, 0, 0, 0);
     folder_->setObjectName("studyFolder");
     folder_->setAccessibleName(tr("Folder of the rehearsal"));
-    folder_->setToolTip(tr("A new folder, or the folder of a rehearsal that goes on."));
+    folder_->setToolTip(tr("A new folder, or the folder of a rehearsal to continue."));
     auto* choose = new QPushButton(tr("Ch&oose…"), place);
     choose->setAutoDefault(false);
     connect(choose, &QPushButton::clicked, this, [this] {
@@ -88,7 +88,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     who_->setToolTip(tr("Either way nothing but simulated devices is used."));
     form->addRow(tr("Participant"), who_);
     seed_->setObjectName("rehearsalSeed");
-    seed_->setRange(1, kMostSeed);
+    seed_->setRange(1, kMaxSeed);
     seed_->setToolTip(tr("The same seed gives the same order, and the same virtual participant."));
     form->addRow(tr("Seed"), seed_);
     protocol_->setObjectName("rehearsalProtocol");
@@ -100,9 +100,9 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     method_->addItem(tr("weighted staircase"), "staircase");
     form->addRow(tr("Detection by"), method_);
     blocks_->setObjectName("rehearsalBlocks");
-    blocks_->setRange(1, kMostBlocks);
+    blocks_->setRange(1, kMaxBlocks);
     blocks_->setValue(5);
-    blocks_->setToolTip(tr("Of 18 trials each: four of every condition and two empty ones."));
+    blocks_->setToolTip(tr("Each block has 18 trials: four per condition and two empty."));
     form->addRow(tr("Blocks of the test"), blocks_);
     seats_ = std::make_unique<SeatRows>(*form, *holder);
     column->addWidget(holder);

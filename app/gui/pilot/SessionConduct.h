@@ -41,9 +41,9 @@ public:
     [[nodiscard]] int faults() const { return faults_; }
     /// Null while no person sits at one.
     [[nodiscard]] ParticipantWindow* window() const { return window_.get(); }
-    /// Of the screen on which it is.
+    /// The screen that shows the participant's window.
     [[nodiscard]] QString screenName() const;
-    static constexpr int kMostStops = 3;  ///< of the participant: the third ends the session
+    static constexpr int kMaxStops = 3;  ///< of the participant: the third ends the session
 
     void refresh(const Telemetry& telemetry);
     /// A stop by the participant's keys; false where no session of a person runs.

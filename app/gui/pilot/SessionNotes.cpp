@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kMostShown = 20;
+constexpr int kMaxShown = 20;
 constexpr int kLongestNote = 500;  // characters
 
 }  // namespace
@@ -77,7 +77,7 @@ void SessionNotes::add(const QString& note) {
     line->addWidget(words, 1);
     list_->insertWidget(0, row);
     ++count_;
-    if (list_->count() <= kMostShown) return;
+    if (list_->count() <= kMaxShown) return;
     auto* oldest = list_->takeAt(list_->count() - 1);
     delete oldest->widget();
     delete oldest;

@@ -16,7 +16,7 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kStartPad = 16, kStartWide = 1200, kTwoColumns = 900;
-constexpr int kMostPlanSeed = 1'000'000'000;
+constexpr int kMaxPlanSeed = 1'000'000'000;
 }  // namespace
 
 SessionStartPage::SessionStartPage(QWidget* parent)
@@ -147,7 +147,7 @@ PilotStart SessionStartPage::start() const {
     made.protocol = protocol_->currentData().toString().toStdString();
     made.method = method_->currentData().toString().toStdString();
     made.unfinished = offer_->chosen();
-    made.seed = std::uint64_t(QRandomGenerator::system()->bounded(1, kMostPlanSeed));
+    made.seed = std::uint64_t(QRandomGenerator::system()->bounded(1, kMaxPlanSeed));
     seats_->writeTo(made);
     return made;
 }

@@ -8,6 +8,10 @@
 
 namespace tacto::gui {
 
+namespace {
+constexpr int kShareGap = 8;
+}
+
 std::vector<double> blockShares(int block, int blocks, int trial, int trials) {
     std::vector<double> shares(std::size_t(std::max(0, blocks)), 0.0);
     for (int i = 0; i < blocks; ++i) {
@@ -32,9 +36,9 @@ void ShareBars::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     const auto& c = colours();
     const auto count = double(shares_.size());
-    const double each = (width() - gap_ * (count - 1)) / count;
+    const double each = (width() - kShareGap * (count - 1)) / count;
     for (std::size_t i = 0; i < shares_.size(); ++i) {
-        const QRectF bar(std::round(double(i) * (each + gap_)) + 0.5, 0.5, std::floor(each) - 1, height() - 1);
+        const QRectF bar(std::round(double(i) * (each + kShareGap)) + 0.5, 0.5, std::floor(each) - 1, height() - 1);
         painter.setPen(QPen(c.line, 1));
         painter.setBrush(c.sunken);
         painter.drawRect(bar);

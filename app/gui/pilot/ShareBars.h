@@ -15,18 +15,16 @@ public:
     /// One bar each, 0 to 1.
     void setShares(const std::vector<double>& shares);
     [[nodiscard]] const std::vector<double>& shares() const { return shares_; }
-    void setGap(int px) { gap_ = px; }
 
 protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
     std::vector<double> shares_;
-    int gap_ = 8;
 };
 
-/// Of each block's bar: those before are full, the one under way as far as it is. `trial` of all `trials`, from 1; the
-/// blocks are of one length.
+/// How full each block's bar is: finished blocks are full, the present one in proportion to its trials. `trial` counts
+/// all `trials` from 1; all blocks have the same length.
 [[nodiscard]] std::vector<double> blockShares(int block, int blocks, int trial, int trials);
 
 }  // namespace tacto::gui

@@ -48,7 +48,7 @@ UnfinishedOffer::UnfinishedOffer(QWidget* parent)
     goOn_->setObjectName("goOnWithIt");
     end_->setObjectName("endIt");
     end_->setText(tr("End it as stopped, and begin another"));
-    end_->setToolTip(tr("What was answered is kept and counts as a stopped session."));
+    end_->setToolTip(tr("The answers so far are kept, and the session counts as stopped."));
     auto* both = new QButtonGroup(this);
     for (auto* choice : {goOn_, end_}) {
         both->addButton(choice);

@@ -71,10 +71,10 @@ void CaptureStrip::colour() {
 }
 
 void CaptureStrip::thinTicks() {
-    constexpr int kMost = 5, kApart = 2;  // what is readable may come to half as many again
+    constexpr int kMaxTicks = 5, kApart = 2;  // what is readable may come to half as many again
     const QFontMetrics metrics(xAxis->tickLabelFont());
-    xAxis->ticker()->setTickCount(std::clamp(width() / (kApart * metrics.horizontalAdvance("−00000")), 1, kMost));
-    const int up = std::clamp(height() / (2 * kApart * metrics.height()), 1, kMost);
+    xAxis->ticker()->setTickCount(std::clamp(width() / (kApart * metrics.horizontalAdvance("−00000")), 1, kMaxTicks));
+    const int up = std::clamp(height() / (2 * kApart * metrics.height()), 1, kMaxTicks);
     for (auto* axis : {yAxis, yAxis2}) axis->ticker()->setTickCount(up);
 }
 

@@ -16,7 +16,7 @@ public:
     /// Marks a line, from 1, and goes there; 0 takes the mark away.
     void mark(int line);
     [[nodiscard]] int marked() const { return marked_; }
-    /// Marks these words wherever they stand, whatever their case; empty takes the marks away. Returns how often.
+    /// Marks every occurrence of these words, ignoring case; empty removes the marks. Returns how many there are.
     int markWords(const QString& words);
 
 protected:

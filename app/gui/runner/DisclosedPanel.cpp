@@ -17,7 +17,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kGap = 8;
-constexpr int kLeastWave = 150;
+constexpr int kMinWave = 150;
 
 /// The highest finite magnitude of the first channel in `unit`; negative without one.
 double peakIn(const Capture& capture, const char* unit) {
@@ -55,7 +55,7 @@ DisclosedPanel::DisclosedPanel(QWidget* parent)
     peak_->setObjectName("strongestOutput");
     setTextSize(*peak_, TextSize::Body, true);
     column->addWidget(peak_);
-    wave_->setMinimumHeight(scaledPx(kLeastWave));
+    wave_->setMinimumHeight(scaledPx(kMinWave));
     column->addWidget(wave_, 2);
     clear();
 }

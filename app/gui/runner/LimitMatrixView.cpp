@@ -12,6 +12,7 @@
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::gui {
 
@@ -27,12 +28,11 @@ constexpr int kRow = 40, kIconSize = 14, kPad = 8;
 constexpr double kNear_pct = 80;
 constexpr int kLimitChars = 28, kLoadChars = 9;
 
-double numberOf(const json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
 QString wordsOf(const json& value) {
     return value.is_string() ? visible(QString::fromStdString(value.get<std::string>())) : QString();
 }
 
-/// Of the limit, value and U together.
+/// The share of the limit that value and U use together.
 QString shareText(double used_pct) {
     if (!std::isfinite(used_pct)) return "–";
     if (used_pct > 0 && used_pct < 0.1) return QObject::tr("< 0.1 %");
@@ -168,7 +168,7 @@ void LimitMatrixView::addLine(int row, const json& line) {
     const auto unit = wordsOf(memberAt(line, "unit"));
     const auto title = titled(wordsOf(memberAt(line, "title")));
     const auto limit = (wordsOf(memberAt(line, "compare")) == "<" ? QString("< ") : QString("≤ ")) +
-                       settingText(numberOf(memberAt(line, "limit")), unit);
+                       settingText(numberOr(memberAt(line, "limit")), unit);
     const auto set = limitSetTitle(wordsOf(memberAt(line, "set")));
     const auto verdict = wordsOf(memberAt(line, "verdict"));
     auto* head = new QTableWidgetItem(title);
@@ -188,7 +188,7 @@ void LimitMatrixView::addLine(int row, const json& line) {
             continue;
         }
         const auto judged = wordsOf(memberAt(cell, "verdict"));
-        const double used = 100 - numberOf(memberAt(cell, "margin_pct"));
+        const double used = 100 - numberOr(memberAt(cell, "margin_pct"));
         const auto share = judged == "not evaluated"    ? tr("n. e.")
                            : judged == "not applicable" ? QString("–")
                                                         : shareText(used);
@@ -197,7 +197,7 @@ void LimitMatrixView::addLine(int row, const json& line) {
         item->setData(kCellShare, share);
         item->setData(kCellNear, used >= kNear_pct);
         const auto measured =
-            uncertainText(numberOf(memberAt(cell, "value")), numberOf(memberAt(cell, "expanded_uncertainty")), unit);
+            uncertainText(numberOr(memberAt(cell, "value")), numberOr(memberAt(cell, "expanded_uncertainty")), unit);
         QStringList says{tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)};
         if (std::isfinite(used))
             says << tr("%1 used with its uncertainty, margin %2.").arg(share, shareText(100 - used));

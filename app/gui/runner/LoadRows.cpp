@@ -5,6 +5,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/TableContent.h"
+#include "core/base/JsonFields.h"
 #include "core/electrode/Load.h"
 
 namespace tacto::gui {
@@ -16,8 +17,7 @@ constexpr int kCountRole = Qt::UserRole + 1;
 constexpr int kNameRole = Qt::UserRole + 2;  // as parseLoad() reads it
 
 QString number(const nlohmann::json& values, const char* key, const char* unit) {
-    const auto at = values.find(key);
-    return at != values.end() && at->is_number() ? quantityText(at->get<double>(), unit) : QString("–");
+    return quantityText(numberOr(values, key), unit);
 }
 
 }  // namespace

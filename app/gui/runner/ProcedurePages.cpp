@@ -114,8 +114,8 @@ QWidget* ProcedurePages::buildWiring() {
 QWidget* ProcedurePages::buildReference() {
     auto* page = new QWidget(this);
     auto* column = pageLayout(page, tr("Known reference"),
-                              tr("Read first: a set-up that does not read it as what it is can judge nothing, and the "
-                                 "run ends there."));
+                              tr("It is read first. If the known load reads wrong, nothing else can be judged, so the "
+                                 "run stops."));
     form_->referencePart().setMaximumWidth(scaledPx(kFormWidth * 3 / 2));
     column->addWidget(scrolling(formColumn(&form_->referencePart()), page), 1);
     return page;

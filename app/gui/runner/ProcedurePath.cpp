@@ -14,7 +14,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPathWidth = 240, kPathPad = 16;
-constexpr int kMostOfTheRoom = 3;  // a column takes no more than one part of so many
+constexpr int kMaxRoomDivisor = 3;  // a column takes no more than one part of so many
 
 }  // namespace
 
@@ -75,7 +75,7 @@ void ProcedurePath::layAcross() {
 }
 
 bool ProcedurePath::fit(int room) {
-    const bool across = scaledPx(kPathWidth) * kMostOfTheRoom > room;
+    const bool across = scaledPx(kPathWidth) * kMaxRoomDivisor > room;
     if (std::exchange(across_, across) != across) {
         delete layout();
         head_->setAcross(across);
@@ -106,7 +106,7 @@ void ProcedurePath::showRun() {
     steps_->setState(kRun, StepList::State::UnderWay);
     steps_->setOutOfReach(kRun, {});
     steps_->setState(kResult, StepList::State::ToDo);
-    steps_->setOutOfReach(kResult, tr("There is no result yet: the run goes on."));
+    steps_->setOutOfReach(kResult, tr("There is no result yet: the run is not finished."));
     for (const auto step : {kRun, kResult}) steps_->setNote(step, {});
 }
 

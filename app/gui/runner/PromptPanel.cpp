@@ -63,7 +63,7 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     row->addStretch();
     auto* refuse = new QPushButton(tr("&Refuse and end the run"), body_);
     refuse->setAutoDefault(false);
-    refuse->setToolTip(tr("The output goes off; what was recorded so far is kept."));
+    refuse->setToolTip(tr("The output is switched off; what was recorded so far is kept."));
     connect(refuse, &QPushButton::clicked, this, [this] { controller_.refuse(); });
     row->addWidget(refuse);
     if (first_ == nullptr) first_ = refuse;

@@ -38,7 +38,7 @@ function run(p) {
 )js";
 
 constexpr int kCheckAfter_ms = 600;  // without a key press
-constexpr int kLook_ms = 100;
+constexpr int kUpdateDelay_ms = 100;
 
 }  // namespace
 
@@ -179,7 +179,7 @@ void ScriptEditor::buildButtons() {
         const auto keys = forward ? QKeySequence::FindNext : QKeySequence::FindPrevious;
         connect(new QShortcut(keys, this), &QShortcut::activated, this, [this, forward] { find_->go(forward); });
     }
-    look_.setInterval(kLook_ms);
+    look_.setInterval(kUpdateDelay_ms);
     connect(&look_, &QTimer::timeout, this, &ScriptEditor::look);
     connect(new QShortcut(QKeySequence(Qt::Key_F5), this), &QShortcut::activated, this, saveAndRun);
 }

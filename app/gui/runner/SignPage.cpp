@@ -17,7 +17,7 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kNotesWidth = 260;
-constexpr double kZoomStep = 1.25, kZoomLeast = 0.25, kZoomMost = 5;
+constexpr double kZoomStep = 1.25, kMinZoom = 0.25, kMaxZoom = 5;
 }  // namespace
 
 SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(this), printer_(new ReportPrinter(this)) {
@@ -28,9 +28,10 @@ SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(thi
     notes_ = new NotesPanel(day, this);
     notes_->setMaximumWidth(scaledPx(kNotesWidth));
     left->addWidget(notes_);
-    auto* tip = new QLabel(tr("These are taken when a run begins and stand on the first page of its report, beside the "
-                              "lines for signatures."),
-                           this);
+    auto* tip =
+        new QLabel(tr("These are recorded when a run begins and appear on the first page of its report, beside the "
+                      "lines for signatures."),
+                   this);
     tip->setWordWrap(true);
     tip->setMaximumWidth(scaledPx(kNotesWidth));
     setTone(*tip, Tone::Quiet);
@@ -72,8 +73,9 @@ QWidget* SignPage::buildReportRow() {
     row->setContentsMargins(0, 0, 0, 0);
     print_ = new QPushButton(tr("Print"), holder);
     print_->setObjectName("printReport");
-    print_->setToolTip(tr("Prints all pages on the printer that you choose. For some of them, or several copies, open the "
-                          "report in the PDF viewer."));
+    print_->setToolTip(
+        tr("Prints all pages on the printer that you choose. For some pages, or several copies, open "
+           "the report in the PDF viewer."));
     auto* printers = new QMenu(print_);
     connect(printers, &QMenu::aboutToShow, this, [this, printers] { printer_->offer(*printers, report_); });
     print_->setMenu(printers);
@@ -164,7 +166,7 @@ void SignPage::zoom(double factor) {
         if (points > 0) now = (view_->viewport()->width() - margins.left() - margins.right()) / (points * dots);
     }
     view_->setZoomMode(QPdfView::ZoomMode::Custom);
-    view_->setZoomFactor(std::clamp(now * factor, kZoomLeast, kZoomMost));
+    view_->setZoomFactor(std::clamp(now * factor, kMinZoom, kMaxZoom));
 }
 
 void SignPage::showReport(const QString& pdf) {

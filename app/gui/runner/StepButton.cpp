@@ -66,7 +66,7 @@ void StepButton::say() {
             case StepList::State::Done:
                 return tr("done");
             case StepList::State::Troubled:
-                return tr("to be mended");
+                return tr("needs attention");
         }
         return QString();
     }();
@@ -91,7 +91,7 @@ void StepButton::changeEvent(QEvent* event) {
     QAbstractButton::changeEvent(event);
 }
 
-/// ✔ done, a disc under way, ⚠ to be mended, a ring to do. In a row disc and ring have the step's number.
+/// ✔ done, a disc under way, ⚠ needs attention, a ring to do. In a row disc and ring have the step's number.
 void StepButton::paintShape(QPainter& painter, const QPoint& centre) const {
     const auto& c = colours();
     const int size = scaledPx(kShape);

@@ -31,7 +31,7 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
 void TrialPlane::begin(bool simulated, Features features) {
     features_ = features;
     const bool trains = features == Features::Trains;
-    setToolTip(trains ? tr("One point per trial: amplitude and interval as the oscilloscope saw them.")
+    setToolTip(trains ? tr("One point per trial: amplitude and interval as measured by the oscilloscope.")
                       : tr("One point per slide: what the fingertip felt of the surface. R is made of both."));
     xAxis->setLabel(trains ? tr("interval (s)") : tr("taxel feature v"));
     yAxis->setLabel(trains ? tr("amplitude (V)") : tr("vibration feature h"));

@@ -47,7 +47,7 @@ WiringPanel::WiringPanel(QWidget* parent) : QGroupBox(tr("Wiring"), parent) {
     seed_->setRange(0, 1'000'000'000);
     seed_->setValue(1);
     seed_->setToolTip(
-        tr("Of everything random: the order of trials, noise. The same seed on simulated devices gives "
+        tr("Seed for everything random: trial order and noise. The same seed on simulated devices gives "
            "the same run, byte for byte."));
     form->addRow(tr("S&eed"), seed_);
     realtime_ = new QCheckBox(tr("in real ti&me"), this);

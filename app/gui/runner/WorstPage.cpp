@@ -36,7 +36,7 @@ QWidget* WorstPage::buildChooser() {
     chooser_ = new QComboBox(holder);
     chooser_->setObjectName("limitSetChooser");
     chooser_->setAccessibleName(tr("Limit set"));
-    chooser_->setToolTip(tr("Whose limits are shown. All of them hold, whichever is chosen."));
+    chooser_->setToolTip(tr("Selects the limit set to show. All limit sets always apply."));
     chooser_->addItem(tr("All limits"));
     connect(chooser_, &QComboBox::currentIndexChanged, this, &WorstPage::filter);
     auto* read = new QPushButton(tr("Read the limits…"), holder);

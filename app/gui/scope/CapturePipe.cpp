@@ -44,13 +44,13 @@ void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& so
     ++pending_;
     const bool follows = !std::exchange(gap_, false);
     const bool ours = source.isEmpty();
-    thread_.start([this, capture = std::move(capture), source, wish = wish_, follows, ours, epoch = epoch_,
+    thread_.start([this, capture = std::move(capture), source, math = mathOptions_, follows, ours, epoch = epoch_,
                    mask = ours ? mask_ : nullptr]() mutable {
         std::optional<MaskCheck> judged;
         if (mask && !capture->untriggered) judged = mask->check(*capture);
         const bool averages = ours && average_.captures() > 1 && std::isfinite(capture->trigger_s);
         if (averages) capture = average_.add(std::move(capture));
-        auto shown = std::const_pointer_cast<ShownCapture>(prepareCapture(std::move(capture), {}, wish));
+        auto shown = std::const_pointer_cast<ShownCapture>(prepareCapture(std::move(capture), {}, math));
         shown->source = source;
         shown->mask = std::move(judged);
         shown->judgedBy = mask;
@@ -74,12 +74,12 @@ void CapturePipe::open(const QString& path) {
     reading_.request_stop();
     reading_ = std::stop_source();
     emit openingChanged();
-    thread_.start([this, number, path, wish = wish_, stop = reading_.get_token()] {
+    thread_.start([this, number, path, math = mathOptions_, stop = reading_.get_token()] {
         auto read = captureFormats()->read(path.toStdString(), {}, {[this](double part) { tellRead(part); }, stop});
         ShownPtr shown;
         if (read && wantedOpen_ == number) {
             auto its = std::const_pointer_cast<ShownCapture>(
-                prepareCapture(std::make_shared<const Capture>(std::move(read->capture)), {}, wish));
+                prepareCapture(std::make_shared<const Capture>(std::move(read->capture)), {}, math));
             its->source = QFileInfo(path).fileName();
             // Says what is not evident: which instrument's table it was taken for.
             if (read->formatId != "csv") its->source += " (" + QString::fromStdString(read->formatName) + ")";
@@ -96,7 +96,7 @@ void CapturePipe::open(const QString& path) {
                 if (shown) {
                     emit prepared(shown);
                 } else {
-                    emit failed(tr("The capture could not be opened: %1. What is shown stays.").arg(why));
+                    emit failed(tr("The capture could not be opened: %1. The picture stays.").arg(why));
                 }
             },
             Qt::QueuedConnection);
@@ -124,8 +124,8 @@ void CapturePipe::tellRead(double part) {
 
 void CapturePipe::recalculate(const ShownPtr& shown) {
     if (!shown) return;
-    thread_.start([this, shown, wish = wish_] {
-        const auto again = withMath(*shown, wish);
+    thread_.start([this, shown, math = mathOptions_] {
+        const auto again = withMath(*shown, math);
         QMetaObject::invokeMethod(
             this, [this, again] { emit recalculated(again); }, Qt::QueuedConnection);
     });

@@ -34,19 +34,19 @@ public:
     /// Another bench or another load: nothing of the one before goes into a mean, and its captures that are on their
     /// way do not come.
     void beginAnew();
-    void setWish(const MathOptions& wish) { wish_ = wish; }
+    void setMathOptions(const MathOptions& math) { mathOptions_ = math; }
     void take(std::shared_ptr<const Capture> capture, const QString& source = {});
     void open(const QString& path);
     /// A file that is being read is read no further, and not shown.
     void cancelOpen();
-    /// The same capture with the present wish.
+    /// The same capture with the present math.
     void recalculate(const ShownPtr& shown);
 
     /// saveData() in the background; ends with saved() or failed().
     void save(const ShownPtr& shown, double from_s, double to_s, const QString& path);
 
     [[nodiscard]] bool opening() const noexcept { return opening_; }
-    /// Progress of the file that is being read, 0 to 100. openingChanged() tells each.
+    /// Progress of the file that is being read, 0 to 100. openingChanged() reports each.
     [[nodiscard]] int percentRead() const noexcept { return percentRead_; }
     [[nodiscard]] std::uint64_t skippedCaptures() const noexcept { return skipped_; }
 
@@ -61,7 +61,7 @@ private:
     void tellRead(double part);  // on the thread that reads
 
     QThreadPool thread_;  // one, so that results come in order
-    MathOptions wish_;
+    MathOptions mathOptions_;
     std::shared_ptr<const CaptureMask> mask_;
     CaptureAverage average_;   // the thread's
     bool gap_ = false;         // a capture was left out since the last

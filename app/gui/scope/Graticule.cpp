@@ -19,11 +19,11 @@ double RoundTicker::stepOver(const QCPRange& range) const {
 
 /// As many decimals as the step has: all numbers of a row end alike.
 QString RoundTicker::written(double quantity, double step) const {
-    constexpr int kMostDecimals = 15;
+    constexpr int kMaxDecimals = 15;
     const double shownStep = step * factor_;
     int decimals = 0;
     const auto isWhole = [&](double x) { return std::abs(std::round(x) - x) < 1e-6; };
-    while (decimals < kMostDecimals && !isWhole(shownStep * std::pow(10.0, decimals))) ++decimals;
+    while (decimals < kMaxDecimals && !isWhole(shownStep * std::pow(10.0, decimals))) ++decimals;
     const double value = std::abs(quantity) < step / 2 ? 0.0 : quantity * factor_;
     return QString::number(value, 'f', decimals).replace('-', QChar(0x2212));
 }

@@ -1,4 +1,4 @@
-// Graticule.h - round numbers along an axis whatever part of it is shown, and the ground on which there is no record.
+// Graticule.h - round numbers along any visible part of an axis, and the ground on which there is no record.
 //
 // Thread-safety: the GUI thread.
 #pragma once

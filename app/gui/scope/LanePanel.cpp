@@ -39,7 +39,7 @@ LanePanel::LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent)
       screen_(screen),
       grid_(new QGridLayout),
       store_(new QPushButton(tr("Store as reference"), this)) {
-    store_->setToolTip(tr("Keeps the lane that is worked with as it looks now, to compare with what comes."));
+    store_->setToolTip(tr("Keeps the selected lane as it looks now, to compare with later captures."));
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     grid_->setHorizontalSpacing(4);

@@ -16,7 +16,7 @@ class MaskGraph final : public QCPAbstractPlottable {
 public:
     /// `channel` as the mask has it.
     MaskGraph(QCPAxis* keyAxis, QCPAxis* valueAxis, const CaptureMask& mask, std::size_t channel);
-    /// Of the lane that it belongs to.
+    /// The lane that it belongs to.
     [[nodiscard]] const QString& lane() const noexcept { return lane_; }
     void setScale(double perDivision, double position);
     void setColours(const QColor& band, const QColor& edge);

@@ -33,9 +33,9 @@ MaskPanel::MaskPanel(QWidget* parent)
       showFirst_(new QPushButton(tr("Show the first outside"), this)),
       says_(new QLabel(this)) {
     make_->setToolTip(
-        tr("A band around the capture on the screen. Captures from now on are tested against it; the "
-           "output is not touched by it."));
-    remove_->setToolTip(tr("Captures are tested no more."));
+        tr("A band around the capture on the screen. Captures from now on are tested against it. This does "
+           "not affect the output."));
+    remove_->setToolTip(tr("Captures are no longer tested."));
     reset_->setToolTip(tr("Forgets what was counted, and the first capture outside."));
     showFirst_->setToolTip(tr("The first capture that left the band. It is kept until the counts are reset."));
     const std::array fields{std::pair(volts_, tr("Voltage ±")), std::pair(amps_, tr("Current ±")),
@@ -45,7 +45,7 @@ MaskPanel::MaskPanel(QWidget* parent)
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     for (const auto& [spin, name] : fields) {
         spin->setAccessibleName(tr("Mask: %1").arg(name));
-        spin->setToolTip(tr("How far a capture may be from the reference. Other widths make the mask anew."));
+        spin->setToolTip(tr("How far a capture may be from the reference. Changing a width makes a new mask."));
         spin->setKeyboardTracking(false);
         form->addRow(name, spin);
         connect(spin, &QDoubleSpinBox::valueChanged, this, &MaskPanel::bandChanged);

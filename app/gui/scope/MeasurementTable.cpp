@@ -156,7 +156,7 @@ void MeasurementTable::refill() {
     if (n > 1 && newest_ && newest_->averaged > 0) said += tr(" · of averages: the spread is theirs");
     if (passedOver_) {
         said = n == 0 ? tr("Untriggered: nothing is measured. Measurements appear with the first trigger.")
-                      : said + tr(" · what is shown now is untriggered and not counted");
+                      : said + tr(" · the record shown now is untriggered and not counted");
     }
     seen_->setText(said);
     reset_->setEnabled(n > 0);

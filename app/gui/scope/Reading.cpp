@@ -197,7 +197,8 @@ QString readingText(Reading reading, double value, const QString& channelUnit, i
 QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t channel) {
     const auto& measured = shown.measurement[channel];
     const auto& waveform = shown.waveforms[channel];
-    if (reading == Reading::Energy && measured.unit != "A") return QObject::tr("Energy stands with the current.");
+    if (reading == Reading::Energy && measured.unit != "A")
+        return QObject::tr("Energy is shown on the current channel.");
     if (isCharge(reading) && measured.unit != "A") return QObject::tr("Charge is read on the current channel.");
     if (isOfLoad(reading) && shown.loadCurrent != channel) {
         return QObject::tr("It takes one channel in V and one in A: which of several belong together is not known.");
@@ -210,7 +211,7 @@ QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t chann
         return waveform.clipped ? QObject::tr("The record is clipped: choose a larger range.")
                                 : QObject::tr("The record holds no sample.");
     }
-    if (measured.pulses.empty()) return QObject::tr("No pulse stands out of the baseline on this channel.");
+    if (measured.pulses.empty()) return QObject::tr("No pulse differs from the baseline on this channel.");
     if (measured.measuredPulses == 0) {
         return QObject::tr("The pulses are clipped, cut off or too coarse to be measured: the oscilloscope names it.");
     }

@@ -1,4 +1,4 @@
-// Remembered.h - values read back from the settings file, which anybody may have edited or a crash cut short: what is
+// Remembered.h - values read back from the settings file, which a person may have edited or a crash cut short: what is
 // not there, not of its kind or out of range is nothing, and the reader's default stays.
 //
 // Thread-safety: as QSettings, the GUI thread.

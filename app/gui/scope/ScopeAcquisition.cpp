@@ -9,12 +9,12 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kLevelShare = 0.2;         ///< of the commanded amplitude, in Auto
-constexpr double kFollowFrom = 1.3;         ///< the level is moved only when it would change by more than this factor
-constexpr qint64 kFollowEvery_ms = 300;     ///< and no more often: a request gives up the one under way
-constexpr qint64 kQuietAfter_ms = 1500;     ///< without a trigger this long it is said
-constexpr Seconds kFreeRunAfter{0.4};       ///< without a trigger, while nothing is delivered that could be one
-constexpr double kFreeRunIntervals = 1.25;  ///< while something is: of the longest interval between two trains
+constexpr double kLevelShare = 0.2;          ///< of the commanded amplitude, in Auto
+constexpr double kFollowFrom = 1.3;          ///< the level is moved only when it would change by more than this factor
+constexpr qint64 kFollowEvery_ms = 300;      ///< and no more often: a request gives up the one under way
+constexpr qint64 kNoTriggerAfter_ms = 1500;  ///< without a trigger this long it is said
+constexpr Seconds kFreeRunAfter{0.4};        ///< without a trigger, while nothing is delivered that could be one
+constexpr double kFreeRunIntervals = 1.25;   ///< while something is: of the longest interval between two trains
 
 bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
     return a.sampleRate == b.sampleRate && a.samples == b.samples && a.preTrigger == b.preTrigger &&
@@ -101,7 +101,7 @@ void ScopeAcquisition::fail(const QString& why) {
         state == InterlockState::Armed || state == InterlockState::Delivering || state == InterlockState::Checking;
     emit stopped(
         tr("⚠ The oscilloscope stopped: %1. %2 The last capture stays. When the oscilloscope is back, press Run.")
-            .arg(what, on ? tr("The output is not switched off by this and goes on unmeasured: STOP ends it.")
+            .arg(what, on ? tr("This does not switch the output off; it continues unmeasured. STOP ends it.")
                           : tr("Output is off.")));
 }
 
@@ -156,9 +156,9 @@ QString ScopeAcquisition::outputText() const {
 
 QString ScopeAcquisition::runningText(const ShownCapture* shown, std::uint64_t skipped) const {
     const auto level = quantityText(requested_.triggerLevel, requested_.triggerOnCurrent ? "A" : "V", 3);
-    if (taken_ == 0 || sinceCapture_.elapsed() > kQuietAfter_ms) {
+    if (taken_ == 0 || sinceCapture_.elapsed() > kNoTriggerAfter_ms) {
         if (shown != nullptr && shown->source.isEmpty() && shown->capture->untriggered) {
-            return tr("No trigger at %1: shown untriggered, not measured. %2").arg(level, outputText());
+            return tr("No trigger at %1. Showing an untriggered record; no measurements. %2").arg(level, outputText());
         }
         return tr("Waiting for a trigger at %1. %2").arg(level, outputText());
     }
@@ -178,7 +178,7 @@ QString ScopeAcquisition::statusText(const ShownCapture* shown, std::uint64_t sk
     }
     switch (controller_.activity()) {
         case Activity::Running:
-            return tr("A protocol has the oscilloscope. Capturing goes on after it.");
+            return tr("A protocol is using the oscilloscope. Capturing continues after it.");
         case Activity::Closed:
             return tr("No bench is open. The last capture stays.");
         case Activity::Opening:

@@ -102,13 +102,13 @@ public:
     /// To the next edge: `direction` is 1 or -1.
     bool jumpTimeCursor(double direction);
     [[nodiscard]] CursorReadout readout() const;
-    /// Of each lane that is shown, references left out; none without cursors across time.
+    /// The values at the time cursors in each lane shown, references excluded; empty without time cursors.
     [[nodiscard]] std::vector<CursorValue> cursorValues() const;
     /// Reads width and interval at a moment, or nothing.
     void hover(std::optional<double> time_s);
     [[nodiscard]] const std::optional<EdgeReading>& hovered() const noexcept { return hovered_; }
 
-    /// Of the bench's session; no more than the newest thousand.
+    /// Marks of the bench's session; the newest thousand are kept.
     void addMark(MomentMark mark);
     void clearMarks();
     /// Those that the axis reaches, with their time on it; none where a file is shown.

@@ -13,7 +13,7 @@ ScopeStatus::ScopeStatus(QWidget* parent) : QWidget(parent), text_(new QLabel(th
     text_->setWordWrap(true);
     setTextSize(*text_, TextSize::Small);
     cancel_->setText(tr("Cancel"));
-    cancel_->setToolTip(tr("Gives up reading. What is shown stays."));
+    cancel_->setToolTip(tr("Stops reading. The picture stays."));
     cancel_->setAutoRaise(true);
     cancel_->setFocusPolicy(Qt::StrongFocus);
     cancel_->hide();

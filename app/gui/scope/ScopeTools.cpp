@@ -108,12 +108,12 @@ void ScopeTools::addViews(ToolRow& row) {
 
 void ScopeTools::addPanels(ToolRow& row) {
     average_ = tool(tr("Average"),
-                    tr("The mean of the latest captures, aligned at the trigger. How many stands in the controls."),
+                    tr("The mean of the latest captures, aligned at the trigger. Set their number in the controls."),
                     true, "average");
     connect(average_, &QToolButton::clicked, this, &ScopeTools::averageClicked);
     mask_ = tool(tr("Mask"),
-                 tr("Tests captures against a band around what is shown now. Its width stands in the controls. The "
-                    "output is not touched by it."),
+                 tr("Tests captures against a band around what is shown now. Set its width in the controls. This "
+                    "does not affect the output."),
                  true, "mask");
     connect(mask_, &QToolButton::clicked, this, &ScopeTools::maskClicked);
     spectrum_ =

@@ -124,8 +124,8 @@ void ScopeWorkspace::connectPanels() {
         acquisition_->settingsChanged();
         say();
     });
-    connect(view, &ViewPanel::wishChanged, this, [this] {
-        pipe_.setWish(controls_->view().wish());
+    connect(view, &ViewPanel::mathOptionsChanged, this, [this] {
+        pipe_.setMathOptions(controls_->view().mathOptions());
         pipe_.recalculate(model_.shown());
     });
     connect(view, &ViewPanel::spectrumToggled, this, &ScopeWorkspace::showSpectrum);
@@ -316,7 +316,7 @@ bool ScopeWorkspace::outlives(const ShownCapture& next) const {
 bool ScopeWorkspace::openCaptureFile(const QString& path) {
     const QFileInfo file(path);
     if (!file.isFile() || !file.isReadable()) {
-        status_->tellProblem(tr("%1 cannot be read. What is shown stays.").arg(path));
+        status_->tellProblem(tr("%1 cannot be read. The picture stays.").arg(path));
         showState();
         return false;
     }

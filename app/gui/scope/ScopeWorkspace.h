@@ -40,7 +40,7 @@ public:
 
     /// At 30 Hz while this is visible; also while it is not, where setWatched().
     void refresh(const Telemetry& telemetry);
-    /// Another view shows what captureShown() tells: captures are taken though this is not visible.
+    /// Another view shows what captureShown() reports, so captures are taken although this is not visible.
     void setWatched(bool watched);
     /// Reads a capture file in the background and shows it; what goes wrong is said here. False when there is no such
     /// file. The bench's captures are on hold from then on.

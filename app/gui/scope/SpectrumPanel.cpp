@@ -111,7 +111,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     plot_->yAxis->setNumberFormat("gb");
     plot_->yAxis->setNumberPrecision(0);
     peaks_->setLineStyle(QCPGraph::lsNone);
-    for (std::size_t i = 0; i < kMostPeaks; ++i) {
+    for (std::size_t i = 0; i < kMaxPeaks; ++i) {
         auto* name = new QCPItemText(plot_);
         name->setClipToAxisRect(false);
         name->setPositionAlignment(Qt::AlignHCenter | Qt::AlignBottom);
@@ -161,7 +161,7 @@ void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
         spectrum_.note = tr("Fewer than %1 samples are on the screen: zoom out.").arg(kFewest);
         return;
     }
-    // A power of two is quick whatever the zoom, and the same plan serves the next frame.
+    // A power of two is quick at any zoom, and the same plan serves the next frame.
     const std::size_t length = std::min(std::bit_floor(seen), kMaxSamples);
     first += (seen - length) / 2;
     if (trace.pyramid.over(first, first + length).gap) {
@@ -195,7 +195,7 @@ void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
 
 void SpectrumPanel::findPeaks(const QString& unit) {
     const double width = transform_->binWidth_hz();
-    for (const auto& peak : spectralPeaks(spectrum_.rms, 2 * mainLobe(window()), kPeakOverMedian, kMostPeaks)) {
+    for (const auto& peak : spectralPeaks(spectrum_.rms, 2 * mainLobe(window()), kPeakOverMedian, kMaxPeaks)) {
         spectrum_.peaks.push_back({(peak.bin + 1) * width, peak.level});  // the first line is bin 1
     }
     const auto top = std::max_element(spectrum_.rms.begin(), spectrum_.rms.end()) - spectrum_.rms.begin();

@@ -45,7 +45,7 @@ class SpectrumPanel final : public QWidget {
     Q_OBJECT
 public:
     static constexpr std::size_t kMaxSamples = std::size_t{1} << 17;
-    static constexpr std::size_t kMostPeaks = 6;
+    static constexpr std::size_t kMaxPeaks = 6;
 
     explicit SpectrumPanel(QWidget* parent = nullptr);
     ~SpectrumPanel() override;

@@ -91,7 +91,7 @@ std::shared_ptr<Trace> makeTrace(const QString& key, const QString& title, const
 }
 
 ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOptions& options,
-                        const MathOptions& wish) {
+                        const MathOptions& math) {
     auto shown = std::make_shared<ShownCapture>();
     shown->zero_s = std::isfinite(capture->trigger_s) ? capture->trigger_s : capture->start_s;
     auto measured = measureCapture(*capture, {}, options);
@@ -108,14 +108,14 @@ ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOpt
     shown->measurement = std::move(measured.channels);
     shown->warnings = std::move(measured.warnings);
     shown->capture = std::move(capture);
-    addMath(shown->traces, wish);
+    addMath(shown->traces, math);
     return shown;
 }
 
-ShownPtr withMath(const ShownCapture& shown, const MathOptions& wish) {
+ShownPtr withMath(const ShownCapture& shown, const MathOptions& math) {
     auto again = std::make_shared<ShownCapture>(shown);
     std::erase_if(again->traces, [](const TracePtr& trace) { return trace->key.startsWith("math/"); });
-    addMath(again->traces, wish);
+    addMath(again->traces, math);
     return again;
 }
 

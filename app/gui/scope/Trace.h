@@ -96,9 +96,9 @@ using ShownPtr = std::shared_ptr<const ShownCapture>;
 
 /// Measures every channel, builds every pyramid. Takes as long as the capture is; call it off the window's thread.
 [[nodiscard]] ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOptions& options,
-                                      const MathOptions& wish);
+                                      const MathOptions& math);
 /// The same measurement with other calculations.
-[[nodiscard]] ShownPtr withMath(const ShownCapture& shown, const MathOptions& wish);
+[[nodiscard]] ShownPtr withMath(const ShownCapture& shown, const MathOptions& math);
 
 /// A trace of its own: `samples` with a pyramid over them.
 [[nodiscard]] std::shared_ptr<Trace> makeTrace(const QString& key, const QString& title, const QString& unit,

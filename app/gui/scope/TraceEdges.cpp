@@ -36,10 +36,10 @@ double snappedToEdge(const std::vector<TraceSpan>& spans, double time_s, double 
 }
 
 double nextEdge(const std::vector<TraceSpan>& spans, double time_s, double direction, double least_s) {
-    constexpr double kNever = std::numeric_limits<double>::infinity();
-    return nearestEdge(spans, time_s, kNever, [&](double at) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return nearestEdge(spans, time_s, kInfinity, [&](double at) {
         const double away = (at - time_s) * direction;
-        return away > least_s ? away : kNever;
+        return away > least_s ? away : kInfinity;
     });
 }
 

@@ -73,14 +73,14 @@ TracePtr differenceTrace(const Trace& a, const Trace& b) {
                       a);
 }
 
-void addMath(std::vector<TracePtr>& traces, const MathOptions& wish) {
+void addMath(std::vector<TracePtr>& traces, const MathOptions& math) {
     const auto volts = firstIn(traces, "V");
     const auto amps = firstIn(traces, "A");
     std::vector<TracePtr> more;
-    if (wish.power && volts && amps) more.push_back(powerTrace(*volts, *amps));
-    if (wish.charge && amps) more.push_back(chargeTrace(*amps));
-    const auto minuend = called(traces, wish.minuend);
-    const auto subtrahend = wish.reference ? wish.reference : called(traces, wish.subtrahend);
+    if (math.power && volts && amps) more.push_back(powerTrace(*volts, *amps));
+    if (math.charge && amps) more.push_back(chargeTrace(*amps));
+    const auto minuend = called(traces, math.minuend);
+    const auto subtrahend = math.reference ? math.reference : called(traces, math.subtrahend);
     if (minuend && subtrahend && minuend->unit == subtrahend->unit && subtrahend->size() > 0)
         more.push_back(differenceTrace(*minuend, *subtrahend));
     traces.insert(traces.end(), more.begin(), more.end());

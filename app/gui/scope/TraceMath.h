@@ -21,6 +21,6 @@ namespace tacto::gui {
 [[nodiscard]] TracePtr differenceTrace(const Trace& a, const Trace& b);
 
 /// Appends what is wished for and possible.
-void addMath(std::vector<TracePtr>& traces, const MathOptions& wish);
+void addMath(std::vector<TracePtr>& traces, const MathOptions& math);
 
 }  // namespace tacto::gui

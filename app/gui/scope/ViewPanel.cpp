@@ -79,11 +79,11 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
     connect(persistence_, &QComboBox::activated, this,
             [this] { model_.setPersistence(persistence_->currentData().toInt()); });
     connect(average_, &QComboBox::activated, this, [this] { setAverage(average_->currentData().toInt()); });
-    connect(power_, &QCheckBox::toggled, this, &ViewPanel::wishChanged);
-    connect(charge_, &QCheckBox::toggled, this, &ViewPanel::wishChanged);
+    connect(power_, &QCheckBox::toggled, this, &ViewPanel::mathOptionsChanged);
+    connect(charge_, &QCheckBox::toggled, this, &ViewPanel::mathOptionsChanged);
     connect(difference_, &QComboBox::activated, this, [this] {
         wantedDifference_.clear();
-        emit wishChanged();
+        emit mathOptionsChanged();
     });
     connect(spectrum_, &QCheckBox::toggled, this, &ViewPanel::spectrumToggled);
     connect(&model_, &ScopeModel::viewChanged, this, &ViewPanel::follow);
@@ -129,23 +129,23 @@ void ViewPanel::offerDifferences() {
     difference_->setCurrentIndex(std::max({0, same, wanted}));
     difference_->setEnabled(difference_->count() > 1);
     if (wanted >= 0) wantedDifference_.clear();
-    if (wanted >= 0 || (same < 0 && !chosen.toStringList().isEmpty())) emit wishChanged();
+    if (wanted >= 0 || (same < 0 && !chosen.toStringList().isEmpty())) emit mathOptionsChanged();
 }
 
-MathOptions ViewPanel::wish() const {
-    MathOptions wish;
-    wish.power = power_->isChecked();
-    wish.charge = charge_->isChecked();
+MathOptions ViewPanel::mathOptions() const {
+    MathOptions mathOptions;
+    mathOptions.power = power_->isChecked();
+    mathOptions.charge = charge_->isChecked();
     const auto difference = difference_->currentData().toStringList();
     if (difference.size() == 2) {
-        wish.minuend = difference[0];
+        mathOptions.minuend = difference[0];
         if (difference[1].startsWith("reference/")) {
-            wish.reference = model_.trace(difference[1]);
+            mathOptions.reference = model_.trace(difference[1]);
         } else {
-            wish.subtrahend = difference[1];
+            mathOptions.subtrahend = difference[1];
         }
     }
-    return wish;
+    return mathOptions;
 }
 
 void ViewPanel::save(QSettings& settings) const {

@@ -22,7 +22,7 @@ class ViewPanel final : public QWidget {
 public:
     /// `model` outlives this.
     ViewPanel(ScopeModel& model, QWidget* parent);
-    [[nodiscard]] MathOptions wish() const;
+    [[nodiscard]] MathOptions mathOptions() const;
     [[nodiscard]] bool wantsSpectrum() const;
     void setSpectrum(bool on);
     /// Captures that are averaged; 1: none.
@@ -36,7 +36,7 @@ public:
     void restore(const QSettings& settings);
 
 signals:
-    void wishChanged();
+    void mathOptionsChanged();
     void spectrumToggled(bool on);
     void averageChanged(int captures);
 

@@ -1,6 +1,6 @@
 // Viewport.h - which part of the record is on the screen, in divisions as on an oscilloscope: ten across, eight up;
 // and the way back when a zoom was a mistake. Scales that are chosen are steps of the 1-2-5 ladder; a box and a fit to
-// the pulse show just what they are of, whatever that makes a division.
+// the pulse show exactly what they are named after, at any time per division.
 //
 // Thread-safety: values; ViewHistory has one owner.
 #pragma once

@@ -1,4 +1,4 @@
-// Background.h - one long piece of work beside the window: progress, cancel, and its end told on the GUI thread.
+// Background.h - one long piece of work beside the window: progress, cancel, and its end signalled on the GUI thread.
 //
 // Thread-safety: the GUI thread; the work itself runs on a thread of its own and must not touch widgets.
 #pragma once

@@ -13,8 +13,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kMostAlone = 4;      // conditions that are named one by one
-constexpr int kMostPerPart = 120;  // sentences: more are not read
+constexpr int kMaxNamedAlone = 4;  // conditions that are named one by one
+constexpr int kMaxPerPart = 120;   // sentences: more are not read
 
 QString tr(const char* text) { return QObject::tr(text); }
 
@@ -58,11 +58,11 @@ private:
     /// No more than can be read of each part.
     void keep(int found) {
         const auto shorten = [&](int from, int to) {
-            const int left = to - from - kMostPerPart;
+            const int left = to - from - kMaxPerPart;
             if (left <= 0) return;
             const auto about = all_[from].about;
-            all_.remove(from + kMostPerPart, left);
-            all_.insert(from + kMostPerPart, {about, QObject::tr("%1 more differ.").arg(left)});
+            all_.remove(from + kMaxPerPart, left);
+            all_.insert(from + kMaxPerPart, {about, QObject::tr("%1 more differ.").arg(left)});
         };
         shorten(found, int(all_.size()));
         shorten(0, found);
@@ -158,7 +158,7 @@ private:
         for (const auto& [condition, means] : of)
             if (!other.contains(condition))
                 sentences << each.arg(titled(conditionText(condition)), trialsText(std::size_t(means.trials)));
-        if (sentences.size() > kMostAlone) return add(together.arg(sentences.size()));
+        if (sentences.size() > kMaxNamedAlone) return add(together.arg(sentences.size()));
         for (const auto& sentence : sentences) add(sentence);
     }
 

@@ -1,5 +1,5 @@
 // LabelSaves.h - edits of sessions' labels on their way to the disk: one after the other beside the window, none left
-// out, and each tells how it ended.
+// out, and each reports how it ended.
 //
 // Thread-safety: the GUI thread; the files are written on a thread of its own.
 #pragma once

@@ -187,11 +187,6 @@ std::optional<std::int64_t> SessionDetails::chosenCapture() const {
     return session_->captures[std::size_t(row)].seq;
 }
 
-int SessionDetails::chosenStream() const {
-    const int row = streams_->currentRow();
-    return session_ && row >= 0 && row < int(session_->streams.size()) ? session_->streams[std::size_t(row)].id : 0;
-}
-
 void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock& samples) {
     plot_->clearGraphs();
     const auto columns = info.stream.columns.size();

@@ -25,8 +25,6 @@ public:
     void say(const QString& why);
     /// The capture of the chosen row; nothing when there is none.
     [[nodiscard]] std::optional<std::int64_t> chosenCapture() const;
-    /// 0 when there is none.
-    [[nodiscard]] int chosenStream() const;
     /// Draws the samples of a stream, read beside the window.
     void showStream(const SessionStreamInfo& info, const SampleBlock& samples);
 

@@ -27,7 +27,7 @@ public:
     explicit SessionModel(QObject* parent);
 
     void setEntries(std::vector<SessionEntry> entries, const std::filesystem::path& recording);
-    /// In place of the one of the same path, in its row, whatever the filter and the order say.
+    /// Replaces the session of the same path in its row, without filtering or sorting again.
     void replace(SessionEntry entry);
     void setFilter(const SessionFilter& filter);
     /// Verdicts take their colours from the theme.

@@ -20,7 +20,7 @@ namespace {
 constexpr int kGrid = 8;
 constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
-constexpr int kLeastMoments = 3;  // lines
+constexpr int kMinMoments = 3;  // lines
 constexpr int kWhyLines = 2;
 constexpr double kWrapped = 0.85;  // of a line's width is used where words wrap
 
@@ -97,7 +97,7 @@ QWidget* SessionOverview::buildHappened() {
     happened_->setObjectName("whatHappened");
     happened_->setAccessibleName(tr("What happened"));
     happened_->setTabChangesFocus(true);
-    happened_->setMinimumHeight(fontMetrics().height() * kLeastMoments);
+    happened_->setMinimumHeight(fontMetrics().height() * kMinMoments);
     column->addWidget(happened_, 1);
     return holder;
 }
@@ -189,10 +189,11 @@ void SessionOverview::resizeEvent(QResizeEvent* event) {
 void SessionOverview::showFields() {
     showLabels(kept_);
     const bool fixed = !session_->fixed.isEmpty();
-    const std::pair<QLineEdit*, QString> all[] = {{operator_, tr("Who did it, for the report.")},
-                                                  {sample_, tr("What was measured, by your own id.")},
-                                                  {tags_, tr("Words to find it by, with commas between them.")},
-                                                  {note_, tr("One line; it is searched, and stands in the report.")}};
+    const std::pair<QLineEdit*, QString> all[] = {
+        {operator_, tr("Who did it, for the report.")},
+        {sample_, tr("Your own id of the sample that was measured.")},
+        {tags_, tr("Words to find it by, with commas between them.")},
+        {note_, tr("One line. The search covers it, and the report shows it.")}};
     for (const auto& [edit, tip] : all) {
         edit->setReadOnly(fixed);
         edit->setToolTip(fixed ? session_->fixed

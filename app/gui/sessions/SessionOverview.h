@@ -29,7 +29,7 @@ public:
 
 signals:
     void labelsSaved(const QString& session);
-    /// Of a session that is no longer shown: a sentence.
+    /// Labels of a session that is no longer shown could not be saved. `why` is a sentence.
     void labelsRefused(const QString& why);
 
 protected:

@@ -15,7 +15,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kCoursePoints = 3000;
-constexpr int kLeastLines = 10;  // of text: the height of a plot that can be read
+constexpr int kMinLines = 10;  // of text: the height of a plot that can be read
 
 bool inThePlane(const SessionTrial& trial) {
     return std::isfinite(numberOr(trial.measured, "amplitude_v")) &&
@@ -41,7 +41,7 @@ void SheetView::show(std::unique_ptr<PlotSheet> sheet) {
     update();
 }
 
-QSize SheetView::minimumSizeHint() const { return {0, fontMetrics().height() * kLeastLines}; }
+QSize SheetView::minimumSizeHint() const { return {0, fontMetrics().height() * kMinLines}; }
 
 void SheetView::paintEvent(QPaintEvent* /*event*/) {
     if (!sheet_) return;
@@ -71,14 +71,14 @@ SessionPreview::SessionPreview(QWidget* parent)
     nothing_->setWordWrap(true);
     setTone(*nothing_, Tone::Quiet);
     plane_ = new TrialPlane(stack_);
-    plane_->setMinimumHeight(fontMetrics().height() * kLeastLines);
+    plane_->setMinimumHeight(fontMetrics().height() * kMinLines);
     sheet_ = new SheetView(stack_);
     course_ = new QCustomPlot(stack_);
     course_->setAccessibleName(tr("What was felt and delivered"));
     course_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
     course_->axisRect()->setRangeZoom(Qt::Horizontal);
     course_->axisRect()->setRangeDrag(Qt::Horizontal);
-    course_->setMinimumHeight(fontMetrics().height() * kLeastLines);
+    course_->setMinimumHeight(fontMetrics().height() * kMinLines);
     // Above the axes: inside, it would hide data.
     course_->axisRect()->insetLayout()->take(course_->legend);
     course_->plotLayout()->insertRow(0);

@@ -109,7 +109,7 @@ QWidget* SessionsWorkspace::buildListActions() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
     row->setContentsMargins(kListMargin, kAroundActions, kListMargin, kAroundActions);
-    compare_ = addAction(*row, "compare", tr("Co&mpare two"), tr("What differs between two sessions, over each other."),
+    compare_ = addAction(*row, "compare", tr("Co&mpare two"), tr("Shows the differences between two sessions."),
                          [this] { compare(); });
     addAction(*row, "verify", tr("Verif&y"),
               tr("Is it what was recorded? Checks every row and sample against the chain."), [this] { verify(); });
@@ -314,7 +314,7 @@ void SessionsWorkspace::askExport() {
     question.wants = FileQuestion::Wants::NewFile;
     question.folder = qtext(entry->path.parent_path().string());
     question.name = qtext(entry->path.stem().string()) + "-csv";
-    // This one, whatever is selected when the folder is chosen.
+    // This one, even if another is selected when the folder is chosen.
     const auto session = entry->path;
     askForFile(*this, question, [this, session](const QString& folder) { exportSession(session, folder); });
 }

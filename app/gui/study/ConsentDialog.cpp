@@ -1,9 +1,9 @@
 #include "app/gui/study/ConsentDialog.h"
 
-#include <QDialogButtonBox>
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -32,35 +32,27 @@ ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* par
     auto* column = new QVBoxLayout(this);
     column->addWidget(heading(tr("Consent of %1").arg(code), this));
     column->addWidget(
-        explanation(tr("The signed form stays on paper, apart from the code. What stands here is sealed."), this));
+        explanation(tr("The signed form stays on paper, apart from the code. What you enter here is sealed."), this));
     const auto* open = study_.study();
     ProtocolDeclaration fields;
-    fields.parameters = {
-        field("version", tr("Version of the form that was signed"), ParameterType::Text,
-              open == nullptr ? std::string() : open->settings().consentVersion),
-        field("date", tr("Day on which it was signed"), ParameterType::Date,
-              open == nullptr ? std::string() : dateText(open->today())),
-        field("by", tr("Initials of who took it"), ParameterType::Text, std::string())};
+    fields.parameters = {field("version", tr("Version of the form that was signed"), ParameterType::Text,
+                               open == nullptr ? std::string() : open->settings().consentVersion),
+                         field("date", tr("Day on which it was signed"), ParameterType::Date,
+                               open == nullptr ? std::string() : dateText(open->today())),
+                         field("by", tr("Investigator’s initials"), ParameterType::Text, std::string())};
     form_->show(fields);
-    for (const auto& [name, tip] :
-         {std::pair("version", tr("Sessions need consent to the version in force.")),
-          std::pair("date", tr("No later than today.")), std::pair("by", tr("Of the investigator, not of the person."))})
+    for (const auto& [name, tip] : {std::pair("version", tr("Sessions need consent to the version in force.")),
+                                    std::pair("date", tr("No later than today.")),
+                                    std::pair("by", tr("The investigator’s initials, not the participant’s."))})
         form_->findChild<QWidget*>(name)->setToolTip(tip);
     form_->referencePart().hide();  // a consent has none
     column->addWidget(form_);
     trouble_->setObjectName("consentTrouble");
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
-    column->addWidget(trouble_);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-    auto* note = buttons->addButton(tr("Note the consent"), QDialogButtonBox::ActionRole);
+    auto* note = new QPushButton(tr("Note the consent"), this);
     note->setObjectName("noteConsent");
     makePrimary(*note);
-    for (auto* button : buttons->buttons()) static_cast<QPushButton*>(button)->setAutoDefault(false);
-    column->addWidget(buttons);
+    addFoot(*this, *column, *trouble_, note);
     connect(note, &QPushButton::clicked, this, &ConsentDialog::note);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
 }
 
 void ConsentDialog::note() {

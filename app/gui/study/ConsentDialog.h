@@ -1,4 +1,4 @@
-// ConsentDialog.h - notes that a participant consented: to which version, when, and who took it.
+// ConsentDialog.h - notes that a participant consented: to which version, when, and before which investigator.
 //
 // Thread-safety: the GUI thread.
 #pragma once

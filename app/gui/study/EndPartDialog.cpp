@@ -1,9 +1,9 @@
 #include "app/gui/study/EndPartDialog.h"
 
-#include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QVBoxLayout>
 
+#include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -31,9 +31,8 @@ EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWi
         column->addWidget(label);
     };
     if (withdraws) {
-        say(tr("The key to everything that %1 did and answered is destroyed. Nobody opens it again, and nothing brings "
-               "it back. That someone withdrew, when, and after how many sessions stays in the study, and so do "
-               "adverse events.")
+        say(tr("The key to everything that %1 did and answered is destroyed. The data can never be opened again. The "
+               "study keeps only that a participant withdrew, when, after how many sessions, and adverse events.")
                 .arg(code),
             "withdrawWhat");
         say(tr("This program does not reach copies of the key file, backups, and spare blocks of a solid-state disk: "
@@ -49,24 +48,16 @@ EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWi
         column->addLayout(form);
         connect(typed_, &QLineEdit::textChanged, this, &EndPartDialog::judge);
     } else {
-        say(tr("%1 takes part in no further session. What was collected stays, and is part of results and exports. "
+        say(tr("%1 takes part in no further session. The collected data stay, and are part of results and exports. "
                "If they want their data destroyed, they withdraw instead.")
                 .arg(code),
             "leaveWhat");
     }
     trouble_->setObjectName("endPartTrouble");
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
-    column->addWidget(trouble_);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     end_ = new ConfirmButton(withdraws ? tr("Destroy the key") : tr("Leave the study"), this);
     end_->setObjectName("endPart");
-    buttons->addButton(end_, QDialogButtonBox::ActionRole);
-    for (auto* button : buttons->buttons()) static_cast<QPushButton*>(button)->setAutoDefault(false);
-    column->addWidget(buttons);
+    addFoot(*this, *column, *trouble_, end_);
     connect(end_, &QPushButton::clicked, this, &EndPartDialog::end);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     judge();
 }
 

@@ -1,16 +1,16 @@
 #include "app/gui/study/EnrolDialog.h"
 
-#include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QVBoxLayout>
 
+#include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
-constexpr int kMostEnrolSeed = 1'000'000;
+constexpr int kMaxEnrolSeed = 1'000'000;
 constexpr int kEnrolWide = 420;
 }  // namespace
 
@@ -40,7 +40,7 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
     who_->addItem(tr("a virtual participant"), true);
     form->addRow(tr("&Who"), who_);
     seed_->setObjectName("enrolSeed");
-    seed_->setRange(1, kMostEnrolSeed);
+    seed_->setRange(1, kMaxEnrolSeed);
     seed_->setToolTip(tr("The same seed is the same virtual participant."));
     form->addRow(tr("&Seed"), seed_);
     group_->setObjectName("enrolGroup");
@@ -62,19 +62,11 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
         column->addWidget(label);
     }
     trouble_->setObjectName("enrolTrouble");
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
-    column->addWidget(trouble_);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-    close_ = buttons->button(QDialogButtonBox::Cancel);
-    enrol_ = buttons->addButton(tr("Enrol"), QDialogButtonBox::ActionRole);
+    enrol_ = new QPushButton(tr("Enrol"), this);
     enrol_->setObjectName("enrolNow");
     makePrimary(*enrol_);
-    for (auto* button : {close_, enrol_}) button->setAutoDefault(false);
-    column->addWidget(buttons);
+    close_ = addFoot(*this, *column, *trouble_, enrol_);
     connect(enrol_, &QPushButton::clicked, this, &EnrolDialog::enrol);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(who_, &QComboBox::currentIndexChanged, this, &EnrolDialog::judge);
     judge();
 }
@@ -86,7 +78,8 @@ void EnrolDialog::judge() {
 
 void EnrolDialog::enrol() {
     auto* study = study_.study();
-    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nobody was enrolled."));
+    if (study == nullptr)
+        return trouble_->setText(tr("⚠ The study is not open any more. No participant was enrolled."));
     Participant participant;
     participant.code = own_->text().trimmed().toStdString();
     participant.group = ParticipantGroup(group_->currentData().toInt());

@@ -1,4 +1,4 @@
-// EnrolDialog.h - enrols a participant and shows their code, once and large: for them to keep, and for nobody's notes.
+// EnrolDialog.h - enrols a participant and shows their code, once and large: for them to keep, not for notes.
 //
 // Thread-safety: the GUI thread.
 #pragma once

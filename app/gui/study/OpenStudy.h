@@ -43,7 +43,7 @@ public:
     void takeBack();
     /// exported() or refused() follows.
     void exportBids(const QString& place);
-    /// After a change by study(): tells it.
+    /// Call after a change through study(): emits the change.
     void noteChange() { emit changed(); }
 
 signals:

@@ -17,7 +17,7 @@ bool continues(std::byte byte) { return (std::to_integer<unsigned>(byte) & 0xC0U
 
 }  // namespace
 
-PassphraseEdit::PassphraseEdit(QWidget* parent) : QLineEdit(parent), held_(kMostBytes) {
+PassphraseEdit::PassphraseEdit(QWidget* parent) : QLineEdit(parent), held_(kMaxBytes) {
     setAccessibleName(tr("Passphrase"));
     setContextMenuPolicy(Qt::NoContextMenu);
     setAcceptDrops(false);

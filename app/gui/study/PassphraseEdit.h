@@ -15,7 +15,7 @@ namespace tacto::gui {
 class PassphraseEdit final : public QLineEdit {
     Q_OBJECT
 public:
-    static constexpr std::size_t kMostBytes = 1024;
+    static constexpr std::size_t kMaxBytes = 1024;
     explicit PassphraseEdit(QWidget* parent = nullptr);
     [[nodiscard]] bool isEmpty() const noexcept { return size_ == 0; }
     /// A copy of what was typed.

@@ -171,7 +171,7 @@ QWidget* StudyList::buildOfOne() {
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(8);
     auto* start =
-        button(tr("Start a session…"), tr("Of the participant who is chosen in the table."), "startSession", holder);
+        button(tr("Start a session…"), tr("Starts a session for the selected participant."), "startSession", holder);
     start->setIcon(icon("run", Ink::Primary));
     makePrimary(*start);
     connect(start, &QPushButton::clicked, this, [this] {
@@ -302,7 +302,7 @@ void StudyList::showTables(const Study& study) {
     sessions_->setObjectName("studySessions");
     sessions_->setAccessibleName(tr("Sessions"));
     const auto gone = std::ranges::count(study.participants(), ParticipantState::Withdrawn, &Participant::state);
-    withdrawn_->setText(people.empty() && gone == 0 ? tr("Nobody is enrolled. Enrol a participant first.")
+    withdrawn_->setText(people.empty() && gone == 0 ? tr("No participant is enrolled. Enrol one first.")
                         : gone == 0                 ? QString()
                         : gone == 1                 ? tr("One more has withdrawn.")
                                                     : tr("%1 more have withdrawn.").arg(gone));

@@ -22,7 +22,7 @@ void ConfirmButton::setMeaning(const QString& text, bool confirms) {
 }
 
 bool ConfirmButton::listens() const {
-    return !confirms_ || (isVisible() && shown_.isValid() && shown_.elapsed() >= kDeaf_ms);
+    return !confirms_ || (isVisible() && shown_.isValid() && shown_.elapsed() >= kDebounce_ms);
 }
 
 bool ConfirmButton::event(QEvent* event) {

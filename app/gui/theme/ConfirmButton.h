@@ -16,10 +16,10 @@ namespace tacto::gui {
 class ConfirmButton final : public QPushButton {
     Q_OBJECT
 public:
-    static constexpr int kDeaf_ms = 500;
+    static constexpr int kDebounce_ms = 500;
     explicit ConfirmButton(const QString& text, QWidget* parent = nullptr);
     /// What a press does from now on; `text` may have a mnemonic. `confirms`: it is a second step; it is deaf for
-    /// kDeaf_ms, and a press that is under way does nothing. Otherwise it takes every press at once, as what stops,
+    /// kDebounce_ms, and a press that is under way does nothing. Otherwise it takes every press at once, as what stops,
     /// pauses or disarms must. The same meaning again changes nothing.
     void setMeaning(const QString& text, bool confirms);
     /// Whether a press now is meant for what it does now. Those that act on clicked() where the meaning changes ask

@@ -1,7 +1,7 @@
 // LimitSetView.h - the limit sets in force, to be read: one at a time by its title, each limit with its value, the time
 // over which it is taken, where it is judged, what it does, and its source; then what the set asks to be stated.
 //
-// All sets hold, whichever is shown.
+// All sets apply, not only the one shown.
 //
 // Thread-safety: the GUI thread.
 #pragma once

@@ -7,6 +7,7 @@
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::gui {
 
@@ -29,8 +30,6 @@ struct Known {
     bool hasAround = false;
 };
 
-double numberOf(const json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
-
 QString textOf(const json& value) {
     if (value.is_string()) return visible(QString::fromStdString(value.get<std::string>()));
     if (value.is_boolean()) return value.get<bool>() ? QObject::tr("yes") : QObject::tr("no");
@@ -41,20 +40,20 @@ QString textOf(const json& value) {
 Known knownOf(const RecordColumn& column, const json& record) {
     const auto& value = memberAt(record, column.at);
     Known known;
-    known.value = numberOf(value);
+    known.value = numberOr(value);
     if (value.is_object()) {
         const bool spread = value.contains("mean") || value.contains("sd");
-        known.value = numberOf(memberAt(value, value.contains("mean")     ? "mean"
+        known.value = numberOr(memberAt(value, value.contains("mean")     ? "mean"
                                                : value.contains("median") ? "median"
                                                                           : "value"));
         known.hasAround = spread;
-        if (spread) known.around = numberOf(memberAt(value, "sd"));
-        known.low = spread ? std::nan("") : numberOf(memberAt(value, "low"));
-        known.high = spread ? std::nan("") : numberOf(memberAt(value, "high"));
+        if (spread) known.around = numberOr(memberAt(value, "sd"));
+        known.low = spread ? std::nan("") : numberOr(memberAt(value, "low"));
+        known.high = spread ? std::nan("") : numberOr(memberAt(value, "high"));
     }
     if (!column.uncertainty.empty()) {
         known.hasAround = true;
-        known.around = numberOf(memberAt(record, column.uncertainty));
+        known.around = numberOr(memberAt(record, column.uncertainty));
     }
     return known;
 }

@@ -28,7 +28,9 @@ QToolBar#workspaces { border-right: 1px solid @line; }
 QToolBar#safetyToolBar { border-bottom: 1px solid @line; }
 QStatusBar { background: @window; border-top: 1px solid @line; color: @quiet; }
 QStatusBar::item { border: none; }
-QStatusBar QLabel, QStatusBar QToolButton { font-size: ^9; color: @quiet; border: none; padding: 0 ~4; min-height: ~20; }
+QStatusBar QLabel, QStatusBar QToolButton {
+    font-size: ^9; color: @quiet; border: none; padding: 0 ~4; min-height: ~20;
+}
 
 QPushButton { background: @base; border: 1px solid @edge; border-radius: 4px; padding: 0 ~11; min-height: ~30; }
 QPushButton:hover { background: @sunken; }

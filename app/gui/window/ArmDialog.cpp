@@ -16,7 +16,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLook_ms = 100;
+constexpr int kPollInterval_ms = 100;
 constexpr std::chrono::seconds kAnswerWithin =
     std::chrono::duration_cast<std::chrono::seconds>(Interlock::kConfirmWithin);
 
@@ -71,7 +71,7 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
     setTone(*trouble_, Tone::Warning);
     layout->addWidget(trouble_);
     connected_ = new QCheckBox(tr("I checked that this load is connected"), this);
-    connected_->setToolTip(tr("This stimulator cannot measure its load: your word stands in for the reading."));
+    connected_->setToolTip(tr("This stimulator cannot measure its load: your confirmation replaces the reading."));
     connected_->setVisible(!readsBack_);
     layout->addWidget(connected_);
 
@@ -91,7 +91,7 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
         if (controller_.stoppedSince(asked_)) return reject();
         sayFirst();
     });
-    look->start(kLook_ms);
+    look->start(kPollInterval_ms);
     QTimer::singleShot(kAnswerWithin, this, &QDialog::reject);
     connect(arm_, &QPushButton::clicked, this, &ArmDialog::confirm);
     connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
@@ -116,7 +116,7 @@ void ArmDialog::judge() {
     arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
 }
 
-/// The first train surprises no one.
+/// The first train comes as no surprise.
 void ArmDialog::sayFirst() {
     const auto source = controller_.telemetry().driving;
     QString text = tr("Drive is off: no train follows until you choose one.");

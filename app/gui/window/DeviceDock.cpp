@@ -44,7 +44,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     tree_->setHeaderHidden(true);
     tree_->setWordWrap(true);
     tree_->setTextElideMode(Qt::ElideRight);
-    tree_->setToolTip(tr("What is present. Those in bold are open. Tick those that shall make up the bench (Return)."));
+    tree_->setToolTip(tr("Devices that are present; open ones are bold. Select the devices for the bench (Return)."));
     tree_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     tree_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
     tree_->setUniformRowHeights(false);
@@ -232,9 +232,8 @@ void DeviceDock::choose(QTreeWidgetItem* item) {
 void DeviceDock::nameOpen() {
     const auto ticked = chosen().size();
     open_->setText(ticked == 0 ? tr("Open &simulated bench") : tr("&Open what is ticked (%1)").arg(ticked));
-    open_->setToolTip(ticked == 0
-                          ? tr("Opens a fingertip, a stimulator on 1 kΩ and an oscilloscope, all simulated.")
-                          : tr("Opens the ticked devices as one bench. Nothing is put out before it is armed."));
+    open_->setToolTip(ticked == 0 ? tr("Opens a fingertip, a stimulator on 1 kΩ and an oscilloscope, all simulated.")
+                                  : tr("Opens the ticked devices as one bench. No output before the bench is armed."));
 }
 
 void DeviceDock::openChosen() {

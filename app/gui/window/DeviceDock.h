@@ -36,7 +36,7 @@ private:
     [[nodiscard]] std::map<Role, DeviceUri> chosen() const;
     void openChosen();
     void nameOpen();
-    /// What the bench was opened with stays, whatever is entered since.
+    /// What the bench was opened with stays, even if other values are entered.
     void lookForCertificate();
 
     BenchController& controller_;

@@ -11,7 +11,7 @@ namespace tacto::gui {
 namespace {
 
 QString nextStep(std::optional<FaultCause> cause) {
-    if (!cause) return FaultBanner::tr("Mend the cause, then reset. You arm again afterwards.");
+    if (!cause) return FaultBanner::tr("Fix the cause, reset the fault, then arm again.");
     switch (*cause) {
         case FaultCause::DeviceLost:
             return FaultBanner::tr("Plug it in again and wait until it is listed, then reset.");

@@ -15,7 +15,7 @@ class FaultBanner final : public QFrame {
     Q_OBJECT
 public:
     explicit FaultBanner(QWidget* parent);
-    /// Of a faulted bench; thirty times a second.
+    /// Call it thirty times a second while the bench is faulted.
     void show(const Telemetry& telemetry);
     /// All of it, for a tool tip and for the log.
     [[nodiscard]] QString text() const;

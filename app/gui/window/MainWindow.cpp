@@ -134,7 +134,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages)
 }
 
 MainWindow::~MainWindow() {
-    // Hiding is told to the workspaces, and they ask the controller: it is a member, and gone when Qt would hide the
+    // Hiding notifies the workspaces, and they ask the controller: it is a member, and gone when Qt would hide the
     // window.
     hide();
 }
@@ -408,7 +408,7 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
     if (docks_ != nullptr && hasRoomForDocks_ != (width() >= scaledPx(kDocksFrom))) enterDocks();
 }
 
-/// What comes after the first picture does not keep anybody waiting for it.
+/// What is built afterwards does not delay the first picture.
 bool MainWindow::event(QEvent* event) {
     if (event->type() == QEvent::Paint && closing_ == nullptr)
         QTimer::singleShot(0, this, &MainWindow::buildOthers);

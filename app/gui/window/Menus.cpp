@@ -64,7 +64,7 @@ void Menus::addBench() {
     auto* mark = bench->addAction(tr("&Mark this moment…"), QKeySequence(Qt::CTRL | Qt::Key_M), &window_,
                                   &MainWindow::markMoment);
     mark->setAutoRepeat(false);
-    mark->setShortcutContext(Qt::ApplicationShortcut);  // the moment passes, whatever window has the focus
+    mark->setShortcutContext(Qt::ApplicationShortcut);  // the moment passes; any window may have the focus
     bench->addAction(tr("&Operator and sample…"), &window_, [this] { window_.askForDay(false); });
     bench->addSeparator();
     bench->addAction(tr("STOP (Esc)"), &window_, [controller] { controller->stop("operator (menu)"); });

@@ -17,7 +17,7 @@ class RecordingLine;
 class NoticeBanner final : public QFrame {
     Q_OBJECT
 public:
-    /// Both outlive this. Says by itself what the controller tells.
+    /// Both outlive this. Shows what the controller reports.
     NoticeBanner(BenchController& controller, RecordingLine& line, QWidget* parent);
     void complain(const QString& what);
     /// As often as telemetry is read: states and faults, into the log.

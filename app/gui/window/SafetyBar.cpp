@@ -328,11 +328,11 @@ void SafetyBar::showButtons(InterlockState state) {
     if (state == InterlockState::Faulted) {
         action_->setMeaning(tr(kActions[2]), true);
         action_->setToolTip(
-            tr("Asks the devices again; one that was unplugged is looked for. When the cause is gone the bench is "
+            tr("Checks the devices again and searches for an unplugged one. When the cause is gone the bench is "
                "disarmed, not armed."));
     } else if (on) {
         action_->setMeaning(tr(kActions[1]), false);
-        action_->setToolTip(tr("Ends the output and goes back to disarmed."));
+        action_->setToolTip(tr("Ends the output and disarms the bench."));
     } else {
         action_->setMeaning(tr(kActions[0]), false);
         action_->setToolTip(tr("First of two steps. Nothing is delivered before the second."));

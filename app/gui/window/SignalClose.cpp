@@ -34,7 +34,7 @@ SignalClose::~SignalClose() {
 void SignalClose::note(const First& first) {
     const auto now = std::chrono::steady_clock::now();
     if (!*first) *first = now;
-    if (now - **first >= kGivenUp) std::_Exit(kStopped);
+    if (now - **first >= kExitTimeout) std::_Exit(kStopped);
 }
 
 }  // namespace tacto::gui

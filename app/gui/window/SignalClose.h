@@ -1,5 +1,5 @@
 // SignalClose.h - Ctrl+C in the terminal of the window, termination and a terminal that closes: the output goes off at
-// once, whatever the window is doing, and then the window closes without a question, so that the session is closed
+// once, even while the window is busy, and then the window closes without a question, so that the session is closed
 // (hazard H2).
 //
 // Thread-safety: the GUI thread.
@@ -17,11 +17,11 @@ namespace tacto::gui {
 class SignalClose {
 public:
     /// A signal that comes this long after the first one ends the program: the window does not close.
-    static constexpr std::chrono::seconds kGivenUp{5};
+    static constexpr std::chrono::seconds kExitTimeout{5};
 
     /// `stops` was made before any other thread and outlives this; `window` does too.
     SignalClose(SignalStop& stops, MainWindow& window);
-    /// Signals no longer reach the window; what kGivenUp says still holds.
+    /// Signals no longer reach the window; what kExitTimeout says still holds.
     ~SignalClose();
     SignalClose(const SignalClose&) = delete;
     SignalClose& operator=(const SignalClose&) = delete;

@@ -60,8 +60,6 @@ int StateBlock::widthAt(double scale) const {
     return metrics.horizontalAdvance(longestWord(metrics)) + scaledPx(kBeforeWord + kBehindWord);
 }
 
-int StateBlock::wantedWidth() const { return widthAt(kDisplayText); }
-
 int StateBlock::smallestWidth() const { return widthAt(kSmallest); }
 
 void StateBlock::fit(int width) {

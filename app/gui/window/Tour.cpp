@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLook_ms = 60;
+constexpr int kPollInterval_ms = 60;
 constexpr int kWidthChars = 46;
 constexpr int kTallest = 10'000;  // px, of a text that has all the room
 constexpr int kMargin = 24;       // from the window's edges
@@ -42,10 +42,10 @@ Tour::Tour(std::vector<TourStep> steps, QWidget* window) : QFrame(window), steps
     row->addWidget(place_);
     row->addStretch();
     leave_ = new QPushButton(tr("Leave"), this);
-    leave_->setToolTip(tr("Help > Tour goes on from here."));
+    leave_->setToolTip(tr("Help > Tour continues from here."));
     back_ = new QPushButton(tr("Back"), this);
     next_ = new QPushButton(tr("Next"), this);
-    next_->setToolTip(tr("Passes this step over. It goes on by itself when the step is done."));
+    next_->setToolTip(tr("Skips this step. The tour goes on by itself when the step is done."));
     for (auto* button : {leave_, back_, next_}) {
         button->setAutoDefault(false);
         row->addWidget(button);
@@ -54,7 +54,7 @@ Tour::Tour(std::vector<TourStep> steps, QWidget* window) : QFrame(window), steps
     connect(leave_, &QPushButton::clicked, this, [this] { end(false); });
     connect(back_, &QPushButton::clicked, this, [this] { go(step_ - 1, true); });
     connect(next_, &QPushButton::clicked, this, &Tour::goOn);
-    look_.setInterval(kLook_ms);
+    look_.setInterval(kPollInterval_ms);
     connect(&look_, &QTimer::timeout, this, &Tour::look);
     window->installEventFilter(this);
     hide();

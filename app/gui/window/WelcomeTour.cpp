@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-// Of the rail.
+// Indices in the rail.
 constexpr int kLivePage = 0;
 constexpr int kSeparabilityPage = 3;
 constexpr int kSessionsPage = 5;
@@ -136,9 +136,8 @@ std::vector<TourStep> WelcomeTour::toTheVerdict() {
          [this] { return judged_ > 0; },
          kReadFor_ms},
         {tr("Everything is kept"),
-         tr("The verdict stands at the top, and why below it. Each bench and each run is a session: find it, replay "
-            "it, "
-            "compare, export and verify it here. ? shows all keys, F1 explains what has the focus."),
+         tr("The verdict is at the top, with the reasons below it. Each bench and each run is a session: find it, "
+            "replay it, compare, export and verify it here. ? shows all keys, F1 explains what has the focus."),
          {},
          [this] { return workspaceButton(kSessionsPage); },
          [this] { return window_.workspace() == kSessionsPage; },

@@ -1,5 +1,5 @@
 // WindowPlace.h - keeps a window on its screen. STOP is in the window's corner: no part of the window may lie beyond
-// the screen, whatever the screen was when it was left.
+// the screen, even if the screen has changed since.
 //
 // Thread-safety: the GUI thread.
 #pragma once

@@ -31,13 +31,7 @@ std::string shown(const nlohmann::json& value) {
     }
     if (value.is_number()) return fmt::format("{}", value.get<double>());
     if (value.is_null()) return "nothing";
-    std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (text.size() > 60) {
-        std::size_t end = 57;
-        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // whole characters only
-        text = text.substr(0, end) + "...";
-    }
-    return text;
+    return shownJson(value);
 }
 
 const std::vector<HostParameter>& Arguments::parameters() const noexcept {

@@ -23,7 +23,7 @@ Result<ArmRequest> confirmedArming(ScriptSession& session, const std::string& lo
                     : bench.devices().stimulator != nullptr ? "bench load"
                                                             : "massager";
     if (!session.hasConfirmed(question.confirms)) {
-        // Without the operator's word the run ends, whatever the script makes of it.
+        // Without the operator's confirmation the run ends, even if the script catches the error.
         auto answer = session.ask(question);
         if (!answer) return session.endWith(answer.error());
         if (*answer != nlohmann::json(true)) {

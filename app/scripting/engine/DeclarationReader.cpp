@@ -71,7 +71,7 @@ std::string fileOf(const ProtocolSource& source) {
 }
 
 Result<nlohmann::json> declareElsewhere(const ProtocolSource& source, std::chrono::milliseconds limit) {
-    // Its start on a busy machine, and what a script may take to end when told to.
+    // Its start on a busy machine, and the time that a script may take to end when asked to.
     constexpr std::chrono::milliseconds kAround{10'000};
     const auto program = programBeside("tactoscope-declare");
     QProcess reader;
@@ -167,13 +167,13 @@ Result<nlohmann::json> declareHere(const ProtocolSource& source, std::chrono::mi
         if (end == ScriptThread::End::Running) end = thread.wait();
         const bool abandoned = end == ScriptThread::End::Abandoned;
         return fail(ErrorCode::Timeout, "{}:1: the lines outside run(p) took more than {} MiB of memory{}", file,
-                    kMaxMemory >> 20, abandoned ? ", and did not end when told to" : "");
+                    kMaxMemory >> 20, abandoned ? ", and did not end when asked to" : "");
     }
     if (end == ScriptThread::End::Running) {
         thread.interrupt();
         const bool abandoned = thread.wait() == ScriptThread::End::Abandoned;
         return fail(ErrorCode::Timeout, "{}:1: the lines outside run(p) did not end within {} ms{}", file,
-                    limit.count(), abandoned ? ", nor when told to" : "");
+                    limit.count(), abandoned ? ", nor when asked to" : "");
     }
     const std::lock_guard lock(port->mutex_);
     if (port->error_) return fail(ErrorCode::ParseError, "{}", port->error_->text());

@@ -35,6 +35,6 @@ int main(int argc, char** argv) {
     const auto answer = answerOf(declared).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     const bool written = std::fwrite(answer.data(), 1, answer.size(), stdout) == answer.size();
     const bool flushed = std::fflush(stdout) == 0;
-    // A script that did not end when told to may still run: nothing is torn down under it.
+    // A script that did not end when asked to may still run: nothing is torn down under it.
     std::_Exit(written && flushed ? 0 : 3);
 }

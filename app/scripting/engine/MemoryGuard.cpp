@@ -14,8 +14,8 @@ namespace tacto {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{20};
-constexpr std::size_t kMost = std::size_t{2} << 30;
+constexpr std::chrono::milliseconds kPollInterval{20};
+constexpr std::size_t kMaxGuardedBytes = std::size_t{2} << 30;
 
 /// Resident memory of this program in bytes; 0 where the system does not tell.
 std::size_t resident() noexcept {
@@ -30,14 +30,14 @@ std::size_t resident() noexcept {
 /// Memory that programs can still be given, in bytes.
 std::size_t available() noexcept {
     std::FILE* file = std::fopen("/proc/meminfo", "re");
-    if (file == nullptr) return kMost;
+    if (file == nullptr) return kMaxGuardedBytes;
     char line[128];
     unsigned long kilobytes = 0;
     while (std::fgets(line, sizeof line, file) != nullptr) {
         if (std::sscanf(line, "MemAvailable: %lu kB", &kilobytes) == 1) break;
     }
     static_cast<void>(std::fclose(file));
-    return kilobytes == 0 ? kMost : std::size_t{1024} * kilobytes;
+    return kilobytes == 0 ? kMaxGuardedBytes : std::size_t{1024} * kilobytes;
 }
 
 /// The first number in a file of the kernel's; nothing where there is none ("max").
@@ -81,7 +81,7 @@ std::size_t leftByLimit(int resource, int field) {
 
 std::size_t MemoryGuard::usualLimit() {
     constexpr int kAddressSpace = 0, kData = 5;
-    return std::min({kMost, available() / 2, leftByGroup() / 2, leftByLimit(RLIMIT_AS, kAddressSpace) / 2,
+    return std::min({kMaxGuardedBytes, available() / 2, leftByGroup() / 2, leftByLimit(RLIMIT_AS, kAddressSpace) / 2,
                      leftByLimit(RLIMIT_DATA, kData) / 2});
 }
 
@@ -100,7 +100,7 @@ MemoryGuard::~MemoryGuard() {
 void MemoryGuard::watch(std::size_t most) {
     const std::size_t before = resident();
     std::unique_lock lock(mutex_);
-    while (!ending_.wait_for(lock, kLook, [this] { return ended_; })) {
+    while (!ending_.wait_for(lock, kPollInterval, [this] { return ended_; })) {
         const std::size_t now = resident();
         if (now <= before || now - before <= most) continue;
         lock.unlock();

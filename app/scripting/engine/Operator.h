@@ -47,7 +47,7 @@ public:
     /// Called by ask() while it waits and the operator could press the stop. Set by the run.
     std::function<void()> present;
     /// true for Confirm, the key for Choose, a number or text for Enter.
-    /// Errors: NotFound when there is no one to answer, naming the question; Stopped when refused or cancelled;
+    /// Errors: NotFound when there is no operator to answer, naming the question; Stopped when refused or cancelled;
     /// InvalidArgument for an answer outside what is accepted; NotArmed for the confirmation of another text.
     [[nodiscard]] virtual Result<nlohmann::json> ask(const OperatorQuestion& question) = 0;
     /// Makes a waiting ask() return Stopped.

@@ -45,12 +45,12 @@ bool hasChoice(const ProtocolParameter& parameter, const std::string& key) {
 }
 
 /// A double holds every whole number up to here, and not every one beyond.
-constexpr double kMostWhole = 9007199254740992;  // 2^53
+constexpr double kMaxWholeNumber = 9007199254740992;  // 2^53
 
 /// The range of `parameter`, no wider than what a whole number can be exact in.
 ProtocolParameter exactly(ProtocolParameter parameter) {
-    parameter.min = std::max(parameter.min.value_or(-kMostWhole), -kMostWhole);
-    parameter.max = std::min(parameter.max.value_or(kMostWhole), kMostWhole);
+    parameter.min = std::max(parameter.min.value_or(-kMaxWholeNumber), -kMaxWholeNumber);
+    parameter.max = std::min(parameter.max.value_or(kMaxWholeNumber), kMaxWholeNumber);
     return parameter;
 }
 
@@ -70,7 +70,7 @@ Result<Json> accepted(const ProtocolParameter& parameter, const Json& value) {
                 return refuse(rangeText(parameter));
             }
             if (parameter.type == ParameterType::Number) return value;
-            if (!(std::abs(x) <= kMostWhole)) return refuse(rangeText(exactly(parameter)));
+            if (!(std::abs(x) <= kMaxWholeNumber)) return refuse(rangeText(exactly(parameter)));
             return Json(static_cast<std::int64_t>(x));
         }
         case ParameterType::Choice:
@@ -159,19 +159,19 @@ bool isName(std::string_view name) {
 
 /// With these parameters the operator vouches for what the program cannot know, so the field must say what it is.
 Result<void> saysWhatItVouchesFor(const ProtocolParameter& parameter) {
-    struct Vouched {
+    struct OperatorStated {
         std::string_view name, unit, word;
     };
-    constexpr Vouched kVouched[] = {{"area", "cm2", "electrode"},
-                                    {"scope_gain_pct", "%", "Oscilloscope gain"},
-                                    {"timebase_ppm", "ppm", "time base"}};
-    for (const auto& vouched : kVouched) {
-        if (parameter.name != vouched.name) continue;
-        if (parameter.unit == vouched.unit && parameter.label.find(vouched.word) != std::string::npos) return {};
+    constexpr OperatorStated kOperatorStated[] = {{"area", "cm2", "electrode"},
+                                                  {"scope_gain_pct", "%", "Oscilloscope gain"},
+                                                  {"timebase_ppm", "ppm", "time base"}};
+    for (const auto& stated : kOperatorStated) {
+        if (parameter.name != stated.name) continue;
+        if (parameter.unit == stated.unit && parameter.label.find(stated.word) != std::string::npos) return {};
         return fail(ErrorCode::InvalidArgument,
                     "the parameter {} is labelled \"{}\" in \"{}\"; by it the operator vouches for something, so a "
                     "label with \"{}\" and the unit {} are expected",
-                    parameter.name, parameter.label, parameter.unit, vouched.word, vouched.unit);
+                    parameter.name, parameter.label, parameter.unit, stated.word, stated.unit);
     }
     return {};
 }

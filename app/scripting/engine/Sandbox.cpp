@@ -101,7 +101,7 @@ Sandbox::Sandbox(HostPort& port, const ProtocolSource& source)
     : engine_(std::make_unique<Engine>(port, source)), runLine_(findRunLine(source.text)) {}
 
 Sandbox::~Sandbox() {
-    // Its insides were left in the middle of what they did: never touched again.
+    // The engine is in an undefined state, so it is not destroyed.
     if (engine_->ranOutOfMemory) static_cast<void>(engine_.release());
 }
 
@@ -253,7 +253,7 @@ ScriptError Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList
     }
     if (error.line == 0) error.line = thrown.property(QStringLiteral("lineNumber")).toInt();
 
-    // Its code and sentence are the program's own, whatever the script wrote on the object.
+    // Its code and sentence are the program's own, even if the script changed the object.
     if (auto failed = bridge->failureOf(thrown)) {
         error.code = failed->code;
         error.reason = std::move(failed->message);

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "app/scripting/engine/Operator.h"
-#include "app/scripting/engine/OwnReadings.h"
+#include "app/scripting/engine/RunReadings.h"
 #include "app/scripting/engine/ScopeSeen.h"
 #include "app/scripting/engine/ScriptRun.h"
 #include "core/base/Random.h"
@@ -65,7 +65,7 @@ public:
     [[nodiscard]] Result<std::vector<CapturedCommand>> commandsOf(const nlohmann::json& handles) const;
 
     /// What the program itself read and computed in this run.
-    [[nodiscard]] OwnReadings& own() noexcept { return own_; }
+    [[nodiscard]] RunReadings& own() noexcept { return own_; }
     /// The number that the operator gave the parameter `name` on purpose; nothing where it is the script's default.
     [[nodiscard]] std::optional<double> operatorsNumber(const std::string& name) const;
     /// Whether the operator gave this text: as a parameter, as what was entered for a question, or as one of the words
@@ -132,7 +132,7 @@ private:
     std::int64_t nextCapture_ = 1;
     std::vector<nlohmann::json> trials_;
     std::vector<Exemplar> exemplars_;
-    OwnReadings own_;
+    RunReadings own_;
     std::uint64_t expectedFaults_ = 0;
     nlohmann::json partial_, partialTables_;
     std::vector<std::string> log_;

@@ -1,4 +1,4 @@
-// ScriptThread.h - a thread with a script's engine on it, which can be told to end and, if it does not, given up.
+// ScriptThread.h - a thread with a script's engine on it, which can be asked to end and, if it does not, given up.
 //
 // Thread-safety: interrupt() from any thread; wait() has one caller.
 #pragma once
@@ -15,7 +15,7 @@ namespace tacto {
 
 class ScriptThread {
 public:
-    /// How long a script may go on after it was told to end: given up, with time to say so, within a second.
+    /// How long a script may go on after it was asked to end: it is given up, with time to say so, within a second.
     static constexpr std::chrono::milliseconds kGrace{800};
     enum class End {
         Done,       ///< the body returned; its thread has ended

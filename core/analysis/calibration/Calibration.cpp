@@ -41,7 +41,7 @@ Result<void> check(std::span<const CalibrationReading> readings) {
     return {};
 }
 
-/// Levels by rising command; `levelOf` tells each reading's. A level begins where a command lies further than `apart`
+/// Levels by rising command; `levelOf` gives each reading's. A level begins where a command lies further than `apart`
 /// above the level's first.
 std::vector<CalibrationLevel> findLevels(std::span<const CalibrationReading> readings, double apart,
                                          std::vector<std::size_t>& levelOf) {
@@ -274,7 +274,8 @@ Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings,
         std::count_if(found.levels.begin(), found.levels.end(), [](const auto& level) { return level.n > 0; });
     if (measuredLevels < 2) {
         return fail(ErrorCode::InvalidArgument,
-                    "calibration: {} levels with a measured reading; a line wants at least two", measuredLevels);
+                    "calibration: {} levels with a measured reading; a straight line needs at least two",
+                    measuredLevels);
     }
     fitLine(found);
     markOutliers(found, groups, options.resolution);

@@ -33,7 +33,7 @@ inline constexpr double kOutlierDistance = 5;  ///< robust standard deviations
 inline constexpr std::size_t kWantedLevels = 11;
 inline constexpr std::size_t kWantedRepeats = 5;  ///< per level and direction
 
-/// In one unit, whatever is calibrated: V, mA, s.
+/// In the unit of the calibrated quantity: V, mA, s.
 struct CalibrationReading {
     double commanded = 0;
     double measured = std::numeric_limits<double>::quiet_NaN();  ///< NaN: was not measured

@@ -35,7 +35,7 @@ struct FeatureFigures {
     std::vector<std::string> values;                  ///< as first met in the labels
     std::vector<std::vector<std::size_t>> confusion;  ///< [presented][answered]
     ConfusionFigures figures;
-    /// Of `values[0]` against `values[1]` in the trials that were answered with a label, 0.5 added to each count and
+    /// `values[0]` against `values[1]` in the trials that were answered with a label, 0.5 added to each count and
     /// the second value's distribution at 0: z(H) - z(F), and -(z(H) + z(F))/2, below 0 where `values[0]` is preferred.
     double dPrime = kNaN;
     double criterion = kNaN;
@@ -72,7 +72,7 @@ struct Identification {
     std::vector<AnswerShare> shares;
     std::vector<BlockFigures> blocks;
     /// Change of the log odds of a right answer per block, by a logistic model with its profile-likelihood interval.
-    /// NaN where it cannot be told: fewer than two blocks, or every answer right, or every one wrong.
+    /// NaN where it cannot be determined: fewer than two blocks, or every answer right, or every one wrong.
     Estimate learning;
     /// Accuracy where the trial before it in the block was of the same condition, and of another. Catch trials and the
     /// first of a block have no such trial before them.

@@ -16,9 +16,9 @@ bool isMissing(std::string_view field) { return field.empty() || field == "n/a";
 Result<std::size_t> countIn(const NamedRows& rows, std::optional<std::size_t> column, std::string_view name,
                             std::size_t fallback) {
     if (!column || isMissing(rows[*column])) return fallback;
-    constexpr double kMost = 1e6;
+    constexpr double kMaxNumber = 1e6;
     const auto number = parseNumber(rows[*column]);
-    if (!number || !(*number >= 1) || !(*number <= kMost) || *number != std::floor(*number)) {
+    if (!number || !(*number >= 1) || !(*number <= kMaxNumber) || *number != std::floor(*number)) {
         return rows.refuse("{} '{}'; a whole number from 1 was expected", name, rows[*column].substr(0, 40));
     }
     return static_cast<std::size_t>(*number);

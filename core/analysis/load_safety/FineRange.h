@@ -1,4 +1,4 @@
-// FineRange.h - what a second, finer current range tells of the same command: a skin equivalent's charging spike clips
+// FineRange.h - what a second, finer current range shows of the same command: a skin equivalent's charging spike clips
 // in it, the end of a phase does not. Private to core/analysis.
 //
 // Thread-safety: pure functions.

@@ -47,7 +47,7 @@ struct Reading {
 struct LoadReading {
     Reading delivered;      ///< amplitude over what each train was to have, 1 = as programmed; mean
     Reading amplitude_v;    ///< plateau of the leading phase, magnitude; of a current source at its end; mean
-    Reading highest_v;      ///< the same, of the train with the most
+    Reading highest_v;      ///< the same, of the train with the highest amplitude
     Reading amplitude_ma;   ///< at the end of the leading phase, from 80 to 97 % of its width; mean
     Reading width_s;        ///< of the leading phase, of what the source drives; mean
     Reading interval_s;     ///< onset to onset of trains; the shortest
@@ -74,7 +74,7 @@ struct LoadReading {
     std::vector<std::string> warnings;
 };
 
-/// What the trains in the captures were meant to be: a pulse's place in a record is told by it.
+/// What the trains in the captures were meant to be: it gives a pulse's place in a record.
 struct ExpectedTrain {
     int pulses = 1;
     double rate_hz = 100;  ///< intra-train

@@ -187,7 +187,7 @@ struct LoadSafety {
 [[nodiscard]] SafetyRow judgeTimeReference(const LoadRecord& record, const LoadSafetyInput& input);
 
 /// A value against an upper limit with its guard band. NaN in value or U is not evaluated: a value without U proves
-/// nothing, on whichever side of the limit.
+/// nothing, on either side of the limit.
 [[nodiscard]] RowVerdict judgeUpper(double value, double expanded, double limit, bool strict) noexcept;
 
 /// Fail, then indeterminate, then not evaluated, then the rest: what a group of rows comes to. Rows that are not

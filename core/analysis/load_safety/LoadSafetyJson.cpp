@@ -12,7 +12,7 @@ using nlohmann::json;
 namespace {
 
 constexpr AcceptedText kAnyWords{.mayBeEmpty = true};
-constexpr std::size_t kMostEntries = 1'000'000;
+constexpr std::size_t kMaxEntries = 1'000'000;
 
 /// A table of what a protocol script carries between its steps.
 template <class Record>
@@ -58,7 +58,7 @@ RecordFields<LoadReading> buildReadingFields() {
     all.flag("biphasic", &LoadReading::biphasic);
     all.flag("under_10_lsb", &LoadReading::underTenLsb);
     all.text("not_stated", &LoadReading::notStated, kAnyWords);
-    all.list("warnings", &LoadReading::warnings, textKind(kAnyWords), 0, kMostEntries);
+    all.list("warnings", &LoadReading::warnings, textKind(kAnyWords), 0, kMaxEntries);
     return scripted(std::move(all));
 }
 
@@ -99,9 +99,9 @@ RecordFields<LoadRecord> buildRecordFields() {
         kAnyWords);
     all.number("dmm_ohm", in(&R::dmm_ohm, &Reading::value));
     all.number("dmm_u_ohm", in(&R::dmm_ohm, &Reading::u));
-    all.list("steps", &R::steps, loadStepFields().kind(), 0, kMostEntries);
-    all.list("refusals", &R::refusals, refused.kind(), 0, kMostEntries);
-    all.list("undriven", &R::undriven, undriven.kind(), 0, kMostEntries);
+    all.list("steps", &R::steps, loadStepFields().kind(), 0, kMaxEntries);
+    all.list("refusals", &R::refusals, refused.kind(), 0, kMaxEntries);
+    all.list("undriven", &R::undriven, undriven.kind(), 0, kMaxEntries);
     return scripted(std::move(all));
 }
 

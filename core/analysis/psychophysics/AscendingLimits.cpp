@@ -9,9 +9,9 @@ namespace tacto {
 
 namespace {
 
-constexpr double kRise = 0.05;           // Of the level
-constexpr double kLargestRise_ma = 1;    // IEC 60601-2-10, 201.12.1.101
-constexpr std::size_t kMostLeading = 3;  // Empty presentations at the beginning
+constexpr double kRise = 0.05;          // Share of the level
+constexpr double kLargestRise_ma = 1;   // IEC 60601-2-10, 201.12.1.101
+constexpr std::size_t kMaxLeading = 3;  // Empty presentations at the beginning
 constexpr std::size_t kOneEmptyOf = 5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -47,7 +47,7 @@ AscendingLimits::AscendingLimits(const LevelGrid& grid, std::uint64_t seed)
 void AscendingLimits::beginSeries() {
     result_.series.emplace_back();
     Random random(seed_, fmt::format("ascending limits, series {}", result_.series.size()));
-    leading_ = 1 + static_cast<std::size_t>(random.below(kMostLeading));
+    leading_ = 1 + static_cast<std::size_t>(random.below(kMaxLeading));
     last_ = first_ = inFive_ = fives_ = 0;
     repeat_ = false;
     chooseEmptyPlace();

@@ -82,7 +82,7 @@ public:
     [[nodiscard]] bool done() const noexcept {
         return result_.series.size() == kSeries && current().endedBy != SeriesEnd::Open;
     }
-    /// Of what was answered so far.
+    /// The result of the answers so far.
     [[nodiscard]] AscendingResult result() const;
 
 private:
@@ -101,9 +101,9 @@ private:
     LevelGrid grid_;
     std::uint64_t seed_;
     std::size_t ceiling_;   // Index; falls to below what was called too strong
-    LevelLimit limitedBy_;  // Of ceiling_
+    LevelLimit limitedBy_;  // What sets ceiling_
     AscendingResult result_;
-    std::size_t number_ = 1;      // Of the presentation that is asked for
+    std::size_t number_ = 1;      // The presentation that is asked for
     std::size_t index_ = 0;       // Its level; 0: empty
     std::size_t last_ = 0;        // Last level of this series
     std::size_t first_ = 0;       // First level felt in this series; 0: none

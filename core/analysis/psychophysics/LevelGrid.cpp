@@ -7,7 +7,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kOnGrid = 1e-9;  // Of a step
+constexpr double kOnGrid = 1e-9;  // In steps
 
 double stepsDown(double value, double step) noexcept { return std::floor(value / step + kOnGrid); }
 
@@ -34,9 +34,9 @@ Result<LevelGrid> LevelGrid::create(LevelUnit unit, double step, std::span<const
         if (lowest == nullptr || ceiling.level < lowest->level) lowest = &ceiling;
     }
     const double count = stepsDown(lowest->level, step);
-    if (!(count <= static_cast<double>(kMostLevels))) {
+    if (!(count <= static_cast<double>(kMaxLevels))) {
         return fail(ErrorCode::InvalidArgument, "{} levels of {} to {}; at most {} are accepted", count, step,
-                    lowest->level, kMostLevels);
+                    lowest->level, kMaxLevels);
     }
     return LevelGrid(unit, step, static_cast<std::size_t>(count), lowest->by);
 }

@@ -46,12 +46,12 @@ struct LevelCeiling {
 /// Levels have indices: 0 is nothing, 1 the device's smallest step, count() the highest.
 class LevelGrid {
 public:
-    static constexpr std::size_t kMostLevels = 10'000;
+    static constexpr std::size_t kMaxLevels = 10'000;
 
     /// The highest level is the last multiple of `step` that no ceiling forbids; of equal ceilings the first names it.
     /// Errors: InvalidArgument naming the value and what is accepted: a step that is not above 0 (of an intensity: to
     /// 1), no ceiling, a ceiling that is not finite or below one step, an intensity ceiling above 1, more than
-    /// kMostLevels.
+    /// kMaxLevels.
     [[nodiscard]] static Result<LevelGrid> create(LevelUnit unit, double step, std::span<const LevelCeiling> ceilings);
 
     [[nodiscard]] LevelUnit unit() const noexcept { return unit_; }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace tacto {
 
@@ -14,7 +15,7 @@ constexpr std::array<double, 4> kSlopes = {2, 4, 8, 16};
 constexpr double kPriorBelowFelt_db = 1;
 constexpr double kEasyTimes = 1.5;
 constexpr std::size_t kEasyEvery = 8;
-constexpr std::size_t kMostAlike = 3;
+constexpr std::size_t kMaxAlike = 3;
 constexpr double kEdgeWeight = 0.025;
 
 double decibels(double level) noexcept { return 20 * std::log10(level); }
@@ -100,8 +101,8 @@ void QuestPlus::normalise() {
 void QuestPlus::choose() {
     const std::size_t number = trials_.size() + 1;
     std::size_t forbidden = 0;
-    if (asked_.size() >= kMostAlike && grid_.count() > 1) {
-        const auto last = std::span(asked_).last(kMostAlike);
+    if (asked_.size() >= kMaxAlike && grid_.count() > 1) {
+        const auto last = std::span(asked_).last(kMaxAlike);
         if (std::ranges::all_of(last, [&](std::size_t level) { return level == last.back(); })) forbidden = last.back();
     }
     if (number != 1 && number % kEasyEvery != 0) {

@@ -14,7 +14,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/analysis/psychophysics/LevelGrid.h"
@@ -60,14 +59,13 @@ public:
     /// Errors: InvalidArgument for a value that is no interval, or when done(); nothing has changed then.
     [[nodiscard]] Result<void> answer(TrialInterval said);
     [[nodiscard]] bool done() const noexcept;
-    /// Of the answers so far; without any, of the prior.
+    /// The estimate from the answers so far; without any, from the prior.
     [[nodiscard]] QuestPlusResult result() const;
     /// Posterior probability that α lies above `level` (> 0, in the grid's unit).
     [[nodiscard]] double probabilityAbove(double level) const;
 
     /// The posterior of α, which sums to 1, and the grid that it stands on.
     [[nodiscard]] std::vector<double> alphaPosterior() const;
-    [[nodiscard]] std::span<const double> alphas_db() const noexcept { return alphas_; }
     /// Probability of a right answer by the model.
     [[nodiscard]] static double probabilityRight(double level_db, double alpha_db, double slope) noexcept;
 

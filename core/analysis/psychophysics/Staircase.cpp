@@ -8,8 +8,8 @@ namespace tacto {
 
 namespace {
 
-constexpr double kStartTimes = 1.5;       // Of F
-constexpr double kStepShare = 0.05;       // Of F
+constexpr double kStartTimes = 1.5;       // In F
+constexpr double kStepShare = 0.05;       // In F
 constexpr std::size_t kUpSteps = 2;       // For one down
 constexpr std::size_t kDoubledUntil = 2;  // Reversals
 constexpr std::size_t kRightForDown = 2;

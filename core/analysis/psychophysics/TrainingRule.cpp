@@ -11,8 +11,8 @@ Result<TrainingRule> TrainingRule::create(const TrainingRuleSettings& settings) 
                     settings.blockSize);
     }
     if (!(settings.share > 0 && settings.share <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "training ends at a share of {} right; above 0 to 1 is accepted",
-                    settings.share);
+        return fail(ErrorCode::InvalidArgument,
+                    "the share of right answers that ends training is {}; must be above 0, at most 1", settings.share);
     }
     return TrainingRule(settings);
 }

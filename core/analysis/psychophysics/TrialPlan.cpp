@@ -29,7 +29,7 @@ bool runsAreShort(const PlannedOrder& order) {
     std::size_t run = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
         run = order[i] && i > 0 && order[i] == order[i - 1] ? run + 1 : 1;
-        if (run > kMostInARow) return false;
+        if (run > kMaxInARow) return false;
     }
     return true;
 }
@@ -105,7 +105,7 @@ Result<std::vector<PlannedTrial>> planTrials(const TrialPlanSettings& settings, 
             return fail(ErrorCode::InvalidArgument,
                         "no order of {} times {} conditions and {} catch trials in a block was found with no condition "
                         "more than {} times in a row, no catch trial first or right after another",
-                        phase.perCondition, phase.conditions, phase.catchTrials, kMostInARow);
+                        phase.perCondition, phase.conditions, phase.catchTrials, kMaxInARow);
         }
         const std::size_t size = phase.conditions * phase.perCondition + phase.catchTrials;
         for (std::size_t i = 0; i < order->size(); ++i) append(phase.phase, 1 + i / size, (*order)[i]);

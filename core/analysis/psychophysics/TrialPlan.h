@@ -36,7 +36,7 @@ struct PlannedTrial {
     bool operator==(const PlannedTrial&) const = default;
 };
 
-inline constexpr std::size_t kMostInARow = 3;
+inline constexpr std::size_t kMaxInARow = 3;
 
 /// Errors: InvalidArgument naming the setting, its value and what is accepted, or when no order was found that obeys.
 [[nodiscard]] Result<std::vector<PlannedTrial>> planTrials(const TrialPlanSettings& settings, std::uint64_t seed);

@@ -54,7 +54,7 @@ class TwoIntervalOrder {
 public:
     /// `name` tells the procedures of a session apart: two of the same seed and name are alike.
     TwoIntervalOrder(std::uint64_t seed, std::string_view name);
-    /// Of trial `number`, from 1.
+    /// The interval of trial `number`, from 1.
     [[nodiscard]] TrialInterval of(std::size_t number) const;
 
 private:

@@ -54,8 +54,8 @@ Result<VirtualObserver> VirtualObserver::create(const VirtualObserverSettings& s
     }
     if (!(who.discomfort > who.detection)) {
         return fail(ErrorCode::InvalidArgument,
-                    "the virtual participant's level that is too strong is {} mA; more than its perception threshold "
-                    "of {} mA is accepted",
+                    "the virtual participant's discomfort level is {} mA; it must exceed the perception threshold "
+                    "({} mA)",
                     who.discomfort.value(), who.detection.value());
     }
     if (!(who.lapse >= 0 && who.lapse <= 1)) {

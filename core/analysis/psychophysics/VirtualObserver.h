@@ -58,10 +58,8 @@ struct VirtualRating {
     int unpleasantness = 0;
     int pain = 0;
     Naturalness naturalness = Naturalness::PossiblyNatural;
-    std::vector<std::string_view> qualities;  ///< of kQualities; empty where nothing is felt
+    std::vector<std::string_view> qualities;  ///< words such as "touch"; empty where nothing is felt
 };
-inline constexpr std::string_view kQualities[] = {"touch",    "pressure", "tapping",   "vibration", "tingling",
-                                                  "pricking", "burning",  "twitching", "phantom"};
 
 class VirtualObserver {
 public:
@@ -84,7 +82,7 @@ public:
     /// [condition][response] with "none" last: what identify() does in the long run.
     [[nodiscard]] std::vector<std::vector<double>> predicted(std::span<const DeliveredCondition> conditions,
                                                              Seconds stimulated) const;
-    /// Of a catch trial: the response "none" last.
+    /// Probabilities of the responses to a catch trial; "none" is the last.
     [[nodiscard]] std::vector<double> predictedCatch(std::size_t conditions) const;
     /// Probability of the right interval in detect().
     [[nodiscard]] double probabilityRight(double level, Seconds stimulated) const noexcept;
@@ -108,7 +106,7 @@ private:
     double attention_;
     double tooStrong_;
     double intolerance_;
-    double slope_;  // Of the Weibull function
+    double slope_;  // The Weibull function's
 };
 
 }  // namespace tacto

@@ -4,7 +4,9 @@
 
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/JsonFields.h"
 #include "core/base/RecordFields.h"
+#include "core/dsp/UnitWords.h"
 
 namespace tacto {
 
@@ -18,11 +20,6 @@ Json distanceJson(const std::optional<SurfaceDistance>& distance) {
     out["told_apart"] = distance->toldApart();
     out["pooled_sd"] = numberOrNull(distance->pooledSd);
     return out;
-}
-
-double numberIn(const Json& object, const char* key) {
-    const auto at = object.find(key);
-    return at != object.end() && at->is_number() ? at->get<double>() : std::nan("");
 }
 
 tl::unexpected<Error> missing(const char* what, const char* key) {
@@ -46,18 +43,15 @@ Json uncertaintyJson(const SensorCalibration& found) {
 
 std::size_t indexOf(SensorFeature feature) { return static_cast<std::size_t>(feature); }
 
-constexpr Word<StreamUnit> kRestUnits[] = {{"m/s2", StreamUnit::MetrePerSecondSquared}, {"count", StreamUnit::Count}};
-constexpr Word<StreamUnit> kRestTaxelUnits[] = {{"Pa", StreamUnit::Pascal}, {"count", StreamUnit::Count}};
-
 RecordFields<SensorRest> buildRestFields() {
-    constexpr std::size_t kMostTaxels = 100'000;
+    constexpr std::size_t kMaxTaxels = 100'000;
     RecordFields<SensorRest> all;
     all.list("taxel_baseline", in(&SensorRest::levels, &RestLevels::taxelBaseline), numberKind<double>({}), 0,
-             kMostTaxels)
+             kMaxTaxels)
         .required = true;
     all.number("taxel_floor", in(&SensorRest::levels, &RestLevels::taxelFloor), {.low = 0}).required = true;
     all.number("mean_square", in(&SensorRest::levels, &RestLevels::slidingMeanSquare));
-    all.word("taxel_unit", &SensorRest::taxelUnit, kRestTaxelUnits);
+    all.word("taxel_unit", &SensorRest::taxelUnit, kTaxelUnits);
     all.word("unit", &SensorRest::restUnit, kRestUnits);
     all.takeNullAsMissing();
     all.passOverUnknownKeys();
@@ -157,26 +151,25 @@ Result<SlideReading> slideReadingFrom(const Json& json) {
     SlideReading out;
     if (!json.is_object() || !json.contains("track") || !json["track"].is_object()) return missing("a slide", "track");
     const auto& track = json["track"];
-    out.h = numberIn(json, "h");
-    out.hAbs = numberIn(json, "h_abs");
-    out.vStatic = numberIn(json, "v_static");
-    out.vDynamic = numberIn(json, "v_dynamic");
-    out.force_n = numberIn(json, "force_n");
-    out.framePeriod_s = numberIn(track, "period_s");
+    out.h = numberOr(json, "h");
+    out.hAbs = numberOr(json, "h_abs");
+    out.vStatic = numberOr(json, "v_static");
+    out.vDynamic = numberOr(json, "v_dynamic");
+    out.force_n = numberOr(json, "force_n");
+    out.framePeriod_s = numberOr(track, "period_s");
     if (!(out.framePeriod_s > 0)) return missing("a slide", "period_s");
     for (const char* key : {"t_s", "contact", "sliding", "h", "v"}) {
         if (!track.contains(key) || !track[key].is_array() || track[key].size() != track["t_s"].size()) {
             return missing("a slide", key);
         }
     }
-    const auto number = [](const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); };
     for (std::size_t i = 0; i < track["t_s"].size(); ++i) {
         RoughnessFrame frame;
-        frame.t_s = number(track["t_s"][i]);
+        frame.t_s = numberOr(track["t_s"][i]);
         frame.contact = track["contact"][i] == Json(true);
         frame.sliding = track["sliding"][i] == Json(true);
-        frame.h = number(track["h"][i]);
-        frame.v = number(track["v"][i]);
+        frame.h = numberOr(track["h"][i]);
+        frame.v = numberOr(track["v"][i]);
         out.slidingFrames += frame.contact && frame.sliding ? 1 : 0;
         out.frames.push_back(frame);
     }

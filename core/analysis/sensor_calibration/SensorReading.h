@@ -30,7 +30,7 @@ struct SensorRest {
 };
 
 /// All samples are taken as rest. Errors: InvalidArgument where they are fewer than 250 ms can hold, or where no rest
-/// can be told from them; as RoughnessChain::create().
+/// can be derived from them; as RoughnessChain::create().
 [[nodiscard]] Result<SensorRest> readRest(const SensorSamples& samples, const RoughnessSettings& settings);
 
 /// One slide over one surface. Features are arithmetic means over its frames (h over sliding frames, v over contact

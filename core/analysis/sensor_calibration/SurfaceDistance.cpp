@@ -41,8 +41,9 @@ double noncentralityAt(double t, double degreesOfFreedom, double p) noexcept {
 
 Result<Statistics> readingsOf(std::span<const double> readings) {
     if (readings.size() < kFewestSlides) {
-        return fail(ErrorCode::InvalidArgument, "distance of two surfaces: {} slides of one; at least {} are expected",
-                    readings.size(), kFewestSlides);
+        return fail(ErrorCode::InvalidArgument,
+                    "distance of two surfaces: one surface has only {} slides; at least {} are needed", readings.size(),
+                    kFewestSlides);
     }
     for (const double reading : readings) {
         if (!std::isfinite(reading)) {

@@ -1,12 +1,8 @@
 #include "core/analysis/statistics/StatisticsJson.h"
 
-#include <cmath>
-
 namespace tacto {
 
 using nlohmann::json;
-
-json numberOrNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 json toJson(const Statistics& s) {
     return {{"mean", numberOrNull(s.mean)}, {"sd", numberOrNull(s.sd)},   {"median", numberOrNull(s.median)},

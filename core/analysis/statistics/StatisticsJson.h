@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/statistics/Estimate.h"
+#include "core/base/JsonFields.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {
 
-[[nodiscard]] nlohmann::json numberOrNull(double value);
 /// {"mean","sd","median","min","max","n"}
 [[nodiscard]] nlohmann::json toJson(const Statistics& statistics);
 /// {"value","low","high"}, 95 %

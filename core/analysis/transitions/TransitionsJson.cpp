@@ -1,15 +1,11 @@
 #include "core/analysis/transitions/TransitionsJson.h"
 
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto {
 
 namespace {
-
-double measuredIn(const nlohmann::json& row, const char* key) {
-    const auto at = row.is_object() ? row.find(key) : row.end();
-    return at != row.end() && at->is_number() ? at->get<double>() : kNaN;
-}
 
 nlohmann::json toJson(const LatencyGroup& group) {
     return {{"name", group.name},
@@ -52,34 +48,33 @@ nlohmann::json rowsOf(const std::vector<Group>& groups) {
 
 StepLatency stepLatencyFrom(const nlohmann::json& row) {
     return {.name = row.at("name").get<std::string>(),
-            .latency_s = measuredIn(row, "latency_s"),
-            .designed_s = measuredIn(row, "designed_latency_s"),
-            .designedLow_s = measuredIn(row, "designed_latency_low_s"),
-            .designedHigh_s = measuredIn(row, "designed_latency_high_s"),
-            .trains = measuredIn(row, "trains"),
-            .designedTrains = measuredIn(row, "designed_trains"),
-            .designedTrainsHigh = measuredIn(row, "designed_trains_high")};
+            .latency_s = numberOr(row, "latency_s"),
+            .designed_s = numberOr(row, "designed_latency_s"),
+            .designedLow_s = numberOr(row, "designed_latency_low_s"),
+            .designedHigh_s = numberOr(row, "designed_latency_high_s"),
+            .trains = numberOr(row, "trains"),
+            .designedTrains = numberOr(row, "designed_trains"),
+            .designedTrainsHigh = numberOr(row, "designed_trains_high")};
 }
 
 CapturedChange capturedChangeFrom(const nlohmann::json& row) {
     CapturedChange change{.name = row.at("name").get<std::string>(),
                           .movement = !row.contains("complete_s"),
-                          .from_v = measuredIn(row, "from_v"),
-                          .to_v = measuredIn(row, "to_v"),
-                          .from_s = measuredIn(row, "from_s"),
-                          .to_s = measuredIn(row, "to_s"),
-                          .complete_s = measuredIn(row, "complete_s"),
-                          .trainsTaken = measuredIn(row, "trains"),
-                          .fastest_s = measuredIn(row, "fastest_complete_s"),
-                          .fewestTrains = measuredIn(row, "fewest_trains")};
-    for (const auto& one : row.value("before_v", nlohmann::json::array()))
-        change.before_v.push_back(one.is_number() ? one.get<double>() : kNaN);
+                          .from_v = numberOr(row, "from_v"),
+                          .to_v = numberOr(row, "to_v"),
+                          .from_s = numberOr(row, "from_s"),
+                          .to_s = numberOr(row, "to_s"),
+                          .complete_s = numberOr(row, "complete_s"),
+                          .trainsTaken = numberOr(row, "trains"),
+                          .fastest_s = numberOr(row, "fastest_complete_s"),
+                          .fewestTrains = numberOr(row, "fewest_trains")};
+    for (const auto& one : row.value("before_v", nlohmann::json::array())) change.before_v.push_back(numberOr(one));
     for (const auto& train : row.at("onsets")) {
-        change.trains.push_back({.amplitude_v = measuredIn(train, "amplitude_v"),
-                                 .interval_s = measuredIn(train, "interval_s"),
-                                 .onsetUncertainty_s = measuredIn(train, "onset_u_s"),
-                                 .amplitude_jnd = measuredIn(train, "amplitude_jnd"),
-                                 .interval_jnd = measuredIn(train, "interval_jnd")});
+        change.trains.push_back({.amplitude_v = numberOr(train, "amplitude_v"),
+                                 .interval_s = numberOr(train, "interval_s"),
+                                 .onsetUncertainty_s = numberOr(train, "onset_u_s"),
+                                 .amplitude_jnd = numberOr(train, "amplitude_jnd"),
+                                 .interval_jnd = numberOr(train, "interval_jnd")});
     }
     return change;
 }

@@ -14,7 +14,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{50};
+constexpr std::chrono::milliseconds kPollInterval{50};
 
 /// A thread inherits the vector registers of the one that starts it. Where that one has left their upper halves in use,
 /// as the scripts' engine does, scalar mathematics waits for them at every step: measured 7 to 10 times slower.
@@ -87,7 +87,7 @@ Result<std::size_t> runIndexed(const IndexedWork& wanted, std::stop_token stop) 
         }
         std::unique_lock lock(crew.mutex);
         while (crew.working > 0) {
-            crew.changed.wait_for(lock, kLook, [&crew] { return crew.working == 0; });
+            crew.changed.wait_for(lock, kPollInterval, [&crew] { return crew.working == 0; });
             if (!wanted.progress) continue;
             lock.unlock();
             try {

@@ -141,7 +141,7 @@ Result<void> validate(const VirtualStimulation& stimulation) {
                     stimulation.encoding.conditions.size());
     }
     if (stimulation.limits.empty()) {
-        return fail(ErrorCode::InvalidArgument, "no limit set is given; what would be refused cannot be told");
+        return fail(ErrorCode::InvalidArgument, "no limit set is given; what would be refused cannot be determined");
     }
     if (const auto area = stimulation.electrodeArea; area && !(area->value() > 0 && area->value() <= 1e4)) {
         return fail(ErrorCode::InvalidArgument, "an electrode of {} cm2; above 0 to 10000 is accepted", area->value());

@@ -33,7 +33,7 @@
 
 namespace tacto {
 
-/// `options` are those that made it; the trials are null where no one is served.
+/// `options` are those that made it; the trials are null where no participant is served.
 [[nodiscard]] nlohmann::json toJson(const Variation& found, const VariationOptions& options);
 /// {"draws", "conditions": [{"name", "amplitude_v", "interval_s"}], "pairs": [{"a", "b", "amplitude_jnd",
 /// "interval_jnd"}]}

@@ -11,8 +11,8 @@ namespace tacto {
 
 namespace {
 
-constexpr double kFar = 9;      // standard deviations: 1e-19 lies beyond
-constexpr double kPanel = 0.5;  // standard deviations a panel of the quadrature spans at most
+constexpr double kTailDeviations = 9;  // standard deviations: 1e-19 lies beyond
+constexpr double kPanel = 0.5;         // standard deviations a panel of the quadrature spans at most
 
 double phi(double z) noexcept { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
@@ -145,8 +145,8 @@ std::vector<std::vector<double>> responseProbabilities(const IdentificationTask&
     for (std::size_t i = 0; i < n; ++i) {
         if (!task.given[i]) continue;
         const auto& stimulus = task.points[i];
-        const double from = std::max(stimulus.amplitude_jnd - kFar * sigma, observer.detection_jnd);
-        const double to = stimulus.amplitude_jnd + kFar * sigma;
+        const double from = std::max(stimulus.amplitude_jnd - kTailDeviations * sigma, observer.detection_jnd);
+        const double to = stimulus.amplitude_jnd + kTailDeviations * sigma;
         for (double left = from; left < to;) {
             double right = std::min(left + kPanel * sigma, to);
             if (const auto next = std::ranges::upper_bound(breaks, left); next != breaks.end()) {

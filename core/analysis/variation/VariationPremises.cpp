@@ -10,7 +10,7 @@ constexpr std::string_view kDoelker =
     "Dölker et al. 2022, doi:10.1038/s41598-022-10708-9: median of 81 people, upper arm, 150 µs per phase. A fingertip "
     "differs.";
 
-/// Rows of quantities that everybody draws: the shipped model tells what was changed for this run.
+/// Rows of quantities that every participant draws; compared with the shipped model to show changes in this run.
 class Premises {
 public:
     explicit Premises(const VariationOptions& options) : options_(options), model_(options.population) {}

@@ -77,7 +77,7 @@ struct VirtualParticipant {
     double noise_jnd = 1;
 };
 
-/// Participant `index` of the population that `seed` makes: the same whichever others are drawn before it or beside it.
+/// Participant `index` of the population that `seed` makes: the same for any others drawn before or beside it.
 /// `model` has passed validate(); `width` > 0 is the phase width of the pulses they will get, `area` > 0 that of each
 /// electrode (nothing: `skinArea`). Thresholds do not depend on the area.
 [[nodiscard]] VirtualParticipant drawParticipant(const PopulationModel& model, std::uint64_t seed, std::size_t index,

@@ -28,7 +28,7 @@ private:
     CsvDialect dialect_;
 };
 
-/// A table in whichever dialect it is. Everything becomes V and A; the input range, resolution and trigger moment are
+/// A table in any of the known dialects. Everything becomes V and A; the input range, resolution and trigger moment are
 /// not in such files and stay unknown, so that no sample is known to be clipped (see core/measure/Clipping.h),
 /// unless the options state a range.
 /// A field that is empty or says nan is a missing sample: dropped (with a warning) at the end of the record, NaN in its

@@ -72,7 +72,7 @@ public:
 
 private:
     static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-    /// Of all stamps so far.
+    /// What all stamps so far showed.
     struct Seen {
         std::size_t rows = 0;
         double last = 0;

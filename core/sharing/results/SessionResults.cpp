@@ -28,7 +28,7 @@ std::optional<int> wholeNumber(const std::string& text) {
     return value;
 }
 
-/// What was said to a question, whatever its kind.
+/// The answer to a question of any kind.
 std::string saidIn(const json& body) {
     if (const auto keys = textsOr(body, "keys"); !keys.empty()) return fmt::format("{}", fmt::join(keys, ","));
     if (const auto key = textOr(body, "key"); !key.empty()) return key;
@@ -84,17 +84,8 @@ public:
 private:
     [[nodiscard]] BidsTrial trialOf(const json& body) const {
         BidsTrial made;
-        auto& trial = made.trial;
-        trial.number = countOr(body, "number");
-        if (const auto phase = trialPhaseFrom(textOr(body, "phase"))) trial.phase = *phase;
-        trial.block = countOr(body, "block");
-        trial.condition = textOr(body, "condition");
-        trial.response = textOr(body, "response");
-        trial.attempt = countOr(body, "attempt");
-        trial.rt_s = numberOr(body, "rt_s");
-        trial.current = Milliamps(numberOr(body, "current_ma"));
-        trial.interval_s = numberOr(body, "interval_s");
-        trial.trains = countOr(body, "trains");
+        made.trial = identificationTrialFrom(body);
+        const auto& trial = made.trial;
         made.intensity = numberOr(body, "intensity");
         made.impedance = Ohms(impedance_);
         made.voltage = Volts(trial.current.value() * impedance_ / 1000);

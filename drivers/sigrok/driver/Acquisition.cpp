@@ -60,7 +60,7 @@ Result<std::optional<RawRecord>> Acquisition::takeFrame(const RecordPlan& plan, 
     bool arrived = false;
     bool complete = false;
     bool stopped = false;
-    constexpr std::size_t kMost = 100'000'000;
+    constexpr std::size_t kMaxRecordSamples = 100'000'000;
     Instrument::Sink sink;
     sink.samples = [&](std::size_t channel, std::span<const float> samples, double resolution) {
         (void)queue.wanted(number);  // the loop turns
@@ -68,7 +68,7 @@ Result<std::optional<RawRecord>> Acquisition::takeFrame(const RecordPlan& plan, 
         arrived = true;
         if (resolution > 0) raw.resolution = resolution;
         auto& into = channel == wiring.voltage ? raw.voltage : raw.current;
-        const std::size_t most = plan.record > 0 ? plan.record : kMost;
+        const std::size_t most = plan.record > 0 ? plan.record : kMaxRecordSamples;
         if (into.size() + samples.size() > most) {
             // Said at once: with what is too much libsigrok may wait for ever for an answer that it has taken already.
             const auto why = fmt::format("the instrument gave more than the {} samples that a record holds", most);

@@ -1,4 +1,4 @@
-// Instrument.h - one open libsigrok device: found by its driver, asked what it can do, told what to do, and run.
+// Instrument.h - one open libsigrok device: found by its driver, queried, configured and run.
 //
 // All of it happens on the thread that opened it (SigrokThread), the sink's calls too; the destructor as well, which
 // closes the device.

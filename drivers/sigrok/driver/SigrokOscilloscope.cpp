@@ -79,8 +79,8 @@ protected:
             if (const auto fault = relay_->fault()) queue.fail(*fault);
         }
         const bool silent = !relay_ || relay_->silence() > kSilence;
-        const Seconds patience = relay_ ? kLoopTimeout : kLoopTimeoutUnseen;
-        if (queue.armed() && silent && queue.sinceTurn() > patience) {
+        const Seconds timeout = relay_ ? kLoopTimeout : kLoopTimeoutUnseen;
+        if (queue.armed() && silent && queue.sinceTurn() > timeout) {
             queue.fail({ErrorCode::Timeout, fmt::format("{} has said nothing for {:.0f} s in the middle of a record",
                                                         identity_.name, queue.sinceTurn().count())});
             if (relay_) relay_->cut();

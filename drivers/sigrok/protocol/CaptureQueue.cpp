@@ -29,9 +29,9 @@ void CaptureQueue::started(std::uint64_t number) {
     changed_.notify_all();
 }
 
-bool CaptureQueue::waitStarted(std::uint64_t number, Seconds patience) {
+bool CaptureQueue::waitStarted(std::uint64_t number, Seconds timeout) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, patience, [&] { return started_ == number || error_; });
+    changed_.wait_for(lock, timeout, [&] { return started_ == number || error_; });
     return started_ == number && !error_;
 }
 

@@ -33,8 +33,8 @@ public:
 
     /// The instrument waits for triggers now.
     void started(std::uint64_t number);
-    /// Waits for that. False when it has failed or has not come within `patience`.
-    [[nodiscard]] bool waitStarted(std::uint64_t number, Seconds patience);
+    /// Waits for that. False when it has failed or has not come within `timeout`.
+    [[nodiscard]] bool waitStarted(std::uint64_t number, Seconds timeout);
 
     /// Waits while kHeld captures lie here and `number` is in force. False when it no longer is.
     [[nodiscard]] bool waitForRoom(std::uint64_t number);

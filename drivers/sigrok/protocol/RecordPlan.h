@@ -1,4 +1,4 @@
-// RecordPlan.h - from what is wanted of an oscilloscope (ScopeSettings) to what a libsigrok device is told, or why not.
+// RecordPlan.h - turns ScopeSettings into the settings of a libsigrok device, or into the reason why it cannot.
 //
 // Instruments (those with a time base) sample a whole screen: `divisions` times the time per division, with as many
 // samples as the record has. The plan takes the shortest screen that holds the record wanted, at a sampling rate that

@@ -68,7 +68,7 @@ void SigrokThread::post(Job job) {
     state_->changed.notify_all();
 }
 
-Result<void> SigrokThread::run(std::function<Result<void>()> job, Seconds patience, std::string_view what) {
+Result<void> SigrokThread::run(std::function<Result<void>()> job, Seconds timeout, std::string_view what) {
     struct Reply {
         std::mutex mutex;
         std::condition_variable came;
@@ -82,15 +82,15 @@ Result<void> SigrokThread::run(std::function<Result<void>()> job, Seconds patien
         reply->came.notify_all();
     });
     std::unique_lock lock(reply->mutex);
-    if (!reply->came.wait_for(lock, patience, [&] { return reply->result.has_value(); })) {
-        return fail(ErrorCode::Timeout, "{} has taken more than {:.3g} s", what, patience.count());
+    if (!reply->came.wait_for(lock, timeout, [&] { return reply->result.has_value(); })) {
+        return fail(ErrorCode::Timeout, "{} has taken more than {:.3g} s", what, timeout.count());
     }
     return *reply->result;
 }
 
-bool SigrokThread::idle(Seconds patience) const {
+bool SigrokThread::idle(Seconds timeout) const {
     std::unique_lock lock(state_->mutex);
-    return state_->changed.wait_for(lock, patience, [&] { return !state_->busy && state_->jobs.empty(); });
+    return state_->changed.wait_for(lock, timeout, [&] { return !state_->busy && state_->jobs.empty(); });
 }
 
 }  // namespace tacto::sigrok_driver

@@ -27,10 +27,10 @@ public:
 
     /// Runs `job` after those before it. What it uses it must own: it may run after this object is gone.
     void post(Job job);
-    /// The same, and waits. Errors: the job's; Timeout when it has not come back after `patience` (it still runs).
-    [[nodiscard]] Result<void> run(std::function<Result<void>()> job, Seconds patience, std::string_view what);
-    /// Whether nothing runs or waits, at the latest after `patience`.
-    [[nodiscard]] bool idle(Seconds patience) const;
+    /// The same, and waits. Errors: the job's; Timeout when it has not come back after `timeout` (it still runs).
+    [[nodiscard]] Result<void> run(std::function<Result<void>()> job, Seconds timeout, std::string_view what);
+    /// Whether nothing runs or waits, at the latest after `timeout`.
+    [[nodiscard]] bool idle(Seconds timeout) const;
 
 private:
     struct State;

@@ -33,14 +33,14 @@ void reset(int socket) noexcept {
     ::close(socket);
 }
 
-/// Connects within `patience`; the socket, or an errno as a negative number.
-int connectWithin(const addrinfo& address, Seconds patience) {
+/// Connects within `timeout`; the socket, or an errno as a negative number.
+int connectWithin(const addrinfo& address, Seconds timeout) {
     const int made = ::socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, IPPROTO_TCP);
     if (made < 0) return -errno;
     int error = ::connect(made, address.ai_addr, address.ai_addrlen) == 0 ? 0 : errno;
     if (error == EINPROGRESS) {
         pollfd waiting{made, POLLOUT, 0};
-        const int ready = ::poll(&waiting, 1, static_cast<int>(patience.count() * 1e3));
+        const int ready = ::poll(&waiting, 1, static_cast<int>(timeout.count() * 1e3));
         socklen_t size = sizeof error;
         if (ready == 0) {
             error = ETIMEDOUT;
@@ -56,7 +56,7 @@ int connectWithin(const addrinfo& address, Seconds patience) {
     return made;
 }
 
-Result<int> connectTo(const std::string& host, const std::string& port, Seconds patience) {
+Result<int> connectTo(const std::string& host, const std::string& port, Seconds timeout) {
     addrinfo hints{};
     hints.ai_family = AF_UNSPEC;
     hints.ai_socktype = SOCK_STREAM;
@@ -67,12 +67,12 @@ Result<int> connectTo(const std::string& host, const std::string& port, Seconds 
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, ::freeaddrinfo);
     int last = -EADDRNOTAVAIL;
     for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
-        last = connectWithin(*one, patience);
+        last = connectWithin(*one, timeout);
         if (last >= 0) return last;
     }
     if (last == -ETIMEDOUT) {
         return fail(ErrorCode::Timeout, "the instrument at {}:{} has not answered within {:.3g} s", host, port,
-                    patience.count());
+                    timeout.count());
     }
     return fail(ErrorCode::NotFound, "no instrument at {}:{}: {}", host, port, std::strerror(-last));
 }
@@ -109,8 +109,8 @@ bool isOurOwn(int accepted) {
 
 }  // namespace
 
-Result<std::unique_ptr<TcpRelay>> TcpRelay::start(const std::string& host, const std::string& port, Seconds patience) {
-    const auto upstream = connectTo(host, port, patience);
+Result<std::unique_ptr<TcpRelay>> TcpRelay::start(const std::string& host, const std::string& port, Seconds timeout) {
+    const auto upstream = connectTo(host, port, timeout);
     if (!upstream) return failure(upstream);
     sockaddr_in local{};
     local.sin_family = AF_INET;
@@ -133,7 +133,7 @@ Result<std::unique_ptr<TcpRelay>> TcpRelay::start(const std::string& host, const
         new TcpRelay(fmt::format("{}:{}", host, port), *upstream, listener, ntohs(local.sin_port), wake));
     relay->host_ = host;
     relay->service_ = port;
-    relay->patience_ = patience;
+    relay->timeout_ = timeout;
     relay->thread_ = std::thread([&self = *relay] { self.carry(); });
     return relay;
 }
@@ -180,7 +180,7 @@ void TcpRelay::hangUp() noexcept {
 
 bool TcpRelay::reconnect() {
     if (upstream_ >= 0) return true;
-    const auto made = connectTo(host_, service_, patience_);
+    const auto made = connectTo(host_, service_, timeout_);
     if (!made) {
         const std::scoped_lock lock(mutex_);
         if (!fault_) fault_ = made.error();

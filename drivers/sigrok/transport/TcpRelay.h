@@ -27,9 +27,9 @@ namespace tacto::sigrok_driver {
 class TcpRelay {
 public:
     /// Connects to `host`:`port`. Errors: NotFound for a host without an address or one that refuses; Timeout when it
-    /// has not answered within `patience`; Io.
+    /// has not answered within `timeout`; Io.
     [[nodiscard]] static Result<std::unique_ptr<TcpRelay>> start(const std::string& host, const std::string& port,
-                                                                 Seconds patience = Seconds(3));
+                                                                 Seconds timeout = Seconds(3));
     ~TcpRelay();
     TcpRelay(const TcpRelay&) = delete;
     TcpRelay& operator=(const TcpRelay&) = delete;
@@ -57,7 +57,7 @@ private:
 
     const std::string place_;  // "192.0.2.1:5555"
     std::string host_, service_;
-    Seconds patience_{3};
+    Seconds timeout_{3};
     int upstream_;                                   // the instrument; -1 while not connected. The thread's.
     int downstream_ = -1;                            // libsigrok. The thread's.
     std::chrono::steady_clock::time_point asked_{};  // after the trigger. The thread's.

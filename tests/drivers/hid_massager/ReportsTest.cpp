@@ -95,8 +95,8 @@ TEST(VibrationReports, ReportsThatCannotBeAreRefusedByName) {
     EXPECT_THAT(refusal([](auto& r) { r.fields[0].bits = 33; }), HasSubstr("1 to 32"));
     EXPECT_THAT(refusal([](auto& r) { r.fields[0] = {33, 8, ByteOrder::Big, 0, 255, VibrationRole::Weak}; }),
                 HasSubstr("whole bytes"));
-    EXPECT_THAT(refusal([](auto& r) { r.stop.pop_back(); }), HasSubstr("equal lengths"));
-    EXPECT_THAT(refusal([](auto& r) { r.stop[0] = 6; }), HasSubstr("equal numbers"));
+    EXPECT_THAT(refusal([](auto& r) { r.stop.pop_back(); }), HasSubstr("must have the same length"));
+    EXPECT_THAT(refusal([](auto& r) { r.stop[0] = 6; }), HasSubstr("must have the same number"));
     EXPECT_THAT(refusal([](auto& r) { r.keepAlive = Seconds(0.001); }), HasSubstr("keep-alive"));
     EXPECT_THAT(refusal([](auto& r) { r.shortestWrite = Seconds(0.05); }), HasSubstr("0.04"));
     EXPECT_THAT(refusal([](auto& r) { r.shortestWrite = Seconds(std::numeric_limits<double>::quiet_NaN()); }),

@@ -128,7 +128,7 @@ TEST(MassagerTemplate, WhatIsWrongIsRefusedWithItsPlaceAndWhatIsAccepted) {
     EXPECT_THAT(refusal(with("\"max\": 1000", "\"max\": 65536")), HasSubstr("65535"));
     EXPECT_THAT(refusal(with(", \"max\": 1000", "")), HasSubstr("\"max\" is missing; a whole number"));
     EXPECT_THAT(refusal(with("\"max\": 1000", "\"max\": 18446744073709551615")), HasSubstr("18446744073709551615"));
-    EXPECT_THAT(refusal(with("\"05 FF\"", "\"06 FF\"")), HasSubstr("equal numbers"));
+    EXPECT_THAT(refusal(with("\"05 FF\"", "\"06 FF\"")), HasSubstr("must have the same number"));
     EXPECT_THAT(refusal(with("{\"hex\": \"05 FF\"}", "{}")), HasSubstr("stop"));
     EXPECT_THAT(refusal(with("{\"hex\": \"05 FF\"}", "{\"fields\": 1}")), HasSubstr("0 to 0"));
     EXPECT_THAT(refusal(with("0.5", "-0.5")), HasSubstr("keep_alive_s"));

@@ -229,7 +229,7 @@ TEST_F(WatchdogProcessTest, OneThatStandsStillIsNoWatchdog) {
     (*watchdog)->rest();  // nothing is left unanswered from before
     kill(started.front(), SIGSTOP);
     const auto deaf = beats();
-    EXPECT_GE(deaf, hid::Watchdog::kDeaf);
+    EXPECT_GE(deaf, hid::Watchdog::kUnansweredLimit);
     EXPECT_IN_TIME(deaf <= milliseconds(800));
     kill(started.front(), SIGCONT);
     (*watchdog)->rest();

@@ -24,7 +24,7 @@ Points onePoint(double us = 200, double mA = 5) {
 
 TEST(ScienceModePoint, EveryTimeAndCurrentComesBack) {
     RecordProperty("hazard", "H4");
-    for (int us = kPointLeast_us; us <= kPointMost_us; ++us) {
+    for (int us = kMinPoint_us; us <= kMaxPoint_us; ++us) {
         // All 521 currents at the ends of each nibble, some elsewhere.
         const int stride = us % 256 < 2 || us % 16 == 15 ? 1 : 29;
         for (int half = -260; half <= 260; half += stride) {
@@ -40,7 +40,7 @@ TEST(ScienceModePoint, TimeAndCurrentHaveBitsOfTheirOwn) {
     RecordProperty("hazard", "H4");
     // Time 12 bits, current 10 bits + 300, ten bits of nothing: read here bit by bit, from the wire description alone.
     const bool held = rc::check("point layout", [] {
-        const int us = *rc::gen::inRange(kPointLeast_us, kPointMost_us + 1);
+        const int us = *rc::gen::inRange(kMinPoint_us, kMaxPoint_us + 1);
         const int half = *rc::gen::inRange(-260, 261);
         const auto bytes = encodePoint({Micros(us), Milliamps(half * 0.5)});
         RC_ASSERT(bytes.has_value());

@@ -48,8 +48,8 @@ void ScopeOnLan::pass(Seconds duration) {
     if (waited && !server_->waits(Seconds(0))) (void)server_->hasReadOut(before + 1, Seconds(5));
 }
 
-Result<std::optional<Capture>> ScopeOnLan::poll(Seconds patience) {
-    const auto until = std::chrono::steady_clock::now() + patience;
+Result<std::optional<Capture>> ScopeOnLan::poll(Seconds timeout) {
+    const auto until = std::chrono::steady_clock::now() + timeout;
     for (;;) {
         auto found = scope().poll();
         if (!found || *found || std::chrono::steady_clock::now() > until) return found;

@@ -28,8 +28,8 @@ public:
     void arm(const ScopeSettings& settings);
     /// Signal time passes; then the instrument's record, if one is complete, is read out.
     void pass(Seconds duration);
-    /// The next capture, at most `patience` of real time later.
-    [[nodiscard]] Result<std::optional<Capture>> poll(Seconds patience = Seconds(5));
+    /// The next capture, at most `timeout` of real time later.
+    [[nodiscard]] Result<std::optional<Capture>> poll(Seconds timeout = Seconds(5));
     /// Closes the device.
     void close() { opened_.oscilloscope.reset(); }
     [[nodiscard]] Result<void> open();

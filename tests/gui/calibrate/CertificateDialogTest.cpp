@@ -109,7 +109,7 @@ TEST_F(CertificateWindow, WithdrawsAfterASecondPress) {
     click(*withdraw);
     EXPECT_EQ(kept().state(0, daysFromNow(0)), CertificateState::Counts);
     EXPECT_THAT(withdraw->text().toStdString(), HasSubstr("4711"));
-    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
+    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 100);
     click(*withdraw);
     EXPECT_EQ(kept().state(0, daysFromNow(0)), CertificateState::Withdrawn);
     EXPECT_THAT(table().item(0, 0)->text().toStdString(), HasSubstr("withdrawn"));

@@ -454,7 +454,8 @@ TEST_F(Workspace, ResultsOfAnyShapeAreNoReasonToEnd) {
     write("shapes", R"js(protocol({ title: "S", purpose: "Returns anything.", needs: [], parameters: {} });
 function run(p) {
   return verdict({ verdict: "pass", loads: [1, { name: 5, verdict: {} }], confusion: [[1, "x"], 2],
-    amplitude: { levels: [1], readings: [1, { outlier: "yes" }], gain: "x", unit: 5 }, reference: 5, trials_needed: [] });
+    amplitude: { levels: [1], readings: [1, { outlier: "yes" }], gain: "x", unit: 5 },
+    reference: 5, trials_needed: [] });
 }
 )js");
     open("");

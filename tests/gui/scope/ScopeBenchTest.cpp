@@ -25,7 +25,8 @@ TEST_F(Scope, AutoShowsTheSignalUntriggeredAndSaysSo) {
     ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     ASSERT_FALSE(triggered());
     ASSERT_IN_TIME(comes([&] { return QString::fromStdString(status()).startsWith("No trigger at"); }));
-    EXPECT_THAT(status(), AllOf(HasSubstr("shown untriggered, not measured"), HasSubstr("Output is disarmed.")));
+    EXPECT_THAT(status(),
+                AllOf(HasSubstr("Showing an untriggered record; no measurements"), HasSubstr("Output is disarmed.")));
     EXPECT_THAT(scope.screen().overlay().notes, testing::ElementsAre("not triggered"));
     EXPECT_THAT(scope.screen().xAxis->label().toStdString(), HasSubstr("record's begin"));
     EXPECT_EQ(scope.table().statistics().captures(), 0U);
@@ -94,7 +95,7 @@ TEST_F(Scope, AnOscilloscopeThatFailsDuringDeliveryTellsThatTheOutputGoesOn) {
     deliver();
     ASSERT_IN_TIME(comes([&] { return triggered(); }));
     ASSERT_IN_TIME(comes([&] { return !scope.running(); }));
-    EXPECT_THAT(status(), AllOf(HasSubstr("answered with garbage"), HasSubstr("goes on unmeasured: STOP ends it")));
+    EXPECT_THAT(status(), AllOf(HasSubstr("answered with garbage"), HasSubstr("continues unmeasured. STOP ends it")));
     EXPECT_NE(controller.telemetry().state, InterlockState::Disarmed);
     EXPECT_TRUE(triggered()) << "the last capture stays";
     controller.close();

@@ -210,7 +210,7 @@ TEST(Reading, NetChargeAndEnergyAreTheCurrentsWhereOneVoltageGoesWithIt) {
     for (const double coulombs : net) EXPECT_NEAR(coulombs, 0, 0.01 * 8e-6);
     EXPECT_EQ(readingText(gui::Reading::Energy, 640e-6, "A"), "640.0\u202fµJ");
     EXPECT_TRUE(readingsOf(gui::Reading::Energy, *shown, 0).empty());
-    EXPECT_EQ(whyMissing(gui::Reading::Energy, *shown, 0), "Energy stands with the current.");
+    EXPECT_EQ(whyMissing(gui::Reading::Energy, *shown, 0), "Energy is shown on the current channel.");
     auto three = twoPulses();
     three.channels.push_back(three.channels.front());
     three.channels.back().name = "voltage 2";
@@ -415,9 +415,9 @@ protected:
     Exports() {
         screen.resize(900, 500);
         screen.QWidget::show();
-        gui::MathOptions wish;
-        wish.power = true;
-        model.show(prepared(twoPulses(), wish));
+        gui::MathOptions math;
+        math.power = true;
+        model.show(prepared(twoPulses(), math));
     }
     QByteArray bytes(const QString& path) {
         QFile file(path);

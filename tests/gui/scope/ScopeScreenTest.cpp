@@ -363,10 +363,10 @@ TEST_F(Screen, RollStringsCapturesOnTheSessionsTime) {
 }
 
 TEST_F(Screen, CalculatedLanesComeAndGo) {
-    gui::MathOptions wish;
-    wish.power = true;
-    wish.charge = true;
-    model.replaceMath(gui::withMath(*model.shown(), wish));
+    gui::MathOptions math;
+    math.power = true;
+    math.charge = true;
+    model.replaceMath(gui::withMath(*model.shown(), math));
     ASSERT_EQ(model.lanes().size(), 4U);
     model.fit();
     draw();

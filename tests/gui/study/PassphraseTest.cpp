@@ -41,7 +41,7 @@ TEST(PassphraseEdit, TakesNoMoreThanItHasRoomFor) {
     gui::PassphraseEdit edit;
     QGuiApplication::clipboard()->setText(QString(5000, 'x'));
     QTest::keyClick(&edit, Qt::Key_V, Qt::ControlModifier);
-    EXPECT_EQ(edit.typed().size(), gui::PassphraseEdit::kMostBytes);
+    EXPECT_EQ(edit.typed().size(), gui::PassphraseEdit::kMaxBytes);
 }
 
 TEST_F(StudyInThePage, AWrongPassphraseIsOneSentenceAndIsAskedAgain) {

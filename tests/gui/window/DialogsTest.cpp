@@ -116,7 +116,7 @@ TEST_F(Asking, TwiceShowsTheQuestionThatIsOpen) {
     EXPECT_EQ(chooser(), first);
 }
 
-TEST_F(Asking, ABoxThatSomebodyElseOpensLosesItsModality) {
+TEST_F(Asking, ABoxThatALibraryOpensLosesItsModality) {
     RecordProperty("hazard", "H2");
     const gui::StopKeys keys([](const char*) {}, nullptr);
     auto modality = Qt::ApplicationModal;

@@ -78,7 +78,7 @@ TEST_F(HardwareWindow, OneThatDoesNotAnswerIsABannerAndNoBench) {
     EXPECT_EQ(window.controller().activity(), gui::Activity::Closed);
 }
 
-TEST_F(HardwareWindow, NobodyButTheOperatorSaysWhatIsConnected) {
+TEST_F(HardwareWindow, OnlyTheOperatorSaysWhatIsConnected) {
     RecordProperty("hazard", "H1");
     open({kStimulator});
     auto* first = window.findChild<QPushButton*>("armButton");

@@ -99,7 +99,7 @@ TEST_F(Window, AKeyHeldSinceTheFirstStepDoesNotTakeTheSecond) {
     auto* second = window.findChild<QPushButton*>("armOutput");
     ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     second->setFocus();
-    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 160);  // until a held key repeats
+    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 160);  // until a held key repeats
     for (int i = 0; i < 10; ++i) {
         repeat(second);
         QTest::qWait(30);
@@ -121,7 +121,7 @@ TEST_F(Window, TheSecondHalfOfADoubleClickAndAHeldLetterDoNotTakeTheSecondStep) 
     ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     QTest::mouseClick(second, Qt::LeftButton);
     QTest::mouseDClick(second, Qt::LeftButton);
-    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
+    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 100);
     for (int i = 0; i < 5; ++i) {
         QTest::keyClick(second->window(), Qt::Key_A, Qt::AltModifier);
         QTest::qWait(30);

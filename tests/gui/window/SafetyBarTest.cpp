@@ -241,7 +241,7 @@ TEST_F(Bar, APressMeantForDisarmDoesNotResetTheFaultThatCameFirst) {
     bar.refresh(in(InterlockState::Delivering));
     QTest::mousePress(action, Qt::LeftButton);
     bar.refresh(in(InterlockState::Faulted, "unplugged"));
-    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
+    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 100);
     QTest::mouseRelease(action, Qt::LeftButton);
     QTest::qWait(100);
     EXPECT_TRUE(refused.isEmpty()) << "it was Disarm when the press went down";

@@ -37,7 +37,7 @@ std::filesystem::path UsbTestbed::root() const {
 }
 
 namespace {
-constexpr uid_t kNobody = 65534;
+constexpr uid_t kUnprivilegedUser = 65534;
 }
 
 UnprivilegedUser::UnprivilegedUser(const UsbTestbed& testbed) {
@@ -46,7 +46,8 @@ UnprivilegedUser::UnprivilegedUser(const UsbTestbed& testbed) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(testbed.root() / "ioctl")) {
         std::filesystem::permissions(entry, std::filesystem::perms(0777));
     }
-    if (setresuid(kNobody, kNobody, 0) != 0) throw std::runtime_error("setresuid to nobody was refused");
+    if (setresuid(kUnprivilegedUser, kUnprivilegedUser, 0) != 0)
+        throw std::runtime_error("setresuid to nobody was refused");
     changed_ = true;
 }
 

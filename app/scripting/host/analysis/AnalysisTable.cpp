@@ -100,7 +100,7 @@ std::vector<HostFunction> analysisFunctions() {
                   .orNull()
                   .optional()},
          .text = "Fits measured against commanded, works out the uncertainty and judges each level with a guard band. "
-                 "Of own readings the uncertainty holds at least what the oscilloscope states.",
+                 "The uncertainty of own readings is at least what the oscilloscope states.",
          .returns = "{ gain, offset, residual_max_pct_fs, repeatability_pct_fs, hysteresis_pct_fs, "
                     "expanded_uncertainty, verdict, verdict_iec (± 20 %), reasons, levels, readings with outlier, "
                     "budget: { rows }, calibration, ... }; calibration is its number for record.calibration(), null "

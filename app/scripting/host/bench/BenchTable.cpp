@@ -221,7 +221,7 @@ std::vector<HostFunction> benchFunctions() {
          .call = host::bench::readReference},
         {.name = "tripWhenArming",
          .parameters = {text("load", "what is fitted").oneOf({"open", "short"}),
-                        text("declared", "the load that arming is told")},
+                        text("declared", "the load that arming is given")},
          .text = "Tries to arm into an open or short circuit. Arming must be refused after its one small pulse.",
          .returns = "{ name, evaluated, tripped, after_s, reason } for analysis.loadSafety(): not evaluated where the "
                     "stimulator cannot read back; after_s from the change to the end of output.",

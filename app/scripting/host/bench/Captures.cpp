@@ -39,12 +39,12 @@ constexpr int kTrainsInOne = 8;  // of a record that holds several
 /// only as well as the records' time stamps are (science.md section 12).
 Result<std::vector<Capture>> captureInOne(Bench& bench, int trains, ScopeSettings settings) {
     constexpr double kBefore = 0.05, kSpare = 0.1;  // of the record; of an interval
-    constexpr double kMaxSamples = 5e5, kLeastRate_hz = 1e5;
+    constexpr double kMaxSamples = 5e5, kMinRate_hz = 1e5;
     const double interval_s = bench.telemetry().interval_s;
     if (!(interval_s > 0) || !std::isfinite(interval_s))
         return fail(ErrorCode::InvalidArgument, "bench.capture: intervals are wanted and nothing is driven");
     const double seconds = (trains - 1 + kSpare) * interval_s / (1 - kBefore);
-    const double rate_hz = std::min(settings.sampleRate.value(), std::max(kLeastRate_hz, kMaxSamples / seconds));
+    const double rate_hz = std::min(settings.sampleRate.value(), std::max(kMinRate_hz, kMaxSamples / seconds));
     settings.sampleRate = Hertz(rate_hz);
     settings.samples = static_cast<std::size_t>(std::ceil(rate_hz * seconds));
     settings.preTrigger = kBefore;

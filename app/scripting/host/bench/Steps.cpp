@@ -125,13 +125,13 @@ Result<Json> step(ScriptSession& session, const Arguments& arguments) {
     TrainRecording recording(bench, trainSettings(bench, rate, *before, *wanted));
     if (auto asked = recording.begin(); !asked) return failure(asked);
     auto& seen = recording.seen();
-    const Seconds patience = 4 * profile.intervalMax + Seconds(1);
+    const Seconds timeout = 4 * profile.intervalMax + Seconds(1);
     // Two: the interval between them is the one that the first train after the step is compared with.
-    auto shown = recording.watch(patience, [&] { return seen.size() >= 2; });
+    auto shown = recording.watch(timeout, [&] { return seen.size() >= 2; });
     if (!shown) return failure(shown);
     if (!*shown) {
         return fail(ErrorCode::Timeout, "bench.step: the oscilloscope saw {} train(s) in {:.1f} s; two were expected",
-                    seen.size(), patience.count());
+                    seen.size(), timeout.count());
     }
     const double at_s = seen.back().onset_s + phase * before->interval.count();
     const double wait_s = at_s - toSeconds(session.now());
@@ -174,7 +174,7 @@ Result<Json> traverse(ScriptSession& session, const Arguments& arguments) {
     auto& seen = recording.seen();
     const double begin_s = toSeconds(session.now());
     for (double phase = 0; phase < 2;) {
-        const auto waited = recording.watch(TrainRecording::kLook, [] { return false; });
+        const auto waited = recording.watch(TrainRecording::kPollInterval, [] { return false; });
         if (!waited) return failure(waited);
         phase = std::min(2.0, (toSeconds(session.now()) - begin_s) / seconds);
         const double share = phase <= 1 ? phase : 2 - phase;

@@ -61,8 +61,8 @@ Result<void> settleAt(Bench& bench, const Command& wanted, std::string_view func
                std::abs(now.interval_s - wanted.interval.count()) <= 1e-9;
     };
     std::uint64_t deliveredBefore = bench.telemetry().trainsDelivered;
-    for (double passed = 0; passed < kLongest_s; passed += TrainRecording::kLook.count()) {
-        if (auto waited = bench.wait(TrainRecording::kLook); !waited) return waited;
+    for (double passed = 0; passed < kLongest_s; passed += TrainRecording::kPollInterval.count()) {
+        if (auto waited = bench.wait(TrainRecording::kPollInterval); !waited) return waited;
         if (!arrived()) deliveredBefore = bench.telemetry().trainsDelivered;
         if (bench.telemetry().trainsDelivered > deliveredBefore) return {};
     }

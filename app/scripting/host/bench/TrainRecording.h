@@ -11,7 +11,7 @@
 
 namespace tacto::host::bench {
 
-/// A train as the oscilloscope saw it. NaN where the record could not be measured.
+/// A train as measured by the oscilloscope. NaN where the record could not be measured.
 struct SeenTrain {
     double onset_s = 0;
     double onsetUncertainty_s = 0;  ///< standard, against the onsets of other records; NaN = unknown
@@ -41,7 +41,7 @@ public:
     [[nodiscard]] std::vector<SeenTrain>& seen() noexcept { return seen_; }
 
     /// How often the bench is looked at.
-    static constexpr Seconds kLook{0.02};
+    static constexpr Seconds kPollInterval{0.02};
 
 private:
     Bench& bench_;
@@ -62,7 +62,7 @@ Result<bool> TrainRecording::watch(Seconds limit, const Enough& enough) {
         if (enough()) return true;
         const Instant now = bench_.clock().now();
         if (now >= until) return false;
-        if (auto waited = bench_.wait(Seconds(std::min(toInstant(kLook), until - now))); !waited)
+        if (auto waited = bench_.wait(Seconds(std::min(toInstant(kPollInterval), until - now))); !waited)
             return failure(waited);
     }
 }

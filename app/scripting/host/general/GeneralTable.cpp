@@ -22,7 +22,9 @@ std::vector<HostFunction> generalFunctions() {
          R"js((declaration) => {
             const keys = (x) => x !== null && typeof x === "object" && !Array.isArray(x) ? Object.keys(x) : [];
             const parameters = declaration && declaration.parameters, names = keys(parameters), choices = [];
-            for (let i = 0; i < names.length; ++i) choices[i] = keys(parameters[names[i]] && parameters[names[i]].choices);
+            for (let i = 0; i < names.length; ++i) {
+                choices[i] = keys(parameters[names[i]] && parameters[names[i]].choices);
+            }
             native(declaration, names, choices);
          })js"},
         {.name = "progress",

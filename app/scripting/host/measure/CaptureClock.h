@@ -10,12 +10,12 @@
 
 namespace tacto::host::measure {
 
-/// Of the time base, relative. NaN = not stated.
+/// Standard uncertainty of the time base, relative. NaN = not stated.
 [[nodiscard]] inline double timeBaseUncertainty(const Capture& capture) noexcept {
     return capture.timeBaseTolerance / std::sqrt(3.0);
 }
 
-/// Of a record's time stamp against those of other records, s. NaN = not stated.
+/// Standard uncertainty of a record's time stamp against those of other records, s. NaN = not stated.
 [[nodiscard]] inline double stampUncertainty_s(const Capture& capture) noexcept {
     return capture.stampTolerance_s / std::sqrt(3.0);
 }

@@ -68,7 +68,7 @@ std::vector<HostFunction> pilotFunctions() {
          .failsDisarmed = true,
          .call = host::pilot::familiarise},
         {.name = "train",
-         .text = "Blocks of 8 with feedback, until 7 of 8 are right or after four blocks. Excludes no one.",
+         .text = "Blocks of 8 with feedback, until 7 of 8 are right or after four blocks. Excludes no participant.",
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::train},

@@ -18,7 +18,7 @@ void appendOrder(Random& random, std::size_t n, Json& out) {
 
 Result<Json> blocks(ScriptSession& session, const Arguments& arguments) {
     const int length = arguments.whole("the list's length"), repeats = arguments.whole("repeats");
-    const double most = kMostElements / std::max(1, length);
+    const double most = kMaxElements / std::max(1, length);
     if (repeats > most) return arguments.wrong("repeats", repeats, fmt::format("a whole number from 0 to {}", most));
     Json out = Json::array();
     for (int i = 0; i < repeats; ++i) appendOrder(session.random(), static_cast<std::size_t>(length), out);

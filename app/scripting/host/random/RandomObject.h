@@ -10,8 +10,8 @@ namespace tacto::host::random {
 
 using Json = nlohmann::json;
 
-/// Of a list that blocks() or shuffle() makes.
-constexpr double kMostElements = 1e6;
+/// Limit of a list that blocks() or shuffle() makes.
+constexpr double kMaxElements = 1e6;
 
 HostCall blocks, shuffle, uniform, sweeps;  // Random.cpp
 

@@ -6,9 +6,9 @@ namespace tacto {
 
 std::vector<HostFunction> randomFunctions() {
     using namespace takes;
-    const auto length = whole("the list's length", "").range(0, host::random::kMostElements);
+    const auto length = whole("the list's length", "").range(0, host::random::kMaxElements);
     const auto repeats =
-        whole("repeats", "how often; at most a million elements in all").range(0, host::random::kMostElements);
+        whole("repeats", "how often; at most a million elements in all").range(0, host::random::kMaxElements);
     return {
         {.name = "blocks",
          .parameters = {list("list", "what is repeated"), repeats},

@@ -12,7 +12,7 @@
 
 namespace tacto::host::record {
 
-/// Of the wall: a calibration's date is the laboratory's, not the bench clock's.
+/// Today by the wall clock: a calibration's date is the laboratory's, not the bench clock's.
 [[nodiscard]] inline CalibrationDate today() {
     return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
 }

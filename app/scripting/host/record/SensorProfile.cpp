@@ -39,7 +39,7 @@ Result<std::filesystem::path> writeNew(const std::filesystem::path& folder, cons
         const bool closed = std::fclose(file) == 0;
         if (written && closed) return path;
         std::filesystem::remove(path, problem);
-        return fail(ErrorCode::Io, "{} cannot be written to its end; room on the disk is expected", path.string());
+        return fail(ErrorCode::Io, "{} could not be written completely; the disk may be full", path.string());
     }
     return fail(ErrorCode::Io, "{}: {} profiles of one day; fewer are expected", (folder / stem).string(), kMaxADay);
 }

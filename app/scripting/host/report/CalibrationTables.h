@@ -13,9 +13,9 @@ namespace tacto::host::report {
 
 // Items of a report, each { kind, caption, rows, columns } or { kind, text }.
 
-/// Of what analysis.calibration() returned: levels, budget, coverage, marked readings.
+/// Report items for the result of analysis.calibration(): levels, budget, coverage, marked readings.
 [[nodiscard]] nlohmann::json calibrationItems(const nlohmann::json& found);
-/// Of the rows that analysis.calibrationCheck() returned.
+/// The table of the rows that analysis.calibrationCheck() returned.
 [[nodiscard]] nlohmann::json calibrationCheckTable(const nlohmann::json& rows);
 /// Several of them side by side.
 [[nodiscard]] nlohmann::json calibrationSummary(const nlohmann::json& all);

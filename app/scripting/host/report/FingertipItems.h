@@ -14,9 +14,9 @@ struct FingertipReferences {
 
 // Items of a report, each { kind, caption, rows, columns }, { kind, caption, figure } or { kind, text }.
 
-/// Of what analysis.fingertipScales() returned.
+/// Report items for the result of analysis.fingertipScales().
 [[nodiscard]] nlohmann::json fingertipScaleItems(const nlohmann::json& scales, const FingertipReferences& known);
-/// Of what analysis.sensorCalibration() returned; `simulated`: the fingertip and everything else are.
+/// Report items for the result of analysis.sensorCalibration(). `simulated`: every device was simulated.
 [[nodiscard]] nlohmann::json sensorCalibrationItems(const nlohmann::json& found, bool simulated);
 
 }  // namespace tacto::host::report

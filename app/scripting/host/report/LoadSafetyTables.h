@@ -7,7 +7,7 @@
 
 namespace tacto::host::report {
 
-/// Of what analysis.loadSafety() returned: a list of { caption, rows, columns }, matrices with their kind.
+/// Report tables for the result of analysis.loadSafety(): a list of { caption, rows, columns }, and kind for matrices.
 [[nodiscard]] nlohmann::json loadSafetyTables(const nlohmann::json& found);
 
 }  // namespace tacto::host::report

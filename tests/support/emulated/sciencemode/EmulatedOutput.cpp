@@ -40,7 +40,7 @@ const EmittedPulse& EmulatedOutput::play(const Points& points, int channel, bool
     const double duration_us = points.duration().count();
     std::array<DriveSegment, kMaxPoints> segments;
     for (std::size_t i = 0; i < points.count; ++i) segments[i] = segmentOf(points.items[i]);
-    const SourceLimits limits{compliance_.value(), kCurrentMost_mA * 1e-3};
+    const SourceLimits limits{compliance_.value(), kMaxCurrent_mA * 1e-3};
     auto circuit = circuitAt(load_, toSeconds(onset - fitted_), {segments.data(), points.count}, limits);
     circuit.open = circuit.open || isOpen(onset);
 

@@ -50,8 +50,8 @@ void EmulatedScopeServer::unplug() noexcept {
     [[maybe_unused]] const auto written = ::write(wake_, &one, sizeof one);  // fails only when it is set already
 }
 
-bool EmulatedScopeServer::waits(Seconds patience) {
-    const auto until = std::chrono::steady_clock::now() + patience;
+bool EmulatedScopeServer::waits(Seconds timeout) {
+    const auto until = std::chrono::steady_clock::now() + timeout;
     std::unique_lock lock(mutex_);
     while (!scope_->waiting()) {
         if (changed_.wait_until(lock, until) == std::cv_status::timeout) return scope_->waiting();
@@ -59,9 +59,9 @@ bool EmulatedScopeServer::waits(Seconds patience) {
     return true;
 }
 
-bool EmulatedScopeServer::hasReadOut(std::uint64_t records, Seconds patience) {
+bool EmulatedScopeServer::hasReadOut(std::uint64_t records, Seconds timeout) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, patience, [&] { return scope_->readOut() >= records; });
+    return changed_.wait_for(lock, timeout, [&] { return scope_->readOut() >= records; });
 }
 
 std::uint64_t EmulatedScopeServer::readOut() {

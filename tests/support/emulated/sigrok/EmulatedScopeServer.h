@@ -44,10 +44,10 @@ public:
     /// The plug is pulled: the conversation ends and no other begins.
     void unplug() noexcept;
 
-    /// Whether it waits for a trigger, at the latest after `patience`.
-    [[nodiscard]] bool waits(Seconds patience);
-    /// Whether `records` were read out, at the latest after `patience`.
-    [[nodiscard]] bool hasReadOut(std::uint64_t records, Seconds patience);
+    /// Whether it waits for a trigger, at the latest after `timeout`.
+    [[nodiscard]] bool waits(Seconds timeout);
+    /// Whether `records` were read out, at the latest after `timeout`.
+    [[nodiscard]] bool hasReadOut(std::uint64_t records, Seconds timeout);
     [[nodiscard]] std::uint64_t readOut();
     /// Every command so far, oldest first.
     [[nodiscard]] std::vector<std::string> heard();

@@ -1,14 +1,14 @@
-#include "app/gui/controller/WindowPulse.h"
+#include "app/gui/controller/WindowHeartbeat.h"
 
 namespace tacto::gui {
 
-WindowPulse::WindowPulse() {
+WindowHeartbeat::WindowHeartbeat() {
     beat();
-    connect(&timer_, &QTimer::timeout, this, &WindowPulse::beat);
+    connect(&timer_, &QTimer::timeout, this, &WindowHeartbeat::beat);
     timer_.start(kBeat);
 }
 
-bool WindowPulse::runs() const noexcept {
+bool WindowHeartbeat::runs() const noexcept {
     const Time::time_point seen{Time::duration(seen_.load(std::memory_order_acquire))};
     return Time::now() - seen < kHangs;
 }

@@ -1,4 +1,4 @@
-#include "core/bench/LevelDesk.h"
+#include "core/bench/LevelRequests.h"
 
 #include <utility>
 
@@ -33,19 +33,19 @@ Result<Milliamps> answerOf(SafetyGate& gate, const LevelRequest& request) {
 
 }  // namespace
 
-void LevelDesk::ask(const LevelRequest& request) {
+void LevelRequests::ask(const LevelRequest& request) {
     const std::scoped_lock lock(mutex_);
     request_ = request;
     answer_.reset();
     asked_.store(true, std::memory_order_release);
 }
 
-std::optional<Result<Milliamps>> LevelDesk::answer() {
+std::optional<Result<Milliamps>> LevelRequests::answer() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(answer_, std::nullopt);
 }
 
-void LevelDesk::serve(SafetyGate& gate) noexcept {
+void LevelRequests::serve(SafetyGate& gate) noexcept {
     if (!asked_.load(std::memory_order_acquire)) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return;

@@ -1,4 +1,4 @@
-// LevelDesk.h - what a participant says about levels, on its way from the bench's caller to the gate, which has the
+// LevelRequests.h - what a participant says about levels, on its way from the bench's caller to the gate, which has the
 // control loop for its only caller, and back.
 //
 // Thread-safety: ask() and answer() have one caller, the bench's; serve() has one, the control loop, which never waits.
@@ -19,7 +19,7 @@ struct LevelRequest {
     Milliamps uncomfortable{0};  ///< Discomfort only
 };
 
-class LevelDesk {
+class LevelRequests {
 public:
     void ask(const LevelRequest& request);
     /// Nothing until it was served; then the ceiling that holds afterwards, or why it was refused. Taken once.

@@ -1,4 +1,4 @@
-// WindowPulse.h - whether the window's thread still comes round: one that hangs shows no STOP and hears no Esc, so what
+// WindowHeartbeat.h - whether the window's thread still runs: one that hangs shows no STOP and hears no Esc, so what
 // it ordered is then unattended (hazard H2).
 //
 // Thread-safety: made on the window's thread; runs() any thread.
@@ -11,12 +11,12 @@
 
 namespace tacto::gui {
 
-class WindowPulse final : public QObject {
+class WindowHeartbeat final : public QObject {
     Q_OBJECT
 public:
     static constexpr std::chrono::milliseconds kBeat{100};
     static constexpr std::chrono::milliseconds kHangs{1000};  ///< without a beat for that long
-    WindowPulse();
+    WindowHeartbeat();
     [[nodiscard]] bool runs() const noexcept;
 
 private:

@@ -1,4 +1,4 @@
-// OwnReadings.h - the readings and calibrations that the program itself made during one run. A script refers to them by
+// RunReadings.h - the readings and calibrations that the program itself made during one run. A script refers to them by
 // number; what it says about them besides does not count (hazard H1: a script asks, it never vouches).
 //
 // Thread-safety: none; as ScriptSession, which holds it.
@@ -53,7 +53,7 @@ struct OwnCalibration {
     bool calibrationApplied = false;      ///< in one of the readings
 };
 
-class OwnReadings {
+class RunReadings {
 public:
     [[nodiscard]] std::int64_t add(OwnReading reading);
     [[nodiscard]] std::int64_t add(OwnCalibration calibration);

@@ -1,4 +1,4 @@
-// OrderWatch.h - the operator's order that the control loop carries out: whether it was stopped, whether its owner
+// OwnerWatchdog.h - the operator's order that the control loop carries out: whether it was stopped, whether its owner
 // still looks after it, and why the loop itself ended it.
 //
 // Thread-safety: attend(), begin() and endedBecause() any thread; the rest has one caller, the control loop.
@@ -14,10 +14,10 @@
 
 namespace tacto {
 
-class OrderWatch {
+class OwnerWatchdog {
 public:
     /// `stops` outlives this; null: nothing stops an order but the interlock.
-    explicit OrderWatch(StopCounter* stops) noexcept : stops_(stops) {}
+    explicit OwnerWatchdog(StopCounter* stops) noexcept : stops_(stops) {}
 
     /// Who ordered the output is looking after it until then.
     void attend(Instant until) noexcept { attendedUntil_.store(until.count(), std::memory_order_release); }

@@ -1,4 +1,4 @@
-#include "app/scripting/engine/OwnReadings.h"
+#include "app/scripting/engine/RunReadings.h"
 
 #include <algorithm>
 #include <array>
@@ -17,17 +17,17 @@ void noNaN(nlohmann::json& value) {
 
 }  // namespace
 
-std::int64_t OwnReadings::add(OwnReading reading) {
+std::int64_t RunReadings::add(OwnReading reading) {
     readings_.push_back(std::move(reading));
     return static_cast<std::int64_t>(readings_.size());
 }
 
-std::int64_t OwnReadings::add(OwnCalibration calibration) {
+std::int64_t RunReadings::add(OwnCalibration calibration) {
     calibrations_.push_back(std::move(calibration));
     return static_cast<std::int64_t>(calibrations_.size());
 }
 
-Result<std::vector<const OwnReading*>> OwnReadings::readings(const std::vector<std::int64_t>& numbers) const {
+Result<std::vector<const OwnReading*>> RunReadings::readings(const std::vector<std::int64_t>& numbers) const {
     std::vector<const OwnReading*> found;
     std::set<std::int64_t> seen, captures;
     for (const auto number : numbers) {
@@ -48,16 +48,16 @@ Result<std::vector<const OwnReading*>> OwnReadings::readings(const std::vector<s
     return found;
 }
 
-void OwnReadings::note(nlohmann::json made) {
+void RunReadings::note(nlohmann::json made) {
     noNaN(made);
     made_.push_back(std::move(made));
 }
 
-bool OwnReadings::noted(const nlohmann::json& said) const {
+bool RunReadings::noted(const nlohmann::json& said) const {
     return std::find(made_.begin(), made_.end(), said) != made_.end();
 }
 
-const OwnCalibration* OwnReadings::calibration(const nlohmann::json& number) const noexcept {
+const OwnCalibration* RunReadings::calibration(const nlohmann::json& number) const noexcept {
     if (!number.is_number_integer()) return nullptr;
     const auto index = number.get<std::int64_t>();
     if (index < 1 || static_cast<std::size_t>(index) > calibrations_.size()) return nullptr;
