@@ -56,7 +56,7 @@ protected:
     }
     [[nodiscard]] bool isAnswered() { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
     [[nodiscard]] Result<PilotAnswer> answered() {
-        EXPECT_TRUE(comesTrue([this] { return isAnswered(); }, 2000));
+        EXPECT_IN_TIME(comesTrue([this] { return isAnswered(); }, 2000));
         return answer.get();
     }
     void key(Qt::Key key) { QTest::keyClick(window.windowHandle(), key); }
