@@ -44,8 +44,8 @@ protected:
     template <class T>
     T& the(const QString& name) {
         T* found = nullptr;
-        static_cast<void>(comesTrue([&] { return (found = find<T>(*workspace, name)) != nullptr; }));
-        if (found == nullptr) throw std::runtime_error("nothing visible is called " + name.toStdString());
+        if (!comesTrue([&] { return (found = find<T>(*workspace, name)) != nullptr; }))
+            throw std::runtime_error("nothing visible is called " + name.toStdString());
         return *found;
     }
     bool ready() {
