@@ -90,7 +90,6 @@ TEST(CaptureFormatsCommands, ClippingIsWhatTheStatedRangeSays) {
 }
 
 TEST(CaptureFormatsCommands, WrongOptionsAreAMatterOfUsage) {
-    RecordProperty("hazard", "H10");
     const Desk desk;
     const auto path = desk.write("scope.csv", rigol());
     for (const Words& words : {Words{"--unit", "CH1"}, Words{"--unit", "=V"}, Words{"--probe", "CH1=ten"},

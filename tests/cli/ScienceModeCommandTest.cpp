@@ -191,7 +191,7 @@ TEST_F(ScienceModeCommand, AnOpenOrShortedLoadGetsTheCheckPulseOnly) {
 }
 
 TEST_F(ScienceModeCommand, AnotherLoadThanTheDeclaredOneGetsTheCheckPulseOnly) {
-    RecordProperty("hazard", "H12");
+    RecordProperty("hazard", "H3");
     for (const auto* declared : {"500", "800", "1300", "10000"}) {
         const auto ran = pulse("1", declared, {"--json"});
         EXPECT_EQ(ran.code, 1) << declared << ": " << ran.err;

@@ -51,7 +51,7 @@ TEST(SurfaceDistance, OfReadingsThatDoNotScatterIsInfiniteOrNothing) {
 }
 
 TEST(SurfaceDistance, RefusesTooFewSlidesAndNan) {
-    RecordProperty("hazard", "H7");
+    RecordProperty("hazard", "H9");
     const auto few = surfaceDistance(std::vector{1.0, 2.0}, std::vector{1.0, 2.0, 3.0});
     ASSERT_FALSE(few);
     EXPECT_NE(few.error().message.find("2 slides of one; at least 3"), std::string::npos) << few.error().message;
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Known, DistanceCoverage,
                          ::testing::Values(Truth{0, 5}, Truth{1, 5}, Truth{4, 3}, Truth{4, 10}, Truth{20, 5}));
 
 TEST(SurfaceDistance, TellsApartSurfacesAtTheThresholdInOneOf40Runs) {
-    RecordProperty("hazard", "H7");
+    RecordProperty("hazard", "H9");
     constexpr int kRuns = 2000;
     Random random(11, "threshold");
     const auto accepted = [&](double delta) {
