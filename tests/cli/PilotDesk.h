@@ -1,4 +1,6 @@
 // PilotDesk.h - sessions of rehearsals by the built program: undisturbed, killed and resumed.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,6 @@
 // Shape.h - the shapes that cli.md promises.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -54,7 +54,7 @@ Folders listedIn(const std::string& document) {
     return listed;
 }
 
-/// " core   │ safety   analysis: a library each │ what they are": rows of boxes, of which the first names its top folder.
+/// " core   │ safety   analysis: a library each │ what they are": rows of boxes; the first of a top folder names it.
 Folders drawnIn(const std::string& document) {
     static const std::string side = "│";
     static const std::regex box(R"((\w+)(?:: \w+(?: \w+)*)?)"), word(R"(\w+)");
@@ -93,7 +93,8 @@ TEST(Folders, ContributingDrawsThem) { EXPECT_EQ(drawnIn(documentText("CONTRIBUT
 TEST(Folders, AreReadFromTheirPictures) {
     EXPECT_EQ(listedIn("core/  Things.\n  base/   Text\n  a/, b/  both\ndrivers/   More.\n  usb/  x\n```\n  no/  y\n"),
               (Folders{{"core", {"base", "a", "b"}}, {"drivers", {"usb"}}}));
-    EXPECT_EQ(drawnIn(" app  │ gui   cli │ programs\n      ├──┤\n      │ run │ opens\n core │ analysis: a folder  dsp │\n"),
+    EXPECT_EQ(drawnIn(" app  │ gui   cli │ programs\n      ├──┤\n      │ run │ opens\n"
+                      " core │ analysis: a folder  dsp │\n"),
               (Folders{{"app", {"gui", "cli", "run"}}, {"core", {"analysis", "dsp"}}}));
 }
 

@@ -1,4 +1,6 @@
 // Figures.h - numbers that a script of tests/reference makes another way, for tests to be held against.
+//
+// Thread-safety: any thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,6 @@
 // SeatedPeople.h - a participant's window with a session behind it that asks what a test wants asked.
+//
+// Thread-safety: the GUI thread; ask() asks from another, as a session does.
 #pragma once
 
 #include <QTest>

@@ -1,5 +1,7 @@
 // Lab.h - a laboratory for tests: a folder for protocols of its own, a controller on the simulated bench, a workspace
 // that is refreshed as the window does it.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTest>

@@ -1,5 +1,7 @@
 // HardwareBench.h - the whole window with a stimulator and a sensor board plugged in, both emulated: what a person sees
 // of hardware, and what happens to them when a plug is pulled.
+//
+// Thread-safety: the GUI thread; plugs are seen by the threads of the drivers.
 #pragma once
 
 #include <QLabel>
