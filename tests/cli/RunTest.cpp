@@ -1,6 +1,7 @@
 // run: separability on the simulated bench, live from real recordings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "core/base/Result.h"

@@ -3,7 +3,7 @@
 // Thread-safety: the test's own thread.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,7 @@
 // Thread-safety: any thread.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
 namespace tacto::test {

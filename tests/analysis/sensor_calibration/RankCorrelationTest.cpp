@@ -2,6 +2,7 @@
 // of known truth.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/analysis/sensor_calibration/RankCorrelation.h"

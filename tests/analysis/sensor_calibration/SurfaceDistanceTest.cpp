@@ -1,6 +1,7 @@
 // d' and its interval against scipy (tests/reference/estimates.py), and against seeded repetitions of known truth.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/sensor_calibration/SurfaceDistance.h"
 #include "core/base/Random.h"
