@@ -217,5 +217,19 @@ TEST_F(Keyboard, F1ExplainsWhateverHasTheFocus) {
     EXPECT_GE(explained, 60U);
 }
 
+TEST_F(Keyboard, WhateverTabReachesSaysWhatItIs) {
+    open();
+    for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
+        SCOPED_TRACE(workspace);
+        show(workspace);
+        tabFrom(stopButton(), [](const QWidget& at) {
+            const QWidget* says = &at;
+            while (says != nullptr && says->toolTip().isEmpty() && says->whatsThis().isEmpty())
+                says = says->parentWidget();
+            EXPECT_NE(says, nullptr) << nameOf(at) << ": F1 says that nothing has the focus";
+        });
+    }
+}
+
 }  // namespace
 }  // namespace tacto::test
