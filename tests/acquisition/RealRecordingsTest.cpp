@@ -1,6 +1,7 @@
 #include <complex>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/acquisition/Recording.h"

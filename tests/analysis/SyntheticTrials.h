@@ -1,5 +1,7 @@
 // SyntheticTrials.h - trials that numpy can make too, digit for digit: no random generator. tests/reference/trials.py
 // makes the same.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
 // BenchFixture.h - a whole bench on simulated devices, named by their URIs.
+//
+// Thread-safety: the test's own thread; the bench has its own rules.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,6 @@
 // FakeMassager.h - a massager that remembers what it was sent, and when.
+//
+// Thread-safety: as a Massager; sent(), `offs` and `unplugged` from any thread, `onVibrate` is set before.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,7 @@
 // FakeStimulator.h - a stimulator that does what a test tells it to, and counts what was asked of it.
+//
+// Thread-safety: as a Stimulator. What is atomic from any thread; all else is set while nothing is called, and the
+// hooks are called by whichever thread calls the device.
 #pragma once
 
 #include <atomic>

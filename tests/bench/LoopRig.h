@@ -1,4 +1,6 @@
 // LoopRig.h - a control loop by itself: taped samples in, a null stimulator out, armed and driven by the finger.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include "core/bench/ControlLoop.h"

@@ -1,4 +1,6 @@
 // PersonFixture.h - a bench for a virtual participant: a current source on a grid of 0.5 mA, skin for a load.
+//
+// Thread-safety: the test's own thread; the bench has its own rules.
 #pragma once
 
 #include "tests/bench/BenchFixture.h"

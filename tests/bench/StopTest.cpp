@@ -186,7 +186,9 @@ TEST_F(StopTest, JustBeforeCheckingIsEnteredIsFollowedByNoCheckPulse) {
 
 TEST_F(StopTest, AtAnyMomentOfArmingAndDrivingIsFollowedByNoTrain) {
     RecordProperty("hazard", "H2");
-    for (int round = 0; round < 40; ++round) {
+    constexpr int kRounds = 40;
+    int armed = 0, driven = 0;
+    for (int round = 0; round < kRounds; ++round) {
         open(true);
         std::atomic<bool> stopped{false};
         std::atomic<int> afterStop{0};
@@ -198,12 +200,22 @@ TEST_F(StopTest, AtAnyMomentOfArmingAndDrivingIsFollowedByNoTrain) {
             bench_->stop("test");
             stopped = true;
         });
-        if (arm() && bench_->drive(DriveSource::Manual, 1, 1)) static_cast<void>(bench_->wait(Seconds(0.03)));
+        if (arm()) {
+            ++armed;
+            if (bench_->drive(DriveSource::Manual, 1, 1)) {
+                ++driven;
+                EXPECT_FALSE(bench_->wait(Seconds(1))) << "the stop ends it";
+            }
+        }
         stopper.join();
         std::this_thread::sleep_for(15ms);  // three turns of the loop
         EXPECT_EQ(afterStop, 0) << "round " << round;
         bench_.reset();
     }
+    RecordProperty("armed", armed);
+    RecordProperty("driven", driven);
+    EXPECT_GE(driven, kRounds / 10) << "most stops came before there was anything to stop";
+    EXPECT_LT(driven, kRounds) << "no stop came while it was arming";
 }
 
 TEST_F(StopTest, AStatusThatNeverComesIsAFault) {

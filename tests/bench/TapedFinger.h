@@ -1,4 +1,6 @@
 // TapedFinger.h - a finger that slides for ever on made-up numbers, without a driver's cost.
+//
+// Thread-safety: as a TactileSensor.
 #pragma once
 
 #include "core/base/Clock.h"

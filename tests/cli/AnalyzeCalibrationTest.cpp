@@ -1,6 +1,7 @@
 // analyze calibration: commanded against measured from a CSV, against the formulas of science.md section 9.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/Shape.h"
 

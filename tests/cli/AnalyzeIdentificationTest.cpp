@@ -1,5 +1,6 @@
 // analyze identification: answers from a CSV, against the figures of tests/reference/identification.py.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/Shape.h"
 #include "tests/support/Figures.h"

@@ -1,6 +1,7 @@
 // analyze separability: trials from a CSV, against the formulas of science.md section 10.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/Result.h"
 #include "tests/cli/Shape.h"

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/Result.h"
 #include "tests/cli/Shape.h"
@@ -90,7 +91,6 @@ TEST(CaptureFormatsCommands, ClippingIsWhatTheStatedRangeSays) {
 }
 
 TEST(CaptureFormatsCommands, WrongOptionsAreAMatterOfUsage) {
-    RecordProperty("hazard", "H10");
     const Desk desk;
     const auto path = desk.write("scope.csv", rigol());
     for (const Words& words : {Words{"--unit", "CH1"}, Words{"--unit", "=V"}, Words{"--probe", "CH1=ten"},

@@ -1,6 +1,7 @@
 // encode: the numbers of science.md section 4, and the gate's answer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/Shape.h"
 

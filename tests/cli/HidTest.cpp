@@ -1,6 +1,7 @@
 // hid show-bytes: what would be sent, byte by byte.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/Shape.h"
 

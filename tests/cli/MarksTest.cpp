@@ -1,6 +1,7 @@
 // What stands beside every result in which R has a part: in --json, on the terminal and in the report.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/dsp/RoughnessFlags.h"
 #include "tests/cli/Shape.h"

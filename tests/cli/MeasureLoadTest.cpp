@@ -1,6 +1,7 @@
 // measure: uncertainty, quality and the load of a voltage and a current, as a user sees them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/Random.h"
 #include "tests/cli/Shape.h"

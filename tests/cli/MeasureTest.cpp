@@ -1,6 +1,7 @@
 // measure: files whose answer is known by construction.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/Result.h"
 #include "tests/cli/Shape.h"

@@ -1,7 +1,9 @@
 // PilotDesk.h - sessions of rehearsals by the built program: undisturbed, killed and resumed.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "tests/cli/Shape.h"
 

@@ -1,5 +1,6 @@
 // A session that is killed at any of its rows goes on as if nothing had happened: plan and answers byte for byte.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "tests/cli/PilotDesk.h"

@@ -1,6 +1,7 @@
 // A rehearsal from plan to confusion matrix, and how a session is refused, broken off and gone on with.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "tests/cli/PilotDesk.h"

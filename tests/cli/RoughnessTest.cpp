@@ -1,6 +1,7 @@
 // roughness: real recordings, one whose answer is known, and those that are refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/base/Result.h"

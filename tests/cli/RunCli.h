@@ -1,4 +1,6 @@
 // RunCli.h - runs the built tactoscope-cli as a user does, without a display, and says what came out of it.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <chrono>

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "tests/cli/Shape.h"
@@ -191,7 +192,7 @@ TEST_F(ScienceModeCommand, AnOpenOrShortedLoadGetsTheCheckPulseOnly) {
 }
 
 TEST_F(ScienceModeCommand, AnotherLoadThanTheDeclaredOneGetsTheCheckPulseOnly) {
-    RecordProperty("hazard", "H12");
+    RecordProperty("hazard", "H3");
     for (const auto* declared : {"500", "800", "1300", "10000"}) {
         const auto ran = pulse("1", declared, {"--json"});
         EXPECT_EQ(ran.code, 1) << declared << ": " << ran.err;

@@ -1,6 +1,7 @@
 // sensor status: the built program against an emulated board behind a pseudo-terminal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/Shape.h"
 #include "tests/drivers/sensor_board/BoardOnPty.h"

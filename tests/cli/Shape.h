@@ -1,7 +1,9 @@
 // Shape.h - the shapes that cli.md promises.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
 #include "core/base/Result.h"
@@ -46,7 +47,7 @@ TEST_F(Stop, AnInterruptEndsALiveRunWithExitCodeFour) {
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     expectStopped(desk, run.wait(std::chrono::seconds(20)));
-    EXPECT_LT(secondsSince(signalled), 5);
+    EXPECT_IN_TIME(secondsSince(signalled) < 5);
 }
 
 TEST_F(Stop, ATerminationATerminalThatClosesAndAQuitDoTheSame) {
@@ -75,7 +76,7 @@ TEST_F(Stop, AnInterruptAtAnyMomentOfTheStartEndsTheRunInOrder) {
 }
 
 TEST_F(Stop, ASignalWhileTheReportsAreDrawnEndsTheProgramAndTheSessionIsComplete) {
-    RecordProperty("hazard", "H10");
+    RecordProperty("hazard", "H8");
     const auto script = desk.protocol("long.js", R"js(protocol({ title: "Long report" });
 function run(p) {
   const rows = [];
@@ -88,7 +89,7 @@ function run(p) {
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     const auto ran = run.wait(std::chrono::seconds(60));
-    EXPECT_LT(secondsSince(signalled), 2);
+    EXPECT_IN_TIME(secondsSince(signalled) < 2);
     EXPECT_EQ(ran.code, 4);
     EXPECT_THAT(ran.err, HasSubstr("before the reports were written"));
     EXPECT_TRUE(desk.named("out", ".pdf").empty());
@@ -153,7 +154,7 @@ TEST_F(UserScript, AnEndlessLoopIsStoppedWithinAFewSeconds) {
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     const auto ran = run.wait(std::chrono::seconds(20));
-    EXPECT_LT(secondsSince(signalled), 5);
+    EXPECT_IN_TIME(secondsSince(signalled) < 5);
     expectStopped(desk, ran);
     EXPECT_THAT(ran.err, HasSubstr(path + ":"));
 }
@@ -168,7 +169,7 @@ TEST_F(UserScript, ALoopThatCatchesEverythingIsStoppedToo) {
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     expectStopped(desk, run.wait(std::chrono::seconds(20)));
-    EXPECT_LT(secondsSince(signalled), 5);
+    EXPECT_IN_TIME(secondsSince(signalled) < 5);
 }
 
 TEST_F(UserScript, AnErrorNamesFileLineAndReason) {

@@ -1,5 +1,7 @@
 // TerminalCli.h - runs the built tactoscope-cli at a terminal, as a person does: what is typed is its input, Ctrl+C is
 // a signal, and what it prints is what stands on the screen.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <string>

@@ -1,5 +1,7 @@
 // NaiveFeatures.h - science.md's features written down as directly as possible, to judge the twin with something that
 // is not the product's own chain: direct Fourier sums over Hann windows, means removed in place of the band-pass.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
 // SimBench.h - simulated devices on a virtual clock, with a gate that approves for them: the fixture of these tests.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/drivers/SimBench.h"
 #include "tests/drivers/conformance/StimulatorConformance.h"

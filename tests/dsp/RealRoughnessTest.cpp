@@ -1,6 +1,7 @@
 // Real recordings against numpy and scipy (tests/reference/real_slides.py).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/acquisition/Recording.h"
 #include "core/dsp/RoughnessAnalysis.h"

@@ -1,5 +1,7 @@
 // RoughnessOracle.h - science.md sections 2 and 3 written a second time, slowly and from the text: direct difference
 // equation, direct Fourier sums, whole arrays. For regular streams without NaN. Shares no code with core/dsp.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <span>

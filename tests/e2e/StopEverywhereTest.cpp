@@ -109,7 +109,7 @@ protected:
         since.start();
         hand();
         const bool stopped = comesTrue([&] { return !isLive(); }, kStopLimit_ms);
-        EXPECT_TRUE(stopped) << what << ": still delivering";
+        EXPECT_IN_TIME(stopped) << what << ": still delivering";
         slowest_ms = std::max(slowest_ms, since.elapsed());
         ++tried;
         if (!stopped) window.controller().stop("the test");

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/electrode/LoadResponse.h"
 #include "tests/support/Figures.h"

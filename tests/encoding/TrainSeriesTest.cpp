@@ -1,6 +1,7 @@
 // The limits on a step, train by train: what the live loop, the sweep and the design share.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <rapidcheck/gtest.h>
 
 #include "core/encoding/StepPace.h"

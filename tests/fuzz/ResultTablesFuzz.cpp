@@ -1,11 +1,15 @@
-// Any text as a table of results: trials, readings of a calibration, what a profilometer exports. Read or refused with
-// a sentence that names the file; nothing is read that is infinite (hazard H10). The first byte says which.
+// Any text as a table of results: trials, readings of a calibration, what a profilometer exports, answers of an
+// identification. Read or refused with a sentence that names the file; nothing is read that is infinite (hazard H10).
+// The first byte says which.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <string_view>
 
 #include "core/analysis/calibration/CalibrationFile.h"
+#include "core/analysis/identification/Identification.h"
+#include "core/analysis/identification/IdentificationFile.h"
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"
 #include "core/analysis/separability/Separability.h"
 #include "core/analysis/separability/TrialFile.h"
@@ -43,13 +47,27 @@ void checkProfilometer(std::string_view text) {
     if (reading->rz_um < reading->ra_um) std::abort();
 }
 
+void checkIdentification(std::string_view text) {
+    const auto participants = parseIdentificationTrials(text, "fuzz.csv");
+    if (refusedByName(participants)) return;
+    if (participants->empty()) std::abort();
+    for (const auto& [participant, trials] : *participants) {
+        const auto identified = identifyAsMet(trials);
+        if (!identified && identified.error().message.empty()) std::abort();
+        if (!identified) continue;
+        const auto& all = identified->all;
+        if (all.hits > all.n || all.n + identified->catches.n + identified->noAnswer > trials.size()) std::abort();
+        if (identified->confusion.size() != identified->labels.size()) std::abort();
+    }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
-    if (data[0] % 3 == 0) checkTrials(text);
-    if (data[0] % 3 == 1) checkReadings(text);
-    if (data[0] % 3 == 2) checkProfilometer(text);
+    constexpr void (*kChecks[])(std::string_view) = {checkTrials, checkReadings, checkProfilometer,
+                                                     checkIdentification};
+    kChecks[data[0] % std::size(kChecks)](text);
     return 0;
 }

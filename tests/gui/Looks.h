@@ -1,4 +1,6 @@
 // Looks.h - what can be judged of how a window looks: contrast, text that is cut, widgets that overlap.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QColor>

@@ -1,4 +1,6 @@
 // Person.h - what a test does at the window: waits for what it sees, finds by what is written, types and clicks.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QString>

@@ -63,7 +63,7 @@ std::vector<SyntheticPhase> threePulses(double level = kCurrent_a) {
 }
 
 TEST(LoadMeasurement, AResistorIsItsResistanceAndItsHeat) {
-    RecordProperty("hazard", "H5");
+    RecordProperty("hazard", "H9");
     const auto m = measureLoad(across({}, threePulses()), 1, 0).value();
     ASSERT_EQ(m.measuredPulses, 3U);
     EXPECT_NEAR(m.load_ohm.mean, 2000, 0.5);

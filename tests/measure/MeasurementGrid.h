@@ -3,6 +3,8 @@
 //
 // One grid point is measured on many records that differ in their noise and in where the samples fall. The result is
 // bias and spread of every figure, and how many pulses were missed, invented, or refused with a flag.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <string>

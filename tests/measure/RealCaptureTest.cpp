@@ -2,6 +2,7 @@
 // business; here a few lines read the numbers.
 #include <fstream>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/Text.h"
 #include "core/measure/PulseMeasurement.h"

@@ -3,6 +3,8 @@
 //
 // A phase is the difference of two equal step responses, width_s apart: its charge is level times width and its 50 %
 // points are width_s apart whatever the edges look like, once they have settled (see MeasurementGrid.h, truthOf()).
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <algorithm>

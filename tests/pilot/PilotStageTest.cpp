@@ -144,7 +144,7 @@ TEST_F(PilotStageTest, WhatHasAnAnswerIsNeitherPresentedNorAskedAgain) {
 }
 
 TEST_F(PilotStageTest, TheIntervalsOfADetectionTrialAreMarkedAlikeWhicheverHoldsTheTrain) {
-    RecordProperty("hazard", "H8");
+    RecordProperty("hazard", "H9");
     struct Mark {
         int interval;
         double after_s;  // since the first

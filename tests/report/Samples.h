@@ -1,4 +1,6 @@
 // Samples.h - reports and figures for tests: a separability run as a bench would measure it.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <QByteArray>

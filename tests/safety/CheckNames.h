@@ -1,5 +1,7 @@
 // CheckNames.h - the table of every check that has a case in GateCases. A check that is added to Rules.h and not
 // to this table does not build.
+//
+// Thread-safety: constant.
 #pragma once
 
 #include <array>

@@ -2,6 +2,8 @@
 // something that this check alone refuses.
 //
 // The product's gate must hold every case; with a check taken away (GateMutationTest) its case must fail.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <functional>

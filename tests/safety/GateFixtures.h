@@ -1,4 +1,6 @@
 // GateFixtures.h - setups that the gate's tests start from: complete and valid, each test spoils one thing.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <string>

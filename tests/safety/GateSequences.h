@@ -3,6 +3,8 @@
 // A sequence is a handful of commands: configure, approve, deliver (perhaps late), stop, wait, impedance readings,
 // acceptance, garbage. Whatever is delivered goes into a body whose true impedance lies somewhere in the permitted
 // range; the referee holds the limits as numbers of its own.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <array>

@@ -2,6 +2,8 @@
 //
 // Written from science.md alone. It shares no arithmetic with core/electrode or core/safety: currents are stepped from
 // event to event, integrals are Gauss-Legendre sums, and windows slide over the record of what was delivered.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <vector>

@@ -2,6 +2,8 @@
 //
 // The referee holds every limit as a number of its own and reads exposure from IndependentBody; nothing here asks the
 // gate whether something was allowed.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <algorithm>

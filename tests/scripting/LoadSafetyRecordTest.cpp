@@ -115,7 +115,7 @@ function run() { return verdict({ kind: "load-safety", verdict: "pass", reasons:
     altered.declaration = {};
     altered.settings = {};
     altered.script.shipped = true;  // What its caller says is not believed
-    static_cast<void>(run(altered));
+    EXPECT_EQ(run(altered).verdict(), "pass");
     EXPECT_TRUE(kept().empty());
     SessionAbout about;
     about.devices = {{"sciencemode:/dev/ttyUSB0", "stimulator", "P24", "0815", "", false, origin::kHardware}};

@@ -1,4 +1,6 @@
 // LoadSafetyRig.h - the shipped load-safety protocol on a simulated bench whose devices are described by URIs.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <memory>

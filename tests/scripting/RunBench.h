@@ -1,5 +1,7 @@
 // RunBench.h - a simulated bench to run scripts on, with or without a session file; or one that looks like a
 // laboratory's own.
+//
+// Thread-safety: the test's own thread; the bench has its own rules.
 #pragma once
 
 #include <chrono>

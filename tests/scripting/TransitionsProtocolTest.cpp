@@ -59,7 +59,7 @@ TEST(TransitionsProtocol, FailsStepsThatAreTooLargeOnTheTrainsAsCaptured) {
 }
 
 TEST(TransitionsProtocol, TheShippedProfilePassesItsOwnTestAndSaysWhatIsOutOfReach) {
-    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H9");
     const auto outcome = shipped({{"repeats", "3"}});
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump(1);

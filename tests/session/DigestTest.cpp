@@ -1,5 +1,6 @@
 #include <cstring>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/session/Chain.h"
 #include "core/session/Digest.h"

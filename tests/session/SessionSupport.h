@@ -1,4 +1,6 @@
 // SessionSupport.h - what the session tests share: a clock moved by hand, a filled-in SessionAbout, SQL from outside.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <atomic>

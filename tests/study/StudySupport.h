@@ -1,4 +1,6 @@
 // StudySupport.h - what the study tests share: a time set by hand, a study in a scratch folder, its session files.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <fstream>

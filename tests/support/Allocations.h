@@ -1,5 +1,7 @@
 // Allocations.h - counts what the calling thread takes with new. Link test_allocations: it replaces the program's
 // operators.
+//
+// Thread-safety: any thread; each counts its own.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 #include "tests/support/Figures.h"
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 

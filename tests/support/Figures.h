@@ -1,7 +1,9 @@
 // Figures.h - numbers that a script of tests/reference makes another way, for tests to be held against.
+//
+// Thread-safety: any thread.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
 namespace tacto::test {

@@ -1,4 +1,6 @@
 // Support.h - what tests share: where files are, and scratch folders that clean up after themselves.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,6 @@
 // LoadCaptures.h - captures of a train into a resistor, of known truth, as an ideal instrument would make them.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <cmath>

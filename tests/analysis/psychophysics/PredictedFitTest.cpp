@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/psychophysics/PredictedFit.h"
 #include "core/analysis/psychophysics/TrialPlan.h"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/psychophysics/PersonalRange.h"
 #include "core/electrode/LoadResponse.h"

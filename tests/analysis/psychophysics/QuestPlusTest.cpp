@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/psychophysics/QuestPlus.h"
 #include "tests/analysis/psychophysics/Procedures.h"

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/psychophysics/QuestPlus.h"
 #include "core/analysis/psychophysics/Staircase.h"

@@ -61,7 +61,7 @@ struct Refusal {
 class ProfilometerRefusal : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(ProfilometerRefusal, NamesTheLineAndTheReason) {
-    RecordProperty("hazard", "H7");
+    RecordProperty("hazard", "H10");
     const auto found = parseProfilometer(GetParam().text, "x.csv");
     ASSERT_FALSE(found) << found->ra_um;
     EXPECT_EQ(found.error().code, ErrorCode::ParseError);

@@ -2,6 +2,7 @@
 // of known truth.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/analysis/sensor_calibration/RankCorrelation.h"
@@ -54,7 +55,7 @@ TEST(Spearman, OfFiveInPerfectOrderDoesNotClaimCertainty) {
 }
 
 TEST(Spearman, RefusesWhatCannotBeRanked) {
-    RecordProperty("hazard", "H7");
+    RecordProperty("hazard", "H9");
     const std::vector four{1.0, 2.0, 3.0, 4.0}, flat{2.0, 2.0, 2.0, 2.0, 2.0}, five{1.0, 2.0, 3.0, 4.0, 5.0};
     EXPECT_FALSE(spearman(four, four));
     EXPECT_FALSE(spearman(four, five));

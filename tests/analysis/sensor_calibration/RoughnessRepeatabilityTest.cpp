@@ -1,6 +1,7 @@
 // The uncertainty of R against numpy (tests/reference/roughness_uncertainty.py), and what is not known of it.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/sensor_calibration/RoughnessRepeatability.h"
 #include "tests/support/Figures.h"

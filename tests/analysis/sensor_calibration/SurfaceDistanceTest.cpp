@@ -1,6 +1,7 @@
 // d' and its interval against scipy (tests/reference/estimates.py), and against seeded repetitions of known truth.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/sensor_calibration/SurfaceDistance.h"
 #include "core/base/Random.h"
@@ -51,7 +52,7 @@ TEST(SurfaceDistance, OfReadingsThatDoNotScatterIsInfiniteOrNothing) {
 }
 
 TEST(SurfaceDistance, RefusesTooFewSlidesAndNan) {
-    RecordProperty("hazard", "H7");
+    RecordProperty("hazard", "H9");
     const auto few = surfaceDistance(std::vector{1.0, 2.0}, std::vector{1.0, 2.0, 3.0});
     ASSERT_FALSE(few);
     EXPECT_NE(few.error().message.find("one surface has only 2 slides; at least 3"), std::string::npos)
@@ -89,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Known, DistanceCoverage,
                          ::testing::Values(Truth{0, 5}, Truth{1, 5}, Truth{4, 3}, Truth{4, 10}, Truth{20, 5}));
 
 TEST(SurfaceDistance, TellsApartSurfacesAtTheThresholdInOneOf40Runs) {
-    RecordProperty("hazard", "H7");
+    RecordProperty("hazard", "H9");
     constexpr int kRuns = 2000;
     Random random(11, "threshold");
     const auto accepted = [&](double delta) {

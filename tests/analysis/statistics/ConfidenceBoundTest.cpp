@@ -1,5 +1,6 @@
 // Bounds against scipy (tests/reference/estimates.py), and what they do to a verdict.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/separability/Separability.h"
 #include "core/analysis/statistics/ConfidenceBound.h"

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/statistics/Estimate.h"
 #include "core/base/JustNoticeable.h"

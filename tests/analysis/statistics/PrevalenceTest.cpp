@@ -1,5 +1,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/analysis/statistics/Prevalence.h"
 #include "tests/support/Figures.h"
@@ -18,9 +19,10 @@ TEST(Prevalence, IsThatOfInceAndOthers) {
         const double theta = std::pow(cut + 0.05 * (1 - cut), 1 / m);
         EXPECT_NEAR(prevalenceAtLeast(n, n), (theta - 0.05) / 0.95, 1e-10) << n;
     }
+    // With k = 0, (1-θ)^(n+1) is 0.95 of 0.95^(n+1).
+    for (const std::size_t n : {1U, 5U, 12U})
+        EXPECT_NEAR(prevalenceAtLeast(0, n), 1 - std::pow(0.95, 1 / static_cast<double>(n + 1)), 1e-10) << n;
     EXPECT_LT(prevalenceAtLeast(4, 5), prevalenceAtLeast(5, 5));
-    EXPECT_GE(prevalenceAtLeast(0, 5), 0);
-    EXPECT_LT(prevalenceAtLeast(0, 5), 0.02);
 }
 
 TEST(Prevalence, IntervalsAreTheShortestThatScipyFinds) {

@@ -140,7 +140,7 @@ TEST(Variation, WhatIsBelowDetectionIsNotFeltAndAnsweredNone) {
 }
 
 TEST(Variation, PersonalLevelsLieBetweenTheThresholdsAndInTheProfile) {
-    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H9");
     const auto wanted = options();
     std::size_t presented = 0;
     for (std::size_t i = 0; i < 60; ++i) {

@@ -1,4 +1,6 @@
 // MassagerConformance.h - what every massager must do. A driver's tests give a factory, as in StimulatorConformance.h.
+//
+// Thread-safety: the suite calls from its own thread, and forceOff() from others.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,7 @@
 // SensorConformance.h - what every tactile sensor must do. A driver's tests give a factory, as in
 // StimulatorConformance.h.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <functional>

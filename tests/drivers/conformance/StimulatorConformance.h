@@ -1,6 +1,8 @@
 // StimulatorConformance.h - what every stimulator must do, whoever made it. A driver's tests give a factory:
 //
 //   INSTANTIATE_TEST_SUITE_P(PulsePal, StimulatorConformance, testing::Values(StimulatorKind{"PulsePal", makeRig}));
+//
+// Thread-safety: the suite calls from its own thread, and forceOff() from others.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,6 @@
 // Bytes.h - bytes as a wire description writes them: "F0 81 55".
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <charconv>

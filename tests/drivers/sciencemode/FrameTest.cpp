@@ -1,5 +1,6 @@
 // The frames of ScienceMode4: the vendor's own bytes, and every way in which a stream can be wrong.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <rapidcheck.h>
 

@@ -1,5 +1,6 @@
 // What 128 magnitudes say about the electrodes, and what they cannot say.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/electrode/Load.h"
 #include "drivers/sciencemode/ReadBack.h"

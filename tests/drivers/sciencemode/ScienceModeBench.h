@@ -1,4 +1,6 @@
 // ScienceModeBench.h - a ScienceMode stimulator on an emulated device, with a gate that approves for it.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include "tests/drivers/sciencemode/EmulatedLine.h"

@@ -7,6 +7,7 @@
 #include "core/bench/StimulatorSession.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
 #include "tests/support/Allocations.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -230,13 +231,16 @@ TEST_F(ScienceModeThreads, ForceOffFromManyThreadsWhileDelivering) {
             }
         });
     }
+    int delivered = 0;
     for (int i = 0; i < 200; ++i) {
-        static_cast<void>(stimulator_->deliver(approved(5, 1000)));
+        if (stimulator_->deliver(approved(5, 1000))) ++delivered;
         static_cast<void>(stimulator_->status());
     }
     done = true;
     for (auto& stopper : stoppers) stopper.join();
     stimulator_->forceOff();
+    RecordProperty("delivered", delivered);
+    EXPECT_GE(delivered, 1) << "each was refused: there was nothing to stop";
     const auto status = untilDone();
     EXPECT_TRUE(!status || !status->delivering);
     const auto after = line_->pulses();
@@ -250,11 +254,15 @@ TEST_F(ScienceModeThreads, ForceOffFromManyThreadsWhileDelivering) {
 
 TEST_F(ScienceModeThreads, NoPulseFollowsAStopThatNothingWasInFlightAt) {
     RecordProperty("hazard", "H2");
-    for (int i = 0; i < 30; ++i) {
-        static_cast<void>(stimulator_->deliver(approved(50, 500)));
+    constexpr int kRounds = 30;
+    int delivered = 0;
+    for (int i = 0; i < kRounds; ++i) {
+        if (stimulator_->deliver(approved(50, 500))) ++delivered;
         std::this_thread::sleep_for(microseconds(500 * i));
         stimulator_->forceOff();
     }
+    RecordProperty("delivered", delivered);
+    EXPECT_GE(delivered, kRounds / 2) << "most were refused: there was nothing to stop";
     // Each pulse that came after a stop of the train it belongs to has a stop of its own behind it.
     const auto commands = commandsOf(line_->written());
     EXPECT_NE(commands.back(), Command::ChannelConfig);
@@ -281,7 +289,7 @@ TEST_F(ScienceModeThreads, FromApprovalToTheWireTakesLessThan200Microseconds) {
     }
     std::ranges::nth_element(took, took.begin() + 100);
     RecordProperty("median_ns", std::to_string(took[100].count()));
-    EXPECT_LT(took[100], microseconds(200));
+    EXPECT_IN_TIME(took[100] < microseconds(200));
 #endif
 }
 

@@ -1,4 +1,6 @@
 // Golden.h - the golden frames of PROTOCOL.md, read from the document itself.
+//
+// Thread-safety: reads files; no state.
 #pragma once
 
 #include <cstdint>

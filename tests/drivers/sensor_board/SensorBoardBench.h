@@ -1,4 +1,6 @@
 // SensorBoardBench.h - an emulated board on a virtual clock and the driver's device on it: the fixture of these tests.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <memory>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/drivers/sigrok/ScopeOnLan.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -39,12 +40,12 @@ TEST_P(ScopeFails, IsAnErrorOfPollAndClosesInTime) {
     const auto capture = lan.poll(Seconds(20));
     ASSERT_FALSE(capture.has_value());
     EXPECT_EQ(capture.error().code, GetParam().code) << capture.error().message;
-    EXPECT_LT(seconds(since), GetParam().within_s) << capture.error().message;
+    EXPECT_IN_TIME(seconds(since) < GetParam().within_s) << capture.error().message;
     EXPECT_FALSE(lan.scope().poll().has_value()) << "the error stays";
     EXPECT_FALSE(lan.scope().arm().has_value());
     since = SteadyTime::now();
     lan.close();
-    EXPECT_LT(seconds(since), 2.0);
+    EXPECT_IN_TIME(seconds(since) < 2.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, ScopeFails,
@@ -64,7 +65,7 @@ TEST(ScopeFaults, SilenceWhileWaitingIsATimeout) {
     const auto capture = lan.poll(Seconds(20));
     ASSERT_FALSE(capture.has_value());
     EXPECT_EQ(capture.error().code, ErrorCode::Timeout);
-    EXPECT_LT(seconds(since), 8);
+    EXPECT_IN_TIME(seconds(since) < 8);
 }
 
 TEST(ScopeFaults, ClosesInTimeWhileTheInstrumentIsSilentWithinARecord) {
@@ -75,7 +76,7 @@ TEST(ScopeFaults, ClosesInTimeWhileTheInstrumentIsSilentWithinARecord) {
     (void)lan.instrument().waits(Seconds(0));
     const auto since = SteadyTime::now();
     lan.close();
-    EXPECT_LT(seconds(since), 2.0);
+    EXPECT_IN_TIME(seconds(since) < 2.0);
 }
 
 TEST(ScopeFaults, ClosesInTimeWhileItWaitsForATrigger) {
@@ -83,7 +84,7 @@ TEST(ScopeFaults, ClosesInTimeWhileItWaitsForATrigger) {
     lan.arm(faultSettings());
     const auto since = SteadyTime::now();
     lan.close();
-    EXPECT_LT(seconds(since), 2.0);
+    EXPECT_IN_TIME(seconds(since) < 2.0);
     const auto again = lan.open();
     EXPECT_TRUE(again.has_value()) << again.error().message;
 }
@@ -93,7 +94,7 @@ TEST(ScopeFaults, DisarmingReturnsAtOnceAndItCanBeArmedAgain) {
     lan.arm(faultSettings());
     const auto since = SteadyTime::now();
     lan.scope().disarm();
-    EXPECT_LT(seconds(since), 0.1);
+    EXPECT_IN_TIME(seconds(since) < 0.1);
     lan.arm(faultSettings());
     lan.bench().deliver(voltagePulse(10), Seconds(0.06));
     const auto capture = lan.poll();
@@ -108,7 +109,7 @@ TEST(ScopeFaults, AnInstrumentThatIsOffIsNotFoundAndOneThatIsMuteTimesOut) {
     auto since = SteadyTime::now();
     const auto mute = lan.open();
     ASSERT_FALSE(mute.has_value());
-    EXPECT_LT(seconds(since), 12);
+    EXPECT_IN_TIME(seconds(since) < 12);
     lan.instrument().unplug();
     std::string off;
     since = SteadyTime::now();

@@ -2,6 +2,8 @@
 // simulated load, an emulated instrument measures that, libsigrok reads it over TCP, and the bench gets captures.
 //
 // The signal lives on a virtual clock; the conversation takes the real time that it takes.
+//
+// Thread-safety: the test's own thread; the emulated instrument serves on another.
 #pragma once
 
 #include "core/devices/Oscilloscope.h"

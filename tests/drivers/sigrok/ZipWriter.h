@@ -1,4 +1,6 @@
 // ZipWriter.h - zip archives for tests: files that no program would write, and large ones soon written.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
 // UsbFixture.h - an emulated bus and the real libusb on it, for the tests of drivers/usb.
+//
+// Thread-safety: the test's own thread; transports as they say.
 #pragma once
 
 #include <chrono>

@@ -42,8 +42,8 @@ protected:
     template <class T>
     [[nodiscard]] T& the(const char* name) {
         T* found = nullptr;
-        static_cast<void>(comesTrue([&] { return (found = find<T>(workspace, name)) != nullptr; }));
-        if (found == nullptr) throw std::runtime_error(std::string("nothing visible is called ") + name);
+        if (!comesTrue([&] { return (found = find<T>(workspace, name)) != nullptr; }))
+            throw std::runtime_error(std::string("nothing visible is called ") + name);
         return *found;
     }
     [[nodiscard]] QPushButton* button(const char* name) { return workspace.findChild<QPushButton*>(name); }
@@ -114,7 +114,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
 }
 
 TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
-    RecordProperty("hazard", "H1");
+    RecordProperty("hazard", "H7");
     show({1300, 820});
     auto* tabs = workspace.findChild<QTabWidget*>("calibratePages");
     tabs->setCurrentWidget(workspace.runners()[1]);
@@ -141,7 +141,7 @@ TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
 }
 
 TEST_F(Calibrate, TheCardLeadsToTheSettingsAndStartsNothing) {
-    RecordProperty("hazard", "H2");
+    RecordProperty("hazard", "H12");
     show({1300, 820});
     workspace.findChild<QTabWidget*>("calibratePages")->setCurrentIndex(2);
     click(the<QPushButton>("calibrateButton"));

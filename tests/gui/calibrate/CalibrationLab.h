@@ -1,4 +1,6 @@
 // CalibrationLab.h - a store of calibrations of the test's own, and calibrations to put into it.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTemporaryDir>

@@ -1,5 +1,8 @@
 // WatchedDriver.h - the simulated bench with an eye and a hand on its stimulator: a test sees every train that reaches
 // it, and may do something at any call of it, or while the driver opens it.
+//
+// Thread-safety: what is atomic from any thread; the hooks are set before a bench is opened, and called by the
+// device's thread.
 #pragma once
 
 #include <atomic>

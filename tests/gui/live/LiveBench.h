@@ -1,5 +1,7 @@
 // LiveBench.h - a live workspace and what drives the output, on a controller with simulated devices, refreshed thirty
 // times a second as the window does.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTimer>

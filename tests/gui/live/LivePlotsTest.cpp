@@ -180,7 +180,7 @@ TEST_F(Plots, AFrozenPictureStandsStillWhileTheHistoryGoesOn) {
 }
 
 TEST_F(Plots, AFaultIsALineInEveryLaneWithItsCauseInTheTrains) {
-    RecordProperty("hazard", "H2");
+    RecordProperty("hazard", "H12");
     feel(5);
     draw();
     EXPECT_EQ(plots.faultSaid(), "");

@@ -115,7 +115,7 @@ protected:
 };
 
 TEST_P(DetectionByKey, FindsWhatThePersonFeels) {
-    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H9");
     PilotThresholds thresholds(*behind.stage);
     const auto limits = answering([&] { return thresholds.ascendingLimits(); });
     ASSERT_TRUE(limits) << limits.error().message;

@@ -62,7 +62,7 @@ TEST_F(Operator8b, SaysWhereTheSessionIs) {
 }
 
 TEST_F(Operator8b, WhileBlindNothingOfAConditionIsShown) {
-    RecordProperty("hazard", "H8");
+    RecordProperty("hazard", "H9");
     auto screen = testScreen(ScreenState::Feel);
     screen.operatorText = "rough-high, 6.5 mA, 0.5 s";
     page.show(screen);
@@ -80,7 +80,7 @@ TEST_F(Operator8b, WhileBlindNothingOfAConditionIsShown) {
 }
 
 TEST_F(Operator8b, ItsPixelsAreTheSameForEveryCondition) {
-    RecordProperty("hazard", "H8");
+    RecordProperty("hazard", "H9");
     std::vector<QImage> seen;
     for (const auto* condition : {"rough-high", "smooth-low"}) {
         page.begin(true, true);

@@ -74,7 +74,7 @@ TEST_F(Desk, WhatBothAreAskedBothHaveToAnswer) {
 }
 
 TEST_F(Desk, TheParticipantCannotAnswerForTheOperator) {
-    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H12");
     ask(goOnPrompt("See to the electrodes.", PromptTo::Operator));
     desk.answerAsParticipant(asked, with("go-on"), std::chrono::steady_clock::now());
     EXPECT_TRUE(waits());
@@ -138,7 +138,7 @@ TEST_F(Desk, AfterTheSessionAStopLeadsNowhere) {
 }
 
 TEST_F(Desk, AScreenThatGoesEndsTheQuestion) {
-    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H2");
     ask(yesNoPrompt("code", "Is this your code?"));
     desk.setScreenThere(false);
     const auto said = answer.get();

@@ -1,4 +1,6 @@
 // SeatedPeople.h - a participant's window with a session behind it that asks what a test wants asked.
+//
+// Thread-safety: the GUI thread; ask() asks from another, as a session does.
 #pragma once
 
 #include <QTest>
@@ -56,7 +58,7 @@ protected:
     }
     [[nodiscard]] bool isAnswered() { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
     [[nodiscard]] Result<PilotAnswer> answered() {
-        EXPECT_TRUE(comesTrue([this] { return isAnswered(); }, 2000));
+        EXPECT_IN_TIME(comesTrue([this] { return isAnswered(); }, 2000));
         return answer.get();
     }
     void key(Qt::Key key) { QTest::keyClick(window.windowHandle(), key); }

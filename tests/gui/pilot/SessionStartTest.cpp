@@ -50,7 +50,7 @@ protected:
 };
 
 TEST_F(SessionStart, EveryQuestionIsAnsweredAndNoneBeforehand) {
-    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H12");
     prepare({});
     const auto* checklist = page.findChild<gui::ExclusionChecklist*>();
     EXPECT_TRUE(checklist->answers().empty());

@@ -117,7 +117,7 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
 }
 
 TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndIsRefusedOnTheSimulatedBenchWithNothingMade) {
-    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H11");
     ASSERT_NO_FATAL_FAILURE(make({}));
     ASSERT_NO_FATAL_FAILURE(openIt());
     ASSERT_NO_FATAL_FAILURE(start());

@@ -1,5 +1,7 @@
 // Lab.h - a laboratory for tests: a folder for protocols of its own, a controller on the simulated bench, a workspace
 // that is refreshed as the window does it.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTest>
@@ -44,8 +46,8 @@ protected:
     template <class T>
     T& the(const QString& name) {
         T* found = nullptr;
-        static_cast<void>(comesTrue([&] { return (found = find<T>(*workspace, name)) != nullptr; }));
-        if (found == nullptr) throw std::runtime_error("nothing visible is called " + name.toStdString());
+        if (!comesTrue([&] { return (found = find<T>(*workspace, name)) != nullptr; }))
+            throw std::runtime_error("nothing visible is called " + name.toStdString());
         return *found;
     }
     bool ready() {

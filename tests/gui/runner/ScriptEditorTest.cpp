@@ -12,14 +12,14 @@ using testing::HasSubstr;
 class Editor : public Lab {
 protected:
     gui::ScriptEditor& opened() {
-        static_cast<void>(comesTrue([this] { return editor() != nullptr; }));
+        if (!comesTrue([this] { return editor() != nullptr; })) throw std::runtime_error("the editor has not opened");
         return *editor();
     }
     template <class T>
     T& in(const QString& name) {
         T* found = nullptr;
-        static_cast<void>(comesTrue([&] { return (found = find<T>(opened(), name)) != nullptr; }));
-        if (found == nullptr) throw std::runtime_error("the editor shows no " + name.toStdString());
+        if (!comesTrue([&] { return (found = find<T>(opened(), name)) != nullptr; }))
+            throw std::runtime_error("the editor shows no " + name.toStdString());
         return *found;
     }
     QString says(const char* label) { return in<QLabel>(label).text(); }

@@ -1,4 +1,6 @@
 // Captures.h - captures with a known truth for the oscilloscope's tests, and what a hand does on its screen.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTest>

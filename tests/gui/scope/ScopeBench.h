@@ -1,4 +1,6 @@
 // ScopeBench.h - the oscilloscope on a simulated bench, at the first start of a program that remembers nothing.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -1,4 +1,6 @@
 // WrittenSessions.h - sessions as a laboratory has them, written into the sessions folder and removed afterwards.
+//
+// Thread-safety: the test's own thread.
 #pragma once
 
 #include <chrono>

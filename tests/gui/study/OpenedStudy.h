@@ -1,4 +1,6 @@
 // OpenedStudy.h - a study in a scratch folder with cheap keys, and the page that shows it.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -15,7 +15,7 @@ std::string textOf(const Secret& secret) {
 }
 
 TEST(PassphraseEdit, HoldsWhatIsTypedAndShowsDots) {
-    RecordProperty("hazard", "H8");
+    RecordProperty("hazard", "H11");
     gui::PassphraseEdit edit;
     edit.show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(&edit));
@@ -45,7 +45,7 @@ TEST(PassphraseEdit, TakesNoMoreThanItHasRoomFor) {
 }
 
 TEST_F(StudyInThePage, AWrongPassphraseIsOneSentenceAndIsAskedAgain) {
-    RecordProperty("hazard", "H8");
+    RecordProperty("hazard", "H11");
     make();
     page.open(folder());
     auto* asks = dialog("passphraseDialog");
@@ -70,7 +70,7 @@ TEST_F(StudyInThePage, AWrongPassphraseIsOneSentenceAndIsAskedAgain) {
 }
 
 TEST_F(StudyInThePage, ClosingForgetsThePassphraseAndLetsOthersIn) {
-    RecordProperty("hazard", "H8");
+    RecordProperty("hazard", "H11");
     make();
     open();
     const auto words = Passphrase::from(kWords).value();

@@ -33,7 +33,7 @@ TEST(StudyForm, HasEveryFieldOfTheCoreOnceAndNoOther) {
 }
 
 TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
-    RecordProperty("hazard", "H9");
+    RecordProperty("hazard", "H12");
     gui::StudyForm form;
     form.show();
     const auto missing = form.read();
@@ -73,7 +73,7 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
 }
 
 TEST_F(StudyInThePage, ANewStudyIsMade) {
-    RecordProperty("hazard", "H8");
+    RecordProperty("hazard", "H11");
     press("newStudyWanted");
     auto* made = page.findChild<gui::NewStudyPage*>();
     ASSERT_TRUE(made->isVisible());

@@ -49,7 +49,7 @@ protected:
 };
 
 TEST_F(StudyPageTest, EnrolsConsentsAndSaysHowEachStands) {
-    RecordProperty("hazard", "H8");
+    RecordProperty("hazard", "H11");
     const auto code = enrol(false);
     EXPECT_TRUE(checkedCode(code.toStdString())) << code.toStdString();
     ASSERT_EQ(page.findChild<QTableWidget*>("participants")->rowCount(), 1);
@@ -84,7 +84,7 @@ TEST_F(StudyPageTest, EnrolsConsentsAndSaysHowEachStands) {
 }
 
 TEST_F(StudyPageTest, LeavingKeepsTheDataAndEndsThePart) {
-    RecordProperty("hazard", "H8");
+    RecordProperty("hazard", "H11");
     const auto code = enrol(false);
     choose("leaveOne");
     auto* asks = dialog("leaveDialog");

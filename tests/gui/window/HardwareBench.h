@@ -1,5 +1,7 @@
 // HardwareBench.h - the whole window with a stimulator and a sensor board plugged in, both emulated: what a person sees
 // of hardware, and what happens to them when a plug is pulled.
+//
+// Thread-safety: the GUI thread; plugs are seen by the threads of the drivers.
 #pragma once
 
 #include <QLabel>
@@ -72,29 +74,28 @@ protected:
     }
 
     [[nodiscard]] QTreeWidget& tree() { return *window.findChild<gui::DeviceDock*>()->findChild<QTreeWidget*>(); }
-    /// The dock's line for a URI, when it has come; null after 10 s.
-    [[nodiscard]] QTreeWidgetItem* row(const QString& uri) {
+    /// The dock's line for a URI, as soon as there is one. Throws after 10 s.
+    [[nodiscard]] QTreeWidgetItem& row(const QString& uri) {
         QTreeWidgetItem* found = nullptr;
-        static_cast<void>(comesTrue([&] {
+        const bool came = comesTrue([&] {
             found = nullptr;
             for (int i = 0; i < tree().topLevelItemCount(); ++i) {
                 if (tree().topLevelItem(i)->data(0, Qt::UserRole).toString() == uri) found = tree().topLevelItem(i);
             }
             return found != nullptr;
-        }));
-        return found;
+        });
+        if (!came) throw std::runtime_error("the dock shows no " + uri.toStdString());
+        return *found;
     }
-    void choose(QTreeWidgetItem* item) {
-        const auto where = tree().visualItemRect(item);
+    void choose(const QTreeWidgetItem& item) {
+        const auto where = tree().visualItemRect(&item);
         QTest::mouseClick(tree().viewport(), Qt::LeftButton, Qt::NoModifier, where.center());
     }
     /// Moves to the line and presses Return, as somebody without a mouse does.
     void tick(const QString& uri) {
-        auto* item = row(uri);
-        ASSERT_NE(item, nullptr) << uri.toStdString();
-        choose(item);
+        choose(row(uri));
         QTest::keyClick(&tree(), Qt::Key_Return);
-        ASSERT_EQ(row(uri)->checkState(0), Qt::Checked) << uri.toStdString();
+        ASSERT_EQ(row(uri).checkState(0), Qt::Checked) << uri.toStdString();
     }
     void open(const QStringList& uris) {
         for (const auto& uri : uris) ASSERT_NO_FATAL_FAILURE(tick(uri));

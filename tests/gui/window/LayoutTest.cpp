@@ -55,17 +55,15 @@ TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     const auto* stop = window.findChild<QPushButton*>("stopButton");
     const auto before = window.centralWidget()->size();
     key(Qt::Key_F11);
-    QTest::qWait(60);
+    EXPECT_IN_TIME(comesTrue([&] { return window.centralWidget()->width() > before.width() + 200; }));
     EXPECT_FALSE(bar("workspaces").isVisible());
     EXPECT_FALSE(dock("driveDock").isVisible());
     EXPECT_FALSE(window.statusBar()->isVisible());
     EXPECT_TRUE(stop->isVisible());
-    EXPECT_GT(window.centralWidget()->width(), before.width() + 200);
     window.showWorkspace(5);
     EXPECT_FALSE(bar("dockStrip").isVisible()) << "also in another workspace";
     key(Qt::Key_F11);
-    QTest::qWait(60);
-    EXPECT_TRUE(bar("workspaces").isVisible());
+    EXPECT_IN_TIME(comesTrue([this] { return bar("workspaces").isVisible(); }));
     EXPECT_TRUE(window.statusBar()->isVisible());
 }
 
@@ -73,10 +71,9 @@ TEST_F(Layout, DocksCollapseToAStripThatKeepsTheirKeyFigures) {
     open();
     ASSERT_TRUE(dock("driveDock").isVisible());
     key(Qt::Key_D, Qt::ControlModifier);
-    QTest::qWait(80);
+    ASSERT_IN_TIME(comesTrue([this] { return bar("dockStrip").isVisible(); }));
     for (const auto* name : {"driveDock", "measurementDock", "exposureDock", "deviceDock"})
         EXPECT_FALSE(dock(name).isVisible()) << name;
-    ASSERT_TRUE(bar("dockStrip").isVisible());
     auto* drive = find<QToolButton>(bar("dockStrip"), "Drive");
     ASSERT_NE(drive, nullptr);
     EXPECT_IN_TIME(comesTrue([&] { return drive->accessibleDescription() == "Off"; }));
@@ -94,8 +91,7 @@ TEST_F(Layout, ADockFoldsToItsHeader) {
     auto* fold = find<QToolButton>(exposure, "Fold Exposure");
     ASSERT_NE(fold, nullptr);
     click(*fold);
-    QTest::qWait(60);
-    EXPECT_LE(exposure.height(), 40);
+    EXPECT_IN_TIME(comesTrue([&] { return exposure.height() <= 40; })) << exposure.height();
     EXPECT_FALSE(exposure.widget()->isVisible());
     click(*find<QToolButton>(exposure, "Unfold Exposure"));
     EXPECT_TRUE(exposure.widget()->isVisible());
@@ -136,11 +132,10 @@ TEST_F(Layout, AKeyThatShowsAWorkspaceTakesTheFocusThereAndNotIntoAText) {
     open();
     for (int page = 6; page >= 0; --page) {
         key(static_cast<Qt::Key>(Qt::Key_1 + page), Qt::ControlModifier);
-        QTest::qWait(40);
-        const auto* at = QApplication::focusWidget();
-        ASSERT_NE(at, nullptr) << page;
         const auto* pages = window.centralWidget()->findChild<QStackedWidget*>();
-        EXPECT_TRUE(pages->currentWidget()->isAncestorOf(at)) << page << at->metaObject()->className();
+        ASSERT_IN_TIME(comesTrue([&] { return pages->currentWidget()->isAncestorOf(QApplication::focusWidget()); }))
+            << page;
+        const auto* at = QApplication::focusWidget();
         EXPECT_FALSE(qobject_cast<const QLineEdit*>(at) || qobject_cast<const QAbstractSpinBox*>(at))
             << page << ": Space would not stop";
     }
@@ -210,10 +205,7 @@ TEST_F(Layout, ResetPutsEverythingBack) {
     drive.setFloating(true);
     key(Qt::Key_D, Qt::ControlModifier);
     window.resetLayout();
-    QTest::qWait(60);
-    EXPECT_FALSE(drive.isFloating());
-    EXPECT_FALSE(drive.folded());
-    EXPECT_TRUE(drive.isVisible());
+    EXPECT_IN_TIME(comesTrue([&] { return drive.isVisible() && !drive.isFloating() && !drive.folded(); }));
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // WindowFixture.h - the whole window on the simulated bench, and what a person does first with it.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -1,5 +1,7 @@
 // HidEmulation.h - the inside of an EmulatedHidDevice: HidrawCalls.cpp answers system calls on /dev/hidrawN,
 // HidReports.cpp is the device that they lead to, EmulatedHidDevice.cpp what a test calls.
+//
+// Thread-safety: every entry locks `mutex`, which guards all but what says otherwise.
 #pragma once
 
 #include <condition_variable>

@@ -1,5 +1,7 @@
 // HidrawNode.h - the way of input reports into /dev/hidrawN: a FIFO in packet mode (O_DIRECT), so that poll() and
 // read() are the kernel's and each read() gives one report. Writes and ioctls go to EmulatedHidDevice.
+//
+// Thread-safety: none; HidEmulation locks.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // Published.h - a test's thread and umockdev's hand objects to each other through GLib, whose locks the thread
 // sanitizer cannot see; it does see this.
+//
+// Thread-safety: any thread.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,7 @@
 // UsbDescription.h - what an emulated device says of itself: its identity and its descriptors, as bytes, so that a
 // test can make them lie.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <cstdint>

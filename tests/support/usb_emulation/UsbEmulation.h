@@ -1,5 +1,7 @@
 // UsbEmulation.h - the inside of an EmulatedUsbDevice: the kernel's side of its node (usbfs) and the device behind it.
 // UsbEmulation.cpp answers system calls, UsbControlPipe.cpp requests to endpoint 0, EmulatedUsbDevice.cpp the test.
+//
+// Thread-safety: who takes a lock is called with it held; it guards all but what says otherwise.
 #pragma once
 
 #include <condition_variable>

@@ -2,6 +2,8 @@
 // always ready, so that libusb spins. It is the slave of a pseudo-terminal instead, whose flow control gives poll()
 // the meaning it has for usbfs: stopped is "nothing to reap", running is "an URB can be reaped" (POLLOUT), and
 // closing the master is "disconnected" (POLLERR and POLLHUP).
+//
+// Thread-safety: none; UsbEmulation locks.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,8 @@
 /* Replay.h - the firmware's code run over the golden frames: every frame that a board sends, in the order of
  * PROTOCOL.md, then an answer to each sound command among the bytes given. C99 without a library, so that it runs on
- * any machine. */
+ * any machine.
+ *
+ * Thread-safety: none; one caller. */
 #ifndef TACTO_TEST_REPLAY_H
 #define TACTO_TEST_REPLAY_H
 

@@ -1,0 +1,60 @@
+// Columns of a table of records: units, prefixes, words for what is missing.
+#include <gmock/gmock.h>
+
+#include "app/gui/theme/RecordTable.h"
+#include "app/report/TableContent.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+using gui::columnText;
+using gui::RecordColumn;
+using As = RecordColumn::As;
+using Json = nlohmann::json;
+
+TEST(RecordTable, PutsTheUnitIntoTheHeaderWithAPrefixThatSuitsAllRows) {
+    const Json rows = {{{"width_s", 100.2e-6}, {"u", 0.4e-6}}, {{"width_s", 400e-6}, {"u", 0.4e-6}}};
+    const auto text = columnText({"Width", "width_s", As::Number, "s", "u"}, rows);
+    EXPECT_EQ(text.header, "Width\n(µs)");
+    EXPECT_EQ(text.cells, (QStringList{"100.20 ± 0.40", "400.00 ± 0.40"}));
+    EXPECT_TRUE(text.right);
+}
+
+TEST(RecordTable, GivesNumbersThatAreFarApartAPrefixEach) {
+    const Json rows = {{{"ohm", 100}}, {{"ohm", 1e6}}};
+    const auto text = columnText({"Load", "ohm", As::Number, "ohm"}, rows);
+    EXPECT_EQ(text.header, "Load");
+    EXPECT_THAT(text.cells[0].toStdString(), HasSubstr("Ω"));
+    EXPECT_THAT(text.cells[1].toStdString(), HasSubstr("MΩ"));
+}
+
+TEST(RecordTable, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
+    RecordProperty("hazard", "H9");
+    const Json rows = {{{"v", {{"mean", 40.12}, {"sd", 0.46}}},
+                        {"share", {{"value", 0.99}, {"low", 0.946}, {"high", 0.998}}},
+                        {"verdict", "not evaluated"},
+                        {"load", "200 ohm + 10 kohm || 50 nF"},
+                        {"set", "fda-pms"},
+                        {"offset", 80.1807e-6},
+                        {"gain", 0.5},
+                        {"flag", true}}};
+    const auto cell = [&](const RecordColumn& column) { return columnText(column, rows).cells.first().toStdString(); };
+    EXPECT_EQ(cell({"V", "v", As::Number, "V"}), "40.12 ± 0.46");
+    EXPECT_THAT(cell({"S", "share", As::Share}), HasSubstr("94.6"));
+    EXPECT_EQ(cell({"V", "verdict", As::Verdict}), "○ not evaluated");
+    EXPECT_EQ(cell({"L", "load", As::Load}), "200\u00a0Ω + 10\u00a0kΩ ∥ 50\u00a0nF");
+    EXPECT_EQ(cell({"S", "set", As::LimitSet}), "FDA guidance");
+    EXPECT_EQ(limitSetTitle("gate"), "this program");
+    EXPECT_EQ(cell({"T", "offset", As::Tolerance, "A"}), "80\u202fµA") << "two digits of 80.1807 µA";
+    EXPECT_EQ(cell({"T", "gain", As::Tolerance, "%"}), "0.5\u202f%");
+    EXPECT_EQ(cell({"T", "none", As::Tolerance, "%"}), "–");
+    EXPECT_EQ(cell({"F", "flag", As::YesNo}), "yes");
+    for (const auto as : {As::Number, As::Share, As::Verdict, As::Text}) EXPECT_EQ(cell({"M", "a.b", as}), "–");
+    const auto unknown = columnText({"V", "value", As::Number, "V", "u"}, Json{{{"value", 1.5}, {"u", nullptr}}});
+    EXPECT_THAT(unknown.cells.first().toStdString(), HasSubstr("U unknown"));
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,42 @@
+// Reports drawn by a child process.
+#include <fstream>
+#include <gmock/gmock.h>
+
+#include "app/gui/runner/ReportMaker.h"
+#include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ReportMaker, TellsWhyThereIsNoReport) {
+    gui::ReportMaker maker;
+    QString why;
+    QObject::connect(&maker, &gui::ReportMaker::failed, [&](const QString& said) { why = said; });
+    maker.make("/nowhere/at/all.tacto", "/tmp/never.pdf");
+    EXPECT_TRUE(maker.busy());
+    ASSERT_IN_TIME(comesTrue([&] { return !why.isEmpty(); }, 30'000));
+    EXPECT_THAT(why.toStdString(), HasSubstr("/nowhere/at/all.tacto"));
+    EXPECT_FALSE(maker.busy());
+}
+
+TEST(ReportMaker, CancelEndsItAndSaysSo) {
+    gui::ReportMaker maker;
+    QStringList said;
+    QObject::connect(&maker, &gui::ReportMaker::failed, [&](const QString& why) { said << why; });
+    const QTemporaryDir folder;
+    const auto half = folder.filePath("never.pdf.AbCdEf");
+    std::ofstream(half.toStdString()) << "half a report";
+    maker.make("/nowhere/at/all.tacto", folder.filePath("never.pdf"));
+    maker.make("/nowhere/at/all.tacto", folder.filePath("never.html"));
+    maker.cancel();
+    EXPECT_FALSE(QFileInfo::exists(half));
+    EXPECT_FALSE(maker.busy());
+    ASSERT_EQ(said.size(), 1);
+    EXPECT_THAT(said.first().toStdString(), HasSubstr("cancelled"));
+}
+
+}  // namespace
+}  // namespace tacto::test

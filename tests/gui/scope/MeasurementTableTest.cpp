@@ -1,0 +1,176 @@
+// What the oscilloscope reads of its captures: the readings chosen, their statistics, and the table of them.
+#include <QSettings>
+#include <QTableWidget>
+#include <gmock/gmock.h>
+
+#include "app/gui/scope/MeasurementTable.h"
+#include "app/report/NumberText.h"
+#include "tests/gui/Person.h"
+#include "tests/gui/scope/Captures.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(MeasurementTable, ShowsWhatCoreMeasures) {
+    const auto shown = prepared(twoPulses());
+    gui::ChosenReadings chosen;
+    for (const auto reading : gui::allReadings()) chosen.choose(reading, true);
+    gui::MeasurementTable table(chosen);
+    table.resize(1000, 420);
+    table.show();
+    table.add(shown);
+    const auto& volts = table.statistics().channels()[0];
+    const auto& truth = shown->measurement[0];
+    const auto same = [&](gui::Reading reading, const Statistics& expected) {
+        const auto& its = volts.of(reading);
+        EXPECT_EQ(its.n(), expected.n);
+        EXPECT_NEAR(its.mean(), expected.mean, 1e-12 + 1e-9 * std::abs(expected.mean));
+        EXPECT_NEAR(its.min(), expected.min, 1e-12);
+        EXPECT_NEAR(its.max(), expected.max, 1e-12);
+        if (expected.n > 1) {
+            EXPECT_NEAR(its.sd(), expected.sd, 1e-9 + 1e-6 * expected.sd);
+        }
+    };
+    same(gui::Reading::Amplitude, truth.amplitude);
+    same(gui::Reading::Width, truth.width_s);
+    same(gui::Reading::Interval, truth.interval_s);
+    same(gui::Reading::Rise, truth.rise_s);
+    same(gui::Reading::Fall, truth.fall_s);
+    same(gui::Reading::Overshoot, truth.overshoot);
+    same(gui::Reading::Droop, truth.droop);
+    same(gui::Reading::Charge, truth.charge);
+    same(gui::Reading::Gap, truth.gap_s);
+    same(gui::Reading::Imbalance, truth.imbalance);
+    EXPECT_EQ(volts.of(gui::Reading::Pulses).last(), 2);
+    EXPECT_EQ(volts.of(gui::Reading::Interval).n(), 1U);
+    const auto one = [&](gui::Reading reading, double expected) {
+        EXPECT_EQ(volts.of(reading).n(), 1U);
+        EXPECT_EQ(volts.of(reading).last(), expected);
+    };
+    one(gui::Reading::PeakToPeak, shown->waveforms[0].peakToPeak);
+    one(gui::Reading::Rms, shown->waveforms[0].rms);
+    one(gui::Reading::Mean, shown->waveforms[0].mean);
+    one(gui::Reading::Frequency, shown->waveforms[0].frequency_hz);
+    one(gui::Reading::Duty, shown->waveforms[0].duty);
+    EXPECT_NEAR(volts.of(gui::Reading::SecondAmplitude).mean(), 40, 0.1);
+    EXPECT_NEAR(volts.of(gui::Reading::SecondWidth).mean(), 200e-6, 1e-6);
+
+    // A row for each reading; for each channel the last value, mean, deviation, extremes and n.
+    const auto* cells = table.findChild<QTableWidget*>("measurements");
+    ASSERT_EQ(cells->rowCount(), int(gui::kReadings));
+    ASSERT_EQ(cells->columnCount(), 1 + 2 * 6);
+    EXPECT_EQ(cells->horizontalHeaderItem(1)->text(), "Voltage");
+    EXPECT_EQ(cells->horizontalHeaderItem(7)->text(), "Current");
+    EXPECT_EQ(cells->item(0, 0)->text(), "Amplitude");
+    EXPECT_EQ(cells->item(0, 1)->text(), quantityText(truth.amplitude.mean, "V"));
+    EXPECT_EQ(cells->item(0, 7)->text(), quantityText(shown->measurement[1].amplitude.mean, "A"));
+    const int interval = static_cast<int>(gui::Reading::Interval), charge = static_cast<int>(gui::Reading::Charge);
+    EXPECT_EQ(cells->item(interval, 3)->text(), "–") << "one interval has no deviation";
+    EXPECT_EQ(cells->item(charge, 1)->text(), "–") << "a voltage has no charge";
+    EXPECT_THAT(cells->item(charge, 1)->toolTip().toStdString(), HasSubstr("current"));
+    EXPECT_TRUE(cells->item(charge, 7)->text().endsWith("µC"));
+    shot(table, "table");
+
+    auto tired = std::make_shared<gui::ShownCapture>(*prepared(twoPulses(100, 20)));
+    tired->warnings = {"channel 'voltage' is tired"};
+    tired->follows = false;
+    table.add(tired);
+    EXPECT_EQ(table.statistics().captures(), 2U);
+    EXPECT_EQ(volts.of(gui::Reading::Interval).n(), 2U) << "each capture's own";
+    EXPECT_EQ(volts.of(gui::Reading::Amplitude).n(), 4U);
+    EXPECT_NEAR(volts.of(gui::Reading::Amplitude).last(), 20, 0.1);
+    EXPECT_NEAR(volts.of(gui::Reading::Amplitude).mean(), 30, 0.1);
+    EXPECT_NE(find<QLabel>(table, "Channel 'voltage' is tired."), nullptr);
+    click(*find<QPushButton>(table, "Reset statistics"));
+    EXPECT_EQ(table.statistics().captures(), 0U);
+}
+
+TEST(Reading, NetChargeAndEnergyAreTheCurrentsWhereOneVoltageGoesWithIt) {
+    const auto shown = prepared(twoPulses());
+    const auto energy = readingsOf(gui::Reading::Energy, *shown, 1);
+    ASSERT_EQ(energy.size(), 2U);
+    for (const double joules : energy) EXPECT_NEAR(joules, 2 * 40 * 40e-3 * 200e-6, 10e-6);
+    const auto net = readingsOf(gui::Reading::NetCharge, *shown, 1);
+    ASSERT_EQ(net.size(), 2U);
+    for (const double coulombs : net) EXPECT_NEAR(coulombs, 0, 0.01 * 8e-6);
+    EXPECT_EQ(readingText(gui::Reading::Energy, 640e-6, "A"), "640.0\u202fµJ");
+    EXPECT_TRUE(readingsOf(gui::Reading::Energy, *shown, 0).empty());
+    EXPECT_EQ(whyMissing(gui::Reading::Energy, *shown, 0), "Energy is shown on the current channel.");
+    auto three = twoPulses();
+    three.channels.push_back(three.channels.front());
+    three.channels.back().name = "voltage 2";
+    const auto unclear = prepared(std::move(three));
+    EXPECT_TRUE(readingsOf(gui::Reading::Energy, *unclear, 1).empty());
+    EXPECT_TRUE(whyMissing(gui::Reading::Energy, *unclear, 1).contains("one channel in V and one in A"));
+}
+
+TEST(CaptureStatistics, IntervalsRunFromCaptureToCaptureWhereNoneWasLeftOut) {
+    gui::CaptureStatistics statistics;
+    const auto onePulse = [](double at_s, bool follows = true) {
+        std::vector<SyntheticPhase> phases;
+        append(phases, biphasic(at_s));
+        SyntheticRecord record;
+        record.start_s = at_s - 1e-3;
+        auto capture = recordOf(phases, record);
+        capture.trigger_s = at_s;
+        auto shown = std::make_shared<gui::ShownCapture>(*prepared(std::move(capture)));
+        shown->follows = follows;
+        return shown;
+    };
+    const auto interval = [&] { return statistics.channels()[0].of(gui::Reading::Interval); };
+    statistics.add(*onePulse(10));
+    EXPECT_EQ(interval().n(), 0U);
+    statistics.add(*onePulse(10.5));
+    EXPECT_EQ(interval().n(), 1U);
+    EXPECT_NEAR(interval().last(), 0.5, 1e-7);
+    statistics.add(*onePulse(11.1));
+    EXPECT_NEAR(interval().mean(), 0.55, 1e-7);
+    EXPECT_NEAR(interval().max(), 0.6, 1e-7);
+    statistics.add(*onePulse(13, false));
+    EXPECT_EQ(interval().n(), 2U) << "one was left out: nothing is known of what lay between";
+    EXPECT_TRUE(std::isnan(interval().last()));
+    statistics.breakOff();
+    statistics.add(*onePulse(14));
+    EXPECT_EQ(interval().n(), 2U);
+    auto clipped = std::make_shared<gui::ShownCapture>(*onePulse(15));
+    clipped->measurement[0].pulses[0].flags.clipped = true;
+    clipped->measurement[0].trains.clear();
+    statistics.add(*clipped);
+    statistics.add(*onePulse(16));
+    EXPECT_EQ(interval().n(), 2U) << "a train that was seen and not measured lay between";
+}
+
+TEST(ChosenReadings, AreAddedRemovedAndRemembered) {
+    gui::ChosenReadings chosen;
+    QSignalSpy changed(&chosen, &gui::ChosenReadings::changed);
+    EXPECT_TRUE(chosen.has(gui::Reading::Amplitude));
+    EXPECT_FALSE(chosen.has(gui::Reading::Rms));
+    chosen.choose(gui::Reading::Rms, true);
+    chosen.choose(gui::Reading::Amplitude, false);
+    chosen.choose(gui::Reading::Amplitude, false);
+    EXPECT_EQ(changed.count(), 2);
+    QSettings settings(QDir::temp().filePath("tacto-readings.ini"), QSettings::IniFormat);
+    settings.clear();
+    chosen.save(settings);
+    gui::ChosenReadings next;
+    next.restore(settings);
+    EXPECT_EQ(next.all(), chosen.all());
+    settings.setValue("readings", QStringList{"nonsense", "", "duty", "duty"});
+    next.restore(settings);
+    EXPECT_THAT(next.all(), ElementsAre(gui::Reading::Duty));
+    settings.setValue("readings", "nonsense");
+    next.restore(settings);
+    EXPECT_THAT(next.all(), ElementsAre(gui::Reading::Duty)) << "nothing was chosen there";
+    std::set<QString> keys;
+    for (const auto reading : gui::allReadings()) {
+        keys.insert(gui::nameOf(reading).key);
+        EXPECT_EQ(gui::readingOfKey(gui::nameOf(reading).key), reading);
+    }
+    EXPECT_EQ(keys.size(), gui::kReadings);
+}
+
+}  // namespace
+}  // namespace tacto::test

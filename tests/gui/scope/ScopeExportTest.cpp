@@ -1,0 +1,111 @@
+// Pictures and data that leave the oscilloscope as files.
+#include <QFile>
+#include <QImage>
+#include <QTemporaryDir>
+#include <gmock/gmock.h>
+
+#include "app/gui/scope/ScopeExport.h"
+#include "app/gui/scope/ScopePicture.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "core/formats/csv/CsvFormat.h"
+#include "core/measure/CaptureFile.h"
+#include "tests/gui/scope/Captures.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Exports : public testing::Test {
+protected:
+    Exports() {
+        screen.resize(900, 500);
+        screen.QWidget::show();
+        gui::MathOptions math;
+        math.power = true;
+        model.show(prepared(twoPulses(), math));
+    }
+    QByteArray bytes(const QString& path) {
+        QFile file(path);
+        return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+    }
+    QTemporaryDir folder;
+    gui::ScopeModel model;
+    gui::ScopeScreen screen{model};
+};
+
+TEST_F(Exports, PicturesOfEveryKind) {
+    const auto png = folder.filePath("a.png"), svg = folder.filePath("a.svg"), pdf = folder.filePath("a.pdf");
+    for (const auto& path : {png, svg, pdf}) ASSERT_EQ(gui::savePicture(screen, path), std::nullopt);
+    EXPECT_EQ(QImage(png).size(), screen.size() * 2);
+    const auto drawing = QString::fromUtf8(bytes(svg));
+    EXPECT_TRUE(drawing.startsWith("<?xml"));
+    EXPECT_TRUE(drawing.contains("Voltage (V)"));
+    EXPECT_FALSE(drawing.contains("<image")) << "a drawing, not a picture";
+    EXPECT_TRUE(bytes(pdf).startsWith("%PDF"));
+    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty()) {
+        for (const auto& path : {png, svg, pdf}) {
+            QFile::remove(shots + "/export." + QFileInfo(path).suffix());
+            QFile::copy(path, shots + "/export." + QFileInfo(path).suffix());
+        }
+    }
+}
+
+TEST_F(Exports, APictureSaysWhatItShows) {
+    auto averaged = std::make_shared<gui::ShownCapture>(*model.shown());
+    averaged->averaged = 16;
+    model.show(averaged);
+    gui::ScopeCaption caption{"Oscilloscope · simulated", "2026-11-23 19:00:00", {}};
+    caption.lines << "simulated oscilloscope SIM-1" << gui::scalesText(model) << QString() << "V:  Amplitude 40.0 V";
+    const auto path = folder.filePath("said.svg");
+    ASSERT_EQ(gui::saveScopePicture(model, screen, caption, path), std::nullopt);
+    const auto drawing = QString::fromUtf8(bytes(path));
+    for (const auto* text :
+         {"Oscilloscope · simulated", "2026-11-23 19:00:00", "simulated oscilloscope SIM-1", "V/div", "1\u202fms/div",
+          "20000 samples at 2\u202fMHz", "averaged 16", "Amplitude 40.0 V", "SIMULATED", "Voltage (V)"}) {
+        EXPECT_TRUE(drawing.contains(text)) << text;
+    }
+    const auto picture = gui::scopePicture(model, screen, caption);
+    EXPECT_EQ(picture.width(), 2 * screen.width());
+    EXPECT_GT(picture.height(), 2 * screen.height() + 100) << "the caption takes nothing from the plot";
+    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
+        picture.save(shots + "/captioned.png");
+}
+
+TEST_F(Exports, AFileThatCannotBeWrittenIsToldAndAnOldOneStays) {
+    const auto wrong = gui::savePicture(screen, folder.filePath("missing/a.png"));
+    ASSERT_TRUE(wrong);
+    EXPECT_THAT(wrong->toStdString(), HasSubstr("was not saved"));
+    EXPECT_THAT(gui::savePicture(screen, folder.filePath("a.bmp"))->toStdString(), HasSubstr(".png, .svg or .pdf"));
+    const auto csv = gui::saveData(*model.shown(), 0, 1e9, folder.filePath("missing/a.csv"));
+    ASSERT_TRUE(csv);
+    EXPECT_THAT(csv->toStdString(), HasSubstr("as it was"));
+}
+
+TEST_F(Exports, TheVisibleDataReadBackAsACapture) {
+    const auto path = folder.filePath("part.csv");
+    QFile other(path + ".part");
+    ASSERT_TRUE(other.open(QIODevice::WriteOnly) && other.write("somebody's work") > 0);
+    other.close();
+    const double zero = model.shown()->zero_s;
+    ASSERT_EQ(gui::saveData(*model.shown(), zero - 0.5e-3, zero + 1.5e-3, path), std::nullopt);
+    const auto read = readCapture(path.toStdString());
+    ASSERT_TRUE(read) << read.error().message;
+    const auto& capture = read->capture;
+    EXPECT_EQ(capture.samples(), 4000U);
+    EXPECT_NEAR(capture.rate_hz, 2e6, 1);
+    EXPECT_NEAR(capture.start_s, zero - 0.5e-3, 1e-6);
+    ASSERT_EQ(capture.channels.size(), 3U);
+    EXPECT_EQ(capture.channels[0].name, "voltage");
+    EXPECT_EQ(capture.channels[1].unit, "A");
+    EXPECT_EQ(capture.channels[2].name, "power_w");
+    for (std::size_t i = 0; i < 4000; i += 13) {
+        EXPECT_EQ(capture.channels[0].samples[i], model.shown()->capture->channels[0].samples[1000 + i]);
+    }
+    EXPECT_EQ(QFileInfo(path + ".part").size(), 15) << "of another name, and not ours";
+    EXPECT_EQ(QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot).size(), 2);
+    EXPECT_TRUE(gui::saveData(*model.shown(), 0, 1, path)) << "nothing on the screen is not saved";
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,90 @@
+// The spectrum of a trace: frequencies, levels and peaks of sines with a known truth.
+#include <QCheckBox>
+#include <QComboBox>
+#include <gmock/gmock.h>
+
+#include "app/gui/scope/SpectrumPanel.h"
+#include "core/base/Random.h"
+#include "tests/gui/Person.h"
+#include "tests/gui/scope/Captures.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(SpectrumPanel, EachWindowReadsASineRightAndNamesItsPeaks) {
+    auto samples = std::make_shared<std::vector<float>>();
+    // 1 kHz and 2.5 kHz on lines of 8192 samples, some noise.
+    constexpr double kRate = 81'920;
+    Random random(3, "spectrum");
+    for (int i = 0; i < 8192; ++i) {
+        const double t = i / kRate;
+        samples->push_back(static_cast<float>(2 * std::sqrt(2.0) * std::sin(2 * M_PI * 1000 * t) +
+                                              0.1 * std::sqrt(2.0) * std::sin(2 * M_PI * 2500 * t) +
+                                              1e-4 * random.normal()));
+    }
+    const auto trace = gui::makeTrace("channel/voltage", "Voltage", "V", samples, kRate, 0, 0);
+    gui::SpectrumPanel panel;
+    panel.resize(900, 260);
+    panel.QWidget::show();
+    auto* window = find<QComboBox>(panel, "Window of the spectrum");
+    ASSERT_EQ(window->count(), 4);
+    const double bandwidths[] = {1.5, 3.77, 2.0, 1.0};
+    for (int i = 0; i < 4; ++i) {
+        window->setCurrentIndex(i);
+        panel.show(trace, 0, 1, Qt::blue);
+        const auto& s = panel.spectrum();
+        ASSERT_GE(s.peaks.size(), 2U) << i;
+        EXPECT_NEAR(s.peaks[0].hz, 1000, 1) << i;
+        EXPECT_NEAR(s.peaks[0].rms, 2, 2e-3) << i;
+        EXPECT_NEAR(s.peaks[1].hz, 2500, 1) << i;
+        EXPECT_NEAR(s.peaks[1].rms, 0.1, 1e-3) << i;
+        EXPECT_NEAR(s.bandwidth_hz, 10 * bandwidths[i], 0.1) << i;
+    }
+    window->setCurrentIndex(0);
+    for (const bool log : {false, true}) {
+        find<QCheckBox>(panel, "Log frequency")->setChecked(log);
+        panel.show(trace, 0, 1, Qt::blue);
+        QCoreApplication::processEvents();
+        panel.findChild<QCustomPlot*>()->replot(QCustomPlot::rpImmediateRefresh);
+        const auto named = panel.namedPeaks();
+        ASSERT_GE(named.size(), 1);
+        EXPECT_EQ(named.first(), "1.000\u202fkHz · 2.00\u202fV");
+        shot(panel, log ? "spectrum-log" : "spectrum-linear");
+    }
+    QSettings settings(QDir::temp().filePath("tacto-spectrum.ini"), QSettings::IniFormat);
+    window->setCurrentIndex(1);
+    panel.save(settings);
+    gui::SpectrumPanel next;
+    next.restore(settings);
+    EXPECT_EQ(next.window(), SpectralWindow::FlatTop);
+    EXPECT_TRUE(next.logarithmic());
+}
+
+TEST(SpectrumPanel, ASineStandsAtItsFrequencyWithItsRms) {
+    auto samples = std::make_shared<std::vector<float>>();
+    for (int i = 0; i < 10'000; ++i) {
+        samples->push_back(static_cast<float>(3 + 2 * std::sqrt(2.0) * std::sin(2 * M_PI * 1000 * i / 100e3)));
+    }
+    const auto trace = gui::makeTrace("channel/voltage", "Voltage", "V", samples, 100e3, 5, 5);
+    gui::SpectrumPanel panel;
+    panel.resize(800, 250);
+    panel.QWidget::show();
+    panel.show(trace, 5, 5.1, Qt::blue);
+    const auto& s = panel.spectrum();
+    EXPECT_EQ(s.samples, 8192U);
+    const auto top = static_cast<std::size_t>(std::max_element(s.rms.begin(), s.rms.end()) - s.rms.begin());
+    EXPECT_NEAR(s.hz[top], 1000, 100e3 / 8192);
+    EXPECT_NEAR(s.rms[top], 2, 0.3) << "scalloping of a Hann window is at most 15 %";
+    QCoreApplication::processEvents();
+    shot(panel, "spectrum");
+    auto holed = std::make_shared<std::vector<float>>(*samples);
+    (*holed)[5000] = NAN;
+    panel.show(gui::makeTrace("channel/voltage", "Voltage", "V", holed, 100e3, 5, 5), 5, 5.1, Qt::blue);
+    EXPECT_TRUE(panel.spectrum().rms.empty());
+    EXPECT_THAT(panel.spectrum().note.toStdString(), HasSubstr("missing"));
+}
+
+}  // namespace
+}  // namespace tacto::test

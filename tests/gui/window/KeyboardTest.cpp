@@ -1,0 +1,235 @@
+// Without a mouse: Tab reaches every control of the window and of its dialogs and comes round, the focus is seen, and
+// F1 explains what has it.
+#include <QAbstractButton>
+#include <QAbstractSpinBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QRadioButton>
+#include <QTextBrowser>
+#include <QWhatsThis>
+#include <gmock/gmock.h>
+#include <set>
+
+#include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
+
+namespace tacto::test {
+namespace {
+
+constexpr int kWorkspaces = 7;
+
+std::string nameOf(const QWidget& widget) {
+    return (QString(widget.metaObject()->className()) + " " + widget.objectName() + " \"" + widget.accessibleName() +
+            "\"")
+        .toStdString();
+}
+
+/// What a person works: buttons and fields that Tab should reach by themselves. Of radio buttons the group is reached;
+/// a box's own field has its focus.
+std::vector<QWidget*> controlsOf(const QWidget& in) {
+    std::vector<QWidget*> controls;
+    for (auto* control : in.findChildren<QWidget*>()) {
+        const bool works = qobject_cast<QAbstractButton*>(control) || qobject_cast<QComboBox*>(control) ||
+                           qobject_cast<QLineEdit*>(control) || qobject_cast<QAbstractSpinBox*>(control);
+        if (!works || !control->isVisible() || !control->isEnabled() || control->window() != in.window()) continue;
+        if ((control->focusPolicy() & Qt::TabFocus) == 0) continue;
+        if (qobject_cast<QRadioButton*>(control) || control->focusProxy() != nullptr ||
+            qobject_cast<QAbstractSpinBox*>(control->parentWidget()) ||
+            qobject_cast<QComboBox*>(control->parentWidget()))
+            continue;
+        controls.push_back(control);
+    }
+    return controls;
+}
+
+class Keyboard : public Window {
+protected:
+    /// Presses Tab from `first` until it comes round, and shows each widget on the way to `look`.
+    static std::set<const QWidget*> tabFrom(
+        QWidget& first, const std::function<void(QWidget&)>& look = [](QWidget&) {}) {
+        first.setFocus(Qt::TabFocusReason);
+        std::set<const QWidget*> reached;
+        const QWidget* before = nullptr;
+        constexpr int kMostPresses = 300;
+        for (int i = 0; i < kMostPresses; ++i) {
+            auto* at = QApplication::focusWidget();
+            if (at == nullptr) {
+                ADD_FAILURE() << "Tab leads nowhere from " << (before != nullptr ? nameOf(*before) : "the start");
+                return reached;
+            }
+            const bool amongLinks = at == before && qobject_cast<QTextBrowser*>(at) != nullptr;
+            if (!amongLinks && !reached.insert(at).second) {
+                EXPECT_EQ(at, &first) << "Tab does not leave " << nameOf(*at);
+                return reached;
+            }
+            EXPECT_TRUE(at->isVisible() && at->isEnabled()) << nameOf(*at);
+            if (!amongLinks) look(*at);
+            before = at;
+            QTest::keyClick(at, Qt::Key_Tab);
+        }
+        ADD_FAILURE() << "Tab does not come round";
+        return reached;
+    }
+    static void expectAllReached(const QWidget& in, const std::set<const QWidget*>& reached) {
+        for (const auto* control : controlsOf(in)) EXPECT_TRUE(reached.contains(control)) << nameOf(*control);
+    }
+    /// QTest takes a dialog for active where its parent is.
+    static void activate(QWidget& top) {
+        top.activateWindow();
+        ASSERT_IN_TIME(comesTrue([&] { return QApplication::activeWindow() == &top; }));
+    }
+    void show(int workspace) {
+        window.showWorkspace(workspace);
+        QTest::qWait(100);  // laid out, and drawn once
+    }
+    [[nodiscard]] QPushButton& stopButton() { return *window.findChild<QPushButton*>("stopButton"); }
+    [[nodiscard]] QDialog* visibleDialog() {
+        for (auto* dialog : window.findChildren<QDialog*>()) {
+            if (dialog->isVisible()) return dialog;
+        }
+        return nullptr;
+    }
+    /// Opens a dialog by its place in the menus.
+    void choose(const QString& menu, const QString& entry) {
+        for (auto* action : window.menuBar()->actions()) {
+            if (action->text().remove('&') != menu) continue;
+            emit action->menu()->aboutToShow();
+            for (auto* found : action->menu()->actions()) {
+                if (found->text().remove('&') == entry) return found->trigger();
+            }
+        }
+        ADD_FAILURE() << "no entry " << entry.toStdString();
+    }
+};
+
+TEST_F(Keyboard, TabReachesEveryControlOfEveryWorkspaceAndComesRound) {
+    open();
+    for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
+        SCOPED_TRACE(workspace);
+        show(workspace);
+        expectAllReached(window, tabFrom(stopButton()));
+    }
+}
+
+TEST_F(Keyboard, TabReachesEveryControlOfADialogAndComesRound) {
+    open();
+    const std::pair<const char*, std::function<void()>> dialogs[] = {
+        {"Keys", [this] { choose("Help", "Keys"); }},
+        {"Definitions and limits", [this] { choose("Help", "Definitions and limits"); }},
+        {"Messages", [this] { choose("View", "Messages"); }},
+        {"Operator and sample", [this] { choose("Bench", "Operator and sample…"); }},
+        {"second step of arming",
+         [this] {
+             auto* first = window.findChild<QPushButton*>("armButton");
+             ASSERT_IN_TIME(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
+             click(*first);
+         }},
+    };
+    for (const auto& [name, opens] : dialogs) {
+        SCOPED_TRACE(name);
+        opens();
+        ASSERT_IN_TIME(comesTrue([this] { return visibleDialog() != nullptr; }));
+        auto* dialog = visibleDialog();
+        ASSERT_NO_FATAL_FAILURE(activate(*dialog));
+        const auto controls = controlsOf(*dialog);
+        ASSERT_FALSE(controls.empty()) << "not even a way to close it";
+        expectAllReached(*dialog, tabFrom(*controls.front()));
+        dialog->close();
+        ASSERT_IN_TIME(comesTrue([this] { return visibleDialog() == nullptr; }));
+        ASSERT_NO_FATAL_FAILURE(activate(window));
+    }
+}
+
+/// On a closed bench, where nothing moves by itself.
+TEST_F(Keyboard, TheFocusIsSeen) {
+    ASSERT_NO_FATAL_FAILURE(activate(window));
+    stopButton().setFocus();
+    QTest::keyClick(&stopButton(), Qt::Key_Tab);  // before the first Tab Qt takes the mouse for what is used
+    for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
+        SCOPED_TRACE(workspace);
+        show(workspace);
+        QWidget* before = nullptr;
+        QImage focused;
+        std::size_t seen = 0;
+        const auto around = [this](const QWidget& widget) {
+            constexpr int kFrame = 4;
+            return QRect(widget.mapTo(&window, QPoint()), widget.size()).adjusted(-kFrame, -kFrame, kFrame, kFrame);
+        };
+        const auto controls = controlsOf(window);
+        tabFrom(stopButton(), [&](QWidget& at) {
+            if (before != nullptr) {
+                EXPECT_NE(window.grab(around(*before)).toImage(), focused) << nameOf(*before);
+                ++seen;
+            }
+            before = nullptr;
+            if (std::ranges::find(controls, &at) == controls.end()) return;
+            before = &at;
+            focused = window.grab(around(at)).toImage();
+        });
+        EXPECT_GE(seen, 5U);
+    }
+}
+
+TEST_F(Keyboard, F1ExplainsWhateverHasTheFocus) {
+    const auto explanation = []() -> QWidget* {
+        for (auto* widget : QApplication::topLevelWidgets()) {
+            if (widget->isVisible() && widget->inherits("QWhatsThat")) return widget;
+        }
+        return nullptr;
+    };
+    const auto pictureOf = [&] {
+        EXPECT_IN_TIME(comesTrue([&] { return explanation() != nullptr; }));
+        const auto picture = explanation() != nullptr ? explanation()->grab().toImage() : QImage();
+        QWhatsThis::hideText();
+        return picture;
+    };
+    open();
+    for (const char* own : {"stopButton", "armButton"}) {
+        const auto* button = window.findChild<QPushButton*>(own);
+        EXPECT_FALSE(button->toolTip().isEmpty() && button->whatsThis().isEmpty()) << own;
+    }
+    std::size_t explained = 0;
+    for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
+        SCOPED_TRACE(workspace);
+        show(workspace);
+        std::vector<QWidget*> reached;
+        tabFrom(stopButton(), [&](QWidget& at) { reached.push_back(&at); });
+        for (auto* at : reached) {
+            if (!at->isVisible() || !at->isEnabled()) continue;
+            at->setFocus(Qt::TabFocusReason);
+            // A part that says nothing of itself is explained by what it is a part of.
+            const QWidget* says = at;
+            while (says != nullptr && says->toolTip().isEmpty() && says->whatsThis().isEmpty())
+                says = says->parentWidget();
+            if (says == nullptr) continue;
+            const auto words = says->whatsThis().isEmpty() ? says->toolTip() : says->whatsThis();
+            key(Qt::Key_F1);
+            const auto shown = pictureOf();
+            QWhatsThis::showText(window.mapToGlobal(QPoint(50, 50)), words, at);
+            EXPECT_EQ(shown, pictureOf()) << nameOf(*at) << " should say \"" << words.toStdString() << '"';
+            ++explained;
+        }
+    }
+    RecordProperty("explained", static_cast<int>(explained));
+    EXPECT_GE(explained, 60U);
+}
+
+TEST_F(Keyboard, WhateverTabReachesSaysWhatItIs) {
+    open();
+    for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
+        SCOPED_TRACE(workspace);
+        show(workspace);
+        tabFrom(stopButton(), [](const QWidget& at) {
+            const QWidget* says = &at;
+            while (says != nullptr && says->toolTip().isEmpty() && says->whatsThis().isEmpty())
+                says = says->parentWidget();
+            EXPECT_NE(says, nullptr) << nameOf(at) << ": F1 says that nothing has the focus";
+        });
+    }
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,102 @@
+// The pictures of the tree are of the tree: architecture.md lists the folders of core, drivers and app, and
+// CONTRIBUTING.md draws them.
+#include <fstream>
+#include <gmock/gmock.h>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "tests/support/Support.h"
+
+namespace tacto {
+namespace {
+
+namespace fs = std::filesystem;
+using Folders = std::map<std::string, std::set<std::string>>;  // what lies in which
+
+std::string documentText(const fs::path& file) {
+    std::ifstream in(test::sourceDir() / file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::set<std::string> foldersIn(const fs::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(test::sourceDir() / folder))
+        if (entry.is_directory()) names.insert(entry.path().filename());
+    return names;
+}
+
+Folders foldersOfTheTree() {
+    Folders tree;
+    for (const char* top : {"core", "drivers", "app"}) tree[top] = foldersIn(top);
+    return tree;
+}
+
+/// "core/        what it is" begins a folder; "  usb/, system/  what they are" names some within it.
+Folders listedIn(const std::string& document) {
+    static const std::regex top(R"(^(\w+)/ +.*$)"), within(R"(^  (\w+/(?:, \w+/)*) +.*$)"), name(R"(\w+)");
+    Folders listed;
+    std::string current;
+    std::istringstream lines(document);
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch found;
+        if (std::regex_match(line, found, top)) {
+            current = found[1];
+        } else if (line.starts_with("```")) {
+            current.clear();
+        } else if (!current.empty() && std::regex_match(line, found, within)) {
+            const auto names = found[1].str();
+            for (std::sregex_iterator i(names.begin(), names.end(), name), end; i != end; ++i)
+                listed[current].insert(i->str());
+        }
+    }
+    return listed;
+}
+
+/// " core   │ safety   analysis: a library each │ what they are": rows of boxes; the first of a top folder names it.
+Folders drawnIn(const std::string& document) {
+    static const std::string side = "│";
+    static const std::regex box(R"((\w+)(?:: \w+(?: \w+)*)?)"), word(R"(\w+)");
+    Folders drawn;
+    std::string current;
+    std::istringstream lines(document);
+    for (std::string line; std::getline(lines, line);) {
+        const auto left = line.find(side);
+        if (left == std::string::npos) continue;
+        const auto right = line.find(side, left + side.size());
+        if (right == std::string::npos) continue;
+        std::smatch found;
+        const auto margin = line.substr(0, left), row = line.substr(left + side.size(), right - left - side.size());
+        if (std::regex_search(margin, found, word)) current = found[0];
+        for (std::sregex_iterator i(row.begin(), row.end(), box), end; i != end; ++i) drawn[current].insert((*i)[1]);
+    }
+    return drawn;
+}
+
+TEST(Folders, ArchitectureListsThem) {
+    const auto document = documentText("resources/design/architecture.md");
+    auto listed = listedIn(document);
+    for (const auto& [top, folders] : foldersOfTheTree()) EXPECT_EQ(listed[top], folders) << top;
+
+    static const std::regex analyses(R"(\n  analysis/ .*: ([\w, ]+)\n)"), name(R"(\w+)");
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(document, found, analyses));
+    const auto names = found[1].str();
+    std::set<std::string> said;
+    for (std::sregex_iterator i(names.begin(), names.end(), name), end; i != end; ++i) said.insert(i->str());
+    EXPECT_EQ(said, foldersIn("core/analysis"));
+}
+
+TEST(Folders, ContributingDrawsThem) { EXPECT_EQ(drawnIn(documentText("CONTRIBUTING.md")), foldersOfTheTree()); }
+
+TEST(Folders, AreReadFromTheirPictures) {
+    EXPECT_EQ(listedIn("core/  Things.\n  base/   Text\n  a/, b/  both\ndrivers/   More.\n  usb/  x\n```\n  no/  y\n"),
+              (Folders{{"core", {"base", "a", "b"}}, {"drivers", {"usb"}}}));
+    EXPECT_EQ(drawnIn(" app  │ gui   cli │ programs\n      ├──┤\n      │ run │ opens\n"
+                      " core │ analysis: a folder  dsp │\n"),
+              (Folders{{"app", {"gui", "cli", "run"}}, {"core", {"analysis", "dsp"}}}));
+}
+
+}  // namespace
+}  // namespace tacto
