@@ -77,6 +77,7 @@ Json toJson(const Study& study) {
     for (const auto& amendment : study.amendments()) amendments.push_back(toJson(amendment));
     return {{"title", settings.title},
             {"rehearsal", study.isRehearsal()},
+            {"modality", nameOf(settings.modality)},
             {"approval",
              {{"reference", approval.reference},
               {"from", dateText(approval.from)},
@@ -98,7 +99,8 @@ int show(const Study& study, const QCommandLineParser& parser) {
         return kDone;
     }
     const auto& settings = study.settings();
-    say("{}{}\n", settings.title, study.isRehearsal() ? " (rehearsal)" : "");
+    say("{}{}\n  modality {}\n", settings.title, study.isRehearsal() ? " (rehearsal)" : "",
+        nameOf(settings.modality));
     say("  approval {}, {} to {}{}\n  consent form {}\n", settings.approval.reference, dateText(settings.approval.from),
         dateText(settings.approval.expires), all["approval"]["valid"] == true ? "" : ": not valid today",
         settings.consentVersion);

@@ -31,12 +31,14 @@ bool hasRange(const SessionRecord& session) {
     return std::isfinite(session.results.low.value()) || std::isfinite(session.results.lowIntensity);
 }
 
-/// The highest current that was presented, in any part of the session.
-double highest_ma(const SessionRecord& session) {
+bool withMassager(const StudyRecord& study) { return study.settings.modality == Modality::Massager; }
+
+/// The highest current, or a massager's intensity, that was presented in any part of the session.
+double highestLevel(const SessionRecord& session, const char* key) {
     double most = kNaN;
     for (const auto& each : session.rows) {
         if (each.name != row::kTrialBegin) continue;
-        const double level = numberOr(each.body, "current_ma");
+        const double level = numberOr(each.body, key);
         if (std::isfinite(level)) most = std::isnan(most) ? level : std::max(most, level);
     }
     return most;
@@ -68,9 +70,11 @@ FactsBlock approvalFacts(const StudyRecord& study) {
                        .arg(shown(amendment.reference), shown(dateText(day)),
                             changed.isEmpty() ? QString("no setting") : changed.join(", "));
     }
+    const bool massager = withMassager(study);
     FactsBlock block;
     block.oneColumn = true;
     block.facts = {
+        {"Modality", shown(std::string(nameOf(study.settings.modality)))},
         {"Approval", shown(approval.reference)},
         {"Committee", shown(approval.committee)},
         {"From", shown(dateText(approval.from))},
@@ -82,7 +86,8 @@ FactsBlock approvalFacts(const StudyRecord& study) {
         {"Consents", given.isEmpty() ? QString("none") : given.join("; ")},
         {"Participants",
          QString("%1 enrolled of at most %2").arg(study.participants.size()).arg(study.settings.participantsMax)},
-        {"Highest current permitted", QString("%1 mA").arg(study.settings.cap_mA)}};
+        massager ? ReportFact{"Highest strength permitted", "1, the whole of the massager's"}
+                 : ReportFact{"Highest current permitted", QString("%1 mA").arg(study.settings.cap_mA)}};
     return block;
 }
 
@@ -123,18 +128,19 @@ TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& 
     const auto shared = sharedStudy(study);
     TableBlock table;
     table.caption = caption;
+    const bool massager = withMassager(study);
     table.columns = {{"Participant"},
                      {"Session", true},
                      {"Detection before a block over that before the test"},
-                     {"Trains", true},
-                     {"Stimulated (min)", true},
-                     {"Charge of leading phases (µC)", true}};
+                     {massager ? "Vibrations" : "Trains", true},
+                     {"Stimulated (min)", true}};
+    if (!massager) table.columns.push_back({"Charge of leading phases (µC)", true});
     for (const auto& participant : study.participants) {
         const auto& about = participant.about;
         for (const auto& session : participant.sessions) {
             QStringList drift;
             for (const auto& each : session.results.drift) {
-                const double ratio = each.detection_ma / session.results.detection_ma;
+                const double ratio = each.detection / session.results.detection;
                 drift << QString("block %1: %2%3")
                              .arg(each.block)
                              .arg(std::isfinite(ratio) ? QString::number(ratio, 'f', 2) : QString("–"),
@@ -143,8 +149,8 @@ TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& 
             table.rows.push_back({shown(name == ShownName::Code ? about.code : labelOf(shared, about)),
                                   QString::number(session.about.number), drift.isEmpty() ? "–" : drift.join("; "),
                                   QString::number(session.exposure.trains),
-                                  QString::number(session.exposure.stimulated_s / 60, 'f', 1),
-                                  QString::number(session.exposure.charge_uC, 'f', 1)});
+                                  QString::number(session.exposure.stimulated_s / 60, 'f', 1)});
+            if (!massager) table.rows.back() << QString::number(session.exposure.charge_uC, 'f', 1);
         }
     }
     return table;
@@ -154,17 +160,19 @@ TableBlock careTable(const StudyRecord& study, const QString& caption) {
     const auto shared = sharedStudy(study);
     TableBlock table;
     table.caption = caption;
+    const bool massager = withMassager(study);
+    const char* const highest = massager ? "Highest strength (0 to 1)" : "Highest (mA)";
     table.columns = {{"Participant"},           {"Session", true},       {"State"},
-                     {"Highest (mA)", true},    {"Presentations", true}, {"Stops by the participant", true},
+                     {highest, true},           {"Presentations", true}, {"Stops by the participant", true},
                      {"by the operator", true}, {"Faults", true},        {"Skin before", true},
                      {"Skin after", true}};
     for (const auto& participant : study.participants) {
         for (const auto& session : participant.sessions) {
-            const double most = highest_ma(session);
+            const double most = highestLevel(session, massager ? "intensity" : "current_ma");
             table.rows.push_back(
                 {shown(labelOf(shared, participant.about)), QString::number(session.about.number),
                  shown(std::string(wordFor<StudySessionState>(kStudySessionStates, session.about.state))),
-                 std::isfinite(most) ? QString::number(most, 'f', 1) : QString("–"),
+                 std::isfinite(most) ? QString::number(most, 'f', massager ? 2 : 1) : QString("–"),
                  QString::number(rowsOf(session, row::kTrialBegin)),
                  QString::number(rowsOf(session, row::kParticipantStop)),
                  QString::number(rowsOf(session, row::kOperatorStop)), QString::number(rowsOf(session, row::kFault)),

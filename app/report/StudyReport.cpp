@@ -7,11 +7,13 @@
 #include "app/report/Captions.h"
 #include "app/report/FigureDrawing.h"
 #include "app/report/StudyFlow.h"
+#include "app/report/StudyOverSessions.h"
 #include "app/report/StudyPreferences.h"
+#include "app/report/StudyText.h"
+#include "app/report/StudyVibration.h"
 #include "core/analysis/identification/Encodings.h"
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/IdentificationText.h"
-#include "core/analysis/identification/OverSessions.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {
@@ -19,19 +21,6 @@ namespace tacto {
 namespace {
 
 QString qtext(const std::string& value) { return QString::fromStdString(value); }
-
-/// "–" for what is not known.
-QString number(double value, int decimals) {
-    return std::isfinite(value) ? QString::number(value, 'f', decimals) : QString("–");
-}
-
-QString percent(const Estimate& share) {
-    if (!std::isfinite(share.value)) return "–";
-    return QString("%1 % (%2 to %3)")
-        .arg(100 * share.value, 0, 'f', 0)
-        .arg(100 * share.low, 0, 'f', 0)
-        .arg(100 * share.high, 0, 'f', 0);
-}
 
 std::vector<IdentificationTrial> trialsOf(const BidsSession& session) {
     std::vector<IdentificationTrial> trials;
@@ -80,15 +69,9 @@ double medianResponse_s(const BidsSession& session) {
     return statisticsOf(times).median;
 }
 
-/// One session with its figures.
-struct Analysed {
-    const SessionRecord* session = nullptr;
-    Identification found;
-};
-
 /// Sessions with test trials, in their order.
-Result<std::vector<Analysed>> analysed(const ParticipantRecord& participant) {
-    std::vector<Analysed> all;
+Result<std::vector<AnalysedSession>> analysed(const ParticipantRecord& participant) {
+    std::vector<AnalysedSession> all;
     for (const auto& session : participant.sessions) {
         auto found = identify(trialsOf(session.results), session.results.labels);
         if (!found) return failure(found);
@@ -105,6 +88,9 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
     content.footer =
         QString("Study %1  ·  ledger head %2…").arg(qtext(study.settings.id), qtext(study.ledgerHead).left(12));
     content.blocks.emplace_back(TitleBlock{title, subtitle});
+    if (study.settings.modality == Modality::Massager)
+        content.blocks.emplace_back(ParagraphBlock{
+            "Modality: massager. What was felt was the vibration of a motor; levels are its strength, from 0 to 1."});
     if (content.simulated) {
         content.blocks.emplace_back(ParagraphBlock{
             "SIMULATED: the participants are a model of people. These numbers say what the program does, "
@@ -113,7 +99,7 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
     return content;
 }
 
-void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const Analysed& one, const QString& caption,
+void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const AnalysedSession& one, const QString& caption,
                   bool simulated) {
     ConfusionFigure figure;
     for (const auto& label : one.found.labels) figure.labels << qtext(label);
@@ -128,10 +114,10 @@ void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const An
 QString learningText(const Identification& found) {
     if (!std::isfinite(found.learning.value)) return "cannot be determined";
     return QString("%1 (%2 to %3) in log odds per block")
-        .arg(number(found.learning.value, 2), number(found.learning.low, 2), number(found.learning.high, 2));
+        .arg(figureText(found.learning.value, 2), figureText(found.learning.low, 2), figureText(found.learning.high, 2));
 }
 
-void addFacts(std::vector<ReportBlock>& blocks, const Analysed& one) {
+void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
     const auto& found = one.found;
     FactsBlock facts;
     facts.oneColumn = true;
@@ -139,8 +125,8 @@ void addFacts(std::vector<ReportBlock>& blocks, const Analysed& one) {
                                      .arg(found.all.pChance, 0, 'g', 2)
                                      .arg(100 * found.all.chance, 0, 'f', 0)},
                    {"Information", QString("%1 bit, of which chance gives %2 bit; corrected %3 bit")
-                                       .arg(number(found.all.it_bits, 2), number(found.all.itBias_bits, 2),
-                                            number(found.all.itCorrected_bits, 2))}};
+                                       .arg(figureText(found.all.it_bits, 2), figureText(found.all.itBias_bits, 2),
+                                            figureText(found.all.itCorrected_bits, 2))}};
     for (const auto& [name, feature] :
          {std::pair{"Texture alone", &found.texture}, {"Pressure alone", &found.pressure}}) {
         if (!*feature) continue;
@@ -148,8 +134,8 @@ void addFacts(std::vector<ReportBlock>& blocks, const Analysed& one) {
         facts.facts.push_back({name, QString("%1 of %2, %3; corrected information %4 bit, d′ %5, criterion %6")
                                          .arg(figures.hits)
                                          .arg(figures.n)
-                                         .arg(percent(figures.accuracy), number(figures.itCorrected_bits, 2),
-                                              number((*feature)->dPrime, 2), number((*feature)->criterion, 2))});
+                                         .arg(shareText(figures.accuracy), figureText(figures.itCorrected_bits, 2),
+                                              figureText((*feature)->dPrime, 2), figureText((*feature)->criterion, 2))});
     }
     facts.facts.push_back({"Catch trials", QString("%1 of %2 answered with a name, exact 95 % interval up to %3 %")
                                                .arg(found.catches.falseAlarms)
@@ -157,8 +143,8 @@ void addFacts(std::vector<ReportBlock>& blocks, const Analysed& one) {
                                                .arg(100 * found.catches.rate.high, 0, 'f', 0)});
     facts.facts.push_back({"Learning over blocks", learningText(found)});
     facts.facts.push_back(
-        {"After the same condition", percent(wilsonInterval(found.afterSame.hits, found.afterSame.n))});
-    facts.facts.push_back({"After another", percent(wilsonInterval(found.afterOther.hits, found.afterOther.n))});
+        {"After the same condition", shareText(wilsonInterval(found.afterSame.hits, found.afterSame.n))});
+    facts.facts.push_back({"After another", shareText(wilsonInterval(found.afterOther.hits, found.afterOther.n))});
     facts.facts.push_back({"Precision", qtext(precisionSentence(found.all.n, found.all.chance))});
     if (found.noAnswer > 0) facts.facts.push_back({"Without an answer", QString("%1 trial(s)").arg(found.noAnswer)});
     blocks.emplace_back(std::move(facts));
@@ -187,7 +173,7 @@ void addRatings(std::vector<ReportBlock>& blocks, Captions& captions, const Bids
 }
 
 void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const std::string& name,
-                  const std::vector<Analysed>& sessions) {
+                  const std::vector<AnalysedSession>& sessions) {
     std::vector<EncodingResult> results;
     std::set<std::string> met;
     for (const auto& one : sessions) {
@@ -216,57 +202,15 @@ void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const st
                      {"Naturalness, 1 to 5", true}};
     for (const auto& each : compared.encodings) {
         table.rows.push_back({qtext(each.encoding), QString::number(each.hits), QString::number(each.n),
-                              QString::number(each.trainingBlocks), number(each.medianResponse_s, 2),
-                              number(each.naturalness, 1)});
+                              QString::number(each.trainingBlocks), figureText(each.medianResponse_s, 2),
+                              figureText(each.naturalness, 1)});
     }
     blocks.emplace_back(std::move(table));
     for (const auto& pair : compared.pairs) {
         blocks.emplace_back(
             ParagraphBlock{QString("%1 less %2: %3 percentage points (Newcombe).")
-                               .arg(qtext(pair.a), qtext(pair.b), percent(pair.difference).remove(" %"))});
+                               .arg(qtext(pair.a), qtext(pair.b), shareText(pair.difference).remove(" %"))});
     }
-}
-
-Result<void> addSessions(std::vector<ReportBlock>& blocks, Captions& captions, const std::string& name,
-                         const std::vector<Analysed>& sessions) {
-    if (sessions.size() < 2) return {};
-    std::vector<SessionFigures> figures;
-    for (const auto& one : sessions) {
-        const auto& results = one.session->results;
-        figures.push_back({.number = results.number,
-                           .days = results.days,
-                           .detection_ma = {results.detection_ma, kNaN, kNaN},
-                           .tooStrong = Milliamps(results.tooStrong_ma),
-                           .low = results.low,
-                           .high = results.high,
-                           .impedance = results.impedance,
-                           .n = one.found.all.n,
-                           .hits = one.found.all.hits,
-                           .itCorrected_bits = one.found.all.itCorrected_bits});
-    }
-    const auto compared = compareSessions(std::move(figures));
-    if (!compared) return failure(compared);
-    TableBlock table;
-    table.caption = captions.table(qtext(name) + " over sessions");
-    table.columns = {{"Session", true},    {"Day", true},     {"Detection (mA)", true}, {"Too strong (mA)", true},
-                     {"Range (mA)", true}, {"|Z| (Ω)", true}, {"Right", true},          {"Against the first", true}};
-    for (std::size_t i = 0; i < compared->sessions.size(); ++i) {
-        const auto& each = compared->sessions[i];
-        table.rows.push_back({QString::number(each.number), number(each.days, 0), number(each.detection_ma.value, 2),
-                              number(each.tooStrong.value(), 1),
-                              number(each.low.value(), 1) + " to " + number(each.high.value(), 1),
-                              number(each.impedance.value(), 0), QString("%1 of %2").arg(each.hits).arg(each.n),
-                              i == 0 ? QString("–") : percent(compared->againstFirst[i - 1].accuracy)});
-    }
-    blocks.emplace_back(std::move(table));
-    blocks.emplace_back(ParagraphBlock{QString("Two such sessions can show a change of %1 percentage points or more.")
-                                           .arg(100 * compared->smallestChange, 0, 'f', 0)});
-    if (std::isfinite(compared->trend.value)) {
-        blocks.emplace_back(ParagraphBlock{QString("Trend: %1 (%2 to %3) in log odds per day.")
-                                               .arg(number(compared->trend.value, 3), number(compared->trend.low, 3),
-                                                    number(compared->trend.high, 3))});
-    }
-    return {};
 }
 
 void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vector<PersonResult> people) {
@@ -279,15 +223,15 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vect
     for (const auto& person : together.people) {
         const auto& figures = person.figures;
         table.rows.push_back({qtext(person.name), person.usable ? "yes" : "no",
-                              QString("%1 of %2").arg(figures.hits).arg(figures.n), percent(figures.accuracy),
+                              QString("%1 of %2").arg(figures.hits).arg(figures.n), shareText(figures.accuracy),
                               figures.n > 0 ? QString::number(figures.pChance, 'g', 2) : QString("–"),
-                              number(figures.itCorrected_bits, 2)});
+                              figureText(figures.itCorrected_bits, 2)});
     }
     blocks.emplace_back(std::move(table));
     blocks.emplace_back(
         ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")
-                           .arg(number(100 * together.accuracy.median, 0), number(100 * together.accuracy.min, 0),
-                                number(100 * together.accuracy.max, 0))});
+                           .arg(figureText(100 * together.accuracy.median, 0), figureText(100 * together.accuracy.min, 0),
+                                figureText(100 * together.accuracy.max, 0))});
     blocks.emplace_back(ParagraphBlock{qtext(fewPeopleSentence(together))});
     blocks.emplace_back(ParagraphBlock{
         "Answers of different people are not pooled: no proportion, p or interval is given over all trials.", true});
@@ -305,9 +249,10 @@ const ParticipantRecord* withCode(const StudyRecord& study, const std::string& c
 Result<ReportContent> studyReport(const StudyRecord& study) {
     auto content = begun(study, qtext(study.settings.title), "Pilot study  ·  for those who run it: names codes");
     auto& blocks = content.blocks;
+    const bool massager = study.settings.modality == Modality::Massager;
     Captions captions(content.simulated);
     std::vector<PersonResult> people;
-    std::vector<std::pair<std::string, std::vector<Analysed>>> all;
+    std::vector<std::pair<std::string, std::vector<AnalysedSession>>> all;
     for (const auto& participant : study.participants) {
         if (participant.about.state == ParticipantState::Withdrawn) continue;
         auto sessions = analysed(participant);
@@ -336,11 +281,14 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
                          content.simulated);
             addFacts(blocks, one);
             addRatings(blocks, captions, results, name);
+            if (massager) {
+                if (auto added = addVibration(blocks, captions, results, name); !added) return failure(added);
+            }
         }
         addEncodings(blocks, captions, name, sessions);
         if (const auto* who = withCode(study, name); who != nullptr && !preferenceText(*who).isEmpty())
             blocks.emplace_back(ParagraphBlock{preferenceText(*who)});
-        if (auto added = addSessions(blocks, captions, name, sessions); !added) return failure(added);
+        if (auto added = addOverSessions(blocks, captions, name, sessions, massager); !added) return failure(added);
     }
     if (auto table = preferencesTable(study)) {
         blocks.emplace_back(captions.heading("Preferred encodings"));
@@ -385,9 +333,11 @@ Result<ReportContent> participantReport(const StudyRecord& study, const std::str
     if (!sessions) return failure(sessions);
     auto content = begun(study, qtext(study.settings.title), "What you felt  ·  for the participant");
     auto& blocks = content.blocks;
+    const bool massager = study.settings.modality == Modality::Massager;
     blocks.emplace_back(ParagraphBlock{
-        "Thank you for taking part. You felt four kinds of touch, made by short pulses on your skin: rough or smooth, "
-        "firm or light. After each one you said which it was."});
+        QString("Thank you for taking part. You felt four kinds of touch, made by short %1 on your skin: rough or "
+                "smooth, firm or light. After each one you said which it was.")
+            .arg(massager ? "vibrations" : "pulses")});
     for (const auto& one : *sessions) {
         const auto& all = one.found.all;
         blocks.emplace_back(ParagraphBlock{
@@ -411,9 +361,10 @@ Result<ReportContent> participantReport(const StudyRecord& study, const std::str
                            "result too."});
     }
     blocks.emplace_back(ParagraphBlock{
-        "This says nothing about your health or your skill. Some people feel such pulses clearly and others "
-        "do not; finding out is why the study is done. You may ask for your data to be destroyed, or stop "
-        "taking part, as your consent form says."});
+        QString("This says nothing about your health or your skill. Some people feel such %1 clearly and others do "
+                "not; finding out is why the study is done. You may ask for your data to be destroyed, or stop taking "
+                "part, as your consent form says.")
+            .arg(massager ? "vibrations" : "pulses")});
     content.footer = "Tactoscope";
     return content;
 }

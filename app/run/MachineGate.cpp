@@ -59,7 +59,10 @@ Result<void> loadSafetyGate(const StudySettings& study, const Profile& profile, 
 
 Result<void> machineGate(const StudySettings& study, const Profile& profile, const ShippedLimits& limits,
                          const DeviceSet& devices, CalibrationDate today) {
-    if (study.modality == Modality::Massager) return {};
+    if (study.modality == Modality::Massager) {
+        const auto lacks = machineLacks(devices, profile, LevelUnit::Intensity);
+        return lacks.empty() ? Result<void>() : fail(kGateRefused, "{}", lacks);
+    }
     if (devices.stimulator && devices.stimulator->identity().simulated) return {};
     if (const auto lacks = machineLacks(devices, profile, LevelUnit::Current); !lacks.empty())
         return fail(kGateRefused, "{}", lacks);

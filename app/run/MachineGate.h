@@ -1,4 +1,4 @@
-// MachineGate.h - whether the stimulator that is open may be at a person today (pilot.md section 3): a biphasic current
+// MachineGate.h - whether the stimulator or massager that is open may be at a person today (pilot.md section 3): a biphasic current
 // source with a valid calibration, whose load-safety check passed at most 30 days ago, under limits no wider than those
 // of the study's approval.
 //
@@ -13,7 +13,8 @@
 
 namespace tacto {
 
-/// A simulated stimulator states its own calibration and needs no check; a massager has no electrical gates.
+/// A simulated stimulator states its own calibration and needs no check. A massager is asked for the steps of its
+/// strength, and for being alone: it delivers no current, so calibration, load safety and limits are not asked for.
 /// `profile` is the session's, with the study's electrode and train. Errors: kGateRefused, one sentence.
 [[nodiscard]] Result<void> machineGate(const StudySettings& study, const Profile& profile, const ShippedLimits& limits,
                                        const DeviceSet& devices, CalibrationDate today);

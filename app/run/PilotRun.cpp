@@ -36,6 +36,17 @@ Result<std::optional<std::uint64_t>> virtualSeed(const std::string& participant)
 
 bool isSimulated(const DeviceUri& uri) { return uri.scheme == "sim"; }
 
+bool isMassager(const DeviceUri& uri) { return uri.scheme == "hid" || (isSimulated(uri) && uri.path == "massager"); }
+
+/// As the settings say; nothing where they leave it to the study.
+std::optional<Modality> wantedModality(const RunOrder& order) {
+    const auto wanted = textOf(order, "modality");
+    for (const auto modality : {Modality::Electrodes, Modality::Massager}) {
+        if (wanted == nameOf(modality)) return modality;
+    }
+    return std::nullopt;
+}
+
 /// `sim:` is a current source with the P24's grid, unless it says otherwise.
 void fitSource(DeviceUri& uri) {
     if (!isSimulated(uri) || (!uri.path.empty() && uri.path != "stimulator")) return;
@@ -45,6 +56,38 @@ void fitSource(DeviceUri& uri) {
     if (has("mode")) return;
     uri.parameters.emplace_back("mode", "current");
     if (!has("step")) uri.parameters.emplace_back("step", "0.5mA");
+}
+
+/// The electrode and the one kind of train of the study.
+void fitProfile(Profile& profile, const StudySettings& study) {
+    profile.electrodeArea = study.electrode.area;
+    auto& train = profile.encoding.train;
+    train.shape = study.train.shape == "monophasic" ? PulseShape::Monophasic : PulseShape::SymmetricBiphasic;
+    train.phaseWidth = Micros(study.train.width_us);
+    train.interPhaseGap = Micros(study.train.gap_us);
+    train.pulses = study.train.pulses;
+    if (study.train.rate_hz > 0) train.rate = Hertz(study.train.rate_hz);
+}
+
+PersonSetup stimulated(const Participant& who, const StudySettings& study, const Profile& profile) {
+    PersonSetup person;
+    person.participant = who.code;
+    person.consentRecorded = !who.consents.empty();
+    person.discomfortLimit = Milliamps(2 * study.cap_mA);  // Until something is called too strong; the cap is lower
+    person.rampStep = Milliamps(1);
+    person.cap = Milliamps(study.cap_mA);
+    person.impedanceLow = profile.loadLow;
+    person.impedanceHigh = profile.loadHigh;
+    return person;
+}
+
+/// Levels rise by one step, and no current is permitted.
+PersonSetup vibrated(const Participant& who) {
+    PersonSetup person;
+    person.participant = who.code;
+    person.consentRecorded = !who.consents.empty();
+    person.vibration = PersonVibration{.discomfortLimit = 1, .rampStep = kIntensityStep};
+    return person;
 }
 
 /// A virtual participant's answers to the checklist: no to every item except the one that the settings name.
@@ -97,7 +140,10 @@ Result<void> PilotRun::openStudy(const RunOrder& order, const PilotOrder& pilot)
     if (!Study::isThere(pilot.study)) {
         if (!*seed)
             return fail(ErrorCode::NotFound, "there is no study in {}; study create makes one", pilot.study.string());
-        auto made = Study::createRehearsal(pilot.study);
+        StudySettings settings;
+        const bool massager = std::ranges::any_of(order.uris, isMassager);
+        settings.modality = wantedModality(order).value_or(massager ? Modality::Massager : Modality::Electrodes);
+        auto made = Study::createRehearsal(pilot.study, std::move(settings));
         if (!made) return failure(made);
         study_.emplace(std::move(*made));
         remarks_.push_back("A rehearsal was made in " + pilot.study.string() + "; its participants are simulated.");
@@ -109,6 +155,10 @@ Result<void> PilotRun::openStudy(const RunOrder& order, const PilotOrder& pilot)
             return fail(ErrorCode::NotFound, "the study in {} is sealed; --passphrase-file is expected",
                         pilot.study.string());
     }
+    const auto modality = study_->settings().modality;
+    if (const auto wanted = wantedModality(order); wanted && *wanted != modality)
+        return fail(kGateRefused, "modality is {}; {}, that of the study in {}, is expected", nameOf(*wanted),
+                    nameOf(modality), pilot.study.string());
     auto found = study_->find(participant);
     const bool byItself = *seed && study_->isRehearsal();
     if (!found && byItself) {
@@ -215,13 +265,8 @@ void PilotRun::chooseEncoding() {
 void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     const auto& study = study_->settings();
     auto& profile = order.profile;
-    profile.electrodeArea = study.electrode.area;
-    auto& train = profile.encoding.train;
-    train.shape = study.train.shape == "monophasic" ? PulseShape::Monophasic : PulseShape::SymmetricBiphasic;
-    train.phaseWidth = Micros(study.train.width_us);
-    train.interPhaseGap = Micros(study.train.gap_us);
-    train.pulses = study.train.pulses;
-    if (study.train.rate_hz > 0) train.rate = Hertz(study.train.rate_hz);
+    const bool massager = study.modality == Modality::Massager;
+    if (!massager) fitProfile(profile, study);
 
     settings_.code = who_.code;
     settings_.isVirtual = who_.virtualSeed.has_value();
@@ -229,8 +274,8 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     if (earlier_.seed) order.seed = *earlier_.seed;  // The session's seed replaces the command's
     settings_.seed = order.seed;
     chooseEncoding();
-    settings_.unit = study.modality == Modality::Massager ? LevelUnit::Intensity : LevelUnit::Current;
-    settings_.cap = settings_.unit == LevelUnit::Intensity ? 1 : study.cap_mA;
+    settings_.unit = massager ? LevelUnit::Intensity : LevelUnit::Current;
+    settings_.cap = massager ? 1 : study.cap_mA;
     settings_.shortest = profile.encoding.intervalMin;
     settings_.longest = profile.encoding.intervalMax;
     settings_.window = 2 * settings_.longest;
@@ -242,23 +287,15 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     settings_.catchTrials = study.catchTrials;
 
     order.mode = OutputMode::Person;
-    PersonSetup person;
-    person.participant = who_.code;
-    person.consentRecorded = !who_.consents.empty();
-    person.discomfortLimit = Milliamps(2 * study.cap_mA);  // Until something is called too strong; the cap is lower
-    person.rampStep = Milliamps(1);
-    person.cap = Milliamps(study.cap_mA);
-    person.impedanceLow = profile.loadLow;
-    person.impedanceHigh = profile.loadHigh;
-    order.person = person;
+    order.person = massager ? vibrated(who_) : stimulated(who_, study, profile);
     order.virtualParticipant = settings_.isVirtual;
     order.rehearsal = study_->isRehearsal();
     order.realtime = order.realtime || pilot.people != nullptr;
-    std::ranges::for_each(order.uris, fitSource);
-    if (order.uris.empty()) {
-        order.uris.push_back({"sim", "", {}});
-        fitSource(order.uris.back());
-    }
+    if (order.uris.empty()) order.uris.push_back({"sim", "", {}});
+    if (massager)
+        order.ownNeeds = {Role::Massager};
+    else
+        std::ranges::for_each(order.uris, fitSource);
     order.makeSession = [this, profile, limits = order.limits](const SessionAbout& about, const Clock& clock,
                                                                const DeviceSet& devices) -> Result<RunSession> {
         if (auto holds = machineGate(study_->settings(), profile, limits, devices, utcToday()); !holds)

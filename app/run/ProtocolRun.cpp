@@ -46,7 +46,7 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
                                                           std::shared_ptr<BenchTap> tap) {
     std::unique_ptr<ProtocolRun> run(new ProtocolRun(std::move(given)));
     RunOrder& order = run->order_;
-    order.needed = order.declaration.needs;
+    order.needed = order.ownNeeds.empty() ? order.declaration.needs : order.ownNeeds;
     order.declaredLoad = order.ownLoad.empty() ? declaredLoad(order.settings.parameters) : order.ownLoad;
     order.about = aboutScript(order);
     auto opened = openBench(order, registry, std::move(tap));

@@ -19,6 +19,7 @@ struct RunOrder : BenchOrder {
     ProtocolDeclaration declaration;  ///< as the operator saw it; without a title: the script was not read before
     ProtocolSettings settings;
     std::string ownLoad = {};  ///< in place of the load that the parameters declare: a virtual participant's skin
+    std::set<Role> ownNeeds = {};  ///< in place of what the script declares to need: a massager study's; empty: that
     bool resetFault = false;   ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
 };
 

@@ -282,11 +282,13 @@ Result<Presented> Bench::present(const Presentation& presentation,
     return std::move(*ended);
 }
 
-Result<void> Bench::accept(Milliamps level) { return state_->levels.accept(level); }
-Result<void> Bench::reportDiscomfort(Milliamps level) { return state_->levels.reportDiscomfort(level); }
+Result<void> Bench::accept(const StimulusLevel& level) { return state_->levels.accept(level); }
+Result<void> Bench::reportDiscomfort(const StimulusLevel& level) {
+    return state_->levels.reportDiscomfort(level);
+}
 Result<void> Bench::beginAscending() { return state_->levels.ascend(true); }
 Result<void> Bench::endAscending() { return state_->levels.ascend(false); }
-Result<Milliamps> Bench::levelCeiling() { return state_->levels.ceiling(); }
+Result<StimulusLevel> Bench::levelCeiling() { return state_->levels.ceiling(); }
 Result<PermittedLevel> Bench::levelLimit(Seconds interval) const { return state_->levels.limit(interval); }
 
 void Bench::idle(Seconds duration) noexcept {

@@ -158,18 +158,19 @@ public:
     /// The participant accepted the level that was presented last: without it the next may not rise (hazard H6).
     /// Recorded as `level-accepted`. Errors: InvalidArgument unless the last presentation was complete, not empty and
     /// at this level; NotArmed outside person mode; LimitExceeded as SafetyGate::accept(); Io.
-    [[nodiscard]] Result<void> accept(Milliamps level);
+    [[nodiscard]] Result<void> accept(const StimulusLevel& level);
     /// The participant called this level too strong: from now on nothing exceeds it, also when the bench is armed
     /// again. Told to the gate before it is recorded as `level-too-strong`; also after a stop. Errors: InvalidArgument
-    /// unless finite and ≥ 0; NotArmed outside person mode; Io, when it holds all the same.
-    [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
+    /// unless finite and ≥ 0, and an intensity at most 1; Unsupported for a level that the output does not take; NotArmed
+    /// outside person mode; Io, when it holds all the same.
+    [[nodiscard]] Result<void> reportDiscomfort(const StimulusLevel& level);
     /// A series of ascending limits: its ceiling is its own last accepted level plus one step. Errors: NotArmed outside
     /// person mode.
     [[nodiscard]] Result<void> beginAscending();
     [[nodiscard]] Result<void> endAscending();
-    /// The highest current that a presentation may have now: the ramp, what was too strong, the cap. Errors: NotArmed
+    /// The highest level that a presentation may have now: the ramp, what was too strong, the cap. Errors: NotArmed
     /// outside person mode, and before it was armed.
-    [[nodiscard]] Result<Milliamps> levelCeiling();
+    [[nodiscard]] Result<StimulusLevel> levelCeiling();
     /// The highest level of the device's grid that the limits, the cap and what was too strong permit at `interval` on
     /// the impedance that was measured last, whatever was accepted; and what stands against the next one.
     /// Errors: NotArmed outside person mode, and where no impedance is known.

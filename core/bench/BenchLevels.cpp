@@ -34,83 +34,109 @@ Result<PulseTrain> BenchLevels::trainAt(Milliamps level) const {
     return levelTrain(config_.profile.encoding, output_.source(), calibration_.applied(), level);
 }
 
+StimulusLevel BenchLevels::none() const noexcept {
+    if (takesIntensities()) return VibrationIntensity{0};
+    return Milliamps(0);
+}
+
 Milliamps BenchLevels::step() const noexcept {
     const double step = output_.source().amplitudeStep;
     return step > 0 ? Milliamps(step) : kContinuousStep;
 }
 
+Result<void> BenchLevels::checkKind(const StimulusLevel& level) const {
+    if (output_.isOpen() && std::holds_alternative<VibrationIntensity>(level) == takesIntensities()) return {};
+    return fail(ErrorCode::Unsupported, "a presentation at {} on {}; {} is accepted", textOf(level),
+                output_.device() != nullptr ? output_.device()->identity().name : "no output",
+                takesIntensities() ? "an intensity" : "a current");
+}
+
 Result<void> BenchLevels::checkSettable(const StimulusLevel& level) const {
-    const bool isCurrent = std::holds_alternative<Milliamps>(level);
-    if (isCurrent != (output_.stimulator() != nullptr) || !output_.isOpen()) {
-        return fail(ErrorCode::Unsupported, "level at {} on {}: must be {}", textOf(level),
-                    output_.device() != nullptr ? output_.device()->identity().name : "no output",
-                    output_.massager() != nullptr ? "an intensity" : "a current");
-    }
-    if (!isCurrent) return {};
+    if (auto fits = checkKind(level); !fits) return fits;
+    const auto* current = std::get_if<Milliamps>(&level);
+    if (current == nullptr) return {};
     // An empty one asks the same of the output.
-    const Milliamps current = std::get<Milliamps>(level);
-    const auto train = trainAt(isEmpty(level) ? step() : current);
+    const auto train = trainAt(isEmpty(level) ? step() : *current);
     return train ? Result<void>{} : failure(train);
 }
 
 void BenchLevels::presented(const StimulusLevel& level, const Presented& ended) noexcept {
     presented_.reset();
-    const auto* current = std::get_if<Milliamps>(&level);
-    if (current != nullptr && !isEmpty(level) && !ended.isVoid()) presented_ = *current;
+    if (!isEmpty(level) && !ended.isVoid()) presented_ = level;
 }
 
-Result<void> BenchLevels::accept(Milliamps level) {
+/// With a train of the study's kind where the output is a stimulator.
+Result<LevelRequest> BenchLevels::requestFor(LevelRequest::What what, const StimulusLevel& level) const {
+    LevelRequest request{.what = what, .train = {}, .level = level};
+    if (takesIntensities()) return request;
+    const auto* current = std::get_if<Milliamps>(&level);
+    const auto train = trainAt(what == LevelRequest::What::Accept && current != nullptr ? *current : step());
+    if (!train) return failure(train);
+    request.train = *train;
+    return request;
+}
+
+Result<void> BenchLevels::accept(const StimulusLevel& level) {
     if (auto person = checkPerson(); !person) return person;
     if (!presented_ || !(level == *presented_)) {
-        return fail(ErrorCode::InvalidArgument, "{} mA accepted; {} is what can be accepted", level.value(),
+        return fail(ErrorCode::InvalidArgument, "{} accepted; {} is what can be accepted", textOf(level),
                     presented_ ? textOf(*presented_) : "the level of a presentation that was complete and not empty");
     }
-    const auto train = trainAt(level);
-    if (!train) return failure(train);
-    const auto ceiling = tell({.what = LevelRequest::What::Accept, .train = *train});
+    const auto request = requestFor(LevelRequest::What::Accept, level);
+    if (!request) return failure(request);
+    const auto ceiling = tell(*request);
     if (!ceiling) return failure(ceiling);
     return notes_.level(row::kLevelAccepted, level, *ceiling);
 }
 
-Result<void> BenchLevels::reportDiscomfort(Milliamps level) {
+Result<void> BenchLevels::reportDiscomfort(const StimulusLevel& level) {
     if (auto person = checkPerson(); !person) return person;
-    if (!(std::isfinite(level.value()) && level.value() >= 0)) {
-        return fail(ErrorCode::InvalidArgument, "{} mA too strong; a finite current of 0 or more is accepted",
-                    level.value());
+    if (auto fits = checkKind(level); !fits) return fits;
+    const auto* current = std::get_if<Milliamps>(&level);
+    const double value = current != nullptr ? current->value() : std::get<VibrationIntensity>(level).value;
+    if (!(std::isfinite(value) && value >= 0 && (current != nullptr || value <= 1))) {
+        return fail(ErrorCode::InvalidArgument, "{} too strong; {} is accepted", textOf(level),
+                    current != nullptr ? "a finite current of 0 or more" : "an intensity from 0 to 1");
     }
     gate_.latchStop();  // nothing that was approved before comes after the word
-    auto& limit = config_.person->discomfortLimit;
-    limit = std::min(limit, level);
-    const auto train = trainAt(step());
-    if (!train) return failure(train);
+    StimulusLevel limit = level;
+    if (current != nullptr) {
+        auto& known = config_.person->discomfortLimit;
+        limit = known = std::min(known, *current);
+    } else if (auto& vibration = config_.person->vibration) {
+        vibration->discomfortLimit = std::min(vibration->discomfortLimit, value);
+        limit = VibrationIntensity{vibration->discomfortLimit};
+    }
+    const auto request = requestFor(LevelRequest::What::Discomfort, level);
+    if (!request) return failure(request);
     // A gate that was not configured for a person yet learns it from the limit when it is armed.
-    const auto ceiling = tell({.what = LevelRequest::What::Discomfort, .train = *train, .uncomfortable = level});
+    const auto ceiling = tell(*request);
     if (!ceiling && ceiling.error().code != ErrorCode::NotArmed) return failure(ceiling);
     return notes_.level(row::kLevelTooStrong, level, ceiling ? *ceiling : limit);
 }
 
 Result<void> BenchLevels::ascend(bool begin) {
     if (auto person = checkPerson(); !person) return person;
-    const auto train = trainAt(step());
-    if (!train) return failure(train);
-    const auto what = begin ? LevelRequest::What::BeginAscending : LevelRequest::What::EndAscending;
-    const auto told = tell({.what = what, .train = *train});
+    const auto request =
+        requestFor(begin ? LevelRequest::What::BeginAscending : LevelRequest::What::EndAscending, none());
+    if (!request) return failure(request);
+    const auto told = tell(*request);
     return told ? Result<void>{} : failure(told);
 }
 
-Result<Milliamps> BenchLevels::ceiling() {
+Result<StimulusLevel> BenchLevels::ceiling() {
     if (auto person = checkPerson(); !person) return failure(person);
-    const auto train = trainAt(step());
-    if (!train) return failure(train);
-    return tell({.what = LevelRequest::What::Ceiling, .train = *train});
+    const auto request = requestFor(LevelRequest::What::Ceiling, none());
+    if (!request) return failure(request);
+    return tell(*request);
 }
 
 /// Also after a stop or a fault: what a participant says counts at any time.
-Result<Milliamps> BenchLevels::tell(const LevelRequest& request) {
+Result<StimulusLevel> BenchLevels::tell(const LevelRequest& request) {
     auto& desk = loop_->levels();
     desk.ask(request);
     const Instant until = time_.now() + kAnswerTimeout;
-    std::optional<Result<Milliamps>> answer;
+    std::optional<Result<StimulusLevel>> answer;
     while (!(answer = desk.answer()) && time_.now() < until) time_.pass(until, kLevelLook);
     if (answer) return *answer;
     return fail(ErrorCode::Device, "the control loop does not run: it has not heard of a level within 0.5 s");

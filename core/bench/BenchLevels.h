@@ -31,17 +31,21 @@ public:
     void presented(const StimulusLevel& level, const Presented& ended) noexcept;
 
     /// As Bench.h says of them.
-    [[nodiscard]] Result<void> accept(Milliamps level);
-    [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
+    [[nodiscard]] Result<void> accept(const StimulusLevel& level);
+    [[nodiscard]] Result<void> reportDiscomfort(const StimulusLevel& level);
     [[nodiscard]] Result<void> ascend(bool begin);
-    [[nodiscard]] Result<Milliamps> ceiling();
+    [[nodiscard]] Result<StimulusLevel> ceiling();
     [[nodiscard]] Result<PermittedLevel> limit(Seconds interval) const;
 
 private:
     [[nodiscard]] Result<void> checkPerson() const;
     [[nodiscard]] Result<PulseTrain> trainAt(Milliamps level) const;
     [[nodiscard]] Milliamps step() const noexcept;
-    [[nodiscard]] Result<Milliamps> tell(const LevelRequest& request);
+    [[nodiscard]] StimulusLevel none() const noexcept;
+    [[nodiscard]] bool takesIntensities() const noexcept { return output_.massager() != nullptr; }
+    [[nodiscard]] Result<void> checkKind(const StimulusLevel& level) const;
+    [[nodiscard]] Result<LevelRequest> requestFor(LevelRequest::What what, const StimulusLevel& level) const;
+    [[nodiscard]] Result<StimulusLevel> tell(const LevelRequest& request);
     [[nodiscard]] std::string hindranceTo(Milliamps level, Seconds interval, const GateSetup& setup) const;
 
     BenchConfig& config_;
@@ -52,7 +56,7 @@ private:
     SafetyGate& gate_;
     BenchTime& time_;
     const std::unique_ptr<ControlLoop>& loop_;
-    std::optional<Milliamps> presented_;  // by the last presentation, if it was complete and not empty
+    std::optional<StimulusLevel> presented_;  // by the last presentation, if it was complete and not empty
 };
 
 }  // namespace tacto

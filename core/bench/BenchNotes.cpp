@@ -58,10 +58,16 @@ Result<void> BenchNotes::arming(const ArmRequest& request, const GateSetup& setu
     return noted ? Result<void>{} : failure(noted);
 }
 
-Result<void> BenchNotes::level(const char* kind, Milliamps level, Milliamps ceiling) const {
+Result<void> BenchNotes::level(const char* kind, const StimulusLevel& level, const StimulusLevel& ceiling) const {
     if (session_ == nullptr) return {};
-    const auto noted =
-        session_->event(clock_.now(), kind, {{"level_ma", level.value()}, {"ceiling_ma", ceiling.value()}});
+    nlohmann::json said;
+    for (const auto& [name, value] : {std::pair<std::string, StimulusLevel>{"level", level}, {"ceiling", ceiling}}) {
+        if (const auto* current = std::get_if<Milliamps>(&value))
+            said[name + "_ma"] = current->value();
+        else
+            said[name + "_intensity"] = std::get<VibrationIntensity>(value).value;
+    }
+    const auto noted = session_->event(clock_.now(), kind, said);
     return noted ? Result<void>{} : failure(noted);
 }
 

@@ -7,11 +7,13 @@ namespace tacto {
 namespace {
 
 Result<void> tell(SafetyGate& gate, const LevelRequest& request) {
+    const auto* intensity = std::get_if<VibrationIntensity>(&request.level);
     switch (request.what) {
         case LevelRequest::What::Accept:
-            return gate.accept(request.train);
+            return intensity != nullptr ? gate.acceptIntensity(intensity->value) : gate.accept(request.train);
         case LevelRequest::What::Discomfort:
-            return gate.reportDiscomfort(request.uncomfortable);
+            return intensity != nullptr ? gate.reportUncomfortable(intensity->value)
+                                        : gate.reportDiscomfort(std::get<Milliamps>(request.level));
         case LevelRequest::What::BeginAscending:
             gate.beginAscending();
             return {};
@@ -24,11 +26,21 @@ Result<void> tell(SafetyGate& gate, const LevelRequest& request) {
     return {};
 }
 
-Result<Milliamps> answerOf(SafetyGate& gate, const LevelRequest& request) {
-    if (!gate.levelCeiling(request.train))
+/// Nothing before the first arming in person mode.
+std::optional<StimulusLevel> ceilingOf(const SafetyGate& gate, const LevelRequest& request) {
+    if (std::holds_alternative<VibrationIntensity>(request.level)) {
+        const auto intensity = gate.intensityCeiling();
+        return intensity ? std::optional<StimulusLevel>(VibrationIntensity{*intensity}) : std::nullopt;
+    }
+    const auto current = gate.levelCeiling(request.train);
+    return current ? std::optional<StimulusLevel>(*current) : std::nullopt;
+}
+
+Result<StimulusLevel> answerOf(SafetyGate& gate, const LevelRequest& request) {
+    if (!ceilingOf(gate, request))
         return fail(ErrorCode::NotArmed, "levels of a person are known from the first arming in person mode on");
     if (auto told = tell(gate, request); !told) return failure(told);
-    return *gate.levelCeiling(request.train);
+    return *ceilingOf(gate, request);
 }
 
 }  // namespace
@@ -40,7 +52,7 @@ void LevelRequests::ask(const LevelRequest& request) {
     asked_.store(true, std::memory_order_release);
 }
 
-std::optional<Result<Milliamps>> LevelRequests::answer() {
+std::optional<Result<StimulusLevel>> LevelRequests::answer() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(answer_, std::nullopt);
 }

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 
+#include "core/bench/Presentation.h"
 #include "core/safety/SafetyGate.h"
 
 namespace tacto {
@@ -15,22 +16,22 @@ namespace tacto {
 struct LevelRequest {
     enum class What { Accept, Discomfort, BeginAscending, EndAscending, Ceiling };
     What what = What::Ceiling;
-    PulseTrain train;            ///< of the study's kind: the level to accept, else any
-    Milliamps uncomfortable{0};  ///< Discomfort only
+    PulseTrain train;                     ///< of the study's kind: the level to accept, else any; none of a massager
+    StimulusLevel level = Milliamps(0);   ///< that was accepted or uncomfortable; an intensity is a massager's
 };
 
 class LevelRequests {
 public:
     void ask(const LevelRequest& request);
     /// Nothing until it was served; then the ceiling that holds afterwards, or why it was refused. Taken once.
-    [[nodiscard]] std::optional<Result<Milliamps>> answer();
+    [[nodiscard]] std::optional<Result<StimulusLevel>> answer();
 
     void serve(SafetyGate& gate) noexcept;
 
 private:
     std::mutex mutex_;  // guards the two below; held for a call of the gate at most
     std::optional<LevelRequest> request_;
-    std::optional<Result<Milliamps>> answer_;
+    std::optional<Result<StimulusLevel>> answer_;
     std::atomic<bool> asked_{false};
 };
 

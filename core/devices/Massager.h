@@ -13,6 +13,8 @@ public:
     /// Starts one vibration burst now; it ends by itself. Consumes the approval whatever happens.
     /// Errors: Device, Timeout. On error the caller calls forceOff().
     [[nodiscard]] virtual Result<void> vibrate(ApprovedBurst&& burst) = 0;
+    /// The smallest difference of two intensities that the device can tell, to 1; 0: it takes any. Constant while open.
+    [[nodiscard]] virtual double step() const noexcept = 0;
     /// Sends the stop report. Never throws or allocates.
     virtual void forceOff() noexcept = 0;
 };

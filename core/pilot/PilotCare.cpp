@@ -65,7 +65,14 @@ PilotPrompt skinPrompt(const std::string& what, const std::string& words) {
 }  // namespace
 
 std::string machineLacks(const DeviceSet& devices, const Profile& profile, LevelUnit unit) {
-    if (unit == LevelUnit::Intensity) return devices.massager ? "" : "no massager is connected";
+    if (unit == LevelUnit::Intensity) {
+        if (devices.stimulator) return "a stimulator is connected; a massager alone is expected";
+        if (!devices.massager) return "no massager is connected; one is expected";
+        const double step = devices.massager->step();
+        if (step >= 0 && step <= kIntensityStep) return {};
+        return fmt::format("the massager tells intensities apart that are {:.2g} from each other; {} is expected", step,
+                           kIntensityStep);
+    }
     if (!devices.stimulator) return "no stimulator is connected; a current source is expected";
     if (devices.stimulator->traits().drive != Drive::Current)
         return "the stimulator is a voltage source; a current source is expected";
@@ -98,14 +105,14 @@ Result<void> PilotCare::checklist() {
         if (auto held = stopTest(by); !held) return held;
     }
     if (auto held = skin("before"); !held) return held;
-    return stage_.settings().unit == LevelUnit::Current ? electrodes() : Result<void>();
+    return stage_.settings().unit == LevelUnit::Current ? electrodes() : massager();
 }
 
 Result<void> PilotCare::machine() {
     auto& bench = stage_.bench();
     const auto unit = stage_.settings().unit;
     auto missing = machineLacks(bench.devices(), bench.profile(), unit);
-    if (missing.empty() && unit == LevelUnit::Current && bench.mode() != OutputMode::Person)
+    if (missing.empty() && bench.mode() != OutputMode::Person)
         missing = "the bench was not opened for a participant";
     return gate(part() + " machine", missing.empty(), missing + ". Nothing was presented");
 }
@@ -185,6 +192,22 @@ Result<void> PilotCare::electrodes() {
         fmt::format("the electrodes measure {:.0f} ohm after {:.0f} ohm; a change of at most 30 % is accepted, so "
                     "the session ends",
                     *second, before));
+}
+
+/// A motor is heard, and where it sits decides how strong it is.
+Result<void> PilotCare::massager() {
+    const auto held = [this](const std::string& what, const char* question, const char* sentence) -> Result<void> {
+        const auto said = stage_.ask(row::kGate, part() + " " + what, yesNoPrompt(what, question, PromptTo::Operator));
+        if (!said) return failure(said);
+        return textOr(*said, "key") == "yes" ? Result<void>() : stage_.end(PilotEnd::Stopped, sentence);
+    };
+    if (stage_.record().isResumed()) {
+        auto untouched = held("massager-untouched", "Was the massager left where it was?",
+                              "the massager was moved since the last answer, which ends a session");
+        if (!untouched) return untouched;
+    }
+    return held("masking-noise", "Does the participant hear masking noise on earphones?",
+                "the participant hears the motor without masking noise on earphones, so there is no session");
 }
 
 Result<void> PilotCare::beforeBlock(int block) {

@@ -20,11 +20,12 @@ public:
     /// `stage` outlives it.
     explicit PilotCare(PilotStage& stage) : stage_(stage) {}
 
-    /// In every part: machine, both STOPs, and the electrodes. The first part asks for the skin before and the
-    /// electrodes' lot too; a later one whether the electrodes were left untouched.
+    /// In every part: machine, both STOPs, and the electrodes, or with a massager the masking noise. The first part
+    /// asks for the skin before and the electrodes' lot too; a later one whether electrodes or massager were left
+    /// untouched.
     /// Errors: Stopped with the gate's sentence, when the session has ended.
     [[nodiscard]] Result<void> checklist();
-    /// |Z| before a block, within 30 % of the session's first. Errors: as checklist().
+    /// |Z| before a block, within 30 % of the session's first; a massager has none. Errors: as checklist().
     [[nodiscard]] Result<void> beforeBlock(int block);
     /// `moment`: "before", "break 3", "after". Errors: Stopped where it ends the session.
     [[nodiscard]] Result<void> skin(const std::string& moment);
@@ -39,6 +40,7 @@ private:
     [[nodiscard]] Result<void> stopTest(PromptTo by);
     [[nodiscard]] Result<void> compareEncodings();
     [[nodiscard]] Result<void> electrodes();
+    [[nodiscard]] Result<void> massager();
     [[nodiscard]] Result<double> measureImpedance(const std::string& name);
     /// Ends the session where the gate does not hold.
     [[nodiscard]] Result<void> gate(const std::string& name, bool holds, const std::string& sentence);

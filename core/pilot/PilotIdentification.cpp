@@ -147,6 +147,9 @@ void PilotIdentification::keep(const PlannedTrial& planned, const StageTrial& tr
     kept.interval_s = planned.condition ? trial.presentation.interval.count() : kNaN;
     kept.trains = trial.level > 0 ? trial.presentation.onsets.size() : 0;
     stimulated_.push_back(stage_.stimulated() - lengthOf(trial));
+    if (stage_.settings().unit == LevelUnit::Intensity && planned.condition)
+        vibrations_.push_back(
+            {kept.condition, trial.level, kept.interval_s, answer.vibration.value_or(BurstFigures{})});
     trials_.push_back(std::move(kept));
 }
 
@@ -272,7 +275,7 @@ Result<void> PilotIdentification::driftCheck(int block) {
         stage_.record().once(row::kDrift, fmt::format("block {}", block), [&]() -> Result<nlohmann::json> {
             return nlohmann::json{
                 {"block", block},
-                {"detection_ma",
+                {levelKey("detection", stage_.settings().unit),
                  {{"value", found.estimate.value}, {"low", found.estimate.low}, {"high", found.estimate.high}}},
                 {"probability", found.probability},
                 {"rests", found.rests},

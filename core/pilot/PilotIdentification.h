@@ -9,6 +9,7 @@
 
 #include "core/analysis/psychophysics/DriftCheck.h"
 #include "core/analysis/psychophysics/TrialPlan.h"
+#include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/pilot/PilotThresholds.h"
 
 namespace tacto {
@@ -41,7 +42,9 @@ public:
     [[nodiscard]] const std::vector<IdentificationTrial>& trials() const noexcept { return trials_; }
     /// For how long trains had been given before each of them.
     [[nodiscard]] const std::vector<Seconds>& stimulatedBefore() const noexcept { return stimulated_; }
-    /// [{block, detection_ma {value, low, high}, probability, rests, adapted}]
+    /// What a massager's motor did in each of them that was not empty; NaN where it was not measured.
+    [[nodiscard]] const std::vector<VibrationTrial>& vibrations() const noexcept { return vibrations_; }
+    /// [{block, detection_ma (of a massager detection_intensity) {value, low, high}, probability, rests, adapted}]
     [[nodiscard]] const nlohmann::json& driftJson() const noexcept { return drift_; }
 
 private:
@@ -61,6 +64,7 @@ private:
     std::vector<PresentedCondition> presented_;
     std::vector<IdentificationTrial> trials_;
     std::vector<Seconds> stimulated_;  // As long as trials_
+    std::vector<VibrationTrial> vibrations_;
     nlohmann::json drift_ = nlohmann::json::array();
     double lastDetection_ = kNaN;
     int breaks_ = 0;

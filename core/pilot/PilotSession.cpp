@@ -68,11 +68,16 @@ nlohmann::json PilotSession::participantJson() const {
     return {{"code", settings.code}, {"virtual", settings.isVirtual}};
 }
 
+const char* PilotSession::modality() const noexcept {
+    return stage_.settings().unit == LevelUnit::Current ? "electrodes" : "massager";
+}
+
 nlohmann::json PilotSession::truthJson() const {
     if (truth_ == nullptr) return nullptr;
     const auto& who = truth_->settings().who;
-    return {{"detection_ma", truth_->detection()},
-            {"too_strong_ma", truth_->tooStrong()},
+    const auto unit = stage_.settings().unit;
+    return {{levelKey("detection", unit), truth_->detection()},
+            {levelKey("too_strong", unit), truth_->tooStrong()},
             {"amplitude_weber", who.amplitudeWeber},
             {"interval_weber", who.intervalWeber},
             {"lapse", who.lapse},
@@ -82,6 +87,7 @@ nlohmann::json PilotSession::truthJson() const {
 nlohmann::json PilotSession::thresholdResults() const {
     auto results = thresholds_.toJson();
     results["kind"] = "pilot-thresholds";
+    results["modality"] = modality();
     results["participant"] = participantJson();
     results["parts"] = parts_;
     results["resumed"] = parts_ > 1;
@@ -98,6 +104,7 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
     if (!all) return failure(all);
     auto results = toJson(*all);
     results["kind"] = "pilot-identification";
+    results["modality"] = modality();
     results["participant"] = participantJson();
     results["encoding"] = stage_.settings().encoding;
     results["parts"] = parts_;
@@ -106,10 +113,16 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
     results["thresholds"] = thresholds_.toJson();
     results["drift"] = identification_.driftJson();
     nlohmann::json presented = nlohmann::json::array();
-    const char* unit = stage_.settings().unit == LevelUnit::Current ? "current_ma" : "intensity";
     for (const auto& each : identification_.presented())
-        presented.push_back({{"name", each.name}, {unit, each.level}, {"interval_s", each.interval.count()}});
+        presented.push_back({{"name", each.name},
+                             {nameOf(stage_.settings().unit), each.level},
+                             {"interval_s", each.interval.count()}});
     results["presented"] = std::move(presented);
+    if (stage_.settings().unit == LevelUnit::Intensity) {
+        const auto vibration = judgeVibration(identification_.vibrations(), identification_.labels());
+        if (!vibration) return failure(vibration);
+        results["vibration"] = toJson(*vibration);
+    }
     for (const char* key : {"predicted", "fit", "truth", "plan", "trials"}) results[key] = nullptr;
     results["notes"] = nlohmann::json::array();
     if (truth_ == nullptr) return results;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/JsonFields.h"
 #include "core/base/Random.h"
 #include "core/base/Words.h"
@@ -22,6 +23,8 @@ constexpr Seconds kMinPause{2};        // from an answer to the next first train
 constexpr Seconds kDot{0.5};           // the dot is shown so long before it
 /// Until when a bench in person mode may wait for an answer: prompts of trials are shorter.
 constexpr Seconds kAskingTakes{60};
+
+constexpr const char* kVibration = "vibration";  // member of an answer: what the motor did
 
 bool isParticipants(std::string_view by) { return by.starts_with("participant"); }
 
@@ -47,16 +50,12 @@ std::string silentName(const StageTrial& trial) { return trial.askedAgain ? tria
 
 std::string_view nameOf(PilotEnd end) noexcept { return wordFor<PilotEnd>(kPilotEnds, end); }
 
-Seconds lengthOf(const StageTrial& trial) {
-    const Seconds trains = static_cast<double>(trial.presentation.onsets.size()) * trial.presentation.interval;
-    return trial.level > 0 ? std::min(trains, trial.presentation.duration) : Seconds(0);
-}
-
 PilotStage::PilotStage(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings)
     : bench_(bench),
       participant_(participant),
       record_(record),
       settings_(std::move(settings)),
+      vibration_(bench),
       rampDue_(record.isResumed()) {
     participant_.stop = [this](const char* by) {
         const auto pressed = std::chrono::steady_clock::now();
@@ -71,7 +70,7 @@ PilotStage::~PilotStage() {
 }
 
 double PilotStage::step() const {
-    if (settings_.unit == LevelUnit::Intensity) return 0.05;
+    if (settings_.unit == LevelUnit::Intensity) return kIntensityStep;
     const auto& stimulator = bench_.devices().stimulator;
     return stimulator ? stimulator->traits().amplitudeStep : 0;
 }
@@ -133,7 +132,7 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
         body["response"] = "stop";
         body["attempt"] = number;
         if (auto kept = record_.write(row::kAnswer, trial.name, std::move(body)); !kept) return failure(kept);
-        return StageAnswer{"stop", kNaN, number, true, false};
+        return StageAnswer{"stop", kNaN, number, true, false, {}};
     }
     return fail(ErrorCode::Timeout, "{}: the bench could not begin a presentation in time {} times in a row",
                 trial.name, kMaxLate);
@@ -149,8 +148,10 @@ Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body
     feel(trial);
     given(trial);
     const auto response = textOr(body, "response");
-    return StageAnswer{response, numberOr(body, "rt_s"), countOr(body, "attempt"), !response.empty() || !trial.asks,
-                       true};
+    StageAnswer answer{response, numberOr(body, "rt_s"), countOr(body, "attempt"), !response.empty() || !trial.asks,
+                       true,     {}};
+    if (const auto found = body.find(kVibration); found != body.end()) answer.vibration = burstFiguresFrom(*found);
+    return answer;
 }
 
 void PilotStage::feel(const StageTrial& trial) {
@@ -200,7 +201,8 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     feel(trial);
     about["trains"] = presented->trains.size();
     about["delivered"] = trainsJson(*presented);
-    StageAnswer answer{"", kNaN, number, true, false};
+    StageAnswer answer{"", kNaN, number, true, false, vibration_.measured(*presented)};
+    if (answer.vibration) about[kVibration] = toJson(*answer.vibration);
     if (trial.asks) {
         auto prompt = trial.prompt;
         prompt.targetsAt = presented->ended;
@@ -230,14 +232,22 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
 
 /// Marks follow the time since the beginning alone: they are the same whichever interval holds the train.
 Result<Presented> PilotStage::present(const Presentation& presentation, const PilotScreen& screen) {
-    if (screen.state != ScreenState::Interval) return bench_.present(presentation);
-    auto passing = screen;
-    return bench_.present(presentation, [this, &passing](Seconds since) {
-        const int interval = detectionIntervalAt(since);
+    vibration_.begin();
+    auto presented = bench_.present(presentation, passing(screen));
+    vibration_.end();
+    return presented;
+}
+
+std::function<void(Seconds)> PilotStage::passing(const PilotScreen& screen) {
+    const bool marks = screen.state == ScreenState::Interval;
+    if (!marks && !vibration_.canLook()) return {};
+    return [this, marks, passing = screen](Seconds since) mutable {
+        vibration_.look();
+        const int interval = marks ? detectionIntervalAt(since) : passing.interval;
         if (interval == passing.interval || stoppedBy_.load() != nullptr) return;
         passing.interval = interval;
         participant_.show(passing);
-    });
+    };
 }
 
 Result<void> PilotStage::writeEarly(const StageTrial& trial) {
@@ -304,17 +314,15 @@ Result<void> PilotStage::judged(double level, bool tooStrong, const std::string&
         tooStrong_ = std::min(tooStrong_, level);
     else
         accepted_.try_emplace(level, trial);
-    if (settings_.unit == LevelUnit::Intensity) return {};
     if (tooStrong) {
-        auto told = bench_.reportDiscomfort(Milliamps(level));
+        auto told = bench_.reportDiscomfort(levelOf(level));
         rest();  // Armed anew under the lower limit before anything else is presented
         return told;
     }
-    return replayed ? Result<void>() : bench_.accept(Milliamps(level));
+    return replayed ? Result<void>() : bench_.accept(levelOf(level));
 }
 
 Result<void> PilotStage::ramp() {
-    if (settings_.unit == LevelUnit::Intensity) return {};
     const auto accepted = accepted_;
     const auto part = std::to_string(record_.count(row::kResumed));
     for (const auto& [level, first] : accepted) {
@@ -333,11 +341,12 @@ Result<void> PilotStage::ramp() {
         stimulated_ = stimulated;  // So that a session that was resumed goes on as one that was not
         if (!answer) return failure(answer);
         if (answer->response == "too-strong") {
-            if (auto told = bench_.reportDiscomfort(Milliamps(level)); !told) return told;
+            if (auto told = bench_.reportDiscomfort(levelOf(level)); !told) return told;
             return end(PilotEnd::Stopped,
-                       fmt::format("{} mA was accepted before and is too strong now; the session ends here", level));
+                       fmt::format("{} was accepted before and is too strong now; the session ends here",
+                                   textOf(levelOf(level))));
         }
-        if (auto told = bench_.accept(Milliamps(level)); !told) return told;
+        if (auto told = bench_.accept(levelOf(level)); !told) return told;
     }
     return {};
 }
@@ -362,8 +371,9 @@ Result<void> PilotStage::recover(const std::string& during, const Error& why) {
         if (auto kept = record_.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
         if (record_.count(row::kFault) >= kMaxFaults)
             return end(PilotEnd::Stopped, "a second fault ends the session: " + why.message);
-        const auto seated = participant_.ask(
-            goOnPrompt("Output is off: " + why.message + ". See to the electrodes, then go on.", PromptTo::Operator));
+        const char* what = settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes";
+        const auto seated = participant_.ask(goOnPrompt(
+            fmt::format("Output is off: {}. See to the {}, then go on.", why.message, what), PromptTo::Operator));
         if (!seated) return failure(seated);
         if (auto reset = bench_.resetFault(); !reset) return reset;
         return askToGoOn("The output was off because of a fault. Go on when you want to.");

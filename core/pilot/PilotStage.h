@@ -9,6 +9,7 @@
 // Thread-safety: one caller, the session's thread; the participant's `stop` comes from any thread.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <limits>
@@ -22,6 +23,7 @@
 #include "core/pilot/Participant.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/pilot/PilotSettings.h"
+#include "core/pilot/VibrationWatch.h"
 
 namespace tacto {
 
@@ -51,7 +53,10 @@ struct StageTrial {
 };
 
 /// For how long it stimulates: each of its trains until the next could have come.
-[[nodiscard]] Seconds lengthOf(const StageTrial& trial);
+[[nodiscard]] inline Seconds lengthOf(const StageTrial& trial) {
+    const Seconds trains = static_cast<double>(trial.presentation.onsets.size()) * trial.presentation.interval;
+    return trial.level > 0 ? std::min(trains, trial.presentation.duration) : Seconds(0);
+}
 
 struct StageAnswer {
     std::string response;  ///< key; empty without an answer
@@ -59,6 +64,7 @@ struct StageAnswer {
     std::size_t attempt = 1;
     bool given = true;
     bool replayed = false;
+    std::optional<BurstFigures> vibration;  ///< of a massager; nothing where it was not measured
 };
 
 class PilotStage {
@@ -116,6 +122,7 @@ private:
     [[nodiscard]] Result<StageAnswer> replay(const StageTrial& trial, const Json& row);
     [[nodiscard]] Result<std::optional<StageAnswer>> attempt(const StageTrial& trial, std::size_t number);
     [[nodiscard]] Result<Presented> present(const Presentation& presentation, const PilotScreen& screen);
+    [[nodiscard]] std::function<void(Seconds)> passing(const PilotScreen& screen);
     [[nodiscard]] Result<void> writeEarly(const StageTrial& trial);
     void feel(const StageTrial& trial);
     void given(const StageTrial& trial) noexcept;
@@ -128,6 +135,7 @@ private:
     PilotParticipant& participant_;
     PilotRecord& record_;
     PilotSettings settings_;
+    VibrationWatch vibration_;
     PilotEnd end_ = PilotEnd::Unfinished;
     std::atomic<const char*> stoppedBy_{nullptr};
     std::atomic<std::chrono::nanoseconds::rep> stopTook_{0};

@@ -22,8 +22,9 @@ nlohmann::json estimateJson(const Estimate& estimate) {
 
 nlohmann::json shareJson(const IntervalShare& share) { return {{"trials", share.trials}, {"right", share.right}}; }
 
-/// Length of one train of the profile's kind.
-Seconds trainLength(const Bench& bench) {
+/// Length of one train of the profile's kind, or of a massager's burst.
+Seconds trainLength(const Bench& bench, LevelUnit unit) {
+    if (unit == LevelUnit::Intensity) return VibrationBurst{}.duration;
     const auto& train = bench.profile().encoding.train;
     return train.pulses > 1 && train.rate.value() > 0 ? Seconds(train.pulses / train.rate.value()) : Seconds(0.001);
 }
@@ -43,7 +44,10 @@ Result<LevelGrid> PilotThresholds::ascendingGrid() {
     const auto stored = stage_.record().once(row::kPhase, "ascending", [this]() -> Result<nlohmann::json> {
         if (auto armed = stage_.ready(); !armed) return failure(armed);
         nlohmann::json body{{"step", stage_.step()}, {"cap", stage_.settings().cap}};
-        if (stage_.settings().unit == LevelUnit::Intensity) return body;
+        if (stage_.settings().unit == LevelUnit::Intensity) {
+            body["device"] = 1;  // the whole of its strength
+            return body;
+        }
         const auto limit = stage_.bench().levelLimit(stage_.settings().shortest);
         if (!limit) return failure(limit);
         body["device"] = stage_.bench().devices().stimulator->traits().amplitudeMax;
@@ -68,7 +72,7 @@ Result<void> PilotThresholds::ascendingLimits() {
     while (const auto next = limits->next()) {
         if (auto done = present(*limits, *next); !done) return done;
     }
-    if (liveSeries_ > 0 && stage_.settings().unit == LevelUnit::Current) {
+    if (liveSeries_ > 0) {
         if (auto ended = stage_.bench().endAscending(); !ended) return ended;
     }
     ascending_ = limits->result();
@@ -100,7 +104,7 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
         if (!held) return failure(held);
         // A series that was broken off goes on at the level that the ramp has reached again.
         const bool begins = liveSeries_ > 0 || limits.result().series.back().highest == 0;
-        if (begins && stage_.settings().unit == LevelUnit::Current) {
+        if (begins) {
             if (auto begun = stage_.bench().beginAscending(); !begun) return begun;
         }
         liveSeries_ = next.series;
@@ -161,7 +165,7 @@ Result<TrialInterval> PilotThresholds::twoIntervals(const std::string& name, con
     trial.about = {{"right", nameOf(asked.interval)}};
     trial.level = asked.level;
     const bool second = asked.interval == TrialInterval::Second;
-    trial.presentation = detectionPresentation(stage_.levelOf(asked.level), second, trainLength(stage_.bench()),
+    trial.presentation = detectionPresentation(stage_.levelOf(asked.level), second, trainLength(stage_.bench(), stage_.settings().unit),
                                                stage_.settings().shortest);
     trial.prompt = intervalPrompt();
     trial.screen.state = ScreenState::Interval;
@@ -251,16 +255,14 @@ Result<void> PilotThresholds::range() {
 
 nlohmann::json PilotThresholds::describe(const PersonalRangeResult& found) const {
     const double ohm = stage_.impedance();
-    const bool current = stage_.settings().unit == LevelUnit::Current;
-    const char* low = current ? "min_ma" : "min_intensity";
-    const char* high = current ? "max_ma" : "max_intensity";
+    const auto unit = stage_.settings().unit;
     nlohmann::json out{{"usable", found.usable},
                        {"reason", found.reason.empty() ? nlohmann::json(nullptr) : nlohmann::json(found.reason)},
-                       {low, orNull(found.min)},
-                       {high, orNull(found.max)},
+                       {levelKey("min", unit), orNull(found.min)},
+                       {levelKey("max", unit), orNull(found.max)},
                        {"jnd", orNull(found.jnd)},
                        {"limited_by", nameOf(found.limitedBy)}};
-    if (!current) return out;
+    if (unit == LevelUnit::Intensity) return out;
     out["min_v"] = orNull(found.min * ohm / 1000);
     out["max_v"] = orNull(found.max * ohm / 1000);
     out["impedance_ohm"] = orNull(ohm);
@@ -268,21 +270,22 @@ nlohmann::json PilotThresholds::describe(const PersonalRangeResult& found) const
 }
 
 nlohmann::json PilotThresholds::toJson() const {
+    const auto unit = stage_.settings().unit;
     nlohmann::json series = nlohmann::json::array();
     for (const auto& each : ascending_.series)
-        series.push_back({{"felt_ma", orNull(each.felt)},
-                          {"too_strong_ma", orNull(each.tooStrong)},
-                          {"highest_ma", orNull(each.highest)},
+        series.push_back({{levelKey("felt", unit), orNull(each.felt)},
+                          {levelKey("too_strong", unit), orNull(each.tooStrong)},
+                          {levelKey("highest", unit), orNull(each.highest)},
                           {"ended_by", nameOf(each.endedBy)},
                           {"felt_empty", each.feltEmpty},
                           {"marked", each.marked()}});
     nlohmann::json history = nlohmann::json::array();
-    for (const auto& each : trials_) history.push_back({{"current_ma", each.level}, {"correct", each.correct}});
-    const nlohmann::json detection{{"method", nameOf(method_)},         {"estimate_ma", estimateJson(estimate_)},
+    for (const auto& each : trials_) history.push_back({{nameOf(unit), each.level}, {"correct", each.correct}});
+    const nlohmann::json detection{{"method", nameOf(method_)},         {levelKey("estimate", unit), estimateJson(estimate_)},
                                    {"trials", trials_.size()},          {"history", std::move(history)},
                                    {"first", shareJson(shares_.first)}, {"second", shareJson(shares_.second)}};
-    return {{"felt_ma", orNull(ascending_.felt)},
-            {"too_strong_ma", orNull(ascending_.tooStrong)},
+    return {{levelKey("felt", unit), orNull(ascending_.felt)},
+            {levelKey("too_strong", unit), orNull(ascending_.tooStrong)},
             {"said_too_strong", ascending_.saidTooStrong},
             {"series", std::move(series)},
             {"detection", measured_ ? detection : nlohmann::json(nullptr)},

@@ -47,6 +47,12 @@ struct Ceiling {
 };
 using Ceilings = std::vector<Ceiling>;
 
+/// What a person at a massager permits; its levels are intensities from 0 to 1.
+struct PersonVibration {
+    double discomfortLimit = 1;  ///< above 0 to 1; may fall during a session, never rise
+    double rampStep = 0.05;      ///< above 0 to 1; the largest step above an accepted intensity (H6)
+};
+
 /// What must be known before anything reaches a person.
 struct PersonSetup {
     std::string participant;  ///< pseudonym; accepted levels and discomfort live as long as it stays the same
@@ -56,6 +62,8 @@ struct PersonSetup {
     std::optional<Milliamps> cap{};  ///< > 0; the study's: no level exceeds it. Nothing: the study has none
     Ohms impedanceLow{500};          ///< the profile's range in which a person's |Z| must lie
     Ohms impedanceHigh{10'000};
+    /// A massager in place of electrodes: then no train passes, and nothing that belongs to electrodes is asked.
+    std::optional<PersonVibration> vibration{};
 };
 
 struct GateSetup {

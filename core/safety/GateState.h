@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/safety/AcceptedIntensities.h"
 #include "core/safety/AcceptedLevels.h"
 #include "core/safety/DeliveryBounds.h"
 #include "core/safety/ExposureMeter.h"
@@ -37,8 +38,13 @@ struct State {
     std::map<std::string, AcceptedLevels> people;  // a participant who comes back keeps the accepted levels
     AcceptedLevels none;                           // permits nothing
     AcceptedLevels* levels = &none;                // the current participant's, in people; without one, none
+    std::map<std::string, AcceptedIntensities> vibrated;  // the same of those at a massager
+    AcceptedIntensities noIntensities;                    // permits nothing
+    AcceptedIntensities* intensities = &noIntensities;
 
     [[nodiscard]] bool person() const noexcept { return setup && setup->mode == OutputMode::Person; }
+    /// A person at a massager.
+    [[nodiscard]] bool vibrates() const noexcept { return person() && setup->person && setup->person->vibration; }
     /// A / |Z| and back, or a calibration and back, may end a few bits above A; else a command is exact.
     [[nodiscard]] bool commandIsComputed() const noexcept {
         return setup && (setup->source.drive == Drive::Current || setup->calibration.has_value());

@@ -50,6 +50,8 @@ enum Check : int {
     PersonVoltageSource,
     PersonMonophasicCheck,
     PersonCalibration,
+    PersonVibrationLimit,
+    PersonVibrationStep,
     BadCalibration,
     // updateImpedance()
     ImpedanceValue,
@@ -95,6 +97,13 @@ enum Check : int {
     // approve() of a vibration
     BurstIntensity,
     BurstDuration,
+    BurstAtElectrodes,
+    BurstDiscomfort,
+    BurstRamp,
+    IntensityOfPerson,
+    IntensityMalformed,
+    IntensityAccept,
+    IntensityDiscomfort,
     // isCurrent()
     Epoch,
     Expiry,

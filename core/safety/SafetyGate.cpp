@@ -107,6 +107,33 @@ constexpr Rule<VibrationBurst> kBurstRules[] = {
      }},
 };
 
+constexpr Rule<State> kVibratedRules[] = {
+    {BurstAtElectrodes, [](auto& s) { return s.person() && !s.vibrates(); },
+     [](auto&) {
+         return fail(ErrorCode::LimitExceeded,
+                     "a vibration for a person at electrodes; a person at a massager is expected");
+     }},
+};
+
+constexpr Rule<State> kIntensityOwnerRules[] = {
+    {IntensityOfPerson, [](auto& s) { return !s.vibrates(); },
+     [](auto&) {
+         return fail(ErrorCode::NotArmed, "intensities are accepted by a person at a massager only");
+     }},
+};
+
+constexpr Rule<double> kAcceptedIntensityRules[] = {
+    {IntensityMalformed, [](auto& x) { return !(x >= 0 && x <= 1); },
+     [](auto& x) { return fail(ErrorCode::InvalidArgument, "an accepted intensity of {}; 0 to 1 is expected", x); }},
+};
+
+constexpr Rule<double> kUncomfortableIntensityRules[] = {
+    {IntensityDiscomfort, [](auto& x) { return !(x >= 0 && x <= 1); },
+     [](auto& x) {
+         return fail(ErrorCode::InvalidArgument, "an uncomfortable intensity of {}; 0 to 1 is expected", x);
+     }},
+};
+
 struct Approval {
     std::uint64_t epoch, current;
     Instant expires, now;
@@ -159,7 +186,17 @@ Result<void> SafetyGate::configure(const GateSetup& setup) {
     s.lastGood.reset();
     s.impedanceAt = Instant(std::numeric_limits<Instant::rep>::min());
     s.impedanceRejected = false;
-    if (setup.mode == OutputMode::Person && setup.person) {
+    s.levels = &s.none;
+    s.intensities = &s.noIntensities;
+    if (setup.mode == OutputMode::Person && setup.person && setup.person->vibration) {
+        const auto& vibration = *setup.person->vibration;
+        const auto [known, isNew] = s.vibrated.try_emplace(setup.person->participant);
+        s.intensities = &known->second;
+        if (isNew)
+            s.intensities->begin(vibration.discomfortLimit, vibration.rampStep);
+        else
+            s.intensities->resume(vibration.discomfortLimit, vibration.rampStep);
+    } else if (setup.mode == OutputMode::Person && setup.person) {
         const PersonSetup& person = *setup.person;
         s.load = LoadRange::between(person.impedanceLow, person.impedanceHigh);
         const auto [known, isNew] = s.people.try_emplace(person.participant);
@@ -258,6 +295,11 @@ Result<ApprovedTrain> SafetyGate::grant(const AskedTrain& asked, std::uint64_t e
 Result<ApprovedBurst> SafetyGate::approve(const VibrationBurst& burst) {
     const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);
     if (auto kept = judge(kBurstRules, burst); !kept) return failure(kept);
+    const State& s = *state_;
+    if (auto kept = judge(kVibratedRules, s); !kept) return failure(kept);
+    if (s.vibrates()) {
+        if (auto kept = s.intensities->permits(burst.intensity); !kept) return failure(kept);
+    }
     return ApprovedBurst(burst, epoch, clock_.now() + kApprovalLife);
 }
 
@@ -273,12 +315,37 @@ Result<void> SafetyGate::reportDiscomfort(Milliamps level) {
     return {};
 }
 
+Result<void> SafetyGate::acceptIntensity(double intensity) {
+    const State& s = *state_;
+    if (auto kept = judge(kIntensityOwnerRules, s); !kept) return kept;
+    if (auto kept = judge(kAcceptedIntensityRules, intensity); !kept) return kept;
+    return s.intensities->accept(intensity);
+}
+
+Result<void> SafetyGate::reportUncomfortable(double intensity) {
+    const State& s = *state_;
+    if (auto kept = judge(kIntensityOwnerRules, s); !kept) return kept;
+    if (auto kept = judge(kUncomfortableIntensityRules, intensity); !kept) return kept;
+    latchStop();
+    s.intensities->reportDiscomfort(intensity);
+    return {};
+}
+
+std::optional<double> SafetyGate::intensityCeiling() const noexcept {
+    if (!state_->vibrates()) return std::nullopt;
+    return state_->intensities->ceiling();
+}
+
 void SafetyGate::beginAscending() noexcept {
     latchStop();
     state_->levels->beginAscending();
+    state_->intensities->beginAscending();
 }
 
-void SafetyGate::endAscending() noexcept { state_->levels->endAscending(); }
+void SafetyGate::endAscending() noexcept {
+    state_->levels->endAscending();
+    state_->intensities->endAscending();
+}
 
 std::optional<Milliamps> SafetyGate::levelCeiling(const PulseTrain& train) const noexcept {
     if (!state_->person()) return std::nullopt;

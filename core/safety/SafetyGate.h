@@ -119,7 +119,8 @@ public:
     /// One impedance check pulse, at the device's smallest check amplitude. Same checks as approve().
     [[nodiscard]] Result<ApprovedTrain> approveCheck(Instant onset);
 
-    /// Errors: InvalidArgument outside 0..1 or not finite, or longer than 1 s.
+    /// Errors: InvalidArgument outside 0..1 or not finite, or longer than 1 s; LimitExceeded for a person at electrodes,
+    /// and for one at a massager above what was accepted and one step, or above what was called too strong.
     [[nodiscard]] Result<ApprovedBurst> approve(const VibrationBurst& burst);
 
     /// Person mode (H6, see AcceptedLevels.h). accept(): the participant accepted the level of `train`; without it the
@@ -128,6 +129,12 @@ public:
     /// The participant called `level` uncomfortable; nothing exceeds it afterwards, also after configure() for the same
     /// participant. Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
     [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
+    /// The same of a person at a massager (see AcceptedIntensities.h). Errors: NotArmed for anyone else; InvalidArgument
+    /// unless 0 to 1; of acceptIntensity() LimitExceeded for an intensity that was not permitted.
+    [[nodiscard]] Result<void> acceptIntensity(double intensity);
+    [[nodiscard]] Result<void> reportUncomfortable(double intensity);
+    /// The highest intensity that a burst may have now; nothing but for a person at a massager.
+    [[nodiscard]] std::optional<double> intensityCeiling() const noexcept;
     /// A series of ascending limits: its ceiling is its own last accepted level plus one step. Voids every approval.
     void beginAscending() noexcept;
     void endAscending() noexcept;

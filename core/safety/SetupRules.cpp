@@ -185,6 +185,10 @@ constexpr Rule<Personal> kPersonRules[] = {
      [](auto&) {
          return invalid("person mode needs the participant's pseudonym: accepted levels belong to one person");
      }},
+};
+
+/// Of a person at electrodes.
+constexpr Rule<Personal> kElectrodeRules[] = {
     {PersonArea, [](auto& p) { return !p.setup.electrodeArea; },
      [](auto&) { return invalid("person mode needs the electrode area in cm2"); }},
     {PersonVoltageSource, [](auto& p) { return p.setup.source.drive != Drive::Current; },
@@ -223,9 +227,24 @@ constexpr Rule<Personal> kPersonRules[] = {
      }},
 };
 
+bool isShare(double value) noexcept { return value > 0 && value <= 1; }
+
+/// Of a person at a massager.
+constexpr Rule<PersonVibration> kVibrationRules[] = {
+    {PersonVibrationLimit, [](auto& v) { return !isShare(v.discomfortLimit); },
+     [](auto& v) {
+         return invalid("the personal discomfort limit is intensity {}; above 0 to 1 is needed", v.discomfortLimit);
+     }},
+    {PersonVibrationStep, [](auto& v) { return !isShare(v.rampStep); },
+     [](auto& v) { return invalid("the ramp step is intensity {}; above 0 to 1 is needed", v.rampStep); }},
+};
+
 Result<void> checkPerson(const GateSetup& setup) {
     if (setup.mode != OutputMode::Person) return {};
-    return judge(kPersonRules, Personal{setup, setup.person ? *setup.person : PersonSetup{}});
+    const Personal personal{setup, setup.person ? *setup.person : PersonSetup{}};
+    if (auto sound = judge(kPersonRules, personal); !sound) return sound;
+    if (personal.person.vibration) return judge(kVibrationRules, *personal.person.vibration);
+    return judge(kElectrodeRules, personal);
 }
 
 // --- check pulse ----------------------------------------------------------------------------------------------------

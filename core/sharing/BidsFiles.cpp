@@ -50,6 +50,12 @@ BidsFile readme(const BidsStudy& study) {
     std::string text = fmt::format(
         "{}\n\nWhether people tell four conditions of tactile stimulation apart: {} participant(s), {} session(s).\n\n",
         titleOf(study), study.participants.size(), sessions);
+    if (study.massager) {
+        text +=
+            "Modality: massager. What was felt was the vibration of a motor; levels are its strength, from 0 to 1. "
+            "acceleration_m_s2 and the columns after it are what an accelerometer on the motor measured, and n/a where "
+            "none was there.\n\n";
+    }
     if (study.simulated) {
         text +=
             "SIMULATED: the participants are a model of people, and so is what they felt. These data say what the "
@@ -93,30 +99,54 @@ BidsTable participantsTable(const BidsWith& with,
 
 std::string sessionLabel(const BidsSession& session) { return fmt::format("ses-{:02}", session.number); }
 
+std::vector<BidsColumn> feltColumns(bool massager) {
+    if (massager) {
+        return {{"modality", "Through what it was felt", "", {{"massager", "the vibration of a motor"}}},
+                {"min_intensity", "Lowest strength of the personal range, 0 to 1"},
+                {"max_intensity", "Highest strength of the personal range, 0 to 1"},
+                {"detection_intensity", "Detection threshold (80 % right of two intervals)"},
+                {"too_strong_intensity", "Lowest strength called too strong, else the highest given"}};
+    }
+    return {{"electrode_area_cm2", "Area of each electrode", "cm^2"},
+            {"impedance_ohm", "Magnitude of the electrodes' impedance at the beginning", "ohm"},
+            {"min_ma", "Lowest current of the personal range", "mA"},
+            {"max_ma", "Highest current of the personal range", "mA"},
+            {"detection_ma", "Detection threshold (80 % right of two intervals)", "mA"},
+            {"too_strong_ma", "Lowest current called too strong, else the highest given", "mA"}};
+}
+
+std::vector<BidsCell> feltCells(const BidsStudy& study, const BidsSession& session) {
+    if (study.massager)
+        return {"massager", session.lowIntensity, session.highIntensity, session.detection, session.tooStrong};
+    return {study.electrodeArea_cm2, session.impedance, session.low,
+            session.high,            session.detection, session.tooStrong};
+}
+
 BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participant) {
-    BidsTable table({{"session_id", "Label of the session"},
-                     {"days_since_first", "Whole days since the participant's first session", "d"},
-                     {"encoding", "Which stimulus has which name"},
-                     {"site", "Where the stimulation was applied"},
-                     {"electrode_area_cm2", "Area of each electrode", "cm^2"},
-                     {"impedance_ohm", "Magnitude of the electrodes' impedance at the beginning", "ohm"},
-                     {"min_ma", "Lowest current of the personal range", "mA"},
-                     {"max_ma", "Highest current of the personal range", "mA"},
-                     {"detection_ma", "Detection threshold (80 % right of two intervals)", "mA"},
-                     {"too_strong_ma", "Lowest current called too strong, else the highest given", "mA"},
-                     {"skin_before", "Worse of erythema and oedema, 0 to 4"},
-                     {"skin_after", "Worse of erythema and oedema, 0 to 4"},
-                     {"complete", "Whether the session came to its end", "", {{"true", "yes"}, {"false", "no"}}},
-                     {"parts", "1, and one more for each time it was interrupted and gone on with"}});
+    std::vector<BidsColumn> columns = {{"session_id", "Label of the session"},
+                                       {"days_since_first", "Whole days since the participant's first session", "d"},
+                                       {"encoding", "Which stimulus has which name"},
+                                       {"site", "Where the stimulation was applied"}};
+    std::ranges::move(feltColumns(study.massager), std::back_inserter(columns));
+    const std::initializer_list<BidsColumn> more = {
+        {"skin_before", "Worse of erythema and oedema, 0 to 4"},
+        {"skin_after", "Worse of erythema and oedema, 0 to 4"},
+        {"complete", "Whether the session came to its end", "", {{"true", "yes"}, {"false", "no"}}},
+        {"parts", "1, and one more for each time it was interrupted and gone on with"}};
+    columns.insert(columns.end(), more.begin(), more.end());
+    BidsTable table(std::move(columns));
     for (const auto& session : participant.sessions) {
-        table.add({sessionLabel(session), session.days, session.encoding, study.site, study.electrodeArea_cm2,
-                   session.impedance, session.low, session.high, session.detection_ma, session.tooStrong_ma,
-                   session.skinBefore, session.skinAfter, session.complete, session.parts});
+        std::vector<BidsCell> cells = {sessionLabel(session), session.days, session.encoding, study.site};
+        std::ranges::move(feltCells(study, session), std::back_inserter(cells));
+        for (const BidsCell& cell : {BidsCell(session.skinBefore), BidsCell(session.skinAfter),
+                                     BidsCell(session.complete), BidsCell(session.parts)})
+            cells.push_back(cell);
+        table.add(std::move(cells));
     }
     return table;
 }
 
-void addSession(std::vector<BidsFile>& files, const std::string& subject, const BidsSession& session) {
+void addSession(std::vector<BidsFile>& files, const std::string& subject, const BidsSession& session, bool massager) {
     const auto label = sessionLabel(session);
     const auto stem = fmt::format("{0}/{1}/beh/{0}_{1}_task-", subject, label);
     struct Task {
@@ -125,10 +155,10 @@ void addSession(std::vector<BidsFile>& files, const std::string& subject, const 
         BidsTable table;
     };
     for (const auto& task :
-         {Task{"identification", "Name which of the conditions was presented", identificationTable(session)},
-          Task{"thresholds", "Say how strong it is, or which of two intervals held it", thresholdsTable(session)},
+         {Task{"identification", "Name which of the conditions was presented", identificationTable(session, massager)},
+          Task{"thresholds", "Say how strong it is, or which of two intervals held it", thresholdsTable(session, massager)},
           Task{"ratings", "Rate each condition, presented without its name", ratingsTable(session)},
-          Task{"sideeffects", "Say what is noticed at the skin and otherwise", sideEffectsTable(session)}}) {
+          Task{"sideeffects", "Say what is noticed at the skin and otherwise", sideEffectsTable(session, massager)}}) {
         if (task.table.isEmpty()) continue;
         addTable(files, fmt::format("{}{}_beh", stem, task.name), task.table,
                  {{"TaskName", task.name}, {"TaskDescription", task.description}});
@@ -194,7 +224,7 @@ Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& 
         const auto subject = "sub-" + label;
         if (participant->sessions.empty()) continue;
         addTable(files, fmt::format("{0}/{0}_sessions", subject), sessionsTable(study, *participant));
-        for (const auto& session : participant->sessions) addSession(files, subject, session);
+        for (const auto& session : participant->sessions) addSession(files, subject, session, study.massager);
     }
     std::ranges::sort(files, {}, &BidsFile::path);
     return files;

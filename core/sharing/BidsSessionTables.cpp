@@ -38,69 +38,101 @@ std::optional<bool> isRight(const IdentificationTrial& trial) {
 const BidsColumn kCurrent{"current_ma", "Amplitude of each phase of the pulses", "mA"};
 const BidsColumn kIntensity{"intensity", "Strength of the massager, 0 to 1"};
 
+const std::vector<BidsColumn> kStimulated = {
+    kCurrent,
+    kIntensity,
+    {"voltage_v", "Current times the magnitude of the impedance", "V"},
+    {"interval_s", "Between the onsets of trains", "s"},
+    {"trains", "Trains delivered"},
+    {"impedance_ohm", "Magnitude of the electrodes' impedance, measured last before the trial", "ohm"},
+    {"detection_ma", "Detection threshold (80 % right of two intervals), measured last before it", "mA"}};
+const std::vector<BidsColumn> kVibrated = {
+    kIntensity,
+    {"interval_s", "Between the commanded onsets of vibrations", "s"},
+    {"vibrations", "Vibrations delivered"},
+    {"detection_intensity", "Detection threshold (80 % right of two intervals), measured last before it"},
+    {"acceleration_m_s2", "Of the motor in its vibrations, root mean square; n/a where no accelerometer was on it",
+     "m/s^2"},
+    {"latency_s", "From the command to the motor's onset, measured", "s"},
+    {"measured_interval_s", "Between the motor's onsets, measured", "s"}};
+
+void append(std::vector<BidsCell>& cells, std::initializer_list<BidsCell> more) {
+    cells.insert(cells.end(), more.begin(), more.end());
+}
+
 }  // namespace
 
-BidsTable identificationTable(const BidsSession& session) {
-    BidsTable table(
-        {{"trial", "Number in the session's plan; training that was not needed leaves holes"},
-         {"block", "Block within its phase, from 1"},
-         {"phase",
-          "Part of the session",
-          "",
-          {{"familiarisation", "named, nothing asked"}, {"training", "with feedback"}, {"test", "without feedback"}}},
-         {"encoding", "Which stimulus has which name"},
-         {"trial_type", "What was presented", "", conditionLevels(session, false)},
-         {"texture", "Texture of the condition's name"},
-         {"pressure", "Pressure of the condition's name"},
-         {"response", "What was answered", "", conditionLevels(session, true)},
-         {"correct", "Whether the answer names what was presented; none is right for catch trials", "", kYesNo},
-         {"response_time", "From the appearance of the targets to the answer", "s"},
-         {"attempt", "2 and more where the presentation was interrupted, or not answered, before"},
-         kCurrent,
-         kIntensity,
-         {"voltage_v", "Current times the magnitude of the impedance", "V"},
-         {"interval_s", "Between the onsets of trains", "s"},
-         {"trains", "Trains delivered"},
-         {"impedance_ohm", "Magnitude of the electrodes' impedance, measured last before the trial", "ohm"},
-         {"detection_ma", "Detection threshold (80 % right of two intervals), measured last before it", "mA"},
-         {"adapted", "Whether the weakest level may not have been felt in this block", "", kYesNo}});
+BidsTable identificationTable(const BidsSession& session, bool massager) {
+    std::vector<BidsColumn> columns = {
+        {"trial", "Number in the session's plan; training that was not needed leaves holes"},
+        {"block", "Block within its phase, from 1"},
+        {"phase",
+         "Part of the session",
+         "",
+         {{"familiarisation", "named, nothing asked"}, {"training", "with feedback"}, {"test", "without feedback"}}},
+        {"encoding", "Which stimulus has which name"},
+        {"trial_type", "What was presented", "", conditionLevels(session, false)},
+        {"texture", "Texture of the condition's name"},
+        {"pressure", "Pressure of the condition's name"},
+        {"response", "What was answered", "", conditionLevels(session, true)},
+        {"correct", "Whether the answer names what was presented; none is right for catch trials", "", kYesNo},
+        {"response_time", "From the appearance of the targets to the answer", "s"},
+        {"attempt", "2 and more where the presentation was interrupted, or not answered, before"}};
+    const auto& felt = massager ? kVibrated : kStimulated;
+    columns.insert(columns.end(), felt.begin(), felt.end());
+    columns.push_back({"adapted", "Whether the weakest level may not have been felt in this block", "", kYesNo});
+    BidsTable table(std::move(columns));
     for (const auto& row : session.trials) {
         const auto& trial = row.trial;
         const bool isCatch = trial.condition == kCatchCondition;
         const auto features = isCatch ? LabelFeatures{} : featuresOf(trial.condition);
-        table.add({trial.number, trial.block, nameOf(trial.phase), session.encoding, trial.condition, features.texture,
-                   features.pressure, shared(trial.response), isRight(trial), trial.rt_s, trial.attempt, trial.current,
-                   row.intensity, row.voltage, isCatch ? kNaN : trial.interval_s, trial.trains, row.impedance,
-                   row.detection_ma, row.adapted});
+        const double interval_s = isCatch ? kNaN : trial.interval_s;
+        std::vector<BidsCell> cells = {trial.number,     trial.block,       nameOf(trial.phase),
+                                       session.encoding, trial.condition,   features.texture,
+                                       features.pressure, shared(trial.response), isRight(trial),
+                                       trial.rt_s,       trial.attempt};
+        if (massager)
+            append(cells, {row.intensity, interval_s, trial.trains, row.detection, row.vibration.strength_m_s2,
+                           row.vibration.latency_s, row.vibration.interval_s});
+        else
+            append(cells, {trial.current, row.intensity, row.voltage, interval_s, trial.trains, row.impedance,
+                           row.detection});
+        cells.emplace_back(row.adapted);
+        table.add(std::move(cells));
     }
     return table;
 }
 
-BidsTable thresholdsTable(const BidsSession& session) {
-    BidsTable table({{"trial", "Number within its procedure, from 1"},
-                     {"procedure",
-                      "How the threshold was sought",
-                      "",
-                      {{"ascending", "ascending limits, from 0"},
-                       {"detection", "two intervals, which of them held the train"},
-                       {"range", "whether half an hour of this level would be borne"},
-                       {"drift", "detection again before a later block"}}},
-                     {"series", "Series of the ascending limits, or the block before which drift was checked"},
-                     {"trial_type",
-                      "What was presented",
-                      "",
-                      {{"stimulus", "trains at the level"},
-                       {"catch", "nothing"},
-                       {"first", "a train in the first interval"},
-                       {"second", "a train in the second interval"}}},
-                     kCurrent,
-                     kIntensity,
-                     {"response", "What was answered; stop: the person stopped the output"},
-                     {"correct", "Whether the right interval was named", "", kYesNo},
-                     {"response_time", "From the appearance of the targets to the answer", "s"}});
+BidsTable thresholdsTable(const BidsSession& session, bool massager) {
+    std::vector<BidsColumn> columns = {
+        {"trial", "Number within its procedure, from 1"},
+        {"procedure",
+         "How the threshold was sought",
+         "",
+         {{"ascending", "ascending limits, from 0"},
+          {"detection", "two intervals, which of them held the train"},
+          {"range", "whether half an hour of this level would be borne"},
+          {"drift", "detection again before a later block"}}},
+        {"series", "Series of the ascending limits, or the block before which drift was checked"},
+        {"trial_type",
+         "What was presented",
+         "",
+         {{"stimulus", "trains at the level"},
+          {"catch", "nothing"},
+          {"first", "a train in the first interval"},
+          {"second", "a train in the second interval"}}}};
+    if (!massager) columns.push_back(kCurrent);
+    columns.push_back(kIntensity);
+    columns.push_back({"response", "What was answered; stop: the person stopped the output"});
+    columns.push_back({"correct", "Whether the right interval was named", "", kYesNo});
+    columns.push_back({"response_time", "From the appearance of the targets to the answer", "s"});
+    BidsTable table(std::move(columns));
     for (const auto& row : session.thresholds) {
-        table.add({row.number, row.procedure, row.series > 0 ? BidsCell(row.series) : BidsCell(kNaN), row.type,
-                   row.current, row.intensity, row.response, row.correct, row.response_s});
+        std::vector<BidsCell> cells = {row.number, row.procedure,
+                                       row.series > 0 ? BidsCell(row.series) : BidsCell(kNaN), row.type};
+        if (!massager) cells.emplace_back(row.current);
+        append(cells, {row.intensity, row.response, row.correct, row.response_s});
+        table.add(std::move(cells));
     }
     return table;
 }
@@ -122,12 +154,12 @@ BidsTable ratingsTable(const BidsSession& session) {
     return table;
 }
 
-BidsTable sideEffectsTable(const BidsSession& session) {
+BidsTable sideEffectsTable(const BidsSession& session, bool massager) {
     BidsTable table({{"moment",
                       "When it was asked",
                       "",
                       {{"before", "before the first stimulation"},
-                       {"after", "after the electrodes were taken off"},
+                       {"after", massager ? "after the massager was taken off" : "after the electrodes were taken off"},
                        {"next day", "on the day after"}}},
                      {"item", "What was noticed"},
                      {"severity", "1 absent, 2 mild, 3 moderate, 4 severe"},

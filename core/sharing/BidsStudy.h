@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/analysis/identification/IdentificationTrial.h"
+#include "core/analysis/vibration/BurstFigures.h"
 #include "core/base/NaN.h"
 #include "core/base/Units.h"
 
@@ -23,8 +24,9 @@ struct BidsTrial {
     double intensity = kNaN;  ///< of a massager, 0 to 1
     Volts voltage{kNaN};      ///< at `impedance`
     Ohms impedance{kNaN};     ///< measured last before it
-    double detection_ma = kNaN;
-    bool adapted = false;  ///< in a block whose weakest level may not have been felt
+    double detection = kNaN;  ///< mA, or a massager's intensity
+    bool adapted = false;     ///< in a block whose weakest level may not have been felt
+    BurstFigures vibration;   ///< of a massager; NaN where it was not measured
 };
 
 /// One presentation of a threshold procedure.
@@ -56,7 +58,7 @@ struct BidsSideEffect {
 /// The detection threshold, found again before a block.
 struct BidsDrift {
     std::size_t block = 0;
-    double detection_ma = kNaN;
+    double detection = kNaN;  ///< mA, or a massager's intensity
     bool adapted = false;
 };
 
@@ -67,7 +69,7 @@ struct BidsSession {
     Ohms impedance{kNaN};
     Milliamps low{kNaN}, high{kNaN};  ///< range
     double lowIntensity = kNaN, highIntensity = kNaN;
-    double detection_ma = kNaN, tooStrong_ma = kNaN;
+    double detection = kNaN, tooStrong = kNaN;  ///< mA, or a massager's intensity
     std::optional<int> skinBefore, skinAfter;  ///< the worse of erythema and oedema, 0 to 4
     bool complete = false;
     std::size_t parts = 1;
@@ -92,6 +94,7 @@ struct BidsStudy {
     bool simulated = false;  ///< rehearsal, or every participant is virtual
     std::string approval;    ///< reference and committee; empty: none
     std::string license;     ///< under which the data may be used; empty: not decided
+    bool massager = false;   ///< felt through one: levels are intensities, and there are no electrodes
     std::string site;        ///< "upper arm"
     double electrodeArea_cm2 = kNaN;
     /// Participants that the first approval allowed: labels are drawn among as many, and of later ones among as many

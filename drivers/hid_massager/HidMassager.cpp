@@ -1,6 +1,7 @@
 #include "drivers/hid_massager/HidMassager.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace tacto::hid {
@@ -77,6 +78,12 @@ Result<void> HidMassager::send(std::span<const std::uint8_t> report) {
                     report.size());
     }
     return {};
+}
+
+double HidMassager::step() const noexcept {
+    std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
+    for (const auto& field : reports_.fields) fewest = std::min(fewest, field.max - field.min);
+    return 1 / static_cast<double>(fewest);
 }
 
 Result<void> HidMassager::vibrate(ApprovedBurst&& burst) {

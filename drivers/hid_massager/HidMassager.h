@@ -54,6 +54,8 @@ public:
     /// Returns when the device has the report. A burst takes the place of one that runs. One that forceOff() overtakes
     /// is not sent, which is no error. Refuses an expired approval (Device).
     [[nodiscard]] Result<void> vibrate(ApprovedBurst&& burst) override;
+    /// Of the field that takes the fewest values.
+    [[nodiscard]] double step() const noexcept override;
     void forceOff() noexcept override;
 
     /// Writes what is due and returns when the next write is. For the driver's own thread, and for tests on a virtual

@@ -70,6 +70,7 @@ Result<FingerAndSensor> readFinger(const DeviceUri& uri, std::uint64_t seed) {
     sensor.forceNoise_N = from.quantity("forcenoise", "N", sensor.forceNoise_N, 0, 1);
     sensor.taxelGain = from.quantity("taxelgain", "", sensor.taxelGain, 0.1, 10);
     sensor.forceGain = from.quantity("forcegain", "", sensor.forceGain, 0.1, 10);
+    sensor.onMotor = from.choice("on", "finger", {"finger", "motor"}) == "motor";
     sensor.taxelsInCounts = from.choice("taxelunit", "Pa", {"Pa", "count"}) == "count";
     sensor.dropouts = from.quantity("dropouts", "", 0, 0, 0.9);
     sensor.faults = faultsIn(from, {Fault::Unplug, Fault::Stale, Fault::Dropout, Fault::Nan, Fault::Garbage,
@@ -176,9 +177,11 @@ Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed)
 Result<MassagerSettings> readMassager(const DeviceUri& uri) {
     UriParameters from(uri);
     MassagerSettings settings;
-    settings.spinUp = Seconds(from.quantity("spinup", "s", settings.spinUp.count(), 1e-3, 1));
-    settings.topFrequency = Hertz(from.quantity("frequency", "Hz", settings.topFrequency.value(), 10, 1000));
-    settings.topAcceleration_m_s2 = from.quantity("acceleration", "m/s2", settings.topAcceleration_m_s2, 0.1, 200);
+    auto& motor = settings.motor;
+    motor.spinUp = Seconds(from.quantity("spinup", "s", motor.spinUp.count(), 1e-3, 1));
+    motor.topFrequency = Hertz(from.quantity("frequency", "Hz", motor.topFrequency.value(), 10, 1000));
+    motor.topAcceleration_m_s2 = from.quantity("acceleration", "m/s2", motor.topAcceleration_m_s2, 0.1, 200);
+    settings.step = from.quantity("step", "", settings.step, 0, 1);
     settings.faults = faultsIn(from, {Fault::Unplug, Fault::StuckOn, Fault::Late});
     if (const auto read = from.finish(); !read) return failure(read);
     return settings;

@@ -26,7 +26,7 @@ const std::array<Kind, 4>& kinds() {
          "finger",
          "simulated fingertip",
          {"material", "speed", "force", "stroke", "lift", "tremor", "resonance", "damping", "grating", "depth",
-          "taxelrate", "range", "taxelnoise", "forcenoise", "dropouts"}},
+          "taxelrate", "range", "taxelnoise", "forcenoise", "dropouts", "on"}},
         {Role::Stimulator,
          "stimulator",
          "simulated stimulator",
@@ -154,7 +154,12 @@ private:
         const auto read = readFinger(uri, world->seed());
         if (!read) return failure(read);
         auto finger = std::make_shared<Finger>(read->finger, world->clock().now());
-        into.surface = std::make_shared<FingerPresenter>(world, finger);
+        if (read->sensor.onMotor) {  // it touches nothing, and nothing can be put under it
+            const auto lifted = finger->present("", MillimetresPerSecond(0), Newtons(0), world->clock().now());
+            if (!lifted) return failure(lifted);
+        } else {
+            into.surface = std::make_shared<FingerPresenter>(world, finger);
+        }
         into.sensor =
             std::make_unique<SimulatedSensor>(std::move(identity), std::move(world), std::move(finger), read->sensor);
         return {};

@@ -6,12 +6,13 @@
 //   sim:stimulator?mode=current&gain=1.02&load=500ohm&fault=open@12s
 //   sim:oscilloscope?bits=12&noise=2mV
 //   sim:massager
+//   sim:finger?on=motor                                    the sensor board, fastened to the massager's motor
 //
 // Devices opened into one DeviceSet share one world: the oscilloscope sees what the stimulator drives. The load is
 // OpenContext::declaredLoad unless `load=` says otherwise. Same seed and same calls at the same times: same bytes,
 // however often the devices are read. Every key is checked; an unknown one is refused with the list of those known.
 //
-// The set gets a SurfacePresenter with a simulated finger and a LoadFitter with a simulated stimulator.
+// The set gets a SurfacePresenter with a simulated finger that is not on the motor, and a LoadFitter with a simulated stimulator.
 //
 // Thread-safety: as Driver.
 #pragma once

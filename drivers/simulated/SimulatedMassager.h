@@ -1,35 +1,26 @@
-// SimulatedMassager.h - a vibration motor with an eccentric mass: it takes time to spin up and to run down.
-//
-// Speed follows the command as a critically damped second-order system, in closed form between commands; the
-// vibration's amplitude goes with the square of speed and its frequency with speed.
+// SimulatedMassager.h - a massager whose motor a simulated accelerometer may be fastened to.
 //
 // Thread-safety: as Massager; forceOff() is lock-free.
 #pragma once
 
-#include <atomic>
-#include <limits>
 #include <memory>
 
 #include "core/devices/Massager.h"
 #include "drivers/simulated/FaultSchedule.h"
+#include "drivers/simulated/Motor.h"
 #include "drivers/simulated/World.h"
 
 namespace tacto::sim {
 
 struct MassagerSettings {
-    Seconds spinUp{0.03};  ///< time constant
-    Hertz topFrequency{180};
-    double topAcceleration_m_s2 = 15;  ///< amplitude at full speed
+    MotorSettings motor;
+    double step = 0;  ///< of intensities; 0: it takes any
     FaultSchedule faults;
 };
 
 class SimulatedMassager final : public Massager, public WorldMember {
 public:
-    struct Vibration {
-        double amplitude_m_s2 = 0;
-        double frequency_hz = 0;
-    };
-
+    /// Its motor becomes the world's.
     SimulatedMassager(DeviceIdentity identity, std::shared_ptr<World> world, const MassagerSettings& settings);
     ~SimulatedMassager() override { forceOff(); }
     SimulatedMassager(const SimulatedMassager&) = delete;
@@ -37,28 +28,18 @@ public:
 
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
     [[nodiscard]] Result<void> vibrate(ApprovedBurst&& burst) override;
-    void forceOff() noexcept override;
+    [[nodiscard]] double step() const noexcept override { return settings_.step; }
+    void forceOff() noexcept override { motor_->cut(world_->clock().now()); }
     [[nodiscard]] const std::shared_ptr<World>& world() const noexcept override { return world_; }
 
-    /// What a hand on it would feel at `moment`, which is at or after the newest command. The device's thread.
-    [[nodiscard]] Vibration vibrationAt(Instant moment) const noexcept;
+    /// What a hand on it would feel. Any thread.
+    [[nodiscard]] Motor::Vibration vibrationAt(Instant moment) const { return motor_->at(moment); }
 
 private:
-    struct Motion {
-        double speed = 0;  ///< 1 = full
-        double rate = 0;   ///< 1/s
-    };
-    [[nodiscard]] Motion run(Motion from, double command, double seconds) const noexcept;
-    [[nodiscard]] Motion motionAt(double t_s) const noexcept;
-
     const DeviceIdentity identity_;
     const std::shared_ptr<World> world_;
     const MassagerSettings settings_;
-    Motion start_;  // at start_s_, when the newest burst began
-    double start_s_ = 0;
-    double command_ = 0;
-    double end_s_ = 0;  // of the burst by itself
-    std::atomic<Instant::rep> cut_{std::numeric_limits<Instant::rep>::max()};
+    const std::shared_ptr<Motor> motor_;
 };
 
 }  // namespace tacto::sim

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tacto::sim {
 
@@ -63,7 +64,8 @@ void SimulatedSensor::noteFaults(Instant now) {
     drifting_s_ = drift ? toSeconds(now - *drift) : 0;
 }
 
-void SimulatedSensor::sampleFast(SampleBlock& block) {
+/// Of the fingertip, averaged over the sample.
+std::array<double, 3> SimulatedSensor::felt() {
     std::array<double, 3> mean{};
     for (int tick = 0; tick < ticksPerSample_; ++tick) {
         if (sample_ > 0) finger_->step();
@@ -71,9 +73,29 @@ void SimulatedSensor::sampleFast(SampleBlock& block) {
         if (sample_ == 0) break;
     }
     const double scale = sample_ == 0 ? 1.0 : 1.0 / ticksPerSample_;
+    for (auto& axis : mean) axis *= scale;
+    return mean;
+}
+
+/// Of the motor, in a direction of its own, beside gravity.
+std::array<double, 3> SimulatedSensor::shaken() {
+    constexpr std::array<double, 3> kDirection{0.6, 0, 0.8};
+    std::array<double, 3> out{0, 0, kGravity};
+    if (!motor_) return out;
+    const double t = opened_s_ + static_cast<double>(sample_) / settings_.rate_hz;
+    const auto vibration = motor_->at(toInstant(t));
+    motorTurn_ = std::fmod(motorTurn_ + 2 * std::numbers::pi * vibration.frequency_hz / settings_.rate_hz,
+                           2 * std::numbers::pi);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        out[axis] += kDirection[axis] * vibration.amplitude_m_s2 * std::sin(motorTurn_);
+    return out;
+}
+
+void SimulatedSensor::sampleFast(SampleBlock& block) {
+    const auto acceleration = settings_.onMotor ? shaken() : felt();
     const double noise = settings_.noise_m_s2;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double value = mean[axis] * scale + noise * fastNoise_.normal();
+        const double value = acceleration[axis] + noise * fastNoise_.normal();
         const double seen = quantised(value, lsb_, settings_.range_g * kGravity);
         if (!stuck_) lastAcceleration_[axis] = seen;
     }
@@ -114,6 +136,7 @@ Result<void> SimulatedSensor::read(std::span<SampleBlock> blocks) {
     }
     const Instant now = world_->clock().now();
     const auto& faults = settings_.faults;
+    if (settings_.onMotor) motor_ = world_->motor();
     if (faults.active(Fault::Unplug, now)) return fail(ErrorCode::Device, "the simulated finger is unplugged");
     const bool late = faults.active(Fault::Late, now);
     const double until = toSeconds(now) - (late ? kLateness.count() : 0);

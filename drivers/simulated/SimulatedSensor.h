@@ -34,6 +34,7 @@ struct SensorSettings {
     double forceGain = 1;
     bool taxelsInCounts = false;  ///< and whether taxels claim to be in Pa at all
     double dropouts = 0;          ///< fraction of 10 ms packets that are lost
+    bool onMotor = false;         ///< fastened to the world's motor in place of a fingertip
     FaultSchedule faults;
     std::uint64_t seed = 1;
 };
@@ -55,6 +56,8 @@ public:
 
 private:
     void sampleFast(SampleBlock& block);
+    [[nodiscard]] std::array<double, 3> felt();
+    [[nodiscard]] std::array<double, 3> shaken();
     void sampleSlow(SampleBlock& taxels, SampleBlock& force);
     void noteFaults(Instant now);
     [[nodiscard]] bool packetLost(double t_s) const noexcept;
@@ -71,6 +74,8 @@ private:
     FastNoise fastNoise_, slowNoise_;
     std::array<double, Finger::kTaxels> offsets_{};
     std::int64_t sample_ = 0;  // index of the next acceleration sample
+    std::shared_ptr<const Motor> motor_;
+    double motorTurn_ = 0;     // angle of the motor's mass at that sample
     std::array<double, 3> lastAcceleration_{};
     std::array<double, Finger::kTaxels> lastPressures_{};
     double lastForce_ = 0;

@@ -6,12 +6,14 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "core/base/Clock.h"
 #include "core/devices/Oscilloscope.h"
 #include "core/devices/TactileSensor.h"
 #include "drivers/simulated/Finger.h"
+#include "drivers/simulated/Motor.h"
 #include "drivers/simulated/SimulatedCircuit.h"
 
 namespace tacto::sim {
@@ -28,11 +30,23 @@ public:
     [[nodiscard]] double reference() const noexcept { return reference_V_.load(std::memory_order_acquire); }
     void setReference(double volts) noexcept { reference_V_.store(volts, std::memory_order_release); }
 
+    /// Of the massager; null: there is none.
+    [[nodiscard]] std::shared_ptr<Motor> motor() const {
+        const std::scoped_lock lock(motorMutex_);
+        return motor_;
+    }
+    void setMotor(std::shared_ptr<Motor> motor) {
+        const std::scoped_lock lock(motorMutex_);
+        motor_ = std::move(motor);
+    }
+
 private:
     const Clock& clock_;
     const std::uint64_t seed_;
     std::atomic<double> reference_V_{0};
     SimulatedCircuit circuit_;
+    mutable std::mutex motorMutex_;
+    std::shared_ptr<Motor> motor_;  // guarded by motorMutex_
 };
 
 /// Implemented by every simulated device, so that one opened later finds the world of those before it.

@@ -1,6 +1,7 @@
 // Can this participant tell the four tactile conditions apart? Thresholds first, then training, then test blocks
 // without feedback. Each answer is on disk before the next presentation; a session that was broken off goes on with
-// the first trial of its order that has no answer.
+// the first trial of its order that has no answer. A study with massagers has a massager in the stimulator's place:
+// strength for current, no electrodes.
 protocol({
   title: "Pilot session: identification",
   purpose: "Can this participant tell the four tactile conditions apart?",
@@ -13,6 +14,12 @@ protocol({
       type: "choice",
       choices: { ask: "is named, and nothing is done", resume: "goes on", end: "is ended, and a new one begins" },
       value: "ask",
+    },
+    modality: {
+      label: "Felt through (rehearsals; a study has its own)",
+      type: "choice",
+      choices: { study: "as the study or the named device says", electrodes: "electrodes", massager: "a massager" },
+      value: "study",
     },
     blocks: { label: "Blocks of the test (rehearsals)", type: "integer", min: 1, max: 50, value: 5 },
     exclusions: { label: "Checklist: what is answered yes", type: "text", value: "" },

@@ -1,8 +1,8 @@
 // What can this participant feel today, and from where is it too strong? Three steps; each answer is on disk before
-// the next presentation.
+// the next presentation. A study with massagers has a massager in the stimulator's place.
 protocol({
   title: "Pilot session: thresholds",
-  purpose: "Find the currents between which this participant's conditions lie today.",
+  purpose: "Find the levels between which this participant's conditions lie today.",
   kind: "pilot-thresholds",
   needs: ["stimulator"],
   parameters: {
@@ -12,6 +12,12 @@ protocol({
       type: "choice",
       choices: { ask: "is named, and nothing is done", resume: "goes on", end: "is ended, and a new one begins" },
       value: "ask",
+    },
+    modality: {
+      label: "Felt through (rehearsals; a study has its own)",
+      type: "choice",
+      choices: { study: "as the study or the named device says", electrodes: "electrodes", massager: "a massager" },
+      value: "study",
     },
     blocks: { label: "Blocks of the test: not used here", type: "integer", min: 1, max: 50, value: 5 },
     exclusions: { label: "Checklist: what is answered yes", type: "text", value: "" },

@@ -29,6 +29,7 @@ public:
         if (onVibrate) onVibrate();
         return {};
     }
+    [[nodiscard]] double step() const noexcept override { return 0; }
     void forceOff() noexcept override { ++offs; }
     [[nodiscard]] std::vector<Sent> sent() const {
         const std::scoped_lock lock(mutex_);

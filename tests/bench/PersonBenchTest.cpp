@@ -158,7 +158,7 @@ TEST_F(PersonBenchTest, OnlyWhatWasPresentedLastIsAccepted) {
     EXPECT_FALSE(bench_->accept(Milliamps(1))) << "permitted, and never felt";
     EXPECT_FALSE(bench_->accept(Milliamps(kNoNumber)));
     EXPECT_TRUE(bench_->accept(Milliamps(0.5)));
-    EXPECT_TRUE(bench_->levelCeiling().value() == Milliamps(1.5));
+    EXPECT_TRUE(bench_->levelCeiling().value() == StimulusLevel(Milliamps(1.5)));
 }
 
 TEST_F(PersonBenchTest, AnAscendingSeriesStartsFromNothing) {
@@ -167,13 +167,13 @@ TEST_F(PersonBenchTest, AnAscendingSeriesStartsFromNothing) {
     rampTo(3);
     EXPECT_EQ(presentTest(3.5).end, PresentationEnd::Complete);
     ASSERT_TRUE(bench_->beginAscending());
-    EXPECT_TRUE(bench_->levelCeiling().value() == Milliamps(1));
+    EXPECT_TRUE(bench_->levelCeiling().value() == StimulusLevel(Milliamps(1)));
     EXPECT_EQ(presentTest(2).end, PresentationEnd::Refused) << "accepted before, but not in this series";
     ASSERT_EQ(presentTest(1).end, PresentationEnd::Complete);
     ASSERT_TRUE(bench_->accept(Milliamps(1)));
-    EXPECT_TRUE(bench_->levelCeiling().value() == Milliamps(2));
+    EXPECT_TRUE(bench_->levelCeiling().value() == StimulusLevel(Milliamps(2)));
     ASSERT_TRUE(bench_->endAscending());
-    EXPECT_TRUE(bench_->levelCeiling().value() == Milliamps(4));
+    EXPECT_TRUE(bench_->levelCeiling().value() == StimulusLevel(Milliamps(4)));
     EXPECT_EQ(presentTest(3).end, PresentationEnd::Complete) << "an accepted level may be entered in one step";
 }
 
@@ -224,7 +224,7 @@ TEST_F(PersonBenchTest, TheCapOfTheStudyHolds) {
     const auto refused = presentTest(2.5);
     EXPECT_EQ(refused.end, PresentationEnd::Refused);
     EXPECT_THAT(refused.reason, HasSubstr("the study's cap is 2 mA"));
-    EXPECT_TRUE(bench_->levelCeiling().value() == Milliamps(2));
+    EXPECT_TRUE(bench_->levelCeiling().value() == StimulusLevel(Milliamps(2)));
     const auto limit = bench_->levelLimit(kShortest);
     ASSERT_TRUE(limit) << limit.error().message;
     EXPECT_TRUE(limit->level == Milliamps(2));

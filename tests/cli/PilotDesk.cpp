@@ -12,7 +12,8 @@ namespace tacto::test {
 Words shortSession() { return {"--set", "participant=virtual:7", "--set", "blocks=1"}; }
 
 Words PilotDesk::words(const std::string& protocol, const Words& more, const std::string& study) const {
-    Words all{"run", protocol, "--device", "sim:", "--out", desk_.at(study), "--json"};
+    Words all{"run", protocol, "--out", desk_.at(study), "--json"};
+    for (const auto& device : devices_) all.insert(all.end(), {"--device", device});
     all.insert(all.end(), more.begin(), more.end());
     return all;
 }

@@ -14,6 +14,7 @@ namespace tacto::test {
 
 class PilotDesk {
 public:
+    explicit PilotDesk(Words devices = {"sim:"}) : devices_(std::move(devices)) {}
     /// `run PROTOCOL --device sim: --out STUDY --json` with more words.
     [[nodiscard]] Ran run(const std::string& protocol, const Words& more, const std::string& study = "study") const;
     /// The same, killed when it makes something durable for the `sync`-th time. The code is -9 when it was.
@@ -28,6 +29,7 @@ private:
     [[nodiscard]] int execute(const Words& environment, Words all, unsigned long largestFile,
                               const std::string& errors) const;
     [[nodiscard]] Words words(const std::string& protocol, const Words& more, const std::string& study) const;
+    const Words devices_;
     const Desk desk_;
 };
 

@@ -30,7 +30,7 @@ SessionRecord sessionWith(std::size_t right, int number, const std::string& enco
     results.low = Milliamps(4);
     results.high = Milliamps(6.5);
     results.impedance = Ohms(3400);
-    results.detection_ma = 3.1;
+    results.detection = 3.1;
     for (std::size_t i = 0; i < 80; ++i) {
         BidsTrial row;
         row.trial.number = i + 1;
@@ -199,6 +199,80 @@ TEST(StudyReport, IsWrittenAsPdfAndHtml) {
     }
     const auto html = readTextFile(folder.path() / "r.html").value_or("");
     EXPECT_THAT(html, HasSubstr("told the four apart in 68 of 80 trials"));
+}
+
+std::string textOfAll(const ReportContent& content) {
+    std::string all;
+    const auto add = [&all](const QString& text) { all += text.toStdString() + '\n'; };
+    for (const auto& block : content.blocks) {
+        if (const auto* paragraph = std::get_if<ParagraphBlock>(&block)) add(paragraph->text);
+        if (const auto* facts = std::get_if<FactsBlock>(&block)) {
+            for (const auto& fact : facts->facts) add(fact.name + ": " + fact.value);
+        }
+        const auto* table = std::get_if<TableBlock>(&block);
+        if (table == nullptr) continue;
+        add(table->caption);
+        for (const auto& column : table->columns) add(column.title);
+        for (const auto& row : table->rows) add(row.join(" | "));
+    }
+    return all;
+}
+
+/// The study of three with a massager, whose first participant had an accelerometer on its motor.
+StudyRecord vibratedStudy() {
+    auto study = studyOfThree();
+    study.settings.modality = Modality::Massager;
+    for (auto& participant : study.participants) {
+        for (auto& session : participant.sessions) {
+            auto& results = session.results;
+            results.low = results.high = Milliamps(kNaN);
+            results.impedance = Ohms(kNaN);
+            results.lowIntensity = 0.3;
+            results.highIntensity = 0.55;
+            results.detection = 0.22;
+            results.tooStrong = 0.7;
+            for (auto& row : results.trials) {
+                row.intensity = row.trial.condition.starts_with("rough") ? 0.55 : 0.3;
+                row.trial.interval_s = row.trial.condition.ends_with("high") ? 0.5 : 2;
+            }
+        }
+    }
+    for (auto& row : study.participants[0].sessions[0].results.trials) {
+        auto& did = row.vibration;
+        did.bursts = did.moved = 3;
+        did.strength_m_s2 = 10 * row.intensity * row.intensity * (1 + 0.01 * static_cast<double>(row.trial.number % 3));
+        did.interval_s = row.trial.interval_s * (1 + 0.001 * static_cast<double>(row.trial.number % 5));
+        did.latency_s = 0.012;
+        did.rise_s = 0.06;
+        did.strengthUncertainty_m_s2 = 0.001;
+        did.intervalUncertainty_s = 1e-4;
+    }
+    return study;
+}
+
+TEST(StudyReport, WithAMassagerSaysStrengthAndNeverCurrentOrVoltage) {
+    RecordProperty("hazard", "H9");
+    const auto study = vibratedStudy();
+    for (const auto& text : {textOfAll(studyReport(study).value()), textOfAll(committeeReport(study)),
+                             textOfAll(participantReport(study, "P-7K3M").value())}) {
+        for (const char* electrical : {"mA", "Ω", " V ", "µC", "pulse", "urrent", "electrode"})
+            EXPECT_THAT(text, Not(HasSubstr(electrical)));
+        EXPECT_THAT(text, HasSubstr("massager"));
+    }
+    const auto all = textOfAll(studyReport(study).value());
+    EXPECT_THAT(all, HasSubstr("between intensity 0.30 and 0.55"));
+    EXPECT_THAT(all, HasSubstr("Too strong (strength)"));
+    EXPECT_THAT(all, HasSubstr("0.30 to 0.55"));
+}
+
+TEST(StudyReport, SaysWhatTheMotorDidOrThatItWasNotMeasured) {
+    RecordProperty("hazard", "H9");
+    const auto all = textOfAll(studyReport(vibratedStudy()).value());
+    EXPECT_THAT(all, HasSubstr("P-7K3M, session 1: what the motor did"));
+    EXPECT_THAT(all, HasSubstr("60 of 60 vibrations"));
+    EXPECT_THAT(all, HasSubstr("by the rule that electrical conditions are judged by: pass."));
+    EXPECT_THAT(all, HasSubstr("What the massager did: Not measured"));
+    EXPECT_THAT(textOfAll(studyReport(studyOfThree()).value()), Not(HasSubstr("massager did")));
 }
 
 }  // namespace

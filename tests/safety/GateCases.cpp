@@ -89,6 +89,15 @@ void addConfigureCases(std::vector<GateCase>& cases) {
     add(PersonCap, person([](auto& s) { s.person->cap = Milliamps(kNaN); }), "the study's cap");
     add(PersonImpedanceBounds, person([](auto& s) { s.person->impedanceLow = Ohms(20'000); }), "impedance range");
     add(PersonVoltageSource, person([](auto& s) { s.source = voltageSource(); }), "voltage source is refused");
+    const auto vibrated = [](auto spoil) {
+        GateSetup setup = vibrationSetup();
+        spoil(*setup.person->vibration);
+        return setup;
+    };
+    for (const double wrong : {0.0, -0.1, 1.1, kNaN}) {
+        add(PersonVibrationLimit, vibrated([wrong](auto& v) { v.discomfortLimit = wrong; }), "discomfort limit is");
+        add(PersonVibrationStep, vibrated([wrong](auto& v) { v.rampStep = wrong; }), "ramp step is");
+    }
     add(PersonMonophasicCheck, person([](auto& s) { s.check.shape = PulseShape::Monophasic; }), "monophasic check");
 }
 
@@ -423,6 +432,47 @@ void addStateCases(std::vector<GateCase>& cases) {
         return refuses(rig.gate.approve(VibrationBurst{1, Seconds(1.01)}), ErrorCode::InvalidArgument,
                        "vibration of") &&
                refuses(rig.gate.approve(VibrationBurst{1, Seconds(kNaN)}), ErrorCode::InvalidArgument, "vibration of");
+    });
+    add(BurstAtElectrodes, "a vibration for a person at electrodes", [] {
+        Rig bench(benchSetup());
+        Rig rig(personSetup());
+        return bench.gate.approve(VibrationBurst{0.1}) &&
+               refuses(rig.gate.approve(VibrationBurst{0.1}), ErrorCode::LimitExceeded, "at electrodes");
+    });
+    const auto withVibrated = [&add](Check check, const char* words, bool (*holds)(SafetyGate&)) {
+        add(check, words, [holds] {
+            Rig rig(vibrationSetup());
+            return rig.configured && holds(rig.gate);
+        });
+    };
+    withVibrated(BurstRamp, "a vibration above the ramp", [](SafetyGate& gate) {
+        return gate.approve(VibrationBurst{0.1}) &&
+               refuses(gate.approve(VibrationBurst{0.11}), ErrorCode::LimitExceeded, "ramp rule") &&
+               gate.acceptIntensity(0.1) && gate.approve(VibrationBurst{0.2});
+    });
+    withVibrated(BurstDiscomfort, "a vibration above the discomfort limit", [](SafetyGate& gate) {
+        for (const double x : {0.1, 0.2, 0.3}) (void)gate.acceptIntensity(x);
+        const bool fine = gate.approve(VibrationBurst{0.3}).has_value();
+        return fine && gate.reportUncomfortable(0.2) && gate.approve(VibrationBurst{0.2}) &&
+               refuses(gate.approve(VibrationBurst{0.3}), ErrorCode::LimitExceeded, "discomfort limit");
+    });
+    withVibrated(IntensityAccept, "an intensity that was not permitted", [](SafetyGate& gate) {
+        return refuses(gate.acceptIntensity(0.5), ErrorCode::LimitExceeded, "ramp rule") &&
+               !gate.approve(VibrationBurst{0.5});
+    });
+    withVibrated(IntensityMalformed, "an accepted intensity below 0", [](SafetyGate& gate) {
+        return refuses(gate.acceptIntensity(-0.1), ErrorCode::InvalidArgument, "accepted intensity") &&
+               refuses(gate.acceptIntensity(kNaN), ErrorCode::InvalidArgument, "accepted intensity");
+    });
+    withVibrated(IntensityDiscomfort, "an uncomfortable intensity that is no number", [](SafetyGate& gate) {
+        return refuses(gate.reportUncomfortable(kNaN), ErrorCode::InvalidArgument, "uncomfortable intensity") &&
+               refuses(gate.reportUncomfortable(-0.1), ErrorCode::InvalidArgument, "uncomfortable intensity");
+    });
+    add(IntensityOfPerson, "an intensity of a person at electrodes", [] {
+        Rig rig(personSetup());
+        return refuses(rig.gate.acceptIntensity(0.1), ErrorCode::NotArmed, "at a massager") &&
+               refuses(rig.gate.reportUncomfortable(0.1), ErrorCode::NotArmed, "at a massager") &&
+               !rig.gate.intensityCeiling();
     });
     add(Epoch, "a train approved before a stop", [] {
         Rig rig(benchSetup());

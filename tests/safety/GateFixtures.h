@@ -82,6 +82,20 @@ inline GateSetup personSetup() {
     return setup;
 }
 
+/// A person at a massager, which has no source, calibration or electrodes.
+inline GateSetup vibrationSetup() {
+    GateSetup setup;
+    setup.mode = OutputMode::Person;
+    setup.limits = {lenient()};
+    PersonSetup person;
+    person.participant = "P02";
+    person.consentRecorded = true;
+    person.vibration = PersonVibration{.discomfortLimit = 1, .rampStep = 0.1};
+    setup.source = voltageSource();
+    setup.person = person;
+    return setup;
+}
+
 /// 200 µs + 200 µs, 100 µs apart, once.
 inline PulseTrain volts(double v) {
     PulseTrain train;

@@ -66,8 +66,8 @@ bool beginsARule(const std::string& line) {
 TEST(GateMutation, EveryRefusalHasItsRule) {
     RecordProperty("hazard", "H1");
     int refusals = 0;
-    for (const char* name : {"AcceptedLevels.cpp", "SetupRules.cpp", "TrainRules.cpp", "LimitRules.cpp",
-                             "Interlock.cpp", "SafetyGate.cpp", "TrainCheck.cpp", "Heartbeat.h"}) {
+    for (const char* name : {"AcceptedIntensities.cpp", "AcceptedLevels.cpp", "SetupRules.cpp", "TrainRules.cpp",
+                             "LimitRules.cpp", "Interlock.cpp", "SafetyGate.cpp", "TrainCheck.cpp", "Heartbeat.h"}) {
         std::ifstream in(sourceDir() / "core" / "safety" / name);
         ASSERT_TRUE(in) << name;
         std::vector<std::string> lines;

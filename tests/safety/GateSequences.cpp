@@ -267,11 +267,13 @@ private:
         if (dice_.chance(0.9)) deliverPending();
     }
 
-    /// A massager's vibration: judged by its numbers alone, void after a stop as everything else.
+    /// A massager's vibration: refused for a person at electrodes, else judged by its numbers; void after a stop as
+    /// everything else.
     void burst() {
         const VibrationBurst wanted{dice_.chance(0.1) ? kNaN : dice_.between(-0.2, 1.2),
                                     Seconds(dice_.chance(0.1) ? kInf : dice_.between(-0.2, 1.2))};
-        const bool sound = wanted.intensity >= 0 && wanted.intensity <= 1 && wanted.duration.count() > 0 &&
+        const bool atElectrodes = configured_ && allowed_.person;
+        const bool sound = !atElectrodes && wanted.intensity >= 0 && wanted.intensity <= 1 && wanted.duration.count() > 0 &&
                            wanted.duration.count() <= 1;
         const auto approved = gate().approve(wanted);
         if (approved.has_value() != sound) violation("a vibration was judged wrongly");

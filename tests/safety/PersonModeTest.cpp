@@ -191,4 +191,65 @@ TEST(AcceptedLevels, DecimalStepsMeetTheirCeiling) {
     EXPECT_FALSE(levels.permits(milliamps(std::numeric_limits<double>::quiet_NaN())));
 }
 
+namespace {
+/// A person at a massager whose levels rise by 0.1.
+struct Vibrated : Rig {
+    Vibrated() : Rig(vibrationSetup()) { EXPECT_TRUE(configured); }
+    bool may(double intensity) { return gate.approve(VibrationBurst{intensity}).has_value(); }
+    void rampTo(double intensity) {
+        for (double level = 0.1; level < intensity + 0.05; level += 0.1) {
+            ASSERT_TRUE(may(level)) << level;
+            ASSERT_TRUE(gate.acceptIntensity(level));
+        }
+    }
+};
+}  // namespace
+
+TEST(PersonAtAMassager, ReachesAnIntensityByStepsThatWereAccepted) {
+    RecordProperty("hazard", "H6");
+    Vibrated rig;
+    EXPECT_FALSE(rig.may(0.2)) << "nothing was accepted yet";
+    rig.rampTo(0.5);
+    EXPECT_TRUE(rig.may(0.6));
+    EXPECT_FALSE(rig.may(0.7));
+    rig.gate.beginAscending();
+    EXPECT_TRUE(rig.may(0.1)) << "a series starts from nothing";
+    EXPECT_FALSE(rig.may(0.2));
+    EXPECT_NEAR(*rig.gate.intensityCeiling(), 0.1, 1e-9);
+    rig.gate.endAscending();
+    EXPECT_TRUE(rig.may(0.5)) << "an accepted one in one step";
+}
+
+TEST(PersonAtAMassager, KeepsTheDiscomfortLimitThroughAnArming) {
+    RecordProperty("hazard", "H6");
+    Vibrated rig;
+    rig.rampTo(0.5);
+    const auto approved = rig.gate.approve(VibrationBurst{0.5});
+    ASSERT_TRUE(approved);
+    ASSERT_TRUE(rig.gate.reportUncomfortable(0.3));
+    EXPECT_FALSE(rig.gate.isCurrent(*approved)) << "what was approved before the word is void";
+    ASSERT_TRUE(rig.gate.configure(vibrationSetup()));
+    EXPECT_TRUE(rig.may(0.3));
+    EXPECT_FALSE(rig.may(0.4));
+    ASSERT_TRUE(rig.gate.reportUncomfortable(0.9));
+    EXPECT_FALSE(rig.may(0.4)) << "it only falls";
+    auto another = vibrationSetup();
+    another.person->participant = "P03";
+    ASSERT_TRUE(rig.gate.configure(another));
+    EXPECT_FALSE(rig.may(0.3)) << "another person has accepted nothing";
+}
+
+TEST(PersonAtAMassager, GetsNoCurrent) {
+    RecordProperty("hazard", "H4");
+    auto setup = vibrationSetup();
+    setup.source = currentSource();
+    Rig rig(setup);
+    ASSERT_TRUE(rig.configured);
+    ASSERT_TRUE(rig.gate.updateImpedance(Ohms(2000), rig.clock.now()));
+    EXPECT_FALSE(rig.ask(milliamps(0.5)));
+    EXPECT_FALSE(rig.gate.approveCheck(rig.clock.now()));
+    EXPECT_FALSE(rig.gate.accept(milliamps(0.5)));
+    EXPECT_TRUE(rig.gate.approve(VibrationBurst{0.1}));
+}
+
 }  // namespace tacto::test

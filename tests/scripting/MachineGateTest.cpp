@@ -21,7 +21,24 @@ using testing::HasSubstr;
 
 constexpr const char* kSource = "mode=current&step=0.5mA";
 
-/// Opens simulated stimulators that say they are real.
+/// A simulated massager that says it is real.
+class RealLookingMassager final : public Massager {
+public:
+    explicit RealLookingMassager(std::unique_ptr<Massager> inner)
+        : inner_(std::move(inner)), identity_(inner_->identity()) {
+        identity_.simulated = false;
+    }
+    [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
+    [[nodiscard]] Result<void> vibrate(ApprovedBurst&& burst) override { return inner_->vibrate(std::move(burst)); }
+    [[nodiscard]] double step() const noexcept override { return inner_->step(); }
+    void forceOff() noexcept override { inner_->forceOff(); }
+
+private:
+    const std::unique_ptr<Massager> inner_;
+    DeviceIdentity identity_;
+};
+
+/// Opens simulated stimulators and massagers that say they are real.
 class LabDriver final : public Driver {
 public:
     [[nodiscard]] std::string_view scheme() const noexcept override { return "lab"; }
@@ -32,6 +49,10 @@ public:
         auto simulated = uri;
         simulated.scheme = "sim";
         if (auto opened = twin_->open(simulated, {Role::Stimulator}, context, into); !opened) return opened;
+        if (uri.path == "massager") {
+            into.massager = std::make_unique<RealLookingMassager>(std::move(into.massager));
+            return {};
+        }
         into.stimulator = std::make_unique<RealLookingStimulator>(std::move(into.stimulator));
         into.load.reset();
         return {};
@@ -187,6 +208,28 @@ TEST_F(MachineGate, ASimulatedStimulatorNeedsNoCheck) {
     EXPECT_EQ(said(std::string("sim:stimulator?") + kSource), "");
 }
 
+TEST_F(MachineGate, AMassagerIsAskedForItsStepsAndForBeingAlone) {
+    RecordProperty("hazard", "H12");
+    study_.modality = Modality::Massager;
+    study_.limits.clear();
+    profile_.electrodeArea.reset();
+    const auto saidOf = [this](std::vector<const char*> uris) {
+        auto registry = labRegistry();
+        std::vector<DeviceUri> parsed;
+        for (const char* uri : uris) parsed.push_back(DeviceUri::parse(uri).value());
+        const auto devices = registry.open(parsed, {}, OpenContext{clock_, 1, "1 kohm"}).value();
+        const auto holds = machineGate(study_, profile_, limits_, devices, today_);
+        return holds ? std::string() : holds.error().message;
+    };
+    EXPECT_EQ(saidOf({"sim:massager"}), "") << "no calibration, load safety or limits: it delivers no current";
+    EXPECT_EQ(saidOf({"sim:massager?step=0.05"}), "");
+    EXPECT_EQ(saidOf({"sim:massager?step=0.2"}),
+              "the massager tells intensities apart that are 0.2 from each other; 0.05 is expected");
+    EXPECT_EQ(saidOf({"sim:massager", "lab:stimulator?mode=current&step=0.5mA"}),
+              "a stimulator is connected; a massager alone is expected");
+    EXPECT_EQ(saidOf({"sim:finger"}), "no massager is connected; one is expected");
+}
+
 /// A person who is there and does nothing.
 class Somebody final : public PilotParticipant {
 public:
@@ -245,6 +288,54 @@ TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
     EXPECT_EQ((*accepted)->run().bench().mode(), OutputMode::Person);
     accepted->reset();
     EXPECT_EQ(sessions(), 1U);
+}
+
+TEST_F(MachineGate, APersonAtAMassagerPassesEveryGateButThoseOfCurrent) {
+    RecordProperty("hazard", "H11");
+    const auto script = ProtocolLibrary(sourceDir() / "resources" / "protocols", {}).find("pilot-thresholds").value();
+    study_.scripts = {{script.name, script.sha256}};
+    study_.modality = Modality::Massager;
+    const auto at = folder_.path() / "study";
+    std::string code;
+    {
+        auto study = Study::create(at, study_, Passphrase::from("correct horse 4711").value()).value();
+        code = study.enrol({}).value().code;
+    }
+    Somebody person;
+    auto registry = labRegistry();
+    const auto prepare = [&](const char* uri) {
+        RunOrder order;
+        order.script = script;
+        order.declaration = readDeclaration(script).value();
+        order.settings = applySettings(order.declaration, {{"participant", code}}).value();
+        order.uris = {DeviceUri::parse(uri).value()};
+        order.limits = limits_;
+        PilotOrder pilot;
+        pilot.study = at;
+        pilot.passphrase = Passphrase::from("correct horse 4711").value();
+        pilot.people = &person;
+        pilot.codeConfirmed = true;
+        pilot.exclusions = nothingExcludes();
+        return PilotRun::prepare(std::move(order), std::move(pilot), registry);
+    };
+    const auto refusal = [&](const char* uri) {
+        const auto refused = prepare(uri);
+        if (refused) return std::string();
+        EXPECT_EQ(refused.error().code, kGateRefused);
+        EXPECT_TRUE(std::filesystem::is_empty(at / "sessions"));
+        return refused.error().message;
+    };
+    EXPECT_THAT(refusal("lab:massager"), HasSubstr("has given no consent"));
+    {
+        const auto passphrase = Passphrase::from("correct horse 4711").value();
+        auto study = Study::open(at, &passphrase, Study::Access::Change).value();
+        ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
+    }
+    EXPECT_THAT(refusal("sim:massager"), HasSubstr("the devices are simulated"));
+    auto accepted = prepare("lab:massager");
+    ASSERT_TRUE(accepted) << accepted.error().message;
+    EXPECT_EQ((*accepted)->run().bench().mode(), OutputMode::Person);
+    EXPECT_TRUE((*accepted)->run().bench().outputIsReal());
 }
 
 }  // namespace

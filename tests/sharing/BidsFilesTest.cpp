@@ -34,7 +34,7 @@ BidsTrial trialOf(std::size_t number, std::string condition, std::string respons
     row.trial.trains = 9;
     row.voltage = Volts(15.3);
     row.impedance = Ohms(3400);
-    row.detection_ma = 2.1;
+    row.detection = 2.1;
     return row;
 }
 
@@ -46,7 +46,7 @@ BidsSession sessionOf(std::size_t number, double days) {
     session.impedance = Ohms(3400);
     session.low = Milliamps(3);
     session.high = Milliamps(6.5);
-    session.detection_ma = 2.1;
+    session.detection = 2.1;
     session.skinBefore = 0;
     session.complete = number == 1;
     session.labels = {"smooth-low", "smooth-high", "rough-low", "rough-high"};
@@ -293,6 +293,54 @@ sys.exit(1 if refused else 0)
         outputOf(fmt::format("{} '{}' '{}'", python, script.string(), (folder.path() / "bids").string()));
     EXPECT_EQ(code, 0) << said;
     EXPECT_THAT(said, HasSubstr(fmt::format("{} files", files->size())));
+}
+
+TEST(BidsFiles, WithAMassagerThereAreStrengthsAndNeverCurrentsOrVoltages) {
+    RecordProperty("hazard", "H9");
+    auto study = studyOfThree();
+    study.massager = true;
+    study.electrodeArea_cm2 = kNaN;
+    for (auto& participant : study.participants) {
+        for (auto& session : participant.sessions) {
+            session.low = session.high = Milliamps(kNaN);
+            session.impedance = Ohms(kNaN);
+            session.lowIntensity = 0.3;
+            session.highIntensity = 0.55;
+            session.tooStrong = 0.7;
+            for (auto& row : session.trials) {
+                row.intensity = row.trial.condition == "catch" ? 0 : 0.55;
+                row.trial.current = Milliamps(kNaN);
+            }
+            session.trials[0].vibration.strength_m_s2 = 2.125;
+        }
+    }
+    const auto files = filesOf(study);
+    EXPECT_THAT(files.at("README"), HasSubstr("Modality: massager"));
+    for (const auto& [path, text] : files) {
+        for (const char* electrical : {"_ma", "mA", "voltage", "impedance", "lectrode", "current"})
+            EXPECT_THAT(text, testing::Not(HasSubstr(electrical))) << path;
+    }
+    for (const auto& [path, text] : files) {
+        if (!path.ends_with("_sessions.tsv")) continue;
+        const auto rows = tableOf(text);
+        EXPECT_EQ(rows[0][4], "modality") << path;
+        EXPECT_EQ(rows[1][4], "massager");
+        EXPECT_EQ(rows[0][5], "min_intensity");
+        EXPECT_EQ(rows[1][5], "0.3");
+        EXPECT_EQ(rows[1][8], "0.7");
+    }
+    for (const auto& [path, text] : files) {
+        if (!path.ends_with("task-identification_beh.tsv")) continue;
+        const auto rows = tableOf(text);
+        const auto at = [&](const char* name) {
+            return static_cast<std::size_t>(std::ranges::find(rows[0], name) - rows[0].begin());
+        };
+        ASSERT_LT(at("acceleration_m_s2"), rows[0].size()) << path;
+        EXPECT_EQ(rows[1][at("intensity")], "0.55");
+        EXPECT_EQ(rows[1][at("acceleration_m_s2")], "2.125");
+        EXPECT_EQ(rows[2][at("acceleration_m_s2")], "n/a") << "not measured is not zero";
+        EXPECT_EQ(rows[1][at("detection_intensity")], "2.1");
+    }
 }
 
 }  // namespace

@@ -47,20 +47,20 @@ TEST(SessionResults, WhatWasMeasuredLastStandsBesideEachTrial) {
         kLabels);
     EXPECT_EQ(found.encoding, "swapped");
     EXPECT_EQ(found.impedance.value(), 3000);
-    EXPECT_EQ(found.detection_ma, 2.5);
+    EXPECT_EQ(found.detection, 2.5);
     EXPECT_EQ(found.low.value(), 3.5);
     EXPECT_EQ(found.high.value(), 6.5);
     ASSERT_EQ(found.trials.size(), 3U);
-    EXPECT_EQ(found.trials[0].detection_ma, 2.5);
+    EXPECT_EQ(found.trials[0].detection, 2.5);
     EXPECT_NEAR(found.trials[0].voltage.value(), 4.5 * 3, 1e-12);
     EXPECT_FALSE(found.trials[0].adapted);
-    EXPECT_EQ(found.trials[2].detection_ma, 2.9);
+    EXPECT_EQ(found.trials[2].detection, 2.9);
     EXPECT_EQ(found.trials[2].impedance.value(), 3400);
     EXPECT_TRUE(found.trials[2].adapted);
     EXPECT_EQ(found.trials[2].trial.response, "not-sure");
     ASSERT_EQ(found.drift.size(), 1U);
     EXPECT_EQ(found.drift[0].block, 2U);
-    EXPECT_EQ(found.drift[0].detection_ma, 2.9);
+    EXPECT_EQ(found.drift[0].detection, 2.9);
     EXPECT_TRUE(found.drift[0].adapted);
 }
 
@@ -90,7 +90,7 @@ TEST(SessionResults, ThresholdsKeepTheirProcedures) {
     EXPECT_EQ(found.thresholds[0].procedure, "ascending");
     EXPECT_EQ(found.thresholds[0].type, "stimulus");
     EXPECT_EQ(found.thresholds[1].type, "catch");
-    EXPECT_EQ(found.tooStrong_ma, 4);  // an empty presentation counts for the level before it
+    EXPECT_EQ(found.tooStrong, 4);  // an empty presentation counts for the level before it
     EXPECT_EQ(found.thresholds[3].number, 12U);
     EXPECT_EQ(found.thresholds[3].correct, false);
     EXPECT_EQ(found.thresholds[4].procedure, "drift");
@@ -159,10 +159,44 @@ TEST(SessionResults, WhatLeavesAStudyHasItsLicenseAndItsSecretLabels) {
 TEST(SessionResults, NoRowsSayNothing) {
     RecordProperty("hazard", "H9");
     const auto found = sessionResults({}, kLabels);
-    EXPECT_TRUE(std::isnan(found.detection_ma));
+    EXPECT_TRUE(std::isnan(found.detection));
     EXPECT_TRUE(std::isnan(found.low.value()));
     EXPECT_FALSE(found.skinBefore);
     EXPECT_TRUE(found.trials.empty());
+}
+
+TEST(SessionResults, OfAMassagerAreIntensitiesAndWhatItsMotorDid) {
+    const auto ascending = [](int number, double intensity, const char* response) {
+        return rowOf(row::kAnswer, fmt::format("ascending {}", number),
+                     {{"series", 1}, {"intensity", intensity}, {"response", response}, {"rt_s", 0.5}});
+    };
+    const auto found = sessionResults(
+        {ascending(1, 0, "nothing"), ascending(2, 0.65, "strong"), ascending(3, 0.7, "too-strong"),
+         rowOf(row::kEstimate, "detection", {{"estimate", {{"value", 0.22}}}}),
+         rowOf(row::kRange, "range", {{"usable", true}, {"min_intensity", 0.3}, {"max_intensity", 0.55}}),
+         rowOf(row::kDrift, "block 2", {{"block", 2}, {"detection_intensity", {{"value", 0.24}}}}),
+         rowOf(row::kAnswer, "test 41",
+               {{"number", 41},
+                {"phase", "test"},
+                {"block", 1},
+                {"condition", "rough-high"},
+                {"intensity", 0.55},
+                {"response", "rough-high"},
+                {"vibration", {{"bursts", 9}, {"moved", 9}, {"strength_m_s2", 2.5}}}})},
+        kLabels);
+    EXPECT_EQ(found.tooStrong, 0.7);
+    EXPECT_EQ(found.detection, 0.22);
+    EXPECT_EQ(found.lowIntensity, 0.3);
+    EXPECT_TRUE(std::isnan(found.low.value()));
+    ASSERT_EQ(found.drift.size(), 1U);
+    EXPECT_EQ(found.drift[0].detection, 0.24);
+    ASSERT_EQ(found.trials.size(), 1U);
+    EXPECT_EQ(found.trials[0].detection, 0.24);
+    EXPECT_EQ(found.trials[0].vibration.strength_m_s2, 2.5);
+    EXPECT_TRUE(std::isnan(found.trials[0].vibration.latency_s));
+    ASSERT_EQ(found.thresholds.size(), 3U);
+    EXPECT_EQ(found.thresholds[0].type, "catch");
+    EXPECT_EQ(found.thresholds[2].type, "stimulus");
 }
 
 }  // namespace

@@ -29,7 +29,13 @@ QString percent(double share) { return QString::number(std::lround(share * 100))
 
 QString decimals(double value, int digits) { return QString::number(value, 'f', digits); }
 
+/// Of a result with a massager, whose levels are strengths.
+bool isMassager(const nlohmann::json& results) { return textIn(results, "modality") == "massager"; }
+
 QString rangeWords(const nlohmann::json& range) {
+    const double low = numberIn(range, "min_intensity"), high = numberIn(range, "max_intensity");
+    if (std::isfinite(low) && std::isfinite(high))
+        return QObject::tr(" between strengths of %1 and %2").arg(decimals(low, 2), decimals(high, 2));
     const double low_ma = numberIn(range, "min_ma"), high_ma = numberIn(range, "max_ma");
     if (!std::isfinite(low_ma) || !std::isfinite(high_ma)) return {};
     auto words = QObject::tr(" between %1 and %2 mA").arg(decimals(low_ma, 1), decimals(high_ma, 1));
@@ -45,13 +51,17 @@ QString rangeWords(const nlohmann::json& range) {
 QString thresholdSentence(const nlohmann::json& results) {
     auto who = textIn(results, "participant.code");
     if (who.isEmpty()) who = QObject::tr("The participant");
-    const double value_ma = numberIn(results, "detection.estimate_ma.value");
-    if (!std::isfinite(value_ma)) return QObject::tr("%1 has no detection threshold up to the highest level.").arg(who);
-    auto said = QObject::tr("%1 feels %2 mA in 4 of 5 trials").arg(who, decimals(value_ma, 2));
-    const double low_ma = numberIn(results, "detection.estimate_ma.low");
-    const double high_ma = numberIn(results, "detection.estimate_ma.high");
-    if (std::isfinite(low_ma) && std::isfinite(high_ma))
-        said += QObject::tr(" (95 % interval %1 to %2 mA)").arg(decimals(low_ma, 2), decimals(high_ma, 2));
+    const bool massager = isMassager(results);
+    const auto& estimate = memberAt(results, massager ? "detection.estimate_intensity" : "detection.estimate_ma");
+    const double value = numberIn(estimate, "value");
+    if (!std::isfinite(value)) return QObject::tr("%1 has no detection threshold up to the highest level.").arg(who);
+    auto said = (massager ? QObject::tr("%1 feels a strength of %2 in 4 of 5 trials")
+                          : QObject::tr("%1 feels %2 mA in 4 of 5 trials"))
+                    .arg(who, decimals(value, 2));
+    const double low = numberIn(estimate, "low"), high = numberIn(estimate, "high");
+    if (std::isfinite(low) && std::isfinite(high))
+        said += (massager ? QObject::tr(" (95 % interval %1 to %2)") : QObject::tr(" (95 % interval %1 to %2 mA)"))
+                    .arg(decimals(low, 2), decimals(high, 2));
     const auto range = rangeWords(memberAt(results, "range"));
     return said + (range.isEmpty() ? QObject::tr("; there is no usable range.")
                                    : QObject::tr("; conditions lie") + range + '.');
@@ -174,6 +184,9 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
     if (const double p = numberIn(results, "fit.p"); std::isfinite(p))
         more << tr("Predicted against answered: G = %1, p = %2.")
                     .arg(decimals(numberIn(results, "fit.g"), 1), decimals(p, 2));
+    const auto& motor = memberAt(results, "vibration.reasons");
+    if (motor.is_array() && !motor.empty() && motor.front().is_string())
+        more << tr("What the massager did: %1").arg(qtext(motor.front().get<std::string>()));
     more_->setText(more.join(' '));
     more_->setVisible(!more.isEmpty());
     showMatrix(results);

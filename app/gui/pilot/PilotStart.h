@@ -28,6 +28,7 @@ struct PilotStart {
     std::string method = "quest";   ///< of detection
     std::string unfinished{};       ///< of a session that was broken off: "resume", "end"; empty: there is none
     std::uint64_t seed = 1;         ///< of plan and order, and in a rehearsal of the virtual participant
+    std::string modality = "study"; ///< of a new rehearsal: "electrodes", "massager"; "study": as the study says
     std::optional<int> blocks{};    ///< of a rehearsal's test; nothing: the study's
     bool blind = true;
     KeySet keys = KeySet::Figures;

@@ -25,6 +25,13 @@ QString newFolder() {
     return documents.filePath("Tactoscope/rehearsal-" + QDateTime::currentDateTime().toString("yyyyMMdd-HHmmss"));
 }
 
+/// Of the rehearsal there; nothing where there is none yet.
+std::optional<Modality> modalityIn(const QString& folder) {
+    if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
+    const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);
+    return study && study->isRehearsal() ? std::optional(study->settings().modality) : std::nullopt;
+}
+
 /// What was broken off of that virtual participant in the rehearsal there.
 std::optional<Unfinished> unfinishedIn(const QString& folder, const std::string& participant) {
     if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
@@ -44,6 +51,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
       offer_(new UnfinishedOffer(this)),
       who_(new QComboBox(this)),
       seed_(new QSpinBox(this)),
+      modality_(new QComboBox(this)),
       protocol_(new QComboBox(this)),
       method_(new QComboBox(this)),
       blocks_(new QSpinBox(this)),
@@ -91,6 +99,11 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     seed_->setRange(1, kMaxSeed);
     seed_->setToolTip(tr("The same seed gives the same order, and the same virtual participant."));
     form->addRow(tr("Seed"), seed_);
+    modality_->setObjectName("rehearsalModality");
+    modality_->addItem(tr("electrodes"), "electrodes");
+    modality_->addItem(tr("a massager: strength in place of current"), "massager");
+    modality_->setToolTip(tr("What is felt comes from these. A rehearsal keeps what it began with."));
+    form->addRow(tr("Felt through"), modality_);
     protocol_->setObjectName("rehearsalProtocol");
     protocol_->addItem(tr("identification: thresholds, training, test, ratings"), "pilot-identification");
     protocol_->addItem(tr("thresholds alone"), "pilot-thresholds");
@@ -139,12 +152,16 @@ PilotStart RehearsalPage::rehearsal() const {
     made.protocol = protocol_->currentData().toString().toStdString();
     made.method = method_->currentData().toString().toStdString();
     made.unfinished = offer_->chosen();
+    if (modality_->isEnabled()) made.modality = modality_->currentData().toString().toStdString();
     if (made.unfinished != "resume") made.blocks = blocks_->value();
     seats_->writeTo(made);
     return made;
 }
 
 void RehearsalPage::look() {
+    const auto known = modalityIn(folder_->text().trimmed());
+    if (known) modality_->setCurrentIndex(modality_->findData(qtext(std::string(nameOf(*known)))));
+    modality_->setEnabled(!known);
     offer_->offer(unfinishedIn(folder_->text().trimmed(), fmt::format("virtual:{}", seed_->value())));
     judge();
 }

@@ -39,6 +39,7 @@ private:
     UnfinishedOffer* offer_;
     QComboBox* who_;
     QSpinBox* seed_;
+    QComboBox* modality_;
     QComboBox* protocol_;
     QComboBox* method_;
     QSpinBox* blocks_;

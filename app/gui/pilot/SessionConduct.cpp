@@ -66,7 +66,8 @@ Result<RunOrder> SessionConduct::order() const {
     if (!source) return failure(source);
     auto declaration = readDeclaration(*source);
     if (!declaration) return failure(declaration);
-    std::map<std::string, std::string> given{{"participant", start_.participant}, {"method", start_.method}};
+    std::map<std::string, std::string> given{{"participant", start_.participant}, {"method", start_.method},
+                                             {"modality", start_.modality}};
     if (!start_.unfinished.empty()) given["unfinished"] = start_.unfinished;
     if (start_.blocks) given["blocks"] = std::to_string(*start_.blocks);
     auto settings = applySettings(*declaration, given);

@@ -34,7 +34,15 @@ inline constexpr Word<LevelLimit> kLevelLimits[] = {{"device", LevelLimit::Devic
                                                     {"cap", LevelLimit::Cap},
                                                     {"too-strong", LevelLimit::TooStrong},
                                                     {"confirmation", LevelLimit::Confirmation}};
+/// Of the levels of a massager (choice: twenty, so that a series of ascending limits is as long as one in steps of
+/// 0.5 mA).
+inline constexpr double kIntensityStep = 0.05;
+
 [[nodiscard]] constexpr std::string_view nameOf(LevelUnit unit) noexcept { return wordFor(kLevelUnits, unit); }
+/// The key of a level in JSON: "felt_ma", "felt_intensity".
+[[nodiscard]] inline std::string levelKey(std::string_view what, LevelUnit unit) {
+    return std::string(what) + (unit == LevelUnit::Current ? "_ma" : "_intensity");
+}
 [[nodiscard]] constexpr std::string_view nameOf(LevelLimit limit) noexcept { return wordFor(kLevelLimits, limit); }
 
 /// Levels above `level` are not presented.

@@ -153,8 +153,9 @@ VirtualRating VirtualObserver::rate(std::string_view key, double level, Seconds 
     out.unpleasantness = ratingOn({detection_, tooStrong_, -2, 6}, rated, kRatingNoise * random.normal());
     out.pain = ratingOn({detection_, tooStrong_, -4, 3}, rated, kRatingNoise * random.normal());
     out.naturalness = kNaturalness[1 + random.below(4)].value;
-    out.qualities.emplace_back("tingling");
-    for (const std::string_view quality : {"tapping", "pressure", "vibration"}) {
+    const bool current = settings_.unit == LevelUnit::Current;
+    out.qualities.emplace_back(current ? "tingling" : "vibration");
+    for (const std::string_view quality : {"tapping", "pressure", current ? "vibration" : "touch"}) {
         if (random.uniform() < 0.4) out.qualities.push_back(quality);
     }
     return out;

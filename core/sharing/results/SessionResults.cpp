@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/JsonFields.h"
 #include "core/pilot/PilotRecord.h"
 
@@ -50,12 +51,13 @@ public:
             impedance_ = numberOr(body, "impedance_ohm");
             if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);
         } else if (each.name == row::kEstimate) {
-            detection_ma_ = numberOr(valueOr(body, "estimate"), "value");
-            out_.detection_ma = detection_ma_;
+            detectionLevel_ = numberOr(valueOr(body, "estimate"), "value");
+            out_.detection = detectionLevel_;
         } else if (each.name == row::kDrift) {
-            detection_ma_ = numberOr(valueOr(body, "detection_ma"), "value");
+            const auto& found = valueOr(body, body.contains("detection_ma") ? "detection_ma" : "detection_intensity");
+            detectionLevel_ = numberOr(found, "value");
             if (flagOr(body, "adapted")) adapted_.insert(countOr(body, "block"));
-            out_.drift.push_back({countOr(body, "block"), detection_ma_, flagOr(body, "adapted")});
+            out_.drift.push_back({countOr(body, "block"), detectionLevel_, flagOr(body, "adapted")});
         } else if (each.name == row::kRange) {
             out_.low = Milliamps(numberOr(body, "min_ma"));
             out_.high = Milliamps(numberOr(body, "max_ma"));
@@ -77,7 +79,7 @@ public:
 
     [[nodiscard]] BidsSession result() {
         for (const auto& [number, trial] : silent_) out_.trials.push_back(trial);
-        if (!std::isfinite(out_.tooStrong_ma)) out_.tooStrong_ma = highest_ma_;
+        if (!std::isfinite(out_.tooStrong)) out_.tooStrong = highestLevel_;
         return std::move(out_);
     }
 
@@ -87,9 +89,10 @@ private:
         made.trial = identificationTrialFrom(body);
         const auto& trial = made.trial;
         made.intensity = numberOr(body, "intensity");
+        if (body.contains("vibration")) made.vibration = burstFiguresFrom(body["vibration"]);
         made.impedance = Ohms(impedance_);
         made.voltage = Volts(trial.current.value() * impedance_ / 1000);
-        made.detection_ma = detection_ma_;
+        made.detection = detectionLevel_;
         made.adapted = trial.phase == TrialPhase::Test && adapted_.contains(trial.block);
         return made;
     }
@@ -130,15 +133,15 @@ private:
     /// the level before it.
     void takeAscending(BidsThresholdTrial& trial, const json& body) {
         trial.series = countOr(body, "series");
-        const double level = trial.current.value();
-        trial.type = level > 0 || trial.intensity > 0 ? "stimulus" : "catch";
+        const double level = std::isfinite(trial.intensity) ? trial.intensity : trial.current.value();
+        trial.type = level > 0 ? "stimulus" : "catch";
         if (level > 0) {
-            before_ma_ = level;
-            highest_ma_ = std::isnan(highest_ma_) ? level : std::max(highest_ma_, level);
+            beforeLevel_ = level;
+            highestLevel_ = std::isnan(highestLevel_) ? level : std::max(highestLevel_, level);
         }
         if (trial.response != "too-strong") return;
-        const double strong = level > 0 ? level : before_ma_;
-        out_.tooStrong_ma = std::isnan(out_.tooStrong_ma) ? strong : std::min(out_.tooStrong_ma, strong);
+        const double strong = level > 0 ? level : beforeLevel_;
+        out_.tooStrong = std::isnan(out_.tooStrong) ? strong : std::min(out_.tooStrong, strong);
     }
 
     void takeSkin(const std::string& name, const json& body) {
@@ -166,8 +169,8 @@ private:
 
     BidsSession out_;
     double impedance_ = kNaN;
-    double detection_ma_ = kNaN;
-    double before_ma_ = kNaN, highest_ma_ = kNaN;  // of the ascending limits
+    double detectionLevel_ = kNaN;
+    double beforeLevel_ = kNaN, highestLevel_ = kNaN;  // of the ascending limits
     std::set<std::size_t> adapted_;                // blocks
     std::map<std::size_t, BidsTrial> silent_;      // without an answer so far
 };

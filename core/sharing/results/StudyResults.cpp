@@ -114,6 +114,7 @@ BidsStudy sharedStudy(const StudyRecord& record) {
                        ? settings.approval.reference
                        : fmt::format("{}, {}", settings.approval.reference, settings.approval.committee);
     const bool electrodes = settings.modality == Modality::Electrodes;
+    out.massager = !electrodes;
     out.site = std::string(nameOf(settings.site));
     if (electrodes) out.electrodeArea_cm2 = settings.electrode.area.value();
     out.license = settings.license;

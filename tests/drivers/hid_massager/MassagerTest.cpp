@@ -48,6 +48,17 @@ TEST_F(HidMassagerTest, OpeningStopsFirst) {
     EXPECT_FALSE(massager->vibrating());
 }
 
+TEST_F(HidMassagerTest, ItsStepIsThatOfTheFieldThatTakesTheFewestValues) {
+    RecordProperty("hazard", "H4");
+    open();
+    EXPECT_DOUBLE_EQ(massager->step(), 1.0 / 255);
+    auto coarse = padReports();
+    coarse.fields.back().max = coarse.fields.back().min + 4;
+    massager.reset();
+    open(std::move(coarse));
+    EXPECT_DOUBLE_EQ(massager->step(), 0.25);
+}
+
 TEST_F(HidMassagerTest, ADeviceThatTakesNoStopIsNotOpened) {
     RecordProperty("hazard", "H2");
     device.refuse(true);

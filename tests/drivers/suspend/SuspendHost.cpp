@@ -58,6 +58,7 @@ public:
         sayTrain();
         return inner_->vibrate(std::move(burst));
     }
+    double step() const noexcept override { return inner_->step(); }
     void forceOff() noexcept override { inner_->forceOff(); }
 
 private:

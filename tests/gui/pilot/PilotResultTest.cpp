@@ -37,6 +37,22 @@ TEST(PilotResult, SaysFirstWhatEveryResultSaysFirst) {
     none["n"] = 0;
     none["hits"] = 0;
     EXPECT_EQ(gui::resultSentence(none).toStdString(), "P-7K3M answered no test trial.");
+    auto vibrated = someResults();
+    vibrated["modality"] = "massager";
+    vibrated["range"] = {{"min_intensity", 0.3}, {"max_intensity", 0.55}};
+    auto felt = gui::resultSentence(vibrated);
+    EXPECT_TRUE(felt.endsWith(" between strengths of 0.30 and 0.55.")) << felt.toStdString();
+    const nlohmann::json thresholds{
+        {"kind", "pilot-thresholds"},
+        {"modality", "massager"},
+        {"participant", {{"code", "P-7K3M"}}},
+        {"detection", {{"estimate_intensity", {{"value", 0.22}, {"low", 0.2}, {"high", 0.25}}}}},
+        {"range", {{"min_intensity", 0.3}, {"max_intensity", 0.55}}}};
+    felt = gui::resultSentence(thresholds);
+    felt.replace(QChar(0x202F), ' ');
+    EXPECT_EQ(felt.toStdString(),
+              "P-7K3M feels a strength of 0.22 in 4 of 5 trials (95 % interval 0.20 to 0.25); conditions lie between "
+              "strengths of 0.30 and 0.55.");
     EXPECT_TRUE(gui::resultSentence(nlohmann::json::object()).isEmpty());
     EXPECT_TRUE(gui::resultSentence(nullptr).isEmpty());
 }

@@ -24,12 +24,14 @@ protected:
         window.showWorkspace(4);
         QTest::qWait(50);
     }
-    void begin(bool person) {
+    void begin(bool person, const char* modality = "electrodes") {
         pilot = window.findChild<gui::PilotWorkspace*>();
         pilot->findChild<QLineEdit*>("studyFolder")
             ->setText(QString::fromStdString((folder.path() / "study").string()));
         pilot->findChild<QComboBox*>("whoAnswers")->setCurrentIndex(person ? 1 : 0);
         pilot->findChild<QSpinBox*>("rehearsalBlocks")->setValue(1);
+        auto* through = pilot->findChild<QComboBox*>("rehearsalModality");
+        through->setCurrentIndex(through->findData(modality));
         click(*pilot->findChild<QPushButton*>("beginRehearsal"));
         const auto* trouble = pilot->findChild<QLabel*>("rehearsalTrouble");
         ASSERT_TRUE(pilot->running()) << trouble->text().toStdString();
@@ -42,6 +44,16 @@ protected:
     const ScratchDir folder;
     gui::PilotWorkspace* pilot = nullptr;
 };
+
+TEST_F(RehearsalInTheWindow, ThroughAMassagerTheResultSpeaksOfStrength) {
+    begin(false, "massager");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 100'000));
+    SCOPED_TRACE(headline());
+    ASSERT_IN_TIME(headline().find("told the four apart in") != std::string::npos);
+    EXPECT_NE(headline().find("between strengths of"), std::string::npos);
+    EXPECT_EQ(headline().find("mA"), std::string::npos);
+    shot(window, "pilot-massager-done");
+}
 
 TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     shot(window, "pilot-new");

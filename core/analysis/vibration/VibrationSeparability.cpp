@@ -1,0 +1,139 @@
+#include "core/analysis/vibration/VibrationSeparability.h"
+
+#include <algorithm>
+
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/JsonFields.h"
+
+namespace tacto {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kNotMeasured =
+    "Not measured: no accelerometer was read on the motor. What it did is not known, only what it was told.";
+
+bool wasRead(const VibrationTrial& trial) { return trial.measured.bursts > trial.measured.missed; }
+
+VibrationCondition summarise(std::span<const VibrationTrial> trials, const std::string& name) {
+    VibrationCondition out;
+    out.name = name;
+    std::vector<double> strength, latency, rise, interval;
+    const auto keep = [](std::vector<double>& into, double value) {
+        if (std::isfinite(value)) into.push_back(value);
+    };
+    for (const auto& trial : trials) {
+        if (trial.condition != name) continue;
+        ++out.presentations;
+        out.intensity = trial.intensity;
+        out.interval_s = trial.interval_s;
+        out.bursts += trial.measured.bursts;
+        out.moved += trial.measured.moved;
+        out.missed += trial.measured.missed;
+        keep(strength, trial.measured.strength_m_s2);
+        keep(latency, trial.measured.latency_s);
+        keep(rise, trial.measured.rise_s);
+        keep(interval, trial.measured.interval_s);
+    }
+    out.strength_m_s2 = statisticsOf(strength);
+    out.latency_s = statisticsOf(latency);
+    out.rise_s = statisticsOf(rise);
+    out.measuredInterval_s = statisticsOf(interval);
+    return out;
+}
+
+}  // namespace
+
+Result<VibrationSeparability> judgeVibration(std::span<const VibrationTrial> trials,
+                                             const std::vector<std::string>& conditions) {
+    std::vector<SeparabilityTrial> measured;
+    for (const auto& trial : trials) {
+        const auto& found = trial.measured;
+        const bool moved = found.strength_m_s2 > 0 && std::isfinite(found.interval_s);
+        measured.push_back({trial.condition, moved ? found.strength_m_s2 : kNaN, moved ? found.interval_s : kNaN,
+                            found.strengthUncertainty_m_s2, found.intervalUncertainty_s, 0});
+    }
+    const auto judged = judgeSeparability(measured, {conditions});
+    if (!judged) return failure(judged);
+    VibrationSeparability out;
+    for (const auto& name : conditions) out.conditions.push_back(summarise(trials, name));
+    out.measured = std::ranges::any_of(trials, wasRead);
+    if (!out.measured) {
+        out.reasons = {kNotMeasured};
+        return out;
+    }
+    out.pairs = judged->pairs;
+    out.accuracy = judged->accuracy;
+    out.verdict = judged->verdict;
+    out.reasons = judged->reasons;
+    for (const auto& condition : out.conditions) {
+        const auto still = condition.bursts - condition.moved - condition.missed;
+        if (still == 0) continue;
+        out.verdict = Verdict::Fail;
+        out.reasons.insert(out.reasons.begin(), fmt::format("The motor did not move in {} of {} bursts of {}.", still,
+                                                            condition.bursts - condition.missed, condition.name));
+    }
+    return out;
+}
+
+json toJson(const VibrationSeparability& found) {
+    json conditions = json::array(), pairs = json::array();
+    for (const auto& c : found.conditions) {
+        conditions.push_back({{"name", c.name},
+                              {"intensity", numberOrNull(c.intensity)},
+                              {"interval_s", numberOrNull(c.interval_s)},
+                              {"presentations", c.presentations},
+                              {"bursts", c.bursts},
+                              {"moved", c.moved},
+                              {"missed", c.missed},
+                              {"strength_m_s2", toJson(c.strength_m_s2)},
+                              {"latency_s", toJson(c.latency_s)},
+                              {"rise_s", toJson(c.rise_s)},
+                              {"measured_interval_s", toJson(c.measuredInterval_s)}});
+    }
+    for (const auto& p : found.pairs) {
+        pairs.push_back({{"a", p.a},
+                         {"b", p.b},
+                         {"strength_jnd", numberOrNull(p.amplitudeJnd)},
+                         {"strength_jnd_low", numberOrNull(p.amplitudeJndBounds.low)},
+                         {"interval_jnd", numberOrNull(p.intervalJnd)},
+                         {"interval_jnd_low", numberOrNull(p.intervalJndBounds.low)}});
+    }
+    return {{"measured", found.measured},
+            {"verdict", found.measured ? json(nameOf(found.verdict)) : json(nullptr)},
+            {"reasons", found.reasons},
+            {"conditions", std::move(conditions)},
+            {"pairs", std::move(pairs)},
+            {"accuracy", found.measured ? toJson(found.accuracy) : json(nullptr)}};
+}
+
+json toJson(const BurstFigures& figures) {
+    return {{"bursts", figures.bursts},
+            {"moved", figures.moved},
+            {"missed", figures.missed},
+            {"strength_m_s2", numberOrNull(figures.strength_m_s2)},
+            {"strength_u_m_s2", numberOrNull(figures.strengthUncertainty_m_s2)},
+            {"latency_s", numberOrNull(figures.latency_s)},
+            {"rise_s", numberOrNull(figures.rise_s)},
+            {"interval_s", numberOrNull(figures.interval_s)},
+            {"interval_u_s", numberOrNull(figures.intervalUncertainty_s)},
+            {"noise_m_s2", numberOrNull(figures.noise_m_s2)}};
+}
+
+BurstFigures burstFiguresFrom(const json& said) {
+    BurstFigures out;
+    out.bursts = countOr(said, "bursts");
+    out.moved = countOr(said, "moved");
+    out.missed = countOr(said, "missed");
+    out.strength_m_s2 = numberOr(said, "strength_m_s2");
+    out.strengthUncertainty_m_s2 = numberOr(said, "strength_u_m_s2");
+    out.latency_s = numberOr(said, "latency_s");
+    out.rise_s = numberOr(said, "rise_s");
+    out.interval_s = numberOr(said, "interval_s");
+    out.intervalUncertainty_s = numberOr(said, "interval_u_s");
+    out.noise_m_s2 = numberOr(said, "noise_m_s2");
+    return out;
+}
+
+}  // namespace tacto

@@ -1,0 +1,64 @@
+// Motor.h - a vibration motor with an eccentric mass: it takes time to spin up and to run down. What is fastened to it
+// feels its vibration.
+//
+// Speed follows the command as a critically damped second-order system, in closed form between commands; the
+// vibration's amplitude goes with the square of speed and its frequency with speed.
+//
+// Thread-safety: start() has one caller; at() any thread; cut() any thread, lock-free.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <limits>
+#include <mutex>
+
+#include "core/base/Units.h"
+
+namespace tacto::sim {
+
+struct MotorSettings {
+    Seconds spinUp{0.03};  ///< time constant
+    Hertz topFrequency{180};
+    double topAcceleration_m_s2 = 15;  ///< amplitude at full speed
+};
+
+class Motor {
+public:
+    struct Vibration {
+        double amplitude_m_s2 = 0;
+        double frequency_hz = 0;
+    };
+
+    explicit Motor(const MotorSettings& settings) : settings_(settings) {}
+
+    /// A command, 0 to 1, from `at` to `end`, in place of the one before.
+    void start(Instant at, double command, Instant end);
+    /// Ends the newest command.
+    void cut(Instant now) noexcept;
+    /// What is felt at a moment of the last kRemembered commands; nothing before them.
+    [[nodiscard]] Vibration at(Instant moment) const;
+
+    static constexpr std::size_t kRemembered = 64;
+    static constexpr Instant kNever{std::numeric_limits<Instant::rep>::max()};
+
+private:
+    struct Motion {
+        double speed = 0;  ///< 1 = full
+        double rate = 0;   ///< 1/s
+    };
+    struct Command {
+        Motion from;
+        Instant at{0};
+        double level = 0;
+        Instant off{kNever};
+    };
+    [[nodiscard]] Motion run(Motion from, double command, double seconds) const noexcept;
+    [[nodiscard]] Motion motionIn(const Command& command, Instant off, Instant moment) const noexcept;
+
+    const MotorSettings settings_;
+    mutable std::mutex mutex_;
+    std::deque<Command> commands_;  // guarded by mutex_; the newest last
+    std::atomic<Instant::rep> cut_{kNever.count()};  // of the newest
+};
+
+}  // namespace tacto::sim
