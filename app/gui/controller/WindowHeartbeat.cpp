@@ -15,4 +15,4 @@ bool WindowHeartbeat::runs() const noexcept {
 
 }  // namespace tacto::gui
 
-#include "moc_WindowPulse.cpp"
+#include "moc_WindowHeartbeat.cpp"
