@@ -127,7 +127,7 @@ QString limitSetTitle(const QString& id) {
     if (id == "iec-60601-2-10") return "IEC 60601-2-10";
     if (id == "paper") return "the paper";
     if (id == "gate") return "this program";  // what it refuses, and must
-    if (id == "interlock") return "the interlock";
+    if (id == "interlock") return "the rules of arming";
     if (id == "laboratory") return "the laboratory";
     return id;
 }

@@ -180,8 +180,8 @@ Most mostOf(const Plan& plan, DriveSegment segment, double least_s, double most_
         }
         most.squares = larger(squares, most.squares);
         most.volts = larger(voltageSquared(longest), most.volts);
-        most.dissipated = larger(
-            energy + storedAt(plan, start) - storedAt(plan, longest.endCapacitorVoltage), most.dissipated);
+        most.dissipated =
+            larger(energy + storedAt(plan, start) - storedAt(plan, longest.endCapacitorVoltage), most.dissipated);
         after.include(longest.endCapacitorVoltage);
         segment.duration_s = least_s;
         after.include(respond(plan.circuit, segment, start, plan.limits).endCapacitorVoltage);

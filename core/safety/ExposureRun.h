@@ -38,7 +38,8 @@ struct Plan {
 };
 
 /// Of the segments of `longest` in the shortest train, which may lack its gap; in s.
-[[nodiscard]] std::array<double, 3> leastDurations(const PulseSegments& longest, const PulseSegments& shortest) noexcept;
+[[nodiscard]] std::array<double, 3> leastDurations(const PulseSegments& longest,
+                                                   const PulseSegments& shortest) noexcept;
 
 /// What the capacitor holds at that voltage, J; 0 without one.
 [[nodiscard]] double storedAt(const Plan& plan, double capacitorVoltage) noexcept;

@@ -118,7 +118,8 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
     const PulseTrain& train = trains.longest;
     const double duration = train.duration().count();
     const double T = interval.count();
-    if (!validate(train) || !validate(trains.shortest) || !std::isfinite(T) || !(duration <= T * (1 + 1e-9))) return unknownExposure();
+    if (!validate(train) || !validate(trains.shortest) || !std::isfinite(T) || !(duration <= T * (1 + 1e-9)))
+        return unknownExposure();
 
     const bool current = isCurrent(train.amplitude);
     Plan plan;

@@ -215,8 +215,9 @@ protected:
         pilot.findChild<QPushButton*>("newStudyWanted")->click();
         auto* form = pilot.findChild<gui::StudyForm*>();
         for (const auto& [field, text] :
-             {std::pair{"title", "T"}, std::pair{"approval.reference", "EC-1"}, std::pair{"approval.from", "2026-11-01"},
-              std::pair{"approval.expires", "2090-10-31"}, std::pair{"consent_version", "2"}})
+             {std::pair{"title", "T"}, std::pair{"approval.reference", "EC-1"},
+              std::pair{"approval.from", "2026-11-01"}, std::pair{"approval.expires", "2090-10-31"},
+              std::pair{"consent_version", "2"}})
             form->set(field, text);
         auto& made = *pilot.findChild<gui::NewStudyPage*>();
         made.findChild<QLineEdit*>("newStudyFolder")->setText(QString::fromStdString((folder.path() / "new").string()));

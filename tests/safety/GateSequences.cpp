@@ -51,8 +51,8 @@ private:
 
 class Sequence : SequenceReferee {
 public:
-    Sequence(Unit& unit, VirtualClock& clock, Dice& dice, SequenceCount& total)
-        : SequenceReferee(clock, dice, total), unit_(unit) {}
+    Sequence(Unit& unit, VirtualClock& clock, Dice& dice, SequenceCount& total, bool traced)
+        : SequenceReferee(clock, dice, total, traced), unit_(unit) {}
 
     void run() {
         clock_.advanceTo(clock_.now() + std::chrono::seconds(7));
@@ -182,9 +182,11 @@ private:
         configured_ = done.has_value();
         if (!sound && configured_) violation("a spoilt setup was accepted");
         allowed_ = allowed;
-        note(fmt::format("configure {} {} area {} load {}x{} comp {}: {}", allowed.person ? "person" : "bench",
-                         current ? "current" : "voltage", allowed.area, load.text(), scale_, source_.compliance.value(),
-                         done ? "ok" : done.error().message));
+        note([&] {
+            return fmt::format("configure {} {} area {} load {}x{} comp {}: {}", allowed.person ? "person" : "bench",
+                               current ? "current" : "voltage", allowed.area, load.text(), scale_,
+                               source_.compliance.value(), done ? "ok" : done.error().message);
+        });
         body_.fit(nominal_.times(scale_));
         readAs_ = 1;
         last_ = PulseTrain{};  // the check, whose timing is this
@@ -232,7 +234,7 @@ private:
         const double reading = dice_.chance(0.1) ? (dice_.chance(0.5) ? kNaN : -5) : truth * dice_.between(0.8, 1.4);
         const bool good = reading >= allowed_.low && reading <= allowed_.high;
         const auto done = gate().updateImpedance(Ohms(reading), clock_.now());
-        note(fmt::format("{:.6f} impedance {}: {}", now(), reading, done ? "ok" : "refused"));
+        note([&] { return fmt::format("{:.6f} impedance {}: {}", now(), reading, done ? "ok" : "refused"); });
         if (done.has_value() != good) violation("an impedance reading was judged wrongly");
         measuredAt_ = good ? now() : -100;
         measured_ = reading;
@@ -249,7 +251,7 @@ private:
         real.fit(nominal_.times(scale_));
         const double reading = real.magnitude(last_) * dice_.between(0.95, 1.05);
         const auto done = gate().updateImpedance(Ohms(reading), clock_.now());
-        note(fmt::format("{:.6f} load read as {}: {}", now(), reading, done ? "ok" : "refused"));
+        note([&] { return fmt::format("{:.6f} load read as {}: {}", now(), reading, done ? "ok" : "refused"); });
         if (done) readAs_ = reading / declared.magnitude(last_);
         if (!done) voidPending("a bad reading of the load");
     }
@@ -259,7 +261,7 @@ private:
         // A person's |Z| is in the range by then, or the check is what finds that it is not.
         if (allowed_.person && measuredAt_ < 0) return;
         auto approved = gate().approveCheck(clock_.now());
-        note(fmt::format("{:.6f} check: {}", now(), approved ? "ok" : approved.error().message));
+        note([&] { return fmt::format("{:.6f} check: {}", now(), approved ? "ok" : approved.error().message); });
         if (!approved) return;
         if (!configured_) violation("a check was approved without a configuration");
         last_ = approved->train();
@@ -273,8 +275,8 @@ private:
         const VibrationBurst wanted{dice_.chance(0.1) ? kNaN : dice_.between(-0.2, 1.2),
                                     Seconds(dice_.chance(0.1) ? kInf : dice_.between(-0.2, 1.2))};
         const bool atElectrodes = configured_ && allowed_.person;
-        const bool sound = !atElectrodes && wanted.intensity >= 0 && wanted.intensity <= 1 && wanted.duration.count() > 0 &&
-                           wanted.duration.count() <= 1;
+        const bool sound = !atElectrodes && wanted.intensity >= 0 && wanted.intensity <= 1 &&
+                           wanted.duration.count() > 0 && wanted.duration.count() <= 1;
         const auto approved = gate().approve(wanted);
         if (approved.has_value() != sound) violation("a vibration was judged wrongly");
         if (!approved) return;
@@ -291,7 +293,7 @@ private:
         pending_.clear();
         unit_.reopen();
         ascending_ = false;
-        note(fmt::format("{:.6f} opened again", now()));
+        note([&] { return fmt::format("{:.6f} opened again", now()); });
         for (const Pending& p : before) {
             if (gate().isCurrent(p.approval)) violation("an approval is current in another program");
         }
@@ -303,12 +305,12 @@ private:
             gate().beginAscending();
             ascending_ = true;
             seriesLast_ = 0;
-            note("ascending");
+            note([&] { return std::string("ascending"); });
             voidPending("beginAscending()");
         } else {
             gate().endAscending();
             ascending_ = false;
-            note("no longer ascending");
+            note([&] { return std::string("no longer ascending"); });
         }
     }
 
@@ -326,7 +328,7 @@ private:
             wait(dice_.chance(0.7) ? dice_.decade(1e-4, 0.3) : dice_.between(0, 6));
         } else if (which < 0.83) {
             gate().latchStop();
-            note("stop");
+            note([&] { return std::string("stop"); });
             voidPending("a stop");
         } else if (which < 0.86) {
             configure();
@@ -342,7 +344,7 @@ private:
                 if (gate().reportDiscomfort(Milliamps(level * 1e3))) {
                     allowed_.discomfort = std::min(allowed_.discomfort, level);
                     accepted_ = std::min(accepted_, allowed_.discomfort);
-                    note(fmt::format("discomfort at {} A", level));
+                    note([&] { return fmt::format("discomfort at {} A", level); });
                     voidPending("reported discomfort");
                 }
             }
@@ -380,10 +382,12 @@ private:
 
     bool ask(const PulseTrain& train, double interval) {
         auto approved = gate().approve({train, Seconds(interval), clock_.now()});
-        note(fmt::format("{:.6f} approve {} {} us gap {} shape {} pol {} n {} rate {} T {}: {}", now(),
-                         siValue(train.amplitude), train.phaseWidth.count(), train.interPhaseGap.count(),
-                         static_cast<int>(train.shape), static_cast<int>(train.polarity), train.pulses,
-                         train.rate.value(), interval, approved ? "ok" : approved.error().message));
+        note([&] {
+            return fmt::format("{:.6f} approve {} {} us gap {} shape {} pol {} n {} rate {} T {}: {}", now(),
+                               siValue(train.amplitude), train.phaseWidth.count(), train.interPhaseGap.count(),
+                               static_cast<int>(train.shape), static_cast<int>(train.polarity), train.pulses,
+                               train.rate.value(), interval, approved ? "ok" : approved.error().message);
+        });
         if (!approved) {
             ++total_.refused;
             return false;
@@ -415,7 +419,7 @@ private:
         if (now() < busyUntil_) clock_.advanceTo(toInstant(busyUntil_) + Instant(1));
         if (!gate().isCurrent(next.approval)) return;
         if (now() > next.granted + 0.1 + 1e-9) violation("an approval older than 100 ms is still current");
-        if (dice_.chance(loses_)) return note("no contact");
+        if (dice_.chance(loses_)) return note([&] { return std::string("no contact"); });
         if (drifts_ > 0) scale_ = std::clamp(scale_ + dice_.between(-drifts_, drifts_), 0.8, 1.2);
         const PulseTrain train = device_.outOf(next.approval.train());
         if (drifts_ > 0 || halving_ > 0) body_.fit(bodyUnder(train));
@@ -427,7 +431,7 @@ private:
         const PulseFacts facts = body_.deliver(train, drain, start);
         at500_.deliver(train, drain, start);
         busyUntil_ = now() + train.duration().count() / pace_;
-        note(fmt::format("{:.6f} delivered, peak {} A", start, facts.peakI));
+        note([&] { return fmt::format("{:.6f} delivered, peak {} A", start, facts.peakI); });
         const double readSince = std::exchange(readAs_, next.readAs);
         referee(train, facts, next.interval * pace_, next.approval.train(), known_.outOf(next.approval.train()),
                 next.isCheck);
@@ -516,15 +520,29 @@ private:
 };
 }  // namespace
 
-void runSequences(std::uint64_t seed, std::uint64_t count, SequenceCount& total) {
+namespace {
+/// From the beginning, up to the first violation; the last of them with a trace where that is wanted.
+std::uint64_t run(std::uint64_t seed, std::uint64_t count, bool traced, SequenceCount& total) {
     VirtualClock clock;
     Unit unit(clock);
     Dice dice(seed);
-    for (std::uint64_t k = 0; k < count && total.violation.empty(); ++k) {
-        Sequence(unit, clock, dice, total).run();
-        if (!total.violation.empty())
-            total.violation = fmt::format("seed {}, sequence {}: {}", seed, k, total.violation);
+    std::uint64_t done = 0;
+    while (done < count && total.violation.empty()) {
+        ++done;
+        Sequence(unit, clock, dice, total, traced && done == count).run();
     }
+    return done;
+}
+}  // namespace
+
+void runSequences(std::uint64_t seed, std::uint64_t count, SequenceCount& total) {
+    const auto done = run(seed, count, false, total);
+    if (total.violation.empty()) return;
+    // A trace of every sequence would take longer than the sequences do.
+    SequenceCount again;
+    run(seed, done, true, again);
+    total.violation = fmt::format("seed {}, sequence {}: {}", seed, done - 1,
+                                  again.violation.empty() ? total.violation + " (not again)" : again.violation);
 }
 
 }  // namespace tacto::test

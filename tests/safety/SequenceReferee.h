@@ -71,14 +71,17 @@ struct Miscalibration {
 
 class SequenceReferee {
 public:
-    SequenceReferee(VirtualClock& clock, Dice& dice, SequenceCount& total)
-        : clock_(clock), dice_(dice), total_(total) {}
+    SequenceReferee(VirtualClock& clock, Dice& dice, SequenceCount& total, bool traced)
+        : clock_(clock), dice_(dice), total_(total), traced_(traced) {}
 
 protected:
     void violation(const std::string& what) {
         if (total_.violation.empty()) total_.violation = what + "\n" + trace_;
     }
-    void note(const std::string& text) { trace_ += text + "\n"; }
+    template <class Text>
+    void note(Text text) {
+        if (traced_) trace_ += text() + "\n";
+    }
     [[nodiscard]] double now() const { return toSeconds(clock_.now()); }
     void wait(double seconds) { clock_.advanceTo(clock_.now() + toInstant(seconds)); }
 
@@ -245,6 +248,7 @@ protected:
     VirtualClock& clock_;
     Dice& dice_;
     SequenceCount& total_;
+    const bool traced_;
     SourceTraits source_;
     Body nominal_;
     Allowed allowed_;
