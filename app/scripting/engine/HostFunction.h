@@ -53,6 +53,7 @@ struct HostFunction {
 // The table of each object.
 [[nodiscard]] std::vector<HostFunction> generalFunctions();
 [[nodiscard]] std::vector<HostFunction> benchFunctions();
+[[nodiscard]] std::vector<HostFunction> loadsFunctions();
 [[nodiscard]] std::vector<HostFunction> operatorFunctions();
 [[nodiscard]] std::vector<HostFunction> recordFunctions();
 [[nodiscard]] std::vector<HostFunction> measureFunctions();

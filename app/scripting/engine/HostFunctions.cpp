@@ -19,6 +19,7 @@ const std::vector<HostFunction>& hostFunctions() {
         add("", generalFunctions());
         add("random", randomFunctions());
         add("bench", benchFunctions());
+        add("loads", loadsFunctions());
         add("operator", operatorFunctions());
         add("pilot", pilotFunctions());
         add("record", recordFunctions());

@@ -15,7 +15,7 @@ HostCall calibration;                   // Calibration.cpp
 HostCall calibrationCheck;              // CalibrationCheck.cpp
 HostCall sensorCalibration;             // SensorCalibration.cpp
 HostCall sensorScale, fingertipScales;  // FingertipScales.cpp
-HostCall loadSafety;                    // LoadSafety.cpp
+HostCall loadSafety, loadValue;         // LoadSafety.cpp
 HostCall transitions, difference;       // Transitions.cpp
 HostCall latency, changes;              // Changes.cpp
 HostCall variation, uncertainBench;     // Variation.cpp

@@ -38,6 +38,16 @@ LoadSafetyTolerances tolerancesFrom(const Arguments& arguments) {
 
 }  // namespace
 
+Result<Json> loadValue(ScriptSession& session, const Arguments& arguments) {
+    auto record = loadRecordFrom(arguments.object("load"));
+    if (!record) return failure(record);
+    LoadSafetyInput input = inputFor(session.bench());
+    input.tolerances.load_pct = arguments.number("tolerances.load_pct");
+    input.tolerances.resistor_pct = arguments.number("tolerances.resistor_pct");
+    const auto row = judgeReference(*record, input);
+    return Json(row.verdict == RowVerdict::Pass ? "" : row.reason);
+}
+
 /// Loads that are empty are left out: they were not reached.
 Result<Json> loadSafety(ScriptSession& session, const Arguments& arguments) {
     const Json& loads = arguments.list("loads");

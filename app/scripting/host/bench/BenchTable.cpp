@@ -149,7 +149,7 @@ std::vector<HostFunction> benchFunctions() {
                             .range(0, 1)},
          .text = "What a command would be and do on a load, by computation; nothing is delivered.",
          .returns =
-             "{ load, roughness, pressure, command_v, interval_s, nominal_ohm, amplitude (V or mA, as the device is "
+             "{ load, strength, roughness, pressure, command_v, interval_s, nominal_ohm, amplitude (V or mA, as the device is "
              "programmed), forbidden, predicted, rms_5s_ma, peak_ma, fine_range_ma, check_forbidden, not_applicable, "
              "capture "
              "}: forbidden when a limit is broken at worst within 20 % of the load, predicted says by what; "

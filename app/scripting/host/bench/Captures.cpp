@@ -2,34 +2,34 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/bench/BenchObject.h"
+#include "app/scripting/host/bench/TrainCaptures.h"
 
 namespace tacto::host::bench {
 
 namespace {
 
-ScopeSettings scopeSettings(Bench& bench, const Arguments& arguments) {
+double given(double option, double usual) { return std::isfinite(option) ? option : usual; }
+
+ScopeSettings scopeSettings(Bench& bench, const CaptureOptions& options) {
     const EncodingProfile& encoding = bench.profile().encoding;
     const PulseTrain& train = encoding.train;
     const Telemetry now = bench.telemetry();
     const double expected_v = std::isfinite(now.amplitude_v) ? now.amplitude_v : encoding.amplitudeMax.value();
     const double load_ohm = std::isfinite(now.impedance_ohm) && now.impedance_ohm > 0 ? now.impedance_ohm : 1000;
     const double fastest_hz = bench.devices().oscilloscope->traits().maxRate.value();
-    const double rate_hz = arguments.number("options.rate_hz", std::min(1e6, fastest_hz));
+    const double rate_hz = given(options.rate_hz, std::min(1e6, fastest_hz));
     // The whole train, with a tenth before it and a tail to see the charge run off.
     const double train_s = (train.pulses - 1) / train.rate.value() + train.pulseDuration().count();
     const double wanted = std::max(1.0, std::ceil((1.4 * train_s + 3e-4) * rate_hz));
 
     ScopeSettings settings;
     settings.sampleRate = Hertz(rate_hz);
-    settings.samples = arguments.has("options.samples") ? static_cast<std::size_t>(arguments.whole("options.samples"))
-                                                        : static_cast<std::size_t>(wanted);
+    settings.samples = options.samples > 0 ? options.samples : static_cast<std::size_t>(wanted);
     settings.preTrigger = 0.15;
-    settings.triggerLevel = arguments.number("options.trigger_v", std::max(0.05, 0.2 * expected_v));
-    settings.voltageRange = Volts(arguments.number("options.voltage_range_v", std::max(1.0, 1.3 * expected_v)));
-    settings.currentRange =
-        Milliamps(arguments.number("options.current_range_ma", std::max(1.0, 2e3 * expected_v / load_ohm)));
+    settings.triggerLevel = given(options.trigger_v, std::max(0.05, 0.2 * expected_v));
+    settings.voltageRange = Volts(given(options.voltageRange_v, std::max(1.0, 1.3 * expected_v)));
+    settings.currentRange = Milliamps(given(options.currentRange_ma, std::max(1.0, 2e3 * expected_v / load_ohm)));
     return settings;
 }
 
@@ -53,18 +53,27 @@ Result<std::vector<Capture>> captureInOne(Bench& bench, int trains, ScopeSetting
 
 }  // namespace
 
+Result<std::vector<Capture>> captureTrains(ScriptSession& session, const CaptureOptions& options) {
+    const ScopeSettings settings = scopeSettings(session.bench(), options);
+    if (!options.intervals || session.scopeSeen().stampsStated()) {
+        auto captures = session.bench().capture(options.trains, settings);
+        if (!captures || !options.intervals || std::isfinite(captures->front().stampTolerance_s)) return captures;
+    }
+    return captureInOne(session.bench(), options.trains, settings);
+}
+
 Result<Json> capture(ScriptSession& session, const Arguments& arguments) {
     const auto intervals = arguments.flag("options.intervals");
     const int trains = arguments.whole("options.trains", intervals ? 2 : 1);
     if (intervals && (trains < 2 || trains > kTrainsInOne))
         return arguments.wrong("trains", trains, fmt::format("a whole number from 2 to {}", kTrainsInOne));
-    const ScopeSettings settings = scopeSettings(session.bench(), arguments);
-    if (!intervals || session.scopeSeen().stampsStated()) {
-        auto captures = session.bench().capture(trains, settings);
-        if (!captures) return failure(captures);
-        if (!intervals || std::isfinite(captures->front().stampTolerance_s)) return session.hold(std::move(*captures));
-    }
-    auto captures = captureInOne(session.bench(), trains, settings);
+    auto captures = captureTrains(session, {.trains = trains,
+                                            .rate_hz = arguments.number("options.rate_hz"),
+                                            .samples = static_cast<std::size_t>(arguments.whole("options.samples")),
+                                            .voltageRange_v = arguments.number("options.voltage_range_v"),
+                                            .currentRange_ma = arguments.number("options.current_range_ma"),
+                                            .trigger_v = arguments.number("options.trigger_v"),
+                                            .intervals = intervals});
     if (!captures) return failure(captures);
     return session.hold(std::move(*captures));
 }

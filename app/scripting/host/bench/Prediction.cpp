@@ -1,8 +1,9 @@
 // What a command would do to a load before it is given, and asking for commands that must be refused.
+#include "app/scripting/host/bench/Prediction.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/bench/BenchObject.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
@@ -84,15 +85,10 @@ Result<Json> loads(ScriptSession&, const Arguments&) {
     return out;
 }
 
-Result<Json> predict(ScriptSession& session, const Arguments& arguments) {
-    const auto name = arguments.text("load");
-    const auto strength = arguments.number("strength");
+Result<Json> predictCommand(ScriptSession& session, const std::string& name, double strength) {
     Bench& bench = session.bench();
     const auto load = parseLoad(name);
     if (!load) return failure(load);
-    if (load->kind == LoadKind::Open || load->kind == LoadKind::Short) {
-        return arguments.wrong("load", name, "a resistor or a skin equivalent");
-    }
     const auto& encoding = bench.profile().encoding;
     const auto& source = bench.devices().stimulator->traits();
     // The interval at its shortest, the amplitude as asked, whichever of R and P makes which.
@@ -110,6 +106,7 @@ Result<Json> predict(ScriptSession& session, const Arguments& arguments) {
     const auto wanted = trainFor(source.drive, encoding, command->amplitude, ohms);
     if (!wanted) return failure(wanted);
     Json out = {{"load", name},
+                {"strength", strength},
                 {"roughness", R},
                 {"pressure", P},
                 {"command_v", command->amplitude.value()},
@@ -143,11 +140,16 @@ Result<Json> predict(ScriptSession& session, const Arguments& arguments) {
     return out;
 }
 
-/// Gives the command and sees whether the limits let it through; the drive is off again afterwards.
-Result<Json> attempt(ScriptSession& session, const Arguments& arguments) {
-    const auto R = arguments.number("command.roughness");
-    const auto P = arguments.number("command.pressure");
-    Bench& bench = session.bench();
+Result<Json> predict(ScriptSession& session, const Arguments& arguments) {
+    const auto name = arguments.text("load");
+    const auto load = parseLoad(name);
+    if (!load) return failure(load);
+    if (load->kind == LoadKind::Open || load->kind == LoadKind::Short)
+        return arguments.wrong("load", name, "a resistor or a skin equivalent");
+    return predictCommand(session, name, arguments.number("strength"));
+}
+
+Result<Attempt> attemptCommand(Bench& bench, double R, double P) {
     const auto before = bench.telemetry().trainsDelivered;
     if (auto driven = bench.drive(DriveSource::Manual, R, P); !driven) return failure(driven);
     // Two intervals: the first train may be one interval away, its status a little more.
@@ -162,8 +164,14 @@ Result<Json> attempt(ScriptSession& session, const Arguments& arguments) {
     if (auto off = bench.drive(DriveSource::Off); !off) return failure(off);
     if (!waited && waited.error().code != ErrorCode::LimitExceeded) return failure(waited);
     const bool delivered = bench.telemetry().trainsDelivered != before;
-    return Json{
-        {"refused", !waited && !delivered}, {"delivered", delivered}, {"reason", waited ? "" : waited.error().message}};
+    return Attempt{!waited && !delivered, delivered, waited ? "" : waited.error().message};
+}
+
+Result<Json> attempt(ScriptSession& session, const Arguments& arguments) {
+    const auto asked =
+        attemptCommand(session.bench(), arguments.number("command.roughness"), arguments.number("command.pressure"));
+    if (!asked) return failure(asked);
+    return Json{{"refused", asked->refused}, {"delivered", asked->delivered}, {"reason", asked->reason}};
 }
 
 }  // namespace tacto::host::bench

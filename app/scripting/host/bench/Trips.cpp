@@ -20,7 +20,8 @@ Json trial(std::string_view name, bool evaluated, bool tripped, double after_s, 
             {"evaluated", evaluated},
             {"tripped", tripped},
             {"after_s", numberOrNull(after_s)},
-            {"reason", reason}};
+            {"reason", reason},
+            {"captures", Json::array()}};
 }
 
 bool canTell(Bench& bench) {

@@ -1,4 +1,6 @@
 // What trains did to a load, from captures.
+#include "app/scripting/host/measure/LoadReadings.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -25,19 +27,17 @@ double settledAt(const Telemetry& now, std::size_t captures) {
 
 }  // namespace
 
-Result<Json> measureLoad(ScriptSession& session, const Arguments& arguments) {
-    const auto given = capturesGiven(session, arguments.list("captures"));
+Result<Json> loadReading(ScriptSession& session, const LoadCaptures& captures) {
+    const auto given = capturesGiven(session, captures.trains);
     if (!given) return failure(given);
-    const auto fine = capturesGiven(session, arguments.list("fine"));
+    const auto fine = capturesGiven(session, captures.fine);
     if (!fine) return failure(fine);
-    const auto rhythm = capturesGiven(session, arguments.list("rhythm"));
+    const auto rhythm = capturesGiven(session, captures.rhythm);
     if (!rhythm) return failure(rhythm);
-    if (arguments.has("rhythm") && rhythm->captures.size() != 1)
-        return arguments.wrong("rhythm", arguments.list("rhythm"), "a list of one capture");
     const auto& train = session.bench().profile().encoding.train;
     ExpectedTrain expected{train.pulses, train.rate.value()};
     if (const auto& stimulator = session.bench().devices().stimulator) expected.drive = stimulator->traits().drive;
-    if (arguments.text("by") == "voltage") expected.drive = Drive::Voltage;
+    if (captures.byVoltage) expected.drive = Drive::Voltage;
     // A calibrated stimulator is programmed to something else than what it is to deliver.
     const auto& calibration = session.bench().calibration();
     const double settled = settledAt(session.bench().telemetry(), given->captures.size());
@@ -52,6 +52,14 @@ Result<Json> measureLoad(ScriptSession& session, const Arguments& arguments) {
     Json out = toJson(*reading);
     out["captures"] = given->ids;
     return out;
+}
+
+Result<Json> measureLoad(ScriptSession& session, const Arguments& arguments) {
+    const Json& rhythm = arguments.list("rhythm");
+    if (arguments.has("rhythm") && rhythm.size() != 1)
+        return arguments.wrong("rhythm", rhythm, "a list of one capture");
+    return loadReading(
+        session, {arguments.list("captures"), arguments.list("fine"), rhythm, arguments.text("by") == "voltage"});
 }
 
 }  // namespace tacto::host::measure

@@ -5,6 +5,7 @@
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/plot/CalibrationFigure.h"
 #include "app/scripting/host/plot/PlotObject.h"
+#include "app/scripting/host/plot/TracingsFigure.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 
 namespace tacto::host::plot {
@@ -140,13 +141,9 @@ Result<Json> timeline(ScriptSession&, const Arguments& arguments) {
     return Json{{"type", "timeline"}, {"t_s", t}, {"r", r}, {"p", p}, {"amplitude_v", a}};
 }
 
-Result<Json> tracings(ScriptSession& session, const Arguments& arguments) {
-    const Json& wanted = arguments.list("tracings");
+Json tracingsFigure(ScriptSession& session, const std::vector<Tracing>& tracings) {
     Json captures = Json::array();
-    for (const auto& one : wanted) {
-        const Json condition = one.value("condition", Json("")), label = one.value("label", condition);
-        if (!condition.is_string()) return arguments.wrong("condition", condition, "a text");
-        if (!label.is_string()) return arguments.wrong("label", label, "a text");
+    for (const auto& [condition, label] : tracings) {
         for (const auto& exemplar : session.exemplars()) {
             if (exemplar.condition != condition) continue;
             Json entry = {{"label", label}};
@@ -164,7 +161,18 @@ Result<Json> tracings(ScriptSession& session, const Arguments& arguments) {
             captures.push_back(std::move(entry));
         }
     }
-    Json figure = {{"type", "waveforms"}, {"captures", captures}};
+    return {{"type", "waveforms"}, {"captures", captures}};
+}
+
+Result<Json> tracings(ScriptSession& session, const Arguments& arguments) {
+    std::vector<Tracing> wanted;
+    for (const auto& one : arguments.list("tracings")) {
+        const Json condition = one.value("condition", Json("")), label = one.value("label", condition);
+        if (!condition.is_string()) return arguments.wrong("condition", condition, "a text");
+        if (!label.is_string()) return arguments.wrong("label", label, "a text");
+        wanted.push_back({condition, label});
+    }
+    Json figure = tracingsFigure(session, wanted);
     if (arguments.has("note")) figure["note"] = arguments.text("note");
     return figure;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 namespace tacto::host::report {
 
@@ -31,6 +32,17 @@ namespace tacto::host::report {
 /// Takes `from`'s member over, if there is one.
 inline void copy(nlohmann::json& row, const char* key, const nlohmann::json& from, const char* fromKey) {
     if (const auto at = from.find(fromKey); at != from.end()) row[key] = *at;
+}
+
+/// A load as people write it: "200 Ω + 10 kΩ ∥ 50 nF".
+[[nodiscard]] inline std::string writtenLoad(std::string load) {
+    const auto replaceAll = [&load](std::string_view from, std::string_view to) {
+        for (auto at = load.find(from); at != std::string::npos; at = load.find(from, at + to.size()))
+            load.replace(at, from.size(), to);
+    };
+    replaceAll("ohm", "Ω");
+    replaceAll("||", "∥");
+    return load;
 }
 
 }  // namespace tacto::host::report

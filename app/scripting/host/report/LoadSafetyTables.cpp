@@ -33,17 +33,6 @@ constexpr MeasuredRow kMeasured[] = {{"|Z| at the end of the leading phase", "me
                                      {"Power density over 1 s", "power_density_w_cm2", "W/cm2", true}};
 constexpr std::size_t kCritical = 3;  // rows closest to their limits that are named before the matrix
 
-/// A load as people write it.
-std::string writtenLoad(std::string load) {
-    const auto replaceAll = [&load](std::string_view from, std::string_view to) {
-        for (auto at = load.find(from); at != std::string::npos; at = load.find(from, at + to.size()))
-            load.replace(at, from.size(), to);
-    };
-    replaceAll("ohm", "Ω");
-    replaceAll("||", "∥");
-    return load;
-}
-
 const Json& linesOf(const Json& found) { return listIn(found.at("matrix"), "lines"); }
 
 /// The same limit from two documents is one row of the matrix; the table of sources has both.

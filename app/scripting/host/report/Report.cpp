@@ -7,6 +7,7 @@
 #include "app/scripting/host/report/Cells.h"
 #include "app/scripting/host/report/FingertipItems.h"
 #include "app/scripting/host/report/LoadSafetyTables.h"
+#include "app/scripting/host/report/LoadTracings.h"
 #include "app/scripting/host/report/ReportObject.h"
 #include "core/base/QuantityText.h"
 #include "core/session/SessionWriter.h"
@@ -80,6 +81,12 @@ Result<Json> loadSafety(ScriptSession& session, const Arguments& arguments) {
         if (item["kind"] == "matrix" || !item["rows"].empty()) items.push_back(std::move(item));
     }
     return writeItems(session, items);
+}
+
+Result<Json> loadTracingsFigures(ScriptSession& session, const Arguments& arguments) {
+    const Json& burst = arguments.any("burst");
+    if (!burst.is_null() && !burst.is_object()) return arguments.wrong("burst", burst, "what loads.burst() returned");
+    return writeItems(session, loadTracings(session, arguments.list("loads"), burst));
 }
 
 Result<Json> fingertipScales(ScriptSession& session, const Arguments& arguments) {

@@ -11,7 +11,7 @@ namespace tacto::host::report {
 using Json = nlohmann::json;
 
 HostCall figure, table, matrix, quantity, rounded, text, calibration, calibrations, calibrationCheck, loadSafety,
-    fingertipScales,
+    loadTracingsFigures, fingertipScales,
     sensorCalibration;  // Report.cpp
 
 }  // namespace tacto::host::report

@@ -54,6 +54,16 @@ std::vector<HostFunction> reportFunctions() {
                  "outputs, refusals, trips and where each limit comes from.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::loadSafety},
+        {.name = "loadTracings",
+         .parameters = {list("loads", "as analysis.loadSafety() takes them; steps from loads.give()")
+                            .of(ValueType::Object),
+                        any("burst",
+                            "from loads.burst(), with load and condition, the name of the trial that recorded it; null "
+                            "where there is none")},
+         .text = "Adds the strongest trains into 500 ohm, 2 kohm and 10 kohm to the report on one time axis, and a "
+                 "burst on another.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::loadTracingsFigures},
         {.name = "fingertipScales",
          .parameters =
              {object("scales", "from analysis.fingertipScales()"),

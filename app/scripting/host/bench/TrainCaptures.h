@@ -1,0 +1,31 @@
+// TrainCaptures.h - oscilloscope records of the trains that come next, for bench.capture() and the checks on loads.
+//
+// Thread-safety: calls come from the script's thread.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "core/base/NaN.h"
+
+namespace tacto::host::bench {
+
+/// How the records are taken. NaN, and 0 samples: as the command, the train and |Z| of now suggest.
+struct CaptureOptions {
+    int trains = 1;
+    double rate_hz = kNaN;
+    std::size_t samples = 0;
+    double voltageRange_v = kNaN;
+    double currentRange_ma = kNaN;
+    double trigger_v = kNaN;
+    /// The intervals between the trains, 2 to 8, are wanted: where the oscilloscope does not state how good the time
+    /// stamps of its records are, one record holds them all.
+    bool intervals = false;
+};
+
+/// Waits for the trains. Errors: Timeout when fewer came; InvalidArgument where intervals are wanted and nothing is
+/// driven; as Bench::capture().
+[[nodiscard]] Result<std::vector<Capture>> captureTrains(ScriptSession& session, const CaptureOptions& options);
+
+}  // namespace tacto::host::bench
