@@ -163,8 +163,10 @@ void OperatorPage::begin(bool blind, bool simulated) {
     screen_ = {};
     answered_ = repeated_ = seenTrial_ = seenBlock_ = 0;
     theirs_.reset();
+    vibrates_ = false;
     trend_->clear();
     trend_->setSimulated(simulated);
+    showTrend();
     notes_->clear();
     ask_->close();
     sure_->hide();
@@ -232,6 +234,10 @@ void OperatorPage::closeQuestion(quint64 id) {
 }
 
 void OperatorPage::refresh(const Telemetry& telemetry) {
+    if (std::isfinite(telemetry.intensity) && !vibrates_) {
+        vibrates_ = true;
+        showTrend();
+    }
     if (screen_.phase == "test") trend_->note(screen_.trial, telemetry.impedance_ohm);
     const double gone = double(phaseSince_.nsecsElapsed()) * 1e-9;
     if (theirs_) {
@@ -272,8 +278,11 @@ void OperatorPage::setProgress(const QString& what, int done, int total) {
 
 void OperatorPage::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    trend_->setVisible(height() > scaledPx(kLow));
+    showTrend();
 }
+
+/// A massager has no impedance.
+void OperatorPage::showTrend() { trend_->setVisible(!vibrates_ && height() > scaledPx(kLow)); }
 
 }  // namespace tacto::gui
 

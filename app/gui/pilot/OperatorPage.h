@@ -54,6 +54,7 @@ protected:
 private:
     [[nodiscard]] QWidget* buildBar();
     void showCounts();
+    void showTrend();
 
     QLabel* where_;
     QLabel* counts_;
@@ -73,6 +74,7 @@ private:
     PilotScreen screen_;
     bool blind_ = true;
     bool breakDue_ = false;
+    bool vibrates_ = false;  ///< a massager delivers
     int answered_ = 0, repeated_ = 0;
     int seenTrial_ = 0, seenBlock_ = 0;
     std::optional<PilotPrompt> theirs_;  ///< the question at the participant's screen

@@ -53,6 +53,17 @@ protected:
     gui::OperatorPage page;
 };
 
+TEST_F(Operator8b, ShowsNoImpedanceOfAMassager) {
+    runTo(3);
+    EXPECT_THAT(allText(), HasSubstr("Impedance"));
+    Telemetry vibrating;
+    vibrating.intensity = 0.3;
+    page.refresh(vibrating);
+    EXPECT_THAT(allText(), Not(HasSubstr("Impedance")));
+    page.begin(true, true);
+    EXPECT_THAT(allText(), HasSubstr("Impedance"));
+}
+
 TEST_F(Operator8b, SaysWhereTheSessionIs) {
     runTo(27);
     const auto says = allText();

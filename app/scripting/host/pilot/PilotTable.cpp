@@ -16,7 +16,7 @@ std::vector<HostFunction> pilotFunctions() {
              {flag("options.trials", "the session has trials, so their order is drawn and kept").otherwise(true)},
          .text =
              "Draws the order of the session from its seed and stores it, then goes through the checklist: machine, "
-             "both STOPs, skin, electrodes. What an earlier part of the session stored is taken from there: nothing "
+             "both STOPs, skin, electrodes or massager. What an earlier part of the session stored is taken from there: nothing "
              "that was answered is asked or presented again.",
          .errors = kEnds,
          .failsDisarmed = true,
@@ -58,7 +58,8 @@ std::vector<HostFunction> pilotFunctions() {
         {.name = "range",
          .text = "The levels between which the participant's conditions lie today. The highest is felt for 4 s and "
                  "accepted for half an hour.",
-         .returns = "{ usable, reason, min_ma, max_ma, min_v, max_v, jnd, impedance_ohm, limited_by }",
+         .returns = "{ usable, reason, min_ma, max_ma, min_v, max_v, jnd, impedance_ohm, limited_by }; with a massager "
+                    "{ usable, reason, min_intensity, max_intensity, jnd, limited_by }",
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::range},
