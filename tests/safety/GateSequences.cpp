@@ -273,8 +273,8 @@ private:
         const VibrationBurst wanted{dice_.chance(0.1) ? kNaN : dice_.between(-0.2, 1.2),
                                     Seconds(dice_.chance(0.1) ? kInf : dice_.between(-0.2, 1.2))};
         const bool atElectrodes = configured_ && allowed_.person;
-        const bool sound = !atElectrodes && wanted.intensity >= 0 && wanted.intensity <= 1 && wanted.duration.count() > 0 &&
-                           wanted.duration.count() <= 1;
+        const bool sound = !atElectrodes && wanted.intensity >= 0 && wanted.intensity <= 1 &&
+                           wanted.duration.count() > 0 && wanted.duration.count() <= 1;
         const auto approved = gate().approve(wanted);
         if (approved.has_value() != sound) violation("a vibration was judged wrongly");
         if (!approved) return;
