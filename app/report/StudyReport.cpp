@@ -99,8 +99,8 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
     return content;
 }
 
-void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const AnalysedSession& one, const QString& caption,
-                  bool simulated) {
+void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const AnalysedSession& one,
+                  const QString& caption, bool simulated) {
     ConfusionFigure figure;
     for (const auto& label : one.found.labels) figure.labels << qtext(label);
     for (const auto& column : one.found.columns) figure.columns << qtext(column);
@@ -114,7 +114,8 @@ void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const An
 QString learningText(const Identification& found) {
     if (!std::isfinite(found.learning.value)) return "cannot be determined";
     return QString("%1 (%2 to %3) in log odds per block")
-        .arg(figureText(found.learning.value, 2), figureText(found.learning.low, 2), figureText(found.learning.high, 2));
+        .arg(figureText(found.learning.value, 2), figureText(found.learning.low, 2),
+             figureText(found.learning.high, 2));
 }
 
 void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
@@ -135,7 +136,8 @@ void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
                                          .arg(figures.hits)
                                          .arg(figures.n)
                                          .arg(shareText(figures.accuracy), figureText(figures.itCorrected_bits, 2),
-                                              figureText((*feature)->dPrime, 2), figureText((*feature)->criterion, 2))});
+                                              figureText((*feature)->dPrime, 2),
+                                              figureText((*feature)->criterion, 2))});
     }
     facts.facts.push_back({"Catch trials", QString("%1 of %2 answered with a name, exact 95 % interval up to %3 %")
                                                .arg(found.catches.falseAlarms)
@@ -230,7 +232,8 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vect
     blocks.emplace_back(std::move(table));
     blocks.emplace_back(
         ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")
-                           .arg(figureText(100 * together.accuracy.median, 0), figureText(100 * together.accuracy.min, 0),
+                           .arg(figureText(100 * together.accuracy.median, 0),
+                                figureText(100 * together.accuracy.min, 0),
                                 figureText(100 * together.accuracy.max, 0))});
     blocks.emplace_back(ParagraphBlock{qtext(fewPeopleSentence(together))});
     blocks.emplace_back(ParagraphBlock{

@@ -165,8 +165,9 @@ Result<TrialInterval> PilotThresholds::twoIntervals(const std::string& name, con
     trial.about = {{"right", nameOf(asked.interval)}};
     trial.level = asked.level;
     const bool second = asked.interval == TrialInterval::Second;
-    trial.presentation = detectionPresentation(stage_.levelOf(asked.level), second, trainLength(stage_.bench(), stage_.settings().unit),
-                                               stage_.settings().shortest);
+    const auto& settings = stage_.settings();
+    trial.presentation = detectionPresentation(stage_.levelOf(asked.level), second,
+                                               trainLength(stage_.bench(), settings.unit), settings.shortest);
     trial.prompt = intervalPrompt();
     trial.screen.state = ScreenState::Interval;
     trial.screen.phase = phase;
@@ -281,9 +282,12 @@ nlohmann::json PilotThresholds::toJson() const {
                           {"marked", each.marked()}});
     nlohmann::json history = nlohmann::json::array();
     for (const auto& each : trials_) history.push_back({{nameOf(unit), each.level}, {"correct", each.correct}});
-    const nlohmann::json detection{{"method", nameOf(method_)},         {levelKey("estimate", unit), estimateJson(estimate_)},
-                                   {"trials", trials_.size()},          {"history", std::move(history)},
-                                   {"first", shareJson(shares_.first)}, {"second", shareJson(shares_.second)}};
+    const nlohmann::json detection{{"method", nameOf(method_)},
+                                   {levelKey("estimate", unit), estimateJson(estimate_)},
+                                   {"trials", trials_.size()},
+                                   {"history", std::move(history)},
+                                   {"first", shareJson(shares_.first)},
+                                   {"second", shareJson(shares_.second)}};
     return {{levelKey("felt", unit), orNull(ascending_.felt)},
             {levelKey("too_strong", unit), orNull(ascending_.tooStrong)},
             {"said_too_strong", ascending_.saidTooStrong},

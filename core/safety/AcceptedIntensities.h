@@ -1,10 +1,10 @@
 // AcceptedIntensities.h - which strengths of a massager a person has accepted in this session, and so how far the next
 // may go (H6).
 //
-// As AcceptedLevels, for intensities from 0 to 1. A burst has one kind: its length is the gate's matter, and the motor's
-// frequency follows its strength. An intensity above the highest accepted one may be at most one ramp step above it; an
-// accepted one may be entered in one step; in a series of ascending limits the ceiling is the series' last accepted
-// intensity plus one step; nothing exceeds the discomfort limit, which only falls.
+// As AcceptedLevels, for intensities from 0 to 1. A burst has one kind: its length is the gate's matter, and the
+// motor's frequency follows its strength. An intensity above the highest accepted one may be at most one ramp step
+// above it; an accepted one may be entered in one step; in a series of ascending limits the ceiling is the series' last
+// accepted intensity plus one step; nothing exceeds the discomfort limit, which only falls.
 //
 // Thread-safety: none; one caller (the gate's). Never allocates, except ceilings' error texts.
 #pragma once

@@ -119,8 +119,8 @@ public:
     /// One impedance check pulse, at the device's smallest check amplitude. Same checks as approve().
     [[nodiscard]] Result<ApprovedTrain> approveCheck(Instant onset);
 
-    /// Errors: InvalidArgument outside 0..1 or not finite, or longer than 1 s; LimitExceeded for a person at electrodes,
-    /// and for one at a massager above what was accepted and one step, or above what was called too strong.
+    /// Errors: InvalidArgument outside 0..1 or not finite, or longer than 1 s; LimitExceeded for a person at
+    /// electrodes, and for one at a massager above what was accepted and one step, or above what was called too strong.
     [[nodiscard]] Result<ApprovedBurst> approve(const VibrationBurst& burst);
 
     /// Person mode (H6, see AcceptedLevels.h). accept(): the participant accepted the level of `train`; without it the
@@ -129,8 +129,8 @@ public:
     /// The participant called `level` uncomfortable; nothing exceeds it afterwards, also after configure() for the same
     /// participant. Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
     [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
-    /// The same of a person at a massager (see AcceptedIntensities.h). Errors: NotArmed for anyone else; InvalidArgument
-    /// unless 0 to 1; of acceptIntensity() LimitExceeded for an intensity that was not permitted.
+    /// The same of a person at a massager (see AcceptedIntensities.h). Errors: NotArmed for anyone else;
+    /// InvalidArgument unless 0 to 1; of acceptIntensity() LimitExceeded for an intensity that was not permitted.
     [[nodiscard]] Result<void> acceptIntensity(double intensity);
     [[nodiscard]] Result<void> reportUncomfortable(double intensity);
     /// The highest intensity that a burst may have now; nothing but for a person at a massager.

@@ -156,7 +156,8 @@ void addSession(std::vector<BidsFile>& files, const std::string& subject, const 
     };
     for (const auto& task :
          {Task{"identification", "Name which of the conditions was presented", identificationTable(session, massager)},
-          Task{"thresholds", "Say how strong it is, or which of two intervals held it", thresholdsTable(session, massager)},
+          Task{"thresholds", "Say how strong it is, or which of two intervals held it",
+               thresholdsTable(session, massager)},
           Task{"ratings", "Rate each condition, presented without its name", ratingsTable(session)},
           Task{"sideeffects", "Say what is noticed at the skin and otherwise", sideEffectsTable(session, massager)}}) {
         if (task.table.isEmpty()) continue;

@@ -12,7 +12,8 @@
 // OpenContext::declaredLoad unless `load=` says otherwise. Same seed and same calls at the same times: same bytes,
 // however often the devices are read. Every key is checked; an unknown one is refused with the list of those known.
 //
-// The set gets a SurfacePresenter with a simulated finger that is not on the motor, and a LoadFitter with a simulated stimulator.
+// The set gets a SurfacePresenter with a simulated finger that is not on the motor, and a LoadFitter with a simulated
+// stimulator.
 //
 // Thread-safety: as Driver.
 #pragma once

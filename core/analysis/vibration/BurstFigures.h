@@ -5,8 +5,8 @@
 //   noise      root mean square in the quiet
 //   strength   root mean square over the burst's own length from its measured onset, less the noise (of the squares)
 //   peak       largest magnitude until the next burst, or for kRunDown after the command's end
-//   onset      the first sample after the command that reaches a tenth of the peak, or kAboveNoise times the noise where
-//              that is more
+//   onset      the first sample after the command that reaches a tenth of the peak, or kAboveNoise times the noise
+//              where that is more
 //   latency    onset less command
 //   rise       from the onset to the first sample of nine tenths of the peak
 //   interval   between the onsets of two bursts that follow each other, mean over the presentation
@@ -47,8 +47,8 @@ struct BurstFigures {
     double rise_s = kNaN;
     double interval_s = kNaN;
     double noise_m_s2 = kNaN;  ///< of one sample
-    /// Standard uncertainties of what is said above, by noise and sampling. The accelerometer's scale is not in them: it
-    /// is the same for all conditions, and only ratios are judged.
+    /// Standard uncertainties of what is said above, by noise and sampling. The accelerometer's scale is not in them:
+    /// it is the same for all conditions, and only ratios are judged.
     double strengthUncertainty_m_s2 = kNaN;
     double intervalUncertainty_s = kNaN;
 

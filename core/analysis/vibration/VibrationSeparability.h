@@ -50,8 +50,8 @@ struct VibrationSeparability {
 [[nodiscard]] Result<VibrationSeparability> judgeVibration(std::span<const VibrationTrial> trials,
                                                            const std::vector<std::string>& conditions);
 
-/// {"measured", "verdict", "reasons", "conditions": [{name, intensity, interval_s, presentations, bursts, moved, missed,
-/// strength_m_s2, latency_s, rise_s, measured_interval_s}], "pairs": [{a, b, strength_jnd, strength_jnd_low,
+/// {"measured", "verdict", "reasons", "conditions": [{name, intensity, interval_s, presentations, bursts, moved,
+/// missed, strength_m_s2, latency_s, rise_s, measured_interval_s}], "pairs": [{a, b, strength_jnd, strength_jnd_low,
 /// interval_jnd, interval_jnd_low}], "accuracy"}; without a measurement the verdict is null.
 [[nodiscard]] nlohmann::json toJson(const VibrationSeparability& found);
 

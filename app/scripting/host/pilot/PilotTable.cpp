@@ -16,8 +16,8 @@ std::vector<HostFunction> pilotFunctions() {
              {flag("options.trials", "the session has trials, so their order is drawn and kept").otherwise(true)},
          .text =
              "Draws the order of the session from its seed and stores it, then goes through the checklist: machine, "
-             "both STOPs, skin, electrodes or massager. What an earlier part of the session stored is taken from there: nothing "
-             "that was answered is asked or presented again.",
+             "both STOPs, skin, electrodes or massager. What an earlier part of the session stored is taken from "
+             "there: nothing that was answered is asked or presented again.",
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::begin},

@@ -1,0 +1,111 @@
+// StageFixture.h - a pilot stage on a simulated bench, with someone who answers and a session file for each part.
+#pragma once
+
+#include <algorithm>
+#include <gmock/gmock.h>
+
+#include "core/pilot/PilotStage.h"
+#include "core/session/SessionReader.h"
+#include "tests/bench/BenchFixture.h"
+
+namespace tacto::test {
+
+/// Answers with the first target, and stops where it is told to.
+class Someone final : public PilotParticipant {
+public:
+    void show(const PilotScreen& screen) override {
+        shown.push_back(screen);
+        if (onShow) onShow();
+    }
+    [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
+        asked.push_back(prompt.name);
+        if (prompt.kind != PromptKind::GoOn && stops > 0) {
+            --stops;
+            stop(stoppedBy);
+            return fail(ErrorCode::Stopped, "stopped by the {}", stoppedBy);
+        }
+        PilotAnswer answer;
+        answer.keys.push_back(prompt.targets.front().key);
+        answer.after = Seconds(0.5);
+        return answer;
+    }
+    void delivered(const FeltPresentation& felt) override { drawn.push_back(felt.drawnFor); }
+    [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
+    void cancel() noexcept override {}
+    [[nodiscard]] bool holding() const noexcept override { return true; }
+    [[nodiscard]] Result<void> ready() const override { return {}; }
+    [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
+
+    std::vector<std::string> asked;
+    std::vector<std::string> drawn;
+    std::vector<PilotScreen> shown;
+    std::function<void()> onShow;
+    int stops = 0;
+    const char* stoppedBy = "participant";
+};
+
+class PilotStageTest : public BenchFixture {
+protected:
+    ~PilotStageTest() override { close(); }
+    void SetUp() override {
+        profile_.electrodeArea = SquareCentimetres(4);
+        person_ = PersonSetup{.participant = "P-7K3M",
+                              .consentRecorded = true,
+                              .discomfortLimit = Milliamps(30),
+                              .rampStep = Milliamps(1)};
+        clockOfFile_ = std::make_shared<VirtualClock>();
+        begin();
+    }
+    /// A part of the session with what the earlier ones wrote.
+    void begin(const std::vector<SessionRow>& earlier = {}) {
+        close();
+        ++part_;
+        writer_ = SessionWriter::create(file(), {}, *clockOfFile_).value();
+        session_ = writer_.get();
+        open({"sim:stimulator?mode=current&step=0.5mA"}, {Role::Stimulator});
+        ASSERT_TRUE(bench_);
+        record_ = std::make_unique<PilotRecord>(*writer_, *clock_, earlier);
+        PilotSettings settings;
+        settings.code = "P-7K3M";
+        settings.isVirtual = true;
+        stage_ = std::make_unique<PilotStage>(*bench_, someone_, *record_, settings);
+    }
+    /// The bench writes to the session until it ends.
+    void close() {
+        stage_.reset();
+        record_.reset();
+        bench_.reset();
+    }
+    [[nodiscard]] std::filesystem::path file() const { return dir_.path() / fmt::format("{}.tacto", part_); }
+    [[nodiscard]] std::vector<SessionRow> rows() const { return SessionReader::open(file()).value().events().value(); }
+    /// Those of the session's own kinds, in order.
+    [[nodiscard]] std::vector<std::string> kinds() const {
+        std::vector<std::string> all;
+        for (const auto& each : rows()) {
+            for (const char* kind : {row::kTrialBegin, row::kAnswer, row::kParticipantStop, row::kContinue,
+                                     row::kOperatorStop, row::kSessionEnd})
+                if (each.name == kind) all.push_back(each.name);
+        }
+        return all;
+    }
+    [[nodiscard]] StageTrial trial(const std::string& name = "test 1", double level = 0.5) const {
+        StageTrial made;
+        made.name = name;
+        made.about = {{"number", 1}, {"phase", "test"}, {"block", 1}, {"condition", "rough-high"}};
+        made.level = level;
+        made.presentation = ascendingPresentation(Milliamps(level), Seconds(0.5));
+        made.prompt = strengthPrompt();
+        made.screen.state = ScreenState::Feel;
+        return made;
+    }
+
+    ScratchDir dir_;
+    std::shared_ptr<VirtualClock> clockOfFile_;
+    int part_ = 0;
+    Someone someone_;
+    std::unique_ptr<SessionWriter> writer_;
+    std::unique_ptr<PilotRecord> record_;
+    std::unique_ptr<PilotStage> stage_;
+};
+
+}  // namespace tacto::test
