@@ -52,6 +52,7 @@ bool isWrittenOut(int exponent) { return exponent >= -4 && exponent < 7; }
 std::string writtenUnit(std::string_view unit) {
     std::string text(unit);
     replaceAll(text, "ohm", "Ω");
+    replaceAll(text, "degC", "°C");
     replaceAll(text, "cm2", "cm²");
     replaceAll(text, "m/s2", "m/s²");
     if (text.starts_with("uC") || text.starts_with("us") || text.starts_with("uA") || text.starts_with("um"))

@@ -21,6 +21,8 @@ constexpr Word<Limb> kLimbs[] = {{"left", Limb::Left}, {"right", Limb::Right}};
 constexpr Word<DataOnRequest> kDataOnRequest[] = {{"destroy", DataOnRequest::Destroy}, {"keep", DataOnRequest::Keep}};
 /// The four conditions of two textures and two pressures. Their names are in the protocol and in no plain text here.
 constexpr std::string_view kTexturePressure = "texture-pressure";
+/// What the four are called: as they are, or texture and pressure exchanged.
+constexpr std::string_view kEncodings[] = {"standard", "swapped"};
 
 constexpr AcceptedText kShortText{.mostBytes = 200};
 constexpr AcceptedText kOptionalText{.mayBeEmpty = true, .mostBytes = 200};
@@ -103,6 +105,17 @@ RecordFields<StudySettings> buildStudyFields() {
         if (settings.conditions == kTexturePressure) return {};
         return fail(ErrorCode::InvalidArgument, "\"conditions\" is \"{}\"; \"{}\" is expected", settings.conditions,
                     kTexturePressure);
+    });
+    all.rule([](const S& settings) -> Result<void> {
+        for (const auto& encoding : settings.encodings) {
+            if (std::ranges::find(kEncodings, encoding) == std::end(kEncodings))
+                return fail(ErrorCode::InvalidArgument, "\"encodings\" holds \"{}\"; {} are accepted", encoding,
+                            fmt::join(kEncodings, " and "));
+            if (std::ranges::count(settings.encodings, encoding) > 1)
+                return fail(ErrorCode::InvalidArgument, "\"encodings\" holds \"{}\" twice; each is accepted once",
+                            encoding);
+        }
+        return {};
     });
     return all;
 }

@@ -278,7 +278,7 @@ function calibrateAll(p, results) {
   results.verdict = worst(all.map((found) => found.verdict).concat(clock === null ? [] : ["indeterminate"]));
   results.reasons = clock === null ? [] : [clock + (p.store ? "; nothing was stored" : "")];
   for (const found of all) {
-    for (const reason of found.reasons) results.reasons.push(found.quantity + ": " + reason);
+    for (const reason of found.reasons) results.reasons.push(TITLES[found.quantity] + ": " + reason);
   }
   return verdict(results);
 }

@@ -75,6 +75,7 @@ TEST(QuantityText, PadsNothingThatWasSet) {
 TEST(QuantityText, KnowsUnitsAndTheirPrefixes) {
     EXPECT_EQ(writtenUnit("uC"), "µC");
     EXPECT_EQ(writtenUnit("kohm"), "kΩ");
+    EXPECT_EQ(writtenUnit("degC"), "°C");
     EXPECT_EQ(partsOfUnit("mA").base, "A");
     EXPECT_DOUBLE_EQ(partsOfUnit("µs").factor, 1e-6);
     EXPECT_EQ(partsOfUnit("m").base, "") << "a metre, not a thousandth of nothing";

@@ -166,6 +166,18 @@ TEST(StudySettings, AreReadAsWritten) {
     EXPECT_EQ(*read, settings);
 }
 
+TEST(StudySettings, AnUnknownEncodingIsRefusedAndNotTakenAsTheStandardOne) {
+    RecordProperty("hazard", "H9");
+    auto settings = approved();
+    const auto set = setStudyField(settings, "encodings", "standard,swaped");
+    ASSERT_FALSE(set);
+    EXPECT_THAT(set.error().message, testing::HasSubstr("\"swaped\"; standard and swapped are accepted"));
+    auto stored = studyFields().write(settings);
+    stored["encodings"] = {"mirrored"};
+    auto read = settings;
+    EXPECT_FALSE(studyFields().read(stored, read, RecordPlace{})) << "in a study's file too";
+}
+
 TEST(StudySettings, AreSetByKeyAndRefuseWhatTheyDoNotAccept) {
     auto settings = approved();
     ASSERT_TRUE(setStudyField(settings, "blocks", "3"));
@@ -186,6 +198,10 @@ TEST(StudySettings, AreSetByKeyAndRefuseWhatTheyDoNotAccept) {
                                      {"blocks", "2.5"},
                                      {"cap_ma", "16"},
                                      {"cap_ma", "nan"},
+                                     {"encodings", "standard,swaped"},
+                                     {"encodings", "Swapped"},
+                                     {"encodings", "standard,standard"},
+                                     {"encodings", ""},
                                      {"kind", "rehearsal"},
                                      {"approval.expires", "2099-01-01"},
                                      {"approval.protocol_sha256", "x"},

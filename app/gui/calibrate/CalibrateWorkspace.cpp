@@ -8,12 +8,24 @@
 
 namespace tacto::gui {
 
+namespace {
+
+/// As high as the window leaves it: a page whose labels wrap would ask for all that its plot likes to have, and what
+/// stands below the plot would be out of sight.
+class PageTabs final : public QTabWidget {
+public:
+    using QTabWidget::QTabWidget;
+    [[nodiscard]] bool hasHeightForWidth() const override { return false; }
+};
+
+}  // namespace
+
 CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationBook& book, QWidget* parent)
     : QWidget(parent), controller_(controller), book_(book) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(2);
-    tabs_ = new QTabWidget(this);
+    tabs_ = new PageTabs(this);
     tabs_->setObjectName("calibratePages");
     tabs_->setDocumentMode(true);
     runner_ = new ProtocolWorkspace(controller_, "stimulator-calibration", tabs_);

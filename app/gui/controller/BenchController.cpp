@@ -51,7 +51,7 @@ Result<bool> BenchController::allVirtual(const std::vector<DeviceUri>& uris) con
 void BenchController::stop(const char* by) noexcept {
     stops_->raise();  // first, even with nothing to switch off: see StopCounter.h
     const std::scoped_lock lock(benchMutex_);
-    stoppedBy_ = by;
+    if (script_ == nullptr) unheardStop_ = by;
     if (script_ != nullptr && takesStop_ && takesStop_(by)) return;
     if (script_ != nullptr)
         script_->stop(by);
@@ -310,9 +310,11 @@ void BenchController::publishBench(Bench* bench, ScriptRun* script) {
     script_ = script;
 }
 
-std::string BenchController::lastStop() const {
+std::optional<std::string> BenchController::publishScript(Bench& bench, ScriptRun& script) {
     const std::scoped_lock lock(benchMutex_);
-    return stoppedBy_;
+    bench_ = &bench;
+    script_ = &script;
+    return unheardStop_;
 }
 
 void BenchController::become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap) {
@@ -384,6 +386,10 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     }
     auto& run = *prepared->run;
     publishBench(&run.bench(), nullptr);  // from here on a stop reaches it
+    {
+        const std::scoped_lock lock(benchMutex_);
+        unheardStop_.reset();  // what came before is start()'s to see: the order is older than it
+    }
     RunRequest hooks;
     hooks.operatorDesk = &operator_;
     feed_.listen(hooks);
@@ -393,9 +399,9 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
         *prepared = {};
         return end();
     }
-    publishBench(&run.bench(), run.script());
-    // A stop between start and publishing has switched off the bench, and has not reached the script.
-    if (stops_->movedSince(order.asked)) run.script()->stop(lastStop().c_str());
+    // A stop between start and publishing has switched off the bench, and has not reached the script. One that the
+    // script asked for itself, as a pilot session's stop test does, ends nothing.
+    if (const auto by = publishScript(run.bench(), *run.script())) run.script()->stop(by->c_str());
     become(Activity::Running, describeBench(run.opened()), tap);
     static_cast<void>(run.script()->wait());
     publishBench(nullptr, nullptr);

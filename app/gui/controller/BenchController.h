@@ -18,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "app/gui/controller/DayNotes.h"
 #include "app/gui/controller/DeviceWatch.h"
@@ -174,7 +175,8 @@ private:
     [[nodiscard]] RunOrder begun(const RunOrder& order, StopMark asked);
     void runOnThread(const RunOrder& order, std::uint64_t number, const Prepare& prepare);
     void publishBench(Bench* bench, ScriptRun* script);
-    [[nodiscard]] std::string lastStop() const;
+    /// From here on a stop reaches the script. Returns who stopped the run before that and after it was begun.
+    [[nodiscard]] std::optional<std::string> publishScript(Bench& bench, ScriptRun& script);
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
 
     const MakeRegistry makeRegistry_;
@@ -197,7 +199,7 @@ private:
     mutable std::mutex benchMutex_;               // held for moments: to swap the pointers, to look, to stop
     Bench* bench_ = nullptr;                      // guarded by benchMutex_
     ScriptRun* script_ = nullptr;                 // guarded by benchMutex_
-    std::string stoppedBy_;                       // guarded by benchMutex_: the last stop
+    std::optional<std::string> unheardStop_;      // guarded by benchMutex_: the last stop that no script heard
     std::function<bool(const char*)> takesStop_;  // guarded by benchMutex_: of the session that runs
 
     RunFeedCollector feed_;

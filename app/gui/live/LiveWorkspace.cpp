@@ -82,6 +82,7 @@ QWidget* LiveWorkspace::buildEmpty() {
     recording->setToolTip(
         tr("The recording.json of a recorded fingertip: it is replayed into the simulated stimulator."));
     connect(recording, &QPushButton::clicked, this, &LiveWorkspace::chooseRecording);
+    recording->setAutoDefault(false);
     column->addWidget(recording, 0, Qt::AlignCenter);
     auto* example = new QPushButton(tr("Replay the &example"), empty);
     example->setToolTip(tr("A real fingertip sliding over linen at 20 mm/s, from a public data set."));
@@ -168,6 +169,7 @@ void LiveWorkspace::buildTools() {
 void LiveWorkspace::begin() {
     const auto open = controller_.open();
     tools_->setEnabled(open != nullptr);
+    if (!open) health_->clear();  // nothing is fresh, and nothing is missing
     stack_->setCurrentIndex(open ? kBench : controller_.activity() == Activity::Opening ? kOpening : kEmpty);
     const bool touch = open && isSimulated(*open, "sensor"), source = open && isSimulated(*open, "stimulator");
     if (controller_.tap() != tap_) {

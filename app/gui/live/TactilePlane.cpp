@@ -18,7 +18,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
     addPlotMenu(*this, "tactile-plane");
     // Room for the names outside the square: the point moves inside it.
-    xAxis->setRange(-0.28, 1.28);
+    xAxis->setRange(-0.36, 1.36);
     yAxis->setRange(-0.24, 1.24);
     yAxis->setLabel(tr("pressure P"));
     for (auto* axis : {xAxis, yAxis}) {

@@ -63,8 +63,15 @@ int AnswerTarget::fittingPx() const {
         const int beside = low ? 2 * int(keyPx() * 2.4) : 2 * pad;
         const bool wide = metrics.horizontalAdvance(text()) + icons + cap + beside <= width();
         if (wide && high <= height() - 8) return px;
+        // Beside the key there may be two lines: one target in small letters would be chosen less.
+        const int room = width() - icons - cap - 2 * pad;
+        if (row && wrapped(metrics, room).width() <= room && wrapped(metrics, room).height() <= height() - 8) return px;
     }
     return least;
+}
+
+QSize AnswerTarget::wrapped(const QFontMetrics& metrics, int room) const {
+    return metrics.boundingRect(QRect(0, 0, room, height()), Qt::TextWordWrap, text()).size();
 }
 
 QSize AnswerTarget::minimumSizeHint() const {
@@ -116,7 +123,10 @@ void AnswerTarget::paintEvent(QPaintEvent* /*event*/) {
             put(name, x, (height() - icon) / 2);
             x += icon + pad / 2;
         }
-        painter.drawText(QRect(x, 0, width() - x, height()), Qt::AlignLeft | Qt::AlignVCenter, text());
+        const int cap = key_.isEmpty() ? 0 : int(keyPx() * 2.3);
+        const bool oneLine = words.horizontalAdvance(text()) + cap <= width() - x;
+        painter.drawText(QRect(x, 0, width() - x - (oneLine ? 0 : cap), height()),
+                         int(Qt::AlignLeft | Qt::AlignVCenter) | (oneLine ? 0 : int(Qt::TextWordWrap)), text());
     } else {
         const int gap = int(px * 0.9);
         const int high = words.height() + (icons_.isEmpty() ? 0 : icon + gap);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <QAbstractButton>
+#include <QFontMetrics>
 #include <QStringList>
 
 #include "app/gui/pilot/InputTime.h"
@@ -42,6 +43,8 @@ private:
     [[nodiscard]] int keyPx() const;
     [[nodiscard]] int leastPx() const;
     [[nodiscard]] int fittingPx() const;
+    /// The words' size where lines are as long as `room`.
+    [[nodiscard]] QSize wrapped(const QFontMetrics& metrics, int room) const;
     QStringList icons_;
     QString key_;
     Shape shape_ = Shape::Stacked;

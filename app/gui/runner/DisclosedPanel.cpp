@@ -31,6 +31,12 @@ double peakIn(const Capture& capture, const char* unit) {
     return peak;
 }
 
+/// "maximum power density" above "(over 1 s)".
+std::string onTwoLines(std::string name) {
+    if (const auto at = name.find(" ("); at != std::string::npos) name[at] = '\n';
+    return name;
+}
+
 }  // namespace
 
 DisclosedPanel::DisclosedPanel(QWidget* parent)
@@ -87,10 +93,16 @@ void DisclosedPanel::show(const nlohmann::json& disclosed) {
     delete area_->takeWidget();
     if (any) {
         using As = RecordColumn::As;
+        auto records = disclosed;
+        for (auto& record : records) {
+            // What stands in parentheses goes below the name: together they are wider than the column.
+            if (const auto& name = memberAt(record, "output"); name.is_string())
+                record["output"] = onTwoLines(name.get<std::string>());
+        }
         area_->setWidget(makeRecordTable({{tr("Load"), "load", As::Load},
                                           {tr("Value"), "value", As::Number, "@unit", "expanded_uncertainty"},
                                           {tr("Output"), "output", As::Text}},
-                                         disclosed, area_));
+                                         records, area_));
     }
     area_->setVisible(any);
     none_->setVisible(!any);

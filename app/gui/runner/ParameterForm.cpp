@@ -12,6 +12,7 @@
 #include <QWidgetAction>
 
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/JsonText.h"
 
@@ -120,7 +121,8 @@ void ParameterForm::addCalendar(Field& field) {
     line->setPlaceholderText(tr("not stated"));
     line->setClearButtonEnabled(true);
     auto* button = new QToolButton(this);
-    button->setText("▾");
+    button->setProperty("role", "opens");
+    button->setIcon(icon("chevron-down"));
     button->setObjectName("calendar-" + QString::fromStdString(field.parameter.name));
     button->setAccessibleName(tr("Choose the day"));
     button->setToolTip(tr("Chooses the day in a calendar."));

@@ -12,6 +12,14 @@ namespace tacto::gui {
 
 namespace {
 
+/// What a script's error says first, and where it stands in the script after that: "The load is open. (check.js:12)".
+QString whyAndWhere(const QString& error, const QString& meaning) {
+    static const QRegularExpression place(R"(^(?:\S*/)?([^/\s]+\.js:\d+): )");
+    const auto found = place.match(error);
+    const auto said = sentence(error.mid(found.capturedLength())) + meaning;
+    return found.hasMatch() ? QString("%1 (%2)").arg(said, found.captured(1)) : said;
+}
+
 constexpr int kBesideBlock = 16;
 
 /// A script's words: one line each, as plain text.
@@ -83,13 +91,13 @@ void ResultHead::show(const FinishedRun& run) {
     if (outcome.error) {
         error_ = QString::fromStdString(outcome.error->message);
         const bool saysSo = error_.contains("Output is off");
-        why << sentence(error_) + (saysSo ? QString() : tr(" Output is off."));
+        why << whyAndWhere(error_, saysSo ? QString() : tr(" Output is off."));
     }
     // A run that was stopped gives its error as its reason too.
     for (const auto& reason : outcome.reasons) {
-        if (!outcome.error || reason != outcome.error->message) why << QString::fromStdString(reason);
+        if (!outcome.error || reason != outcome.error->message) why << withOhmSigns(qtext(reason));
     }
-    for (const auto& trouble : run.result.troubles) why << QString::fromStdString(trouble.message);
+    for (const auto& trouble : run.result.troubles) why << withOhmSigns(qtext(trouble.message));
     if (outcome.abandoned) {
         why << tr(
             "The script did not end when it was asked to and was given up: it cannot reach the bench any more. "

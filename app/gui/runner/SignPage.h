@@ -5,9 +5,8 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QHBoxLayout>
 #include <QLabel>
-#include <QPdfDocument>
-#include <QPdfView>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QWidget>
@@ -18,7 +17,7 @@
 namespace tacto::gui {
 
 class NotesPanel;
-class ReportPrinter;
+class ReportView;
 
 class SignPage final : public QWidget {
     Q_OBJECT
@@ -38,28 +37,16 @@ public:
 signals:
     void stateChanged();
 
-protected:
-    void showEvent(QShowEvent* event) override;
-
 private:
-    [[nodiscard]] QWidget* buildReportRow();
+    void addStateTo(QHBoxLayout& row);
     void showState();
-    void showPdf();
-    void zoom(double factor);
     NotesPanel* notes_;
-    QLabel* empty_;
-    QPdfDocument* document_;
-    QPdfView* view_;
-    QWidget* zoom_ = nullptr;  ///< its buttons
-    QPushButton* print_ = nullptr;
-    QPushButton* elsewhere_ = nullptr;
+    ReportView* view_;
     QPushButton* cancel_ = nullptr;
     QProgressBar* drawing_ = nullptr;
     QLabel* says_ = nullptr;
     ReportMaker maker_;
-    ReportPrinter* printer_;
-    QString report_;  // the PDF, once it is written
-    QString fault_;   // of the first report that failed
+    QString fault_;    // of the first report that failed
     QString printed_;  // how far the printer is; empty: nothing was printed
 };
 

@@ -1,5 +1,6 @@
 #include "app/gui/runner/TrialPlane.h"
 
+#include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 
@@ -12,13 +13,7 @@ constexpr int kOneRowChars = 85;
 TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Trials"));
     for (auto* axis : {xAxis, yAxis}) axis->setNumberFormat("gb");
-    // Above the axes, in a row: inside, it would hide points.
-    axisRect()->insetLayout()->take(legend);
-    plotLayout()->insertRow(0);
-    plotLayout()->addElement(0, 0, legend);
-    plotLayout()->setRowStretchFactor(0, 0.001);
-    legend->setMaximumSize(100000, 100000);  // else an empty one narrows the axes to nothing
-    legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
+    putLegendAbove(*this);
     addPlotMenu(*this, "trials");
     watermark_ = addWatermark(*axisRect());
     empty_ = new QCPItemText(this);
@@ -105,10 +100,7 @@ void TrialPlane::colour() {
     stylePlot(*this);
     const auto& c = colours();
     empty_->setColor(c.quiet);
-    legend->setTextColor(c.text);
-    legend->setBrush(QBrush(c.base));
-    legend->setBorderPen(Qt::NoPen);
-    legend->setFont(QApplication::font());
+    fitLegend(*this);
     int index = 0;
     for (const auto& [name, graph] : conditions_) {
         const auto style = conditionInTheme(name, index++);
@@ -125,6 +117,7 @@ void TrialPlane::resizeEvent(QResizeEvent* event) {
         // A grid keeps its cells where they were: put them in anew.
         for (int i = 0; i < plottableCount(); ++i) plottable(i)->removeFromLegend();
         for (int i = 0; i < plottableCount(); ++i) plottable(i)->addToLegend();
+        fitLegend(*this);
     }
     QCustomPlot::resizeEvent(event);
 }

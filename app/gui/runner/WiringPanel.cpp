@@ -73,6 +73,7 @@ QWidget* WiringPanel::buildDevices() {
     row->addWidget(devices_, 1);
     auto* add = new QToolButton(holder);
     add->setText("+");
+    add->setProperty("role", "opens");
     add->setAccessibleName(tr("Add a recording or captures"));
     add->setToolTip(tr("Takes a recording or oscilloscope records in the place of a device."));
     add->setPopupMode(QToolButton::InstantPopup);

@@ -288,7 +288,7 @@ void MeasurementSummary::restyle() {
     const auto numbers = digits(textFont(TextSize::Small));
     // As wide as what may come: figures that jump cannot be read. Three and more share the width that there is.
     const bool below = statistics_.channels().size() > kBesideTheName;
-    const int wide = QFontMetrics(numbers).horizontalAdvance("00.00 mA");
+    const int wide = QFontMetrics(numbers).horizontalAdvance(QString("00.00\u202fmA"));
     for (const auto& figure : figures_) figure.label->setMinimumWidth(below ? 0 : wide);
 }
 

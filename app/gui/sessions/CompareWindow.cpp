@@ -5,6 +5,7 @@
 
 #include "app/gui/sessions/Differences.h"
 #include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -43,14 +44,20 @@ QString differencesHtml(const QList<Difference>& all) {
 CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shared_ptr<const ReadSession> second,
                              QWidget* parent)
     : QDialog(parent), sessions_{std::move(first), std::move(second)} {
-    const auto nameOf = [](const ReadSession& session) {
-        const auto began = QDateTime::fromString(qtext(session.about.wallStart), Qt::ISODate).toLocalTime();
+    const auto beganOf = [](const ReadSession& session) {
+        return QDateTime::fromString(qtext(session.about.wallStart), Qt::ISODate).toLocalTime();
+    };
+    const auto nameOf = [&](const ReadSession& session) {
+        const auto began = beganOf(session);
         const auto sample = qtext(session.labels.sample);
         return QString("%1, %2%3")
             .arg(procedureText(session.about.protocol), beganText(began),
                  sample.isEmpty() ? sample : tr(", sample %1").arg(sample));
     };
-    const QString names[] = {nameOf(*sessions_[0]), nameOf(*sessions_[1])};
+    QString names[] = {nameOf(*sessions_[0]), nameOf(*sessions_[1])};
+    if (names[0] == names[1]) {
+        for (int s = 0; s < 2; ++s) names[s] += beganOf(*sessions_[s]).toString(":ss");
+    }
     setWindowTitle(tr("Compare %1 with %2").arg(names[0], names[1]));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(
@@ -61,6 +68,7 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     plane_ = new QCustomPlot(tabs);
     plane_->setAccessibleName(tr("Trials of both"));
     addPlotMenu(*plane_, "trials");
+    putLegendAbove(*plane_);
     plane_->xAxis->setLabel(tr("interval (s)"));
     plane_->yAxis->setLabel(tr("amplitude (V)"));
     tabs->addTab(plane_, tr("&Trials"));
@@ -78,6 +86,7 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     streams_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
     streams_->setAccessibleName(tr("The stream of both"));
     addPlotMenu(*streams_, "streams");
+    putLegendAbove(*streams_);
     column->addWidget(streams_, 1);
     tabs->addTab(page, tr("&Streams"));
     const auto found = differencesOf(*sessions_[0], *sessions_[1]);
@@ -122,11 +131,15 @@ void CompareWindow::drawTrials() {
         none->position->setCoords(0.5, 0.5);
         none->setText(tr("Neither session holds a trial."));
         none->setColor(colours().quiet);
+        for (auto* axis : {plane_->xAxis, plane_->yAxis}) {
+            axis->setTicks(false);
+            axis->setTickLabels(false);
+            axis->grid()->setVisible(false);
+        }
     }
     stylePlot(*plane_);
     plane_->legend->setVisible(plane_->graphCount() > 0);
-    plane_->legend->setTextColor(colours().text);
-    plane_->legend->setBrush(QBrush(colours().base));
+    fitLegend(*plane_);
     plane_->rescaleAxes();
     plane_->xAxis->scaleRange(1.2);
     plane_->yAxis->scaleRange(1.2);
@@ -199,8 +212,7 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, std::siz
     if (!t.empty()) shown(t, difference, tr("first less second"), QPen(colours().third));
     stylePlot(*streams_);
     streams_->legend->setVisible(true);
-    streams_->legend->setTextColor(colours().text);
-    streams_->legend->setBrush(QBrush(colours().base));
+    fitLegend(*streams_);
     streams_->xAxis->setLabel(tr("time from the first sample (s)"));
     streams_->yAxis->setLabel(label);
     streams_->rescaleAxes();

@@ -79,6 +79,10 @@ QWidget* SessionList::buildSearch() {
     row->addWidget(ending_);
     row->addWidget(age_);
     row->addWidget(count_);
+    for (auto* box : {ending_, age_}) {
+        box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        box->setMinimumContentsLength(int(box->currentText().size()));
+    }
     connect(search_, &QLineEdit::textChanged, this, &SessionList::filter);
     connect(ending_, &QComboBox::currentIndexChanged, this, &SessionList::filter);
     connect(age_, &QComboBox::currentIndexChanged, this, &SessionList::filter);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/gui/runner/TrialPlane.h"
+#include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
@@ -79,13 +80,7 @@ SessionPreview::SessionPreview(QWidget* parent)
     course_->axisRect()->setRangeZoom(Qt::Horizontal);
     course_->axisRect()->setRangeDrag(Qt::Horizontal);
     course_->setMinimumHeight(fontMetrics().height() * kMinLines);
-    // Above the axes: inside, it would hide data.
-    course_->axisRect()->insetLayout()->take(course_->legend);
-    course_->plotLayout()->insertRow(0);
-    course_->plotLayout()->addElement(0, 0, course_->legend);
-    course_->plotLayout()->setRowStretchFactor(0, 0.001);
-    course_->legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
-    course_->legend->setWrap(0);
+    putLegendAbove(*course_);
     addPlotMenu(*course_, "session");
     watermark_ = addWatermark(*course_->axisRect());
     for (auto* page : std::initializer_list<QWidget*>{nothing_, plane_, sheet_, course_}) stack_->addWidget(page);
@@ -168,9 +163,7 @@ void SessionPreview::colour() {
     styleAxis(*course_->yAxis2);
     course_->yAxis2->grid()->setVisible(false);
     const auto& c = colours();
-    course_->legend->setTextColor(c.text);
-    course_->legend->setBrush(QBrush(c.base));
-    course_->legend->setBorderPen(Qt::NoPen);
+    fitLegend(*course_);
     for (int i = 0; i < course_->graphCount(); ++i) {
         auto* graph = course_->graph(i);
         const bool train = graph->lineStyle() == QCPGraph::lsImpulse;

@@ -150,7 +150,7 @@ QString trialsText(std::size_t count) {
 }
 
 QString conditionText(const std::string& condition) {
-    return qtext(condition).replace("kohm", "kΩ").replace("Mohm", "MΩ").replace("ohm", "Ω");
+    return withOhmSigns(qtext(condition));
 }
 
 QString beganText(const QDateTime& began) {

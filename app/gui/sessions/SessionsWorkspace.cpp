@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "app/gui/runner/ReportWindow.h"
 #include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
 #include "app/gui/theme/Dialogs.h"
@@ -72,11 +73,12 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     }
     connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
         say(tr("The report is written: %1").arg(out));
-        QDesktopServices::openUrl(QUrl::fromLocalFile(out));
+        ReportWindow::showReport(*this, out);
     });
     connect(&reports_, &ReportMaker::failed, this, &SessionsWorkspace::say);
     showBusy();
     chosen();
+    actions_.dress();
 }
 
 /// A pane of the page: what it shows, and below it what can be done with that.
@@ -94,28 +96,18 @@ QWidget* SessionsWorkspace::withActions(QWidget* shown, int margin, QWidget* act
     return pane;
 }
 
-QPushButton* SessionsWorkspace::addAction(QBoxLayout& row, const char* iconName, const QString& text,
-                                          const QString& tip, std::function<void()> act) {
-    auto* button = new QPushButton(icon(iconName), text, row.parentWidget());
-    button->setToolTip(tip);
-    button->setAutoDefault(false);
-    connect(button, &QPushButton::clicked, this, std::move(act));
-    row.addWidget(button);
-    actions_.push_back({button, tip});
-    return button;
-}
-
 QWidget* SessionsWorkspace::buildListActions() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
     row->setContentsMargins(kListMargin, kAroundActions, kListMargin, kAroundActions);
-    compare_ = addAction(*row, "compare", tr("Co&mpare two"), tr("Shows the differences between two sessions."),
-                         [this] { compare(); });
-    addAction(*row, "verify", tr("Verif&y"),
-              tr("Is it what was recorded? Checks every row and sample against the chain."), [this] { verify(); });
-    addAction(*row, "export", tr("E&xport CSV…"),
-              tr("A file per stream, trials, events with their marks, commands and captures."),
-              [this] { askExport(); });
+    compare_ =
+        actions_.add(*row, "compare", tr("Co&mpare two"), tr("Shows the differences between two sessions."),
+                     [this] { compare(); });
+    actions_.add(*row, "verify", tr("Verif&y"),
+                 tr("Is it what was recorded? Checks every row and sample against the chain."), [this] { verify(); });
+    actions_.add(*row, "export", tr("E&xport CSV…"),
+                 tr("A file per stream, trials, events with their marks, commands and captures."),
+                 [this] { askExport(); });
     row->addStretch();
     auto* hint = new ElidedLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);
     hint->setToolTip(hint->text());
@@ -130,19 +122,19 @@ QWidget* SessionsWorkspace::buildSessionActions() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
     row->setContentsMargins(kListMargin, kAroundActions, kListMargin, kAroundActions);
-    auto* report = addAction(*row, "report", tr("Re&port"), tr("The report as PDF, from the session alone."),
-                             [this] { makeReport(); });
+    auto* report = actions_.add(*row, "report", tr("Re&port"), tr("The report as PDF, from the session alone."),
+                                [this] { makeReport(); });
     report->setIcon(icon("report", Ink::Primary));
     makePrimary(*report);
-    replay_ = addAction(*row, "run", tr("&Replay"), tr("Its fingertip, replayed into the simulated stimulator."),
-                        [this] { replay(); });
-    capture_ = addAction(*row, "open", tr("Open &capture"),
-                         tr("The capture chosen under Captures, in the oscilloscope."), [this] {
-                             if (const auto seq = details_->chosenCapture()) openCapture(*seq);
-                         });
+    replay_ = actions_.add(*row, "run", tr("&Replay"), tr("Its fingertip, replayed into the simulated stimulator."),
+                           [this] { replay(); });
+    capture_ = actions_.add(*row, "open", tr("Open &capture"),
+                            tr("The capture chosen under Captures, in the oscilloscope."), [this] {
+                                if (const auto seq = details_->chosenCapture()) openCapture(*seq);
+                            });
     row->addStretch();
-    makeQuiet(*addAction(*row, "more", tr("Show in folder"), tr("Opens the folder that holds it."),
-                         [this] { showInFolder(); }));
+    makeQuiet(*actions_.add(*row, "more", tr("Show in folder"), tr("Opens the folder that holds it."),
+                            [this] { showInFolder(); }));
     return holder;
 }
 
@@ -181,8 +173,8 @@ void SessionsWorkspace::chosen() {
     const QString none = rows.size() > 1    ? tr("Choose one session alone.")
                          : entry == nullptr ? tr("Choose a session first.")
                                             : entry->problem;
-    offerActions(none);
-    offer(compare_, rows.size() == 2 ? QString() : tr("Choose two sessions first (Ctrl+click)."));
+    actions_.offerAll(none);
+    actions_.offer(compare_, rows.size() == 2 ? QString() : tr("Choose two sessions first (Ctrl+click)."));
     read_.reset();
     if (rows.size() == 2)
         return details_->say(tr("Two sessions are chosen: “Compare two” shows what differs between them."));
@@ -200,20 +192,14 @@ void SessionsWorkspace::chosen() {
             if (!done) return details_->say(qtext(done.error().message));
             read_ = session;
             details_->show(session);
-            offer(capture_, session->captures.empty() ? tr("This session holds no capture.") : QString());
-            offer(replay_, holdsTouch(*session) ? QString() : tr("This session holds no touch to replay."));
+            actions_.offer(capture_, session->captures.empty() ? tr("This session holds no capture.") : QString());
+            actions_.offer(replay_, holdsTouch(*session) ? QString() : tr("This session holds no touch to replay."));
         });
 }
 
-void SessionsWorkspace::offerActions(const QString& refusal) {
-    for (const auto& [button, tip] : actions_) offer(button, refusal);
-}
-
-/// A button that cannot act says why.
-void SessionsWorkspace::offer(QPushButton* button, const QString& refusal) {
-    const auto action = std::ranges::find(actions_, button, &Action::button);
-    button->setEnabled(refusal.isEmpty());
-    button->setToolTip(refusal.isEmpty() ? action->tip : refusal);
+void SessionsWorkspace::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::FontChange) actions_.dress();
 }
 
 void SessionsWorkspace::say(const QString& what) { says_->setText(what); }

@@ -6,15 +6,14 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTemporaryDir>
-#include <functional>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/runner/ReportMaker.h"
+#include "app/gui/sessions/ActionButtons.h"
 #include "app/gui/sessions/Background.h"
 #include "app/gui/sessions/SessionDetails.h"
 #include "app/gui/sessions/SessionList.h"
@@ -37,22 +36,15 @@ signals:
 
 protected:
     void showEvent(QShowEvent* event) override;
+    void changeEvent(QEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
 
 private:
-    struct Action {
-        QPushButton* button;
-        QString tip;
-    };
     [[nodiscard]] QWidget* withActions(QWidget* shown, int margin, QWidget* actions);
     [[nodiscard]] QWidget* buildListActions();
     [[nodiscard]] QWidget* buildSessionActions();
     [[nodiscard]] QWidget* buildNews();
-    QPushButton* addAction(QBoxLayout& row, const char* iconName, const QString& text, const QString& tip,
-                           std::function<void()> act);
-    void offerActions(const QString& refusal);
-    void offer(QPushButton* button, const QString& refusal);
     void chosen();
     void say(const QString& what);
     void openCapture(qint64 seq);
@@ -76,7 +68,7 @@ private:
     QLabel* says_;
     QProgressBar* progress_;
     QPushButton* cancel_;
-    std::vector<Action> actions_;
+    ActionButtons actions_;
     QPushButton* compare_ = nullptr;
     QPushButton* replay_ = nullptr;
     QPushButton* capture_ = nullptr;

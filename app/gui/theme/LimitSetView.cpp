@@ -19,7 +19,7 @@ QString limitOf(const LimitRow& row) {
 }
 
 /// Files are plain ASCII.
-QString shownUnits(std::string_view text) { return qtext(text).replace(" ohm", " Ω"); }
+QString shownUnits(std::string_view text) { return withOhmSigns(qtext(text)); }
 
 QString overText(const LimitRow& row) {
     const double window_s = windowOf(row.quantity);

@@ -57,6 +57,7 @@ QToolButton:pressed, QToolButton:checked { background: @selection; border-color:
 QToolButton:focus { border: 2px solid @text; padding: 3px; }
 QMenuBar QToolButton, QMenuBar QToolButton:focus { padding: 0 ~8; }
 QToolButton:disabled { color: @edge; }
+QToolButton[role="opens"]::menu-indicator { image: none; width: 0; }
 QToolButton[role="row"] { padding: 1px 0; }
 QToolButton[role="row"]:focus { padding: 0; border-width: 2px 1px; }
 QToolButton[popupMode="1"] { padding-right: ~16; }
@@ -113,7 +114,7 @@ QProgressBar::chunk { background: @bar; }
 
 QWidget#tabRow { background: @window; border-bottom: 1px solid @line; }
 QTabWidget::pane { border: none; border-top: 1px solid @line; }
-QTabBar { background: @window; qproperty-drawBase: 0; }
+QTabBar { background: @window; qproperty-drawBase: 0; outline: none; }
 QTabBar::tab { background: @window; color: @quiet; border: none; border-right: 1px solid @line;
     border-top: 3px solid transparent; padding: 0 ~16; min-height: ~37; }
 QTabBar::tab:selected { background: @base; color: @text; border-top-color: @primary; font-weight: 600; }

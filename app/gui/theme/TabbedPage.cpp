@@ -5,10 +5,22 @@
 
 namespace tacto::gui {
 
+namespace {
+
+/// All tabs whole, whatever room the tools want: those have a second line for what does not fit.
+class WholeTabBar final : public QTabBar {
+public:
+    using QTabBar::QTabBar;
+    [[nodiscard]] QSize minimumSizeHint() const override { return QTabBar::sizeHint(); }
+};
+
+}  // namespace
+
 TabbedPage::TabbedPage(QWidget* parent)
-    : QWidget(parent), bar_(new QTabBar(this)), tools_(new QStackedWidget(this)), pages_(new QStackedWidget(this)) {
+    : QWidget(parent), bar_(new WholeTabBar(this)), tools_(new QStackedWidget(this)), pages_(new QStackedWidget(this)) {
     bar_->setExpanding(false);
     bar_->setDrawBase(false);
+    bar_->setUsesScrollButtons(false);
     auto* head = new QWidget(this);
     head->setObjectName("tabRow");
     head->setAttribute(Qt::WA_StyledBackground);
@@ -23,6 +35,7 @@ TabbedPage::TabbedPage(QWidget* parent)
     column->addWidget(pages_, 1);
     tools_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     connect(bar_, &QTabBar::currentChanged, this, [this](int index) {
+        bar_->updateGeometry();  // the chosen tab's title is bold, and wider
         pages_->setCurrentIndex(index);
         tools_->setCurrentIndex(index);
         emit currentChanged(index);

@@ -3,6 +3,7 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <QRegularExpression>
 #include <QString>
 #include <string_view>
 
@@ -20,9 +21,15 @@ namespace tacto::gui {
     return name;
 }
 
+/// "the load of 2 kΩ" of "the load of 2 kohm".
+[[nodiscard]] inline QString withOhmSigns(QString words) {
+    static const QRegularExpression unit(R"((?<=\s)([kM]?)ohm\b)");
+    return words.replace(unit, QStringLiteral("\\1Ω"));
+}
+
 /// "The load is open." of "the load is open".
 [[nodiscard]] inline QString sentence(const QString& words) {
-    const auto whole = titled(words);
+    const auto whole = titled(withOhmSigns(words));
     return whole.isEmpty() || whole.endsWith('.') ? whole : whole + '.';
 }
 [[nodiscard]] inline QString sentence(const Error& error) { return sentence(qtext(error.message)); }

@@ -32,6 +32,7 @@ void setStyled(QWidget& widget, const char* name, const QString& value) {
 
 void applyTheme(Theme wanted) {
     theme = wanted;
+    qApp->setStyleSheet({});  // else it is laid on every widget with each of the three
     QApplication::setStyle(new MnemonicStyle);
     QApplication::setPalette(paletteOf(colours()));
     applySheet();
@@ -238,6 +239,7 @@ EmptyState::EmptyState(const QString& what, const QString& next, QWidget* parent
     if (!next.isEmpty()) {
         auto* button = new QPushButton(next, this);
         connect(button, &QPushButton::clicked, this, &EmptyState::nextStep);
+        makePrimary(*button);
         layout->addSpacing(12);
         layout->addWidget(button, 0, Qt::AlignCenter);
     }

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/electrode/Load.h"
 #include "core/encoding/Encoder.h"
@@ -45,9 +46,9 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
                  "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
         this));
     auto* form = new QFormLayout;
-    load_ = new QLineEdit(load, this);
-    load_->setPlaceholderText(tr("what is connected, as 1 kohm"));
-    load_->setToolTip(tr("What is connected, as \"1 kohm\" or \"200 ohm + 10 kohm || 50 nF\"."));
+    load_ = new QLineEdit(withOhmSigns(load), this);
+    load_->setPlaceholderText(tr("what is connected, such as 1 kΩ"));
+    load_->setToolTip(tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”."));
     form->addRow(tr("Declared &load"), load_);
     layout->addLayout(form);
     form->setRowVisible(load_, !massager_);
@@ -109,10 +110,10 @@ void ArmDialog::judge() {
     const auto parsed = parseLoad(massager_ ? ArmRequest().load : load_->text().toStdString());
     trouble_->setText(parsed                    ? QString()
                       : load_->text().isEmpty() ? tr("Which load is connected?")
-                                                : QString::fromStdString(parsed.error().message));
+                                                : sentence(parsed.error()));
     trouble_->setVisible(!parsed);
     text_ = parsed ? controller_.confirmationOf(*parsed) : std::string();
-    confirmed_->setText(QString::fromStdString(text_));
+    confirmed_->setText(withOhmSigns(qtext(text_)));
     arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
 }
 

@@ -185,10 +185,10 @@ void DockColumn::share() {
     }
     if (open.isEmpty()) return;
     if (all <= room) {
-        for (auto* dock : docks_) {
-            if (open.contains(dock) && dock->room() == FoldingDock::Room::First && dock->height() < wanted.front())
-                window_.resizeDocks({dock}, {dock->wantedHeight()}, Qt::Vertical);
-        }
+        bool cut = false;
+        for (qsizetype i = 0; i < open.size(); ++i) cut = cut || open[i]->height() < wanted[i];
+        wanted.back() += room - all;  // the last one takes what is left
+        if (cut) window_.resizeDocks(open, wanted, Qt::Vertical);
         return;
     }
     QList<int> heights;

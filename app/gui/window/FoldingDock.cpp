@@ -3,6 +3,7 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
@@ -71,6 +72,8 @@ void FoldingDock::setContent(QWidget* content, Room room) {
         rows->addWidget(content);
         rows->addStretch();
         area->setWidget(inside_);
+        bar_ = area->verticalScrollBar();
+        bar_->installEventFilter(this);
         content = area;
     } else if (auto* area = qobject_cast<QScrollArea*>(content)) {
         inside_ = area->widget();
@@ -112,7 +115,14 @@ void FoldingDock::noteContent() {
     if (!folded_ && std::exchange(wanted_, wantedHeight()) != wantedHeight()) emit contentChanged();
 }
 
+/// The scroll bar takes its room from the padding: what is beside it keeps its width, and nothing is cut.
+void FoldingDock::makeRoomForBar(bool shown) {
+    inside_->layout()->setContentsMargins(0, 0, shown ? 0 : kDockPadding, 0);
+}
+
 bool FoldingDock::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == bar_ && (event->type() == QEvent::Show || event->type() == QEvent::Hide))
+        makeRoomForBar(event->type() == QEvent::Show);
     if (watched == inside_ && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
         noteContent();
     return QDockWidget::eventFilter(watched, event);

@@ -45,6 +45,7 @@ private:
     void dress();
     void limitHeight();
     void noteContent();
+    void makeRoomForBar(bool shown);
 
     QString icon_;
     QWidget* header_;
@@ -54,6 +55,7 @@ private:
     bool folded_ = false;
     Room room_ = Room::Shared;
     QWidget* inside_ = nullptr;  ///< of the scroll area around the content, or of the content that scrolls by itself
+    QWidget* bar_ = nullptr;     ///< its scroll bar
     int wanted_ = 0;
 };
 

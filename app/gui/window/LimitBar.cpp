@@ -1,6 +1,7 @@
 #include "app/gui/window/LimitBar.h"
 
 #include <QPainter>
+#include <cmath>
 #include <span>
 
 #include "app/gui/theme/ExposureTable.h"
@@ -18,6 +19,15 @@ constexpr int kBarLineGap = 2;
 QString whereJudged(const ExposureRow& row) {
     if (row.quantity == Quantity::NetCharge) return QObject::tr("measured, of the last pulse's phase charge");
     return row.judged == JudgedAt::Ohm500 ? QObject::tr("into 500 Ω") : QObject::tr("worst case over the load range");
+}
+
+/// Far below its limit no finer than a hundredth of it: "0.05 %" of 1 %. Nothing smaller matters there.
+QString valueText(const ExposureRow& row) {
+    const auto unit = qtext(row.unit);
+    if (unit != "%" || !(row.value < row.limit / 10)) return quantityText(row.value, unit, 3);
+    const double step = row.limit / 100;
+    if (row.value > 0 && row.value < step) return QStringLiteral("< ") + settingText(step, unit);
+    return settingText(std::round(row.value / step) * step, unit);
 }
 
 }  // namespace
@@ -58,7 +68,7 @@ void LimitBar::show(const std::optional<ExposureRow>& row, std::span<const Limit
         text_ = tr("not evaluated");
     } else if (limited_) {
         text_ = tr("%1 of %2")
-                    .arg(quantityText(row->value, qtext(row->unit), 3), settingText(row->limit, qtext(row->unit)));
+                    .arg(valueText(*row), settingText(row->limit, qtext(row->unit)));
     } else {
         text_ = quantityText(row->value, qtext(row->unit), 3);
     }

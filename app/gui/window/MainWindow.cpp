@@ -65,7 +65,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages)
     : controller_(std::move(makeRegistry)) {
     setWindowTitle(tr("Tactoscope"));
     setAcceptDrops(true);
-    setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
+    setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // animated, they stop where another move cuts in
     // Before there is a widget: a theme that comes later dresses each of them anew, and takes longer than all the rest.
     const QSettings settings;
     applyTextSize(settings.value("textSize", 100).toInt());

@@ -269,7 +269,7 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     const auto open = controller_.open();
     if (!open) {
         device_->setText(controller_.activity() == Activity::Opening ? tr("opening…") : tr("no bench is open"));
-        load_->setText("–");
+        load_->clear();
         showCalibration();
         return;
     }
@@ -293,7 +293,7 @@ void SafetyBar::showCalibration() {
     const auto stimulator = calibrations_.connected();
     const auto standing = stimulator ? std::optional(calibrations_.standing(*stimulator)) : std::nullopt;
     const bool counts = !standing || standing->state == CalibrationState::Valid;
-    auto text = standing ? standingText(*standing) : QString("–");
+    auto text = standing ? standingText(*standing) : QString();
     if (!counts) text = "⚠ " + text;
     if (calibration_->text() != text) {
         calibration_->setText(text);

@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/electrode/Load.h"
 
@@ -55,8 +56,8 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     gain_->setValue(1);
     gain_->setToolTip(tr("Delivered over commanded amplitude: 1 is perfect. Above 1.2 the bench faults."));
     form->addRow(tr("&Gain"), gain_);
-    load_ = new QLineEdit("1 kohm", this);
-    load_->setToolTip(tr("What is connected, as \"1 kohm\" or \"200 ohm + 10 kohm || 50 nF\"."));
+    load_ = new QLineEdit("1 kΩ", this);
+    load_->setToolTip(tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”."));
     form->addRow(tr("&Load"), load_);
     fault_ = new QComboBox(this);
     for (const auto& fault : kFaults) fault_->addItem(QCoreApplication::translate("Faults", fault.words));
@@ -80,6 +81,7 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     layout->addWidget(says_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     open_ = buttons->addButton(tr("&Open"), QDialogButtonBox::AcceptRole);
+    makePrimary(*open_);
     layout->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons, &QDialogButtonBox::accepted, this, &SimulatedBenchDialog::openBench);
@@ -97,7 +99,7 @@ std::vector<std::string> SimulatedBenchDialog::uris() const {
         return std::string_view(fault.device) == device ? fmt::format("{}@{:g}s", fault.key, faultAt_->value()) : "";
     };
     auto load = load_->text().trimmed();
-    load.remove(' ');
+    load.remove(' ').replace(QStringLiteral("Ω"), "ohm").replace(QChar(0x2126), "ohm");
     auto stimulator = fmt::format("sim:stimulator?mode={}&gain={:g}&load={}",
                                   mode_->currentData().toString().toStdString(), gain_->value(), load.toStdString());
     std::vector<std::string> all;
@@ -116,7 +118,7 @@ void SimulatedBenchDialog::judge() {
     faultAt_->setEnabled(fault_->currentIndex() > 0);
     QStringList shown;
     for (const auto& uri : uris()) shown << QString::fromStdString(uri);
-    says_->setText(load ? shown.join("\n") : QString::fromStdString(load.error().message));
+    says_->setText(load ? shown.join("\n") : sentence(load.error()));
 }
 
 void SimulatedBenchDialog::openBench() {

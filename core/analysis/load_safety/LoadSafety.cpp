@@ -91,10 +91,13 @@ void decide(const LoadSafetyInput& input, LoadSafety& out) {
         const auto count = [&verdicts](RowVerdict verdict) {
             return std::count(verdicts.begin() + 1, verdicts.end(), verdict);
         };
-        out.reasons.push_back(fmt::format(
-            "{} checks on {} loads passed, each with its uncertainty inside its limit; of what must be refused "
-            "all was refused ({})",
-            count(RowVerdict::Pass), out.loads.size(), count(RowVerdict::RefusedAsExpected)));
+        const auto refused = count(RowVerdict::RefusedAsExpected);
+        out.reasons.push_back(
+            fmt::format("{} checks on {} loads passed, each with its uncertainty inside its limit{}",
+                        count(RowVerdict::Pass), out.loads.size(),
+                        refused == 0   ? ""
+                        : refused == 1 ? "; the one command that must be refused was refused"
+                                       : fmt::format("; all {} commands that must be refused were refused", refused)));
     }
     // Without a known load that reads as what it is, nothing else was asked.
     for (const auto& row : out.rows) {

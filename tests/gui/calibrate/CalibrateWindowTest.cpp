@@ -98,6 +98,12 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
         << window.width() << " x " << window.height();
     EXPECT_IN_TIME(comesTrue([&] { return errors->height() >= 300; })) << errors->height();
     EXPECT_GE(errors->width(), 800);
+    const auto inSight = [this](const char* text) {
+        auto* button = find<QPushButton>(window, text);
+        return button != nullptr && button->visibleRegion() == QRegion(button->rect());
+    };
+    EXPECT_IN_TIME(comesTrue([&] { return inSight("Sign report…"); })) << "what comes next stands below the plot";
+    EXPECT_IN_TIME(comesTrue([&] { return errors->height() >= 300; })) << errors->height() << ", with it in sight";
     QTest::qWait(100);
     shot(window, "calibrate_window_1280");
     gui::applyTheme(gui::Theme::Dark);

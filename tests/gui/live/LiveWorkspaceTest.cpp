@@ -50,6 +50,8 @@ TEST_F(LiveBench, TheEmptyWorkspaceOpensTheSimulatedBenchAndTracesFill) {
     EXPECT_THAT(textOf(live, "sensorHealth").toStdString(), HasSubstr("Samples are fresh"));
     EXPECT_THAT(textOf(live, "sensorHealth").toStdString(), HasSubstr("uncalibrated R"));
     EXPECT_TRUE(complaints.isEmpty());
+    controller.close();
+    EXPECT_IN_TIME(comesTrue([this] { return textOf(live, "sensorHealth").isEmpty(); })) << "nothing is fresh any more";
 }
 
 TEST_F(LiveBench, TheSlidersDriveAfterArmingAndTheTrainsHaveTheirAmplitude) {

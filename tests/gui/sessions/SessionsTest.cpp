@@ -1,4 +1,6 @@
 // Sessions as files and as a workspace: listed, searched, exported, replayed, verified.
+#include <QPdfDocument>
+#include <QPdfView>
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTableView>
@@ -241,6 +243,33 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
     };
     EXPECT_IN_TIME(comesTrue(drawn)) << "a stream of both, over each other";
     both->close();
+}
+
+TEST_F(Recorded, ItsReportOpensInTheProgram) {
+    gui::SessionsWorkspace workspace(controller);
+    workspace.resize(1200, 700);
+    workspace.show();
+    ASSERT_TRUE(workspace.openSession(QString::fromStdString(session.string())));
+    auto* report = find<QPushButton>(workspace, "Report");
+    ASSERT_NE(report, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return report->isEnabled(); }));
+    const auto windows = [&] { return workspace.findChildren<QDialog*>("reportWindow"); };
+    const auto shown = [&] {
+        if (windows().isEmpty()) return false;
+        const auto* view = windows().first()->findChild<QPdfView*>("reportView");
+        return view->isVisible() && view->document()->pageCount() > 0;
+    };
+    for (int time = 0; time < 2; ++time) {
+        click(*report);
+        ASSERT_IN_TIME(comesTrue(shown, 60'000)) << workspace.findChild<QLabel*>("sessionsSay")->text().toStdString();
+        EXPECT_IN_TIME(comesTrue([&] { return windows().size() == 1; })) << "the same one, when it is drawn again";
+    }
+    auto* dialog = windows().first();
+    for (const char* button : {"printReport", "openReport", "reportLarger", "reportWidth"})
+        EXPECT_TRUE(dialog->findChild<QPushButton*>(button)->isVisible()) << button;
+    shot(*dialog, "session-report");
+    dialog->close();
+    std::filesystem::remove(std::filesystem::path(session).replace_extension(".pdf"));
 }
 
 TEST_F(Recorded, ReplayGoesToTheLiveWorkspace) {

@@ -5,6 +5,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QScrollBar>
 #include <QSettings>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -15,6 +16,7 @@
 
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/ScrollingPage.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
@@ -121,7 +123,7 @@ TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
             const auto& row = set.rows[std::size_t(line)];
             EXPECT_THAT(rows->item(line, 1)->text().toStdString(), HasSubstr(row.strict ? "<" : "≤"));
             EXPECT_EQ(rows->item(line, 2)->text() == "one pulse", windowOf(row.quantity) == 0);
-            EXPECT_EQ(rows->item(line, 5)->text(), QString::fromStdString(row.source).replace(" ohm", " Ω"));
+            EXPECT_EQ(rows->item(line, 5)->text(), QString::fromStdString(row.source).replace("kohm", "kΩ").replace(" ohm", " Ω"));
         }
         shot(*help, QString("help-limits-%1").arg(i + 1));
     }
@@ -228,6 +230,9 @@ TEST_F(Habits, TextAtTwiceTheSizeFits) {
             large.showWorkspace(page);
             QTest::qWait(60);
             shot(large, QString("text200-%1").arg(page));
+            for (const auto* area : large.findChildren<gui::ScrollingPage*>())
+                EXPECT_FALSE(page == 5 && area->isVisible() && area->horizontalScrollBar()->maximum() > 0)
+                    << "both panes of Sessions fit";
             for (auto* button : large.findChildren<QPushButton*>()) {
                 const auto words = button->text().remove('&');
                 if (!button->isVisible() || words.isEmpty()) continue;

@@ -3,6 +3,7 @@
 #include <QDialog>
 #include <QDockWidget>
 #include <QPlainTextEdit>
+#include <QSettings>
 #include <QTabWidget>
 #include <QToolButton>
 #include <gmock/gmock.h>
@@ -13,6 +14,7 @@
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/LimitBar.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
@@ -48,7 +50,46 @@ TEST_F(Window, LooksRightInBothThemesAndSizes) {
     gui::applyTheme(gui::Theme::Light);
 }
 
-TEST_F(Window, TheOscilloscopeLooksRightWithWhatItReads) {
+class DocksOfTheWindow : public Window {
+protected:
+    ~DocksOfTheWindow() override { QSettings().remove("docks"); }
+    [[nodiscard]] std::vector<gui::FoldingDock*> openDocks() {
+        std::vector<gui::FoldingDock*> open;
+        for (auto* dock : window.findChildren<gui::FoldingDock*>())
+            if (dock->isVisible() && !dock->folded()) open.push_back(dock);
+        return open;
+    }
+    /// No dock has room to spare while another is cut.
+    void expectFairDocks() {
+        const auto spare = [](const gui::FoldingDock* dock) { return dock->height() - dock->wantedHeight(); };
+        for (const auto* one : openDocks()) {
+            for (const auto* other : openDocks())
+                EXPECT_FALSE(spare(one) > 2 && spare(other) < -2)
+                    << one->windowTitle().toStdString() << " has " << spare(one) << " px to spare, "
+                    << other->windowTitle().toStdString() << " lacks " << -spare(other);
+        }
+    }
+};
+
+TEST_F(DocksOfTheWindow, KeepTheirHeadersInALowWindow) {
+    open();
+    window.resize(1280, 720);
+    window.showWorkspace(0);
+    for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
+    for (const int page : {3, 0}) {
+        window.showWorkspace(page);
+        QTest::qWait(100);
+    }
+    shot(window, "four-docks");
+    EXPECT_EQ(openDocks().size(), 4U);
+    EXPECT_EQ(faultsOf(window), "");
+    for (const auto* dock : openDocks()) {
+        const auto* header = dock->titleBarWidget();
+        EXPECT_EQ(header->visibleRegion(), QRegion(header->rect())) << dock->windowTitle().toStdString();
+    }
+}
+
+TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
     open();
     arm();
     window.controller().drive(DriveSource::Manual, 0.5, 0.8);
@@ -72,6 +113,7 @@ TEST_F(Window, TheOscilloscopeLooksRightWithWhatItReads) {
             QTest::qWait(200);
             shot(window, QString("scope-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(size.width()));
             EXPECT_EQ(faultsOf(window), "");
+            expectFairDocks();
         }
     }
     gui::applyTheme(gui::Theme::Light);

@@ -34,6 +34,19 @@ TEST(LimitBar, SaysValueAndLimitAndTheShareOfIt) {
     EXPECT_DOUBLE_EQ(bar.share(), 0.25);
 }
 
+TEST(LimitBar, IsNoFinerThanAHundredthOfALimitInPercentThatIsFar) {
+    RecordProperty("hazard", "H9");
+    const auto said = [](double value_pct) {
+        gui::LimitBar bar("Net charge");
+        bar.show(row(Quantity::NetCharge, value_pct, 1, "%"));
+        return bar.text().replace(QChar(0x202f), ' ').toStdString();
+    };
+    EXPECT_EQ(said(0.000392), "< 0.01 % of 1 %");
+    EXPECT_EQ(said(0.0478), "0.05 % of 1 %");
+    EXPECT_EQ(said(0.996), "0.996 % of 1 %") << "near the limit every digit is shown";
+    EXPECT_EQ(said(0), "0 % of 1 %");
+}
+
 TEST(LimitBar, NeverShowsANumberForWhatWasNotEvaluated) {
     RecordProperty("hazard", "H9");
     gui::LimitBar bar("Density");

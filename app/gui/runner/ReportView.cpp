@@ -1,0 +1,139 @@
+#include "app/gui/runner/ReportView.h"
+
+#include <QDesktopServices>
+#include <QMenu>
+#include <QScreen>
+#include <QUrl>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "app/gui/runner/ReportPrinter.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+constexpr double kZoomStep = 1.25, kZoomLeast = 0.25, kZoomMost = 5;
+}
+
+ReportView::ReportView(const QString& empty, QWidget* parent)
+    : QWidget(parent),
+      empty_(new QLabel(empty, this)),
+      document_(new QPdfDocument(this)),
+      view_(new QPdfView(this)),
+      printer_(new ReportPrinter(this)) {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    empty_->setAlignment(Qt::AlignCenter);
+    empty_->setWordWrap(true);
+    setTone(*empty_, Tone::Quiet);
+    column->addWidget(empty_, 1);
+    view_->setObjectName("reportView");
+    view_->setAccessibleName(tr("Report"));
+    view_->setDocument(document_);
+    view_->setPageMode(QPdfView::PageMode::MultiPage);
+    view_->setZoomMode(QPdfView::ZoomMode::FitToWidth);
+    column->addWidget(view_, 1);
+    column->addWidget(buildRow());
+    connect(printer_, &ReportPrinter::said, this, &ReportView::said);
+    offer();
+}
+
+QWidget* ReportView::buildRow() {
+    auto* holder = new QWidget(this);
+    row_ = new QHBoxLayout(holder);
+    row_->setContentsMargins(0, 0, 0, 0);
+    print_ = new QPushButton(tr("Print"), holder);
+    print_->setObjectName("printReport");
+    print_->setToolTip(tr("Prints all pages on the printer that you choose. For some of them, or several copies, open the "
+                          "report in the PDF viewer."));
+    auto* printers = new QMenu(print_);
+    connect(printers, &QMenu::aboutToShow, this, [this, printers] { printer_->offer(*printers, report_); });
+    print_->setMenu(printers);
+    elsewhere_ = new QPushButton(tr("Open in the PDF viewer"), holder);
+    elsewhere_->setObjectName("openReport");
+    elsewhere_->setToolTip(tr("Opens the PDF with the desktop's program for it, to sign it there."));
+    connect(elsewhere_, &QPushButton::clicked, this,
+            [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(report_)); });
+    for (auto* button : {print_, elsewhere_}) {
+        button->setAutoDefault(false);
+        row_->addWidget(button);
+    }
+    zoom_ = buildZoom(holder);
+    row_->addWidget(zoom_);
+    return holder;
+}
+
+QWidget* ReportView::buildZoom(QWidget* parent) {
+    auto* holder = new QWidget(parent);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(0);
+    const auto add = [&](const QString& text, const char* name, const QString& tip, auto act) {
+        auto* button = new QPushButton(text, holder);
+        button->setObjectName(name);
+        button->setAccessibleName(tip);
+        button->setToolTip(tip);
+        button->setAutoDefault(false);
+        makeQuiet(*button);
+        connect(button, &QPushButton::clicked, this, act);
+        row->addWidget(button);
+    };
+    add("−", "reportSmaller", tr("Smaller"), [this] { zoom(1 / kZoomStep); });
+    add(tr("Page width"), "reportWidth", tr("As wide as the page has room"),
+        [this] { view_->setZoomMode(QPdfView::ZoomMode::FitToWidth); });
+    add("+", "reportLarger", tr("Larger"), [this] { zoom(kZoomStep); });
+    return holder;
+}
+
+/// From the width that it has now.
+void ReportView::zoom(double factor) {
+    double now = view_->zoomFactor();
+    if (view_->zoomMode() == QPdfView::ZoomMode::FitToWidth) {
+        const auto margins = view_->documentMargins();
+        const double points = document_->pagePointSize(0).width();
+        const double dots = view_->screen()->logicalDotsPerInch() / 72;  // of a point at factor 1
+        if (points > 0) now = (view_->viewport()->width() - margins.left() - margins.right()) / (points * dots);
+    }
+    view_->setZoomMode(QPdfView::ZoomMode::Custom);
+    view_->setZoomFactor(std::clamp(now * factor, kZoomLeast, kZoomMost));
+}
+
+void ReportView::show(const QString& pdf) {
+    document_->close();
+    report_ = pdf;
+    if (isVisible()) read();
+    offer();
+}
+
+void ReportView::clear() {
+    report_.clear();
+    document_->close();
+    offer();
+}
+
+void ReportView::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    if (report_.isEmpty() || document_->pageCount() > 0) return;
+    read();
+    offer();
+}
+
+void ReportView::read() {
+    document_->load(report_);
+    if (document_->pageCount() == 0)
+        emit unreadable(tr("%1 cannot be shown here. Open it with another program.").arg(report_));
+}
+
+void ReportView::offer() {
+    const bool shows = document_->pageCount() > 0;
+    for (auto* button : {print_, elsewhere_}) {
+        button->setEnabled(!report_.isEmpty());
+        button->setVisible(!report_.isEmpty());
+    }
+    zoom_->setVisible(shows);
+    view_->setVisible(shows);
+    empty_->setVisible(!shows);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,40 @@
+#include "app/gui/theme/PlotLegend.h"
+
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+void putLegendAbove(QCustomPlot& plot) {
+    auto* legend = plot.legend;
+    plot.axisRect()->insetLayout()->take(legend);
+    plot.plotLayout()->insertRow(0);
+    // In a grid of its own with something that takes the rest: a legend's greatest width would bind the axes.
+    auto* line = new QCPLayoutGrid;
+    plot.plotLayout()->addElement(0, 0, line);
+    plot.plotLayout()->setRowStretchFactor(0, 0.001);
+    line->addElement(0, 0, legend);
+    auto* rest = new QCPTextElement(&plot);
+    rest->setMinimumSize(0, 0);
+    rest->setMaximumSize(QWIDGETSIZE_MAX, 1);
+    line->addElement(0, 1, rest);
+    legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
+    legend->setWrap(0);
+    fitLegend(plot);
+}
+
+void fitLegend(QCustomPlot& plot) {
+    auto* legend = plot.legend;
+    const auto& c = colours();
+    legend->setTextColor(c.text);
+    legend->setBrush(QBrush(c.base));
+    legend->setBorderPen(Qt::NoPen);
+    legend->setFont(textFont(TextSize::Small));
+    legend->setIconSize(scaledPx(24), scaledPx(10));
+    legend->setColumnSpacing(scaledPx(14));
+    legend->setRowSpacing(0);
+    legend->setMargins(QMargins(scaledPx(8), 2, scaledPx(8), 2));
+    legend->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
+    legend->setMaximumSize(legend->minimumOuterSizeHint());
+}
+
+}  // namespace tacto::gui

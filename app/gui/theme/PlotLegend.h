@@ -1,0 +1,15 @@
+// PlotLegend.h - a plot's legend above its axes, where it covers no data: as wide as its entries, at the left.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <qcustomplot.h>
+
+namespace tacto::gui {
+
+/// Puts the legend of `plot` into a line of its own. Call once, before anything is drawn.
+void putLegendAbove(QCustomPlot& plot);
+/// Fits it to its entries, in the current theme: call again when they, the theme or the size of text change.
+void fitLegend(QCustomPlot& plot);
+
+}  // namespace tacto::gui
