@@ -13,7 +13,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr double kZoomStep = 1.25, kZoomLeast = 0.25, kZoomMost = 5;
+constexpr double kZoomStep = 1.25, kMinZoom = 0.25, kMaxZoom = 5;
 }
 
 ReportView::ReportView(const QString& empty, QWidget* parent)
@@ -96,7 +96,7 @@ void ReportView::zoom(double factor) {
         if (points > 0) now = (view_->viewport()->width() - margins.left() - margins.right()) / (points * dots);
     }
     view_->setZoomMode(QPdfView::ZoomMode::Custom);
-    view_->setZoomFactor(std::clamp(now * factor, kZoomLeast, kZoomMost));
+    view_->setZoomFactor(std::clamp(now * factor, kMinZoom, kMaxZoom));
 }
 
 void ReportView::show(const QString& pdf) {
@@ -137,3 +137,5 @@ void ReportView::offer() {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ReportView.cpp"

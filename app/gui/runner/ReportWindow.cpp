@@ -44,3 +44,5 @@ void ReportWindow::showReport(QWidget& asking, const QString& pdf) {
 }
 
 }  // namespace tacto::gui
+
+#include "moc_ReportWindow.cpp"
