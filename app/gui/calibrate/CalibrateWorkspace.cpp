@@ -28,6 +28,7 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     tabs_ = new PageTabs(this);
     tabs_->setObjectName("calibratePages");
     tabs_->setDocumentMode(true);
+    tabs_->setWhatsThis(tr("The pages of this workspace. The left and right arrow keys change the page."));
     runner_ = new ProtocolWorkspace(controller_, "stimulator-calibration", tabs_);
     sensor_ = new ProtocolWorkspace(controller_, "sensor-calibration", tabs_);
     stored_ = new QWidget(tabs_);

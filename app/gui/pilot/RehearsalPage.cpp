@@ -79,6 +79,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     folder_->setToolTip(tr("A new folder, or the folder of a rehearsal to continue."));
     auto* choose = new QPushButton(tr("Ch&oose…"), place);
     choose->setAutoDefault(false);
+    choose->setToolTip(tr("Chooses the folder from a list."));
     connect(choose, &QPushButton::clicked, this, [this] {
         FileQuestion question;
         question.title = tr("The rehearsal’s folder");
@@ -107,10 +108,12 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     protocol_->setObjectName("rehearsalProtocol");
     protocol_->addItem(tr("identification: thresholds, training, test, ratings"), "pilot-identification");
     protocol_->addItem(tr("thresholds alone"), "pilot-thresholds");
+    protocol_->setToolTip(tr("The whole session, or only its first part: what is just felt, and what is too strong."));
     form->addRow(tr("What is run"), protocol_);
     method_->setObjectName("rehearsalMethod");
     method_->addItem(tr("QUEST+"), "quest");
     method_->addItem(tr("weighted staircase"), "staircase");
+    method_->setToolTip(tr("How the level that is just felt is found after the ascending limits."));
     form->addRow(tr("Detection by"), method_);
     blocks_->setObjectName("rehearsalBlocks");
     blocks_->setRange(1, kMaxBlocks);

@@ -62,11 +62,13 @@ QWidget* SessionList::buildSearch() {
     connect(find, &QShortcut::activated, search_, [this] { search_->setFocus(); });
     ending_ = new QComboBox(holder);
     ending_->setAccessibleName(tr("Verdict"));
+    ending_->setToolTip(tr("Shows only sessions with this verdict."));
     ending_->addItem(tr("Any verdict"), QString());
     for (const auto& word : {tr("pass"), tr("fail"), tr("indeterminate"), tr("stopped"), tr("fault"), tr("no verdict")})
         ending_->addItem(word, word);
     age_ = new QComboBox(holder);
     age_->setAccessibleName(tr("Date"));
+    age_->setToolTip(tr("Shows only sessions that began within this time."));
     age_->addItem(tr("Any date"));
     age_->addItem(tr("Today"), 0);
     age_->addItem(tr("7 days"), 6);

@@ -20,6 +20,7 @@ TabbedPage::TabbedPage(QWidget* parent)
     : QWidget(parent), bar_(new WholeTabBar(this)), tools_(new QStackedWidget(this)), pages_(new QStackedWidget(this)) {
     bar_->setExpanding(false);
     bar_->setDrawBase(false);
+    bar_->setWhatsThis(tr("The pages of this workspace. The left and right arrow keys change the page."));
     bar_->setUsesScrollButtons(false);
     auto* head = new QWidget(this);
     head->setObjectName("tabRow");
