@@ -317,7 +317,7 @@ ReportContent committeeReport(const StudyRecord& study) {
     blocks.emplace_back(captions.heading("Sessions"));
     blocks.emplace_back(careTable(study, captions.table("Stimulation, stops and skin, a row a session")));
     blocks.emplace_back(courseTable(study, ShownName::Label, captions.table("Drift and exposure, a row a session")));
-    blocks.emplace_back(refusalsTable(study, captions.table("Gates that did not hold")));
+    blocks.emplace_back(refusalsTable(study, captions.table("Checks that did not hold")));
     blocks.emplace_back(captions.heading("Adverse events"));
     if (study.events.empty()) {
         blocks.emplace_back(ParagraphBlock{"None was recorded."});

@@ -33,6 +33,23 @@ std::string studyText(const StudySettings& settings) {
     return dumpJson(json, 2) + "\n";
 }
 
+namespace {
+/// A study is written whole: what is missing was taken away, and its default was never approved. Studies from before
+/// exports had a license have none.
+template <class Infos>
+Result<void> checkWhole(const nlohmann::json& record, const Infos& infos, const std::string& source) {
+    for (const auto& info : infos) {
+        if (!record.contains(info.key)) {
+            if (info.key == "license") continue;
+            return fail(ErrorCode::ParseError, "{}: \"{}\" is missing; a study has all its settings", source, info.key);
+        }
+        if (!record[info.key].is_object()) continue;
+        if (auto whole = checkWhole(record[info.key], info.members, source); !whole) return whole;
+    }
+    return {};
+}
+}  // namespace
+
 Result<StudySettings> parseStudy(std::string_view text, const std::string& source) {
     auto json = parseJson(text, source);
     if (!json) return failure(json);
@@ -47,6 +64,7 @@ Result<StudySettings> parseStudy(std::string_view text, const std::string& sourc
     }
     json->erase("version");
     json->erase("note");
+    if (auto whole = checkWhole(*json, studyFields().infos(), source); !whole) return failure(whole);
     auto settings = studyFields().read(*json, RecordPlace{.file = source});
     if (!settings) return tl::unexpected<Error>(asParseError(settings.error()));
     const auto isHex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };

@@ -185,7 +185,7 @@ TEST_F(BenchTest, ASourceThatDriftsAboveItsCommandStopsOutput) {
     const auto delivered = bench_->telemetry().trainsDelivered;
     const auto armed = arm();
     ASSERT_FALSE(armed);
-    EXPECT_NE(armed.error().message.find("where"), std::string::npos) << armed.error().message;
+    EXPECT_NE(armed.error().message.find("must be within 20 %"), std::string::npos) << armed.error().message;
     EXPECT_EQ(state(), InterlockState::Faulted);
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
     bench_->idle(Seconds(3));

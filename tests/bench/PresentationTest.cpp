@@ -54,8 +54,8 @@ TEST(Presentation, WhatIsNoPresentationIsRefused) {
         const auto valid = validate(spoilt);
         return valid ? std::string() : valid.error().message;
     };
-    EXPECT_THAT(refusal([](auto& p) { p.level = Milliamps(kNotANumber); }), HasSubstr("at nan mA"));
-    EXPECT_THAT(refusal([](auto& p) { p.level = Milliamps(-1); }), HasSubstr("at -1 mA"));
+    EXPECT_THAT(refusal([](auto& p) { p.level = Milliamps(kNotANumber); }), HasSubstr("level nan mA"));
+    EXPECT_THAT(refusal([](auto& p) { p.level = Milliamps(-1); }), HasSubstr("level -1 mA"));
     EXPECT_THAT(refusal([](auto& p) { p.level = VibrationIntensity{1.01}; }), HasSubstr("intensity 1.01"));
     EXPECT_THAT(refusal([](auto& p) { p.level = VibrationIntensity{kNotANumber}; }), HasSubstr("intensity nan"));
     EXPECT_THAT(refusal([](auto& p) { p.interval = Seconds(0); }), HasSubstr("an interval of 0 s"));
@@ -146,8 +146,8 @@ TEST_F(PresentationTest, WhatTheDeviceCannotSetIsRefusedAndNeverRounded) {
         {Milliamps(0.25), "multiples of the device's step"},
         {Milliamps(0.5 + 1e-5), "multiples of the device's step"},
         {Milliamps(200), "above 0 to 130 mA"},
-        {Milliamps(kNotANumber), "at nan mA"},
-        {VibrationIntensity{0.5}, "must be a current"}};
+        {Milliamps(kNotANumber), "level nan mA"},
+        {VibrationIntensity{0.5}, "a current is accepted"}};
     for (const auto& [level, words] : wrong) {
         const auto refused = bench_->present(testPresentation(level, Seconds(0.5), Seconds(1)));
         ASSERT_FALSE(refused) << textOf(level);

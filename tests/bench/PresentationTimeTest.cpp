@@ -138,7 +138,7 @@ TEST_F(PresentationTimeTest, AMassagerTakesNoCurrentAndEndsWithItsFault) {
     open(false, true);
     const auto current = bench_->present(testPresentation(Milliamps(1), Seconds(0.5)));
     ASSERT_FALSE(current);
-    EXPECT_EQ(current.error().message, "level at 1 mA on fake massager: must be an intensity");
+    EXPECT_EQ(current.error().message, "a presentation at 1 mA on fake massager; an intensity is accepted");
     EXPECT_FALSE(bench_->present(testPresentation(VibrationIntensity{1.1}, Seconds(0.5))));
     EXPECT_EQ(bench_->accept(Milliamps(1)).error().code, ErrorCode::NotArmed);
     massager_->unplugged = true;

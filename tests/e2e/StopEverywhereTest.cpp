@@ -226,16 +226,19 @@ protected:
     /// The study is open from here on; its first participant is selected.
     void openStudy() {
         auto& pilot = studies();
-        auto* list = pilot.findChild<QTableWidget*>("participants");
-        if (list->isVisible() && list->rowCount() > 0) return list->selectRow(0);
-        pilot.findChild<gui::StudyPage*>()->open(study());
-        QLineEdit* line = nullptr;
-        ASSERT_IN_TIME(comesTrue([&] { return (line = window.findChild<QLineEdit*>("passphrase")) != nullptr; }));
-        line->setText(kPassphrase);
-        emit line->returnPressed();
-        ASSERT_IN_TIME(
-            comesTrue([&] { return newest() == nullptr && list->isVisible() && list->rowCount() > 0; }, 20'000));
-        list->selectRow(0);
+        const auto lists = [&pilot]() -> QTableWidget* {
+            auto* list = pilot.findChild<QTableWidget*>("participants");
+            return list != nullptr && list->isVisible() && list->rowCount() > 0 ? list : nullptr;
+        };
+        if (lists() == nullptr) {
+            pilot.findChild<gui::StudyPage*>()->open(study());
+            QLineEdit* line = nullptr;
+            ASSERT_IN_TIME(comesTrue([&] { return (line = window.findChild<QLineEdit*>("passphrase")) != nullptr; }));
+            line->setText(kPassphrase);
+            emit line->returnPressed();
+            ASSERT_IN_TIME(comesTrue([&] { return newest() == nullptr && lists() != nullptr; }, 20'000));
+        }
+        lists()->selectRow(0);
     }
 
     /// Each place of the program that opens a dialog.
@@ -373,6 +376,11 @@ protected:
              [this] {
                  choose(1);
                  press(window, "Export CSV…");
+             }},
+            {"Report of a session",
+             [this] {
+                 choose(1);
+                 press(window, "Report");
              }},
             {"Compare",
              [this] {

@@ -1,4 +1,6 @@
 // StageFixture.h - a pilot stage on a simulated bench, with someone who answers and a session file for each part.
+//
+// Thread-safety: as PilotStage: one caller.
 #pragma once
 
 #include <algorithm>

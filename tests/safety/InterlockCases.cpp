@@ -96,7 +96,7 @@ void addInterlockCases(std::vector<GateCase>& cases) {
     });
     add(ArmState, "arming without the two steps", [] {
         Interlock lock;
-        return lock.connect().has_value() && notArmed(lock.arm(evidence(), 0s), "must be checking");
+        return lock.connect().has_value() && notArmed(lock.arm(evidence(), 0s), "must be running");
     });
     add(ArmLimits, "arming without limits",
         [] { return refusesToArm("no limit set", [](auto& e) { e.limitsLoaded = false; }); });

@@ -113,6 +113,7 @@ QWidget* LiveWorkspace::buildSide() {
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
     area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setWhatsThis(tr("Where the fingertip is, and what it feels. The arrow keys scroll it."));
     auto* side = new QWidget(area);
     auto* layout = new QVBoxLayout(side);
     layout->setContentsMargins(6, 0, 6, 0);

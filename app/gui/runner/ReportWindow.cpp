@@ -38,7 +38,10 @@ ReportWindow::ReportWindow(const QString& pdf, QWidget* parent)
 
 void ReportWindow::showReport(QWidget& asking, const QString& pdf) {
     for (auto* other : asking.findChildren<ReportWindow*>()) {
-        if (other->view_->report() == pdf) other->view_->show(pdf);
+        if (!other->isVisible() || other->view_->report() != pdf) continue;
+        other->view_->show(pdf);
+        other->raise();
+        return other->activateWindow();
     }
     openDialog(new ReportWindow(pdf, &asking));
 }

@@ -34,6 +34,7 @@ QTableWidget* makeTable(QWidget* parent, const QString& name) {
 }  // namespace
 
 SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : QTabWidget(parent), limits_(limits) {
+    setWhatsThis(tr("What the selected session holds. The left and right arrow keys change the page."));
     setDocumentMode(true);
     overview_ = new SessionOverview(this);
     connect(overview_, &SessionOverview::labelsSaved, this, &SessionDetails::labelsSaved);

@@ -62,6 +62,8 @@ std::vector<StudyFormField> describedFields() {
          WORDS("Data of participants who withdraw"),
          WORDS("As the consent form promises. “Destroyed”: their key is destroyed, and their data cannot be opened."),
          {WORDS("are destroyed"), WORDS("are kept")}},
+        {Group::Approval, "license", WORDS("License of exports"),
+         WORDS("Under which others may use exported results: CC-BY-4.0. May be left empty.")},
 
         {Group::Participants, "participants_max", WORDS("Participants at most"),
          WORDS("As many as the approval allows. Those who left count too.")},

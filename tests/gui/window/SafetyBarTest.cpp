@@ -277,7 +277,7 @@ TEST_F(Bar, SaysWhyItFaultedAndThatOutputIsOff) {
     const auto whole = cause->parentWidget()->toolTip().split('\n');
     ASSERT_EQ(whole.size(), 3) << "cause, output, next step";
     EXPECT_TRUE(whole[1].startsWith("Output is off and stays off."));
-    EXPECT_TRUE(whole[2].contains("then reset"));
+    EXPECT_TRUE(whole[2].contains("reset the fault"));
 }
 
 }  // namespace
