@@ -234,8 +234,8 @@ protected:
             pilot.findChild<gui::StudyPage*>()->open(study());
             QLineEdit* line = nullptr;
             ASSERT_IN_TIME(comesTrue([&] { return (line = window.findChild<QLineEdit*>("passphrase")) != nullptr; }));
-            line->setText(kPassphrase);
-            emit line->returnPressed();
+            QTest::keyClicks(line, kPassphrase);
+            QTest::keyClick(line, Qt::Key_Return);
             ASSERT_IN_TIME(comesTrue([&] { return newest() == nullptr && lists() != nullptr; }, 20'000));
         }
         lists()->selectRow(0);
