@@ -6,6 +6,7 @@
 #include "drivers/sciencemode/TtyTransport.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "tests/drivers/sensor_board/BoardOnPty.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -44,7 +45,7 @@ TEST_F(SensorBoardOnTerminal, IsOpenedByThePathAndStreams) {
     settings.serial = "TSB-0003";
     BoardOnPty board(clock_, settings);
     const auto opened = open("?rate=2kHz&tty=" + board.path());
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_IN_TIME(opened) << opened.error().message;  // it answers within 0.3 s
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-0003");
     EXPECT_EQ(devices_.sensor->streams()[0].rate_hz, 2000);
     const auto read = readUntil([&] { return blocks_[0].samples() >= 1000; });
