@@ -236,7 +236,8 @@ Run unknownRun() noexcept {
     return run;
 }
 
-/// The same for any number of trains, the first of which finds up to `carried` on the load.
+/// The same for any number of trains, the first of which finds up to `carried` on the load. What holds more bounds more:
+/// the widest run is the bound of all.
 Run enclosed(const Plan& plan, double carried) noexcept {
     Held first{-carried, carried};
     Held once = first;
@@ -251,7 +252,7 @@ Run enclosed(const Plan& plan, double carried) noexcept {
     second.include(once.most);
     Held twice = second;
     const Run fromSecond = enclosedFrom(plan, twice);
-    if (within(twice, second, small)) return largerRun(fromFirst, fromSecond);
+    if (within(twice, second, small)) return fromSecond;
     // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady one.
     const auto steady = [](double from, double to, double fromNext, double toNext) {
         const double slope = fromNext == from ? 0 : (toNext - to) / (fromNext - from);
@@ -263,7 +264,7 @@ Run enclosed(const Plan& plan, double carried) noexcept {
     const Run fromLast = enclosedFrom(plan, last);
     // Beyond its compliance a source is not linear; what is not enclosed then is not known, and refused.
     if (!within(last, second, 1e-6 * larger(second.most, -second.least))) return unknownRun();
-    return largerRun(largerRun(fromFirst, fromSecond), fromLast);
+    return fromLast;
 }
 
 }  // namespace

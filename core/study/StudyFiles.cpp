@@ -36,8 +36,7 @@ std::string studyText(const StudySettings& settings) {
 namespace {
 /// A study is written whole: what is missing was taken away, and its default was never approved. Studies from before
 /// exports had a license have none.
-template <class Infos>
-Result<void> checkWhole(const nlohmann::json& record, const Infos& infos, const std::string& source) {
+Result<void> checkWhole(const nlohmann::json& record, const std::vector<FieldInfo>& infos, const std::string& source) {
     for (const auto& info : infos) {
         if (!record.contains(info.key)) {
             if (info.key == "license") continue;
