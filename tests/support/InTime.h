@@ -1,8 +1,9 @@
 // InTime.h - assertions about how late something may come, kept apart from assertions about what may never happen.
 //
-// A machine that stands still makes a program late; it cannot make it deliver a train after a stop. A test that failed
-// by EXPECT_IN_TIME or ASSERT_IN_TIME alone is tried again where the machine stood still (support/Standstill.cpp); any
-// other failure is one.
+// A machine that stands still makes a program late; it cannot make it deliver a train after a stop. On the machine's
+// clock whatever must happen is a deadline (a bench arms, delivers, waits: a status that comes 50 ms late switches it
+// off, as it should), and whatever must not happen is none. A test that failed by EXPECT_IN_TIME or ASSERT_IN_TIME alone
+// is tried again where the machine stood still (support/Standstill.cpp); any other failure is one.
 //
 // Thread-safety: as gtest's assertions.
 #pragma once
@@ -14,12 +15,16 @@ namespace tacto::test {
 /// What the message of a missed deadline begins with.
 inline constexpr const char* kNotInTime = "not in time: ";
 
-[[nodiscard]] inline testing::AssertionResult inTime(const char* what, bool happened) {
+/// `happened`: a truth, or a Result, whose error is shown.
+template <class Happened>
+[[nodiscard]] testing::AssertionResult inTime(const char* what, const Happened& happened) {
     if (happened) return testing::AssertionSuccess();
-    return testing::AssertionFailure() << kNotInTime << what;
+    auto failure = testing::AssertionFailure() << kNotInTime << what;
+    if constexpr (requires { happened.error().message; }) failure << ": " << happened.error().message;
+    return failure;
 }
 
 }  // namespace tacto::test
 
-#define EXPECT_IN_TIME(what) EXPECT_PRED_FORMAT1(tacto::test::inTime, static_cast<bool>(what))
-#define ASSERT_IN_TIME(what) ASSERT_PRED_FORMAT1(tacto::test::inTime, static_cast<bool>(what))
+#define EXPECT_IN_TIME(what) EXPECT_PRED_FORMAT1(tacto::test::inTime, what)
+#define ASSERT_IN_TIME(what) ASSERT_PRED_FORMAT1(tacto::test::inTime, what)
