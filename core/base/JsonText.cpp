@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+template class nlohmann::basic_json<>;  // Json.h
+
 namespace tacto {
 
 namespace {

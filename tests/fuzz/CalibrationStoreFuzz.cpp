@@ -13,7 +13,10 @@
 #include "core/calibration/ChainedLines.h"
 #include "core/calibration/LoadSafetyStore.h"
 #include "core/calibration/StoredCalibrationJson.h"
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/InputFile.h"
+
+namespace tacto::fuzz::CalibrationStoreFuzz {
 
 namespace {
 
@@ -115,9 +118,11 @@ void checkLoadSafety(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(CalibrationStoreFuzz, const std::uint8_t* data, std::size_t size) {
     constexpr void (*kChecks[])(std::span<const std::uint8_t>) = {checkRecord, checkStore, checkCertificates,
                                                                   checkLoadSafety};
     if (size > 0) kChecks[data[0] % std::size(kChecks)]({data + 1, size - 1});
     return 0;
 }
+
+}  // namespace tacto::fuzz::CalibrationStoreFuzz

@@ -6,8 +6,11 @@
 #include "core/formats/csv/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/PulseMeasurement.h"
+#include "tests/fuzz/FuzzTarget.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::CaptureCsvFuzz {
+
+TACTO_FUZZ(CaptureCsvFuzz, const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     auto reading = tacto::parseCapture(text, "fuzz.csv");
     if (!reading) {
@@ -21,3 +24,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
 }
+
+}  // namespace tacto::fuzz::CaptureCsvFuzz

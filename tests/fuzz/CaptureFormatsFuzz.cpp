@@ -7,6 +7,9 @@
 
 #include "core/formats/CaptureFormats.h"
 #include "tests/fuzz/CaptureCheck.h"
+#include "tests/fuzz/FuzzTarget.h"
+
+namespace tacto::fuzz::CaptureFormatsFuzz {
 
 namespace {
 
@@ -23,7 +26,7 @@ tacto::ReadOptions optionsFrom(std::uint8_t bits) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(CaptureFormatsFuzz, const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     static const auto formats = tacto::ownCaptureFormats();
     static const int file = memfd_create("capture", 0);
@@ -34,3 +37,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tacto::fuzz::checkCapture(formats->read(path, options), size);
     return 0;
 }
+
+}  // namespace tacto::fuzz::CaptureFormatsFuzz

@@ -7,8 +7,11 @@
 
 #include "app/scripting/engine/DeclarationReader.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
+#include "tests/fuzz/FuzzTarget.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::DeclarationFuzz {
+
+TACTO_FUZZ(DeclarationFuzz, const std::uint8_t* data, std::size_t size) {
     const auto answer = tacto::readAnswer({reinterpret_cast<const char*>(data), size}, "fuzz.js");
     if (!answer) {
         if (answer.error().message.empty()) std::abort();
@@ -23,3 +26,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(tacto::toJson(*declared));
     return 0;
 }
+
+}  // namespace tacto::fuzz::DeclarationFuzz

@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/encoding/EncodingProfile.h"
+#include "tests/fuzz/FuzzTarget.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::EncodingSection {
+
+TACTO_FUZZ(EncodingSection, const std::uint8_t* data, std::size_t size) {
     const auto section = nlohmann::json::parse(data, data + size, nullptr, false);
     if (section.is_discarded()) return 0;
     const auto profile = tacto::encodingProfileFrom(section);
@@ -20,3 +23,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!again || !(*again == *profile)) std::abort();
     return 0;
 }
+
+}  // namespace tacto::fuzz::EncodingSection

@@ -5,8 +5,11 @@
 #include <cstdlib>
 
 #include "app/report/Figure.h"
+#include "tests/fuzz/FuzzTarget.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::FigureFuzz {
+
+TACTO_FUZZ(FigureFuzz, const std::uint8_t* data, std::size_t size) {
     const auto text = QByteArray::fromRawData(reinterpret_cast<const char*>(data), static_cast<qsizetype>(size));
     const auto document = QJsonDocument::fromJson(text);
     if (!document.isObject()) return 0;
@@ -21,3 +24,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(tacto::resolveCaptures(*figure, none));
     return 0;
 }
+
+}  // namespace tacto::fuzz::FigureFuzz

@@ -6,8 +6,11 @@
 #include <span>
 
 #include "drivers/hid_massager/Haptics.h"
+#include "tests/fuzz/FuzzTarget.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::HidDescriptorFuzz {
+
+TACTO_FUZZ(HidDescriptorFuzz, const std::uint8_t* data, std::size_t size) {
     using namespace tacto::hid;
     if (size < 2) return 0;
     const std::span<const std::uint8_t> rest(data + 1, size - 1);
@@ -33,3 +36,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::abort();
     return 0;
 }
+
+}  // namespace tacto::fuzz::HidDescriptorFuzz

@@ -6,6 +6,9 @@
 
 #include "core/base/JsonText.h"
 #include "core/bench/Profile.h"
+#include "tests/fuzz/FuzzTarget.h"
+
+namespace tacto::fuzz::JsonTextFuzz {
 
 namespace {
 
@@ -24,7 +27,7 @@ void require(bool held) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(JsonTextFuzz, const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const tacto::JsonLimits limits{.bytes = 30'000, .depth = 8};
     const auto parsed = tacto::parseJson(text, "fuzz.json", limits);
@@ -47,3 +50,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(again && tacto::toJson(*again) == tacto::toJson(*profile));
     return 0;
 }
+
+}  // namespace tacto::fuzz::JsonTextFuzz

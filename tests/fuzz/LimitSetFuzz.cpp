@@ -5,8 +5,11 @@
 #include <string_view>
 
 #include "core/safety/LimitSet.h"
+#include "tests/fuzz/FuzzTarget.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::LimitSetFuzz {
+
+TACTO_FUZZ(LimitSetFuzz, const std::uint8_t* data, std::size_t size) {
     const auto set = tacto::parseLimitSet({reinterpret_cast<const char*>(data), size}, "fuzz.json");
     if (!set) {
         if (set.error().code != tacto::ErrorCode::ParseError || !set.error().message.starts_with("fuzz.json: "))
@@ -21,3 +24,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
 }
+
+}  // namespace tacto::fuzz::LimitSetFuzz

@@ -6,12 +6,15 @@
 #include <cstdlib>
 
 #include "core/electrode/Load.h"
+#include "tests/fuzz/FuzzTarget.h"
+
+namespace tacto::fuzz::LoadText {
 
 namespace {
 bool near(double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(a); }
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(LoadText, const std::uint8_t* data, std::size_t size) {
     const auto load = tacto::parseLoad({reinterpret_cast<const char*>(data), size});
     if (!load) {
         if (load.error().message.empty()) std::abort();
@@ -26,3 +29,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
 }
+
+}  // namespace tacto::fuzz::LoadText

@@ -4,8 +4,11 @@
 #include <string_view>
 
 #include "drivers/hid_massager/MassagerTemplate.h"
+#include "tests/fuzz/FuzzTarget.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::MassagerTemplateFuzz {
+
+TACTO_FUZZ(MassagerTemplateFuzz, const std::uint8_t* data, std::size_t size) {
     using namespace tacto::hid;
     const auto read = parseMassagerTemplate({reinterpret_cast<const char*>(data), size}, "fuzz.json");
     if (!read) {
@@ -29,3 +32,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
 }
+
+}  // namespace tacto::fuzz::MassagerTemplateFuzz

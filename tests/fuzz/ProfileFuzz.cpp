@@ -7,8 +7,11 @@
 #include <string_view>
 
 #include "core/bench/Profile.h"
+#include "tests/fuzz/FuzzTarget.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::ProfileFuzz {
+
+TACTO_FUZZ(ProfileFuzz, const std::uint8_t* data, std::size_t size) {
     const auto profile = tacto::parseProfile({reinterpret_cast<const char*>(data), size}, "fuzz.json");
     if (!profile) {
         if (profile.error().message.empty()) std::abort();
@@ -19,3 +22,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!again || tacto::toJson(*again).dump() != text) std::abort();
     return 0;
 }
+
+}  // namespace tacto::fuzz::ProfileFuzz

@@ -5,9 +5,12 @@
 #include <cstdlib>
 #include <span>
 
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/support/emulated/pulsepal/EmulatedPulsePal.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::PulsePalFuzz {
+
+TACTO_FUZZ(PulsePalFuzz, const std::uint8_t* data, std::size_t size) {
     using namespace tacto::pulsepal;
     const std::span<const std::uint8_t> bytes(data, size);
     if (const auto read = readHandshake(bytes); read && (size != kHandshakeSize || read->firmware / 2 != 10))
@@ -38,3 +41,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
 }
+
+}  // namespace tacto::fuzz::PulsePalFuzz

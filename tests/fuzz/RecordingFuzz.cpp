@@ -4,7 +4,10 @@
 #include <string_view>
 
 #include "core/acquisition/Recording.h"
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/InputFile.h"
+
+namespace tacto::fuzz::RecordingFuzz {
 
 namespace {
 
@@ -14,7 +17,7 @@ std::span<const std::uint8_t> bytesOf(std::string_view text) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(RecordingFuzz, const std::uint8_t* data, std::size_t size) {
     static const auto tables = [] {
         tacto::fuzz::inputFile("a.csv", bytesOf("time,X,Y,Z\n0,0,0,1\n0.001,0,0.1,1\n0.002,0.2,0,1\n0.003,0,0,1\n"));
         return tacto::fuzz::inputFile("f.csv", bytesOf("time,force\n0,0.1\n5,0.2\n10,0.3\n"));
@@ -30,3 +33,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!recording->streams.empty() && !(extent.begin_s <= extent.end_s)) std::abort();
     return 0;
 }
+
+}  // namespace tacto::fuzz::RecordingFuzz

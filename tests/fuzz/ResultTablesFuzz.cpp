@@ -13,6 +13,9 @@
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"
 #include "core/analysis/separability/Separability.h"
 #include "core/analysis/separability/TrialFile.h"
+#include "tests/fuzz/FuzzTarget.h"
+
+namespace tacto::fuzz::ResultTablesFuzz {
 
 namespace {
 
@@ -63,7 +66,7 @@ void checkIdentification(std::string_view text) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(ResultTablesFuzz, const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
     constexpr void (*kChecks[])(std::string_view) = {checkTrials, checkReadings, checkProfilometer,
@@ -71,3 +74,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     kChecks[data[0] % std::size(kChecks)](text);
     return 0;
 }
+
+}  // namespace tacto::fuzz::ResultTablesFuzz

@@ -8,7 +8,10 @@
 
 #include "drivers/sciencemode/Exchange.h"
 #include "drivers/sciencemode/ReadBack.h"
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/support/emulated/sciencemode/EmulatedStimulator.h"
+
+namespace tacto::fuzz::ScienceModeFuzz {
 
 namespace {
 
@@ -119,7 +122,7 @@ void request(std::span<const std::uint8_t> input) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(ScienceModeFuzz, const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     const std::span<const std::uint8_t> input(data + 1, size - 1);
     switch (data[0] % 3) {
@@ -135,3 +138,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
 }
+
+}  // namespace tacto::fuzz::ScienceModeFuzz

@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "drivers/sensor_board/SensorBoard.h"
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
+
+namespace tacto::fuzz::SensorBoardFuzz {
 
 namespace {
 
@@ -197,7 +200,7 @@ void request(std::span<const std::uint8_t> input) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(SensorBoardFuzz, const std::uint8_t* data, std::size_t size) {
     if (size == 0 || size > 4096) return 0;
     const std::span<const std::uint8_t> input(data + 1, size - 1);
     switch (data[0] % 8) {
@@ -219,3 +222,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
 }
+
+}  // namespace tacto::fuzz::SensorBoardFuzz

@@ -15,6 +15,9 @@
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 #include "core/session/SessionWriter.h"
+#include "tests/fuzz/FuzzTarget.h"
+
+namespace tacto::fuzz::SessionFuzz {
 
 namespace {
 
@@ -85,7 +88,7 @@ void read(const std::filesystem::path& path) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(SessionFuzz, const std::uint8_t* data, std::size_t size) {
     static const auto path =
         std::filesystem::temp_directory_path() / ("tactoscope-fuzz-" + std::to_string(getpid()) + ".tacto");
     static const Bytes sound = soundSession(path);
@@ -98,3 +101,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::filesystem::remove(path);
     return 0;
 }
+
+}  // namespace tacto::fuzz::SessionFuzz

@@ -12,6 +12,9 @@
 #include "core/session/AboutJson.h"
 #include "core/session/CaptureBlob.h"
 #include "core/session/Chunk.h"
+#include "tests/fuzz/FuzzTarget.h"
+
+namespace tacto::fuzz::SessionRows {
 
 namespace {
 
@@ -66,7 +69,7 @@ void about(std::string_view text) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(SessionRows, const std::uint8_t* data, std::size_t size) {
     if (size < 2) return 0;
     const std::span<const std::uint8_t> rest(data + 2, size - 2);
     const auto cut = (rest.size() * (std::size_t{data[1]} + 1) + 255) / 256;
@@ -76,3 +79,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (data[0] % 3 == 2) about(text);
     return 0;
 }
+
+}  // namespace tacto::fuzz::SessionRows

@@ -1,12 +1,12 @@
 // The short run of a fuzz target in the ordinary builds, without clang:
-//   fuzzed_<Target> CORPUS_FOLDER [--dictionary FILE] [--inputs N] [--seconds S] [--seed K]
-//   fuzzed_<Target> FILE          one input again
+//   fuzzed TARGET CORPUS_FOLDER [--dictionary FILE] [--inputs N] [--seconds S] [--seed K]
+//   fuzzed TARGET FILE          one input again
 // Runs every file of the folder, then N (200000) inputs made of them and of the dictionary's words, until S (3) seconds
 // are over. Without --seed each run draws another, and says which.
 //
 // The inputs run in a process of their own and lie in memory that both share. So an input that kills it, in whatever
 // way (a failed check, a sanitizer, no memory), or that never ends, is still there: it is kept in
-// fuzzed_<Target>.crash beside the program, and the run fails.
+// fuzzed-TARGET.crash beside the program, and the run fails.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -25,19 +25,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/Mutation.h"
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace {
 
 using tacto::fuzz::Bytes;
+using tacto::fuzz::Target;
 
 /// One input that takes longer hangs. A sound one takes milliseconds, also under a sanitizer on a busy machine.
 constexpr unsigned kMaxInput_s = 20;
 constexpr int kMisused = 2;
 
 struct Options {
+    std::string name;
+    Target target = nullptr;
     std::filesystem::path inputs;
     std::filesystem::path dictionary;
     std::uint64_t count = 200'000;
@@ -54,10 +56,14 @@ struct Shared {
 };
 
 std::optional<Options> optionsFrom(int count, char** words) {
-    if (count < 2 || count % 2 != 0) return std::nullopt;
+    if (count < 3 || count % 2 == 0) return std::nullopt;
     Options options;
-    options.inputs = words[1];
-    for (int i = 2; i < count; i += 2) {
+    options.name = words[1];
+    const auto found = tacto::fuzz::targets().find(options.name);
+    if (found == tacto::fuzz::targets().end()) return std::nullopt;
+    options.target = found->second;
+    options.inputs = words[2];
+    for (int i = 3; i < count; i += 2) {
         const std::string_view name = words[i];
         const std::string_view text = words[i + 1];
         if (name == "--dictionary") {
@@ -105,13 +111,13 @@ std::optional<std::vector<Bytes>> wordsAt(const std::filesystem::path& dictionar
     return tacto::fuzz::dictionaryFrom(text);
 }
 
-void run(const Bytes& input, Shared& shared) {
+void run(Target target, const Bytes& input, Shared& shared) {
     shared.size = input.size();
     std::ranges::copy(input, shared.input);
     ::alarm(kMaxInput_s);
     // A copy of its exact size, so that a sanitizer sees a byte read behind the end.
     const Bytes exact(input);
-    LLVMFuzzerTestOneInput(exact.data(), exact.size());
+    target(exact.data(), exact.size());
     ::alarm(0);
 }
 
@@ -119,21 +125,21 @@ void run(const Bytes& input, Shared& shared) {
 void runAll(const std::vector<Bytes>& corpus, const std::vector<Bytes>& words, const Options& options, Shared& shared) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(options.seconds);
     for (const auto& input : corpus) {
-        run(input, shared);
+        run(options.target, input, shared);
         ++shared.corpus;
     }
     if (!std::filesystem::is_directory(options.inputs)) return;
     tacto::Random random(options.seed, "fuzz");
     while (shared.mutated < options.count && std::chrono::steady_clock::now() < end) {
-        run(tacto::fuzz::mutated(corpus, words, random), shared);
+        run(options.target, tacto::fuzz::mutated(corpus, words, random), shared);
         ++shared.mutated;
     }
 }
 
 /// Fails the run: says what happened, and where the input is.
-int keep(const Shared& shared, int status, std::uint64_t seed, const std::filesystem::path& program) {
+int keep(const Shared& shared, int status, const Options& options, const std::filesystem::path& program) {
     auto file = program;
-    file += ".crash";
+    file += '-' + options.name + ".crash";
     std::ofstream(file, std::ios::binary | std::ios::trunc)
         .write(reinterpret_cast<const char*>(shared.input), static_cast<std::streamsize>(shared.size));
     std::string how = "ended the process with status " + std::to_string(WEXITSTATUS(status));
@@ -141,10 +147,12 @@ int keep(const Shared& shared, int status, std::uint64_t seed, const std::filesy
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
         how = "took longer than " + std::to_string(kMaxInput_s) + " s";
     }
-    std::fprintf(stderr,
-                 "After %llu files and %llu inputs made of them (seed %llu): an input of %zu bytes %s.\nAgain: %s %s\n",
-                 static_cast<unsigned long long>(shared.corpus), static_cast<unsigned long long>(shared.mutated),
-                 static_cast<unsigned long long>(seed), shared.size, how.c_str(), program.c_str(), file.c_str());
+    std::fprintf(
+        stderr,
+        "After %llu files and %llu inputs made of them (seed %llu): an input of %zu bytes %s.\nAgain: %s %s %s\n",
+        static_cast<unsigned long long>(shared.corpus), static_cast<unsigned long long>(shared.mutated),
+        static_cast<unsigned long long>(options.seed), shared.size, how.c_str(), program.c_str(), options.name.c_str(),
+        file.c_str());
     return EXIT_FAILURE;
 }
 
@@ -153,8 +161,12 @@ int keep(const Shared& shared, int status, std::uint64_t seed, const std::filesy
 int main(int argc, char** argv) {
     const auto options = optionsFrom(argc, argv);
     if (!options) {
-        std::fprintf(stderr, "Usage: %s CORPUS_FOLDER|FILE [--dictionary FILE] [--inputs N] [--seconds S] [--seed K]\n",
+        std::fprintf(stderr,
+                     "Usage: %s TARGET CORPUS_FOLDER|FILE [--dictionary FILE] [--inputs N] [--seconds S] [--seed K]\n"
+                     "Targets:",
                      argv[0]);
+        for (const auto& [name, target] : tacto::fuzz::targets()) std::fprintf(stderr, " %s", name.c_str());
+        std::fprintf(stderr, "\n");
         return kMisused;
     }
     const auto corpus = corpusAt(options->inputs);
@@ -186,7 +198,7 @@ int main(int argc, char** argv) {
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) return keep(shared, status, options->seed, argv[0]);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) return keep(shared, status, *options, argv[0]);
     std::printf("%llu files, %llu inputs made of them (seed %llu)\n", static_cast<unsigned long long>(shared.corpus),
                 static_cast<unsigned long long>(shared.mutated), static_cast<unsigned long long>(options->seed));
     return EXIT_SUCCESS;

@@ -2,10 +2,15 @@
 // bounds (hazard H10). What deflate can make of a byte is 1032 bytes.
 #include "drivers/sigrok/session_file/SigrokFormat.h"
 #include "tests/fuzz/CaptureCheck.h"
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/InputFile.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::SigrokSessionFuzz {
+
+TACTO_FUZZ(SigrokSessionFuzz, const std::uint8_t* data, std::size_t size) {
     const auto path = tacto::fuzz::inputFile("input.sr", {data, size});
     tacto::fuzz::checkCapture(tacto::SigrokFormat().read(path, {}, {}), 1032 * size);
     return 0;
 }
+
+}  // namespace tacto::fuzz::SigrokSessionFuzz

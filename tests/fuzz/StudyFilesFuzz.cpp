@@ -16,7 +16,10 @@
 #include "core/study/LedgerRows.h"
 #include "core/study/StudyFiles.h"
 #include "core/study/StudyKeys.h"
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/InputFile.h"
+
+namespace tacto::fuzz::StudyFilesFuzz {
 
 namespace {
 
@@ -140,9 +143,11 @@ void checkSealed(Input input) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(StudyFilesFuzz, const std::uint8_t* data, std::size_t size) {
     constexpr void (*kChecks[])(Input) = {checkSettings, checkRehearsalKeys, checkKeysUnderAPassphrase, checkLedger,
                                           checkSealed};
     if (size > 0) kChecks[data[0] % std::size(kChecks)]({data + 1, size - 1});
     return 0;
 }
+
+}  // namespace tacto::fuzz::StudyFilesFuzz

@@ -7,7 +7,10 @@
 
 #include "core/base/Csv.h"
 #include "core/safety/UnitRecord.h"
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/InputFile.h"
+
+namespace tacto::fuzz::UnitRecordFuzz {
 
 namespace {
 
@@ -69,7 +72,7 @@ struct Sound {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(UnitRecordFuzz, const std::uint8_t* data, std::size_t size) {
     static const Sound sound;
     if (size == 0) return 0;
     auto bytes = sound.record;
@@ -101,3 +104,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
 }
+
+}  // namespace tacto::fuzz::UnitRecordFuzz

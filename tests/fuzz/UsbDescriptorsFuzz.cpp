@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "drivers/usb/UsbEndpoints.h"
+#include "tests/fuzz/FuzzTarget.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace tacto::fuzz::UsbDescriptorsFuzz {
+
+TACTO_FUZZ(UsbDescriptorsFuzz, const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     std::vector<libusb_interface_descriptor> settings;
     std::vector<std::vector<libusb_endpoint_descriptor>> endpoints;
@@ -48,3 +51,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::abort();
     return 0;
 }
+
+}  // namespace tacto::fuzz::UsbDescriptorsFuzz

@@ -14,7 +14,10 @@
 #include "core/session/SessionVerify.h"
 #include "core/session/SessionWriter.h"
 #include "core/session/WalScan.h"
+#include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/InputFile.h"
+
+namespace tacto::fuzz::WriteAheadLogFuzz {
 
 namespace {
 
@@ -57,7 +60,7 @@ CutOff cutOffSession() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TACTO_FUZZ(WriteAheadLogFuzz, const std::uint8_t* data, std::size_t size) {
     static const CutOff sound = cutOffSession();
     auto log = sound.log;
     std::size_t at = log.size();
@@ -81,3 +84,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(reader->reproducibleText());
     return 0;
 }
+
+}  // namespace tacto::fuzz::WriteAheadLogFuzz

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "app/report/FigureDrawing.h"
+#include "tests/report/Samples.h"
 
 namespace tacto {
 namespace {
 
+using test::drawn;
 using testing::HasSubstr;
 
 QJsonObject curvesJson() {
@@ -29,11 +31,6 @@ QJsonObject withCurve(const char* key, const QJsonValue& value) {
     curve[QLatin1String(key)] = value;
     json["curves"] = QJsonArray{curve};
     return json;
-}
-
-std::string drawn(const QJsonObject& json, bool simulated) {
-    const auto figure = parseFigure(json).value();
-    return sheetSvg(*drawFigure(figure, simulated), "Curves").toStdString();
 }
 
 TEST(CurvesFigure, KeepsWhatIsNotKnownAsUnknown) {

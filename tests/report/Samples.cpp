@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "app/report/FigureDrawing.h"
 #include "core/base/Random.h"
 
 namespace tacto::test {
@@ -214,6 +215,10 @@ ReportModel separabilityModel(bool simulated, int repeats) {
         "--seed 7",
         "tactoscope-cli verify 2026-11-20-separability-7.tacto"};
     return model;
+}
+
+std::string drawn(const QJsonObject& figure, bool simulated) {
+    return sheetSvg(*drawFigure(parseFigure(figure).value(), simulated), "A figure").toStdString();
 }
 
 std::string poppler(const std::string& command, const std::filesystem::path& pdf) {

@@ -23,6 +23,9 @@ QJsonObject timelineJson(int frames);
 /// `type` with nothing in it that could be drawn.
 QJsonObject emptyFigureJson(const QString& type);
 
+/// The figure as SVG.
+std::string drawn(const QJsonObject& figure, bool simulated);
+
 /// A whole report with a figure of every type and two tables.
 ReportModel separabilityModel(bool simulated, int repeats = 25);
 

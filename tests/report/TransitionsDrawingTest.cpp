@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "app/report/FigureDrawing.h"
+#include "tests/report/Samples.h"
 
 namespace tacto {
 namespace {
 
+using test::drawn;
 using testing::HasSubstr;
 
 /// Two by two: one cell nobody passed, one above what is wanted.
@@ -18,11 +20,6 @@ QJsonObject mapJson() {
             {"amplitude", cells},
             {"interval", cells},
             {"largest_amplitude", QJsonObject{{"roughness", 0}, {"pressure", 1}, {"jnd", 8.24}}}};
-}
-
-std::string drawn(const QJsonObject& json, bool simulated) {
-    const auto figure = parseFigure(json).value();
-    return sheetSvg(*drawFigure(figure, simulated), "A map").toStdString();
 }
 
 TEST(TransitionsFigure, KeepsWhatIsNotKnownAsUnknown) {

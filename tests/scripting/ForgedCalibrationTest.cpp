@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-const std::set<Role> kNeeded{Role::Stimulator, Role::Oscilloscope};
+const std::set<Role> kCalibrated{Role::Stimulator, Role::Oscilloscope};
 
 /// Levels and repeats enough for a complete calibration that passes.
 constexpr const char* kInventedReadings = R"(
@@ -40,7 +40,7 @@ protected:
 
     /// What the run ended with.
     [[nodiscard]] std::string run(const std::string& body, const std::string& device = "sim:") {
-        RunBench rig(true, device, 1, true, kNeeded);
+        RunBench rig(true, device, 1, true, kCalibrated);
         const auto outcome = runProtocol(rig.request(withRun(body) + kInventedReadings)).value();
         EXPECT_TRUE(rig.outputOff());
         return outcome.error ? outcome.error->message : "";
@@ -50,7 +50,7 @@ protected:
                                         std::map<std::string, std::string> settings,
                                         const std::string& device = "sim:", bool looksReal = false,
                                         const KnownLines& calibration = {}) {
-        RunBench rig(true, device, 1, true, kNeeded, looksReal, calibration);
+        RunBench rig(true, device, 1, true, kCalibrated, looksReal, calibration);
         settings["store"] = "true";
         auto request = rig.shipped("stimulator-calibration", settings);
         auto& text = request.script.text;
@@ -138,7 +138,7 @@ TEST_F(ForgedCalibration, TheCommandIsThatOfTheCaptureWhateverCameAfter) {
     RecordProperty("hazard", "H1");
     // Measured after the output was told less: the reading still belongs to the train that it shows.
     const auto outcome = [&] {
-        RunBench rig(true, "sim:", 1, true, kNeeded);
+        RunBench rig(true, "sim:", 1, true, kCalibrated);
         return rig.run(withRun(R"(
   bench.arm({ load: 1000 });
   bench.drive("manual", { roughness: 1, pressure: 1 });
@@ -160,7 +160,7 @@ TEST_F(ForgedCalibration, AReadingOfUnlikeTrainsHasNoKnownCommand) {
     // The encoder is on its way down: the mean over the record would pass for a stimulator that gives too little, and a
     // calibration from it would make every later train too strong.
     for (const char* limit : {"amplitude_slew_v_per_s: 20", "interval_ratio_per_train: 1.15"}) {
-        RunBench rig(true, "sim:", 1, true, kNeeded);
+        RunBench rig(true, "sim:", 1, true, kCalibrated);
         const auto outcome = rig.run(withRun(std::string("bench.setEncoding({ ") + limit + R"( });
   bench.arm({ load: 1000 });
   bench.drive("manual", { roughness: 1, pressure: 1 });

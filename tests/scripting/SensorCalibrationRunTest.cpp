@@ -15,7 +15,7 @@ using test::RunBench;
 using testing::HasSubstr;
 using Settings = std::map<std::string, std::string>;
 
-const std::set<Role> kNeeded{Role::Sensor};
+const std::set<Role> kSensorBench{Role::Sensor};
 /// The least that a calibration takes: two surfaces, three slides, no weights.
 const Settings kShort{{"more", ""}, {"slides", "3"}, {"duration_s", "2"}, {"weights_g", ""}};
 
@@ -24,15 +24,15 @@ Settings with(Settings settings, const Settings& changes) {
     return settings;
 }
 
-ScriptOutcome calibrate(const std::string& device, const Settings& settings, std::uint64_t seed = 1) {
-    RunBench rig(true, device, seed, false, kNeeded);
+ScriptOutcome calibrateSensor(const std::string& device, const Settings& settings, std::uint64_t seed = 1) {
+    RunBench rig(true, device, seed, false, kSensorBench);
     auto outcome = runProtocol(rig.shipped("sensor-calibration", settings)).value();
     EXPECT_TRUE(rig.outputOff());
     return outcome;
 }
 
 TEST(SensorCalibrationRun, FindsScalesRankingForceAndTaxelsOfTheTwin) {
-    const auto outcome = calibrate("sim:", {});
+    const auto outcome = calibrateSensor("sim:", {});
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump();
     const auto& results = outcome.results;
@@ -60,7 +60,7 @@ TEST(SensorCalibrationRun, FindsScalesRankingForceAndTaxelsOfTheTwin) {
 
 TEST(SensorCalibrationRun, ItsProfileMakesRCalibratedFromThenOn) {
     RecordProperty("hazard", "H7");
-    RunBench rig(true, "sim:", 1, false, kNeeded);
+    RunBench rig(true, "sim:", 1, false, kSensorBench);
     const auto outcome =
         runProtocol(rig.shipped("sensor-calibration", with(kShort, {{"contact_area_cm2", "0.8"}}))).value();
     ASSERT_FALSE(outcome.error) << outcome.error->message;
@@ -110,7 +110,7 @@ RoughnessSummary taxelsUnder208g(RunBench& rig, const RoughnessSettings& setting
 
 TEST(SensorCalibrationRun, ATwinWithWrongScalesGivesTheRightPressureAfterwardsAndTheWrongOneBefore) {
     RecordProperty("hazard", "H7");
-    RunBench rig(true, kWrongTwin, 1, true, kNeeded);
+    RunBench rig(true, kWrongTwin, 1, true, kSensorBench);
     EXPECT_NEAR(pressureUnder2N(rig), 0.8 * 20'000, 100) << "what the force sensor says";
     EXPECT_EQ(taxelsUnder208g(rig, {}).pressure_pa.n, 0U) << "counts are no pressure";
     const auto outcome = runProtocol(rig.shipped("sensor-calibration", with(kShort, kWeighed))).value();
@@ -127,7 +127,7 @@ TEST(SensorCalibrationRun, ATwinWithWrongScalesGivesTheRightPressureAfterwardsAn
     EXPECT_THAT(pressed.flags, testing::Not(testing::Contains("uncalibrated units")));
 
     // In another run with the profile, and on another board.
-    RunBench same(true, kWrongTwin, 1, false, kNeeded), another(true, kWrongTwin, 2, false, kNeeded);
+    RunBench same(true, kWrongTwin, 1, false, kSensorBench), another(true, kWrongTwin, 2, false, kSensorBench);
     for (auto* bench : {&same, &another}) ASSERT_TRUE(bench->bench().setProfile(profile));
     EXPECT_NEAR(pressureUnder2N(same), 20'000, 200);
     EXPECT_NEAR(pressureUnder2N(another), 0.8 * 20'000, 100) << "scales of another fingertip are left aside";
@@ -136,7 +136,7 @@ TEST(SensorCalibrationRun, ATwinWithWrongScalesGivesTheRightPressureAfterwardsAn
 }
 
 TEST(SensorCalibrationRun, TheScalesCarryTheTolerancesOfWeightsGravityAndArea) {
-    const auto outcome = calibrate("sim:", with(kShort, kWeighed));
+    const auto outcome = calibrateSensor("sim:", with(kShort, kWeighed));
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     const auto& force = outcome.results["force"];
     // 0.1 % and 0.27 %, rectangular, and what the readings scatter.
@@ -150,14 +150,14 @@ TEST(SensorCalibrationRun, TheScalesCarryTheTolerancesOfWeightsGravityAndArea) {
         << "the references' own means count most at the ends";
     EXPECT_EQ(outcome.results["surfaces"][0]["R_expanded_uncertainty"].is_number(), true);
     auto unknown = with(kWeighed, {{"contact_area_tolerance_pct", "0"}});
-    const auto without = calibrate("sim:", with(kShort, unknown));
+    const auto without = calibrateSensor("sim:", with(kShort, unknown));
     EXPECT_TRUE(without.results["taxels"][0]["scale_expanded_uncertainty"].is_null()) << "not known is not 0";
     EXPECT_TRUE(without.results["force"]["scale_expanded_uncertainty"].is_number());
 }
 
 TEST(SensorCalibrationRun, ScalesThatAScriptMakesUpAreNotUsed) {
     RecordProperty("hazard", "H7");
-    RunBench rig(true, "sim:", 1, false, kNeeded);
+    RunBench rig(true, "sim:", 1, false, kSensorBench);
     const auto outcome = rig.run(test::withRun(
         "const weighed = [100, 200].map((mass) => ({ reading: bench.measureWeight(mass), direction: 'up' }));"
         "const found = analysis.fingertipScales(weighed, { contact_area_cm2: 1 });"
@@ -169,7 +169,7 @@ TEST(SensorCalibrationRun, ScalesThatAScriptMakesUpAreNotUsed) {
 
 TEST(SensorCalibrationRun, WhoStartsTouchedIsToldSo) {
     // A finger that never lifts: on a rig without a presenter nobody else would notice.
-    RunBench rig(true, "sim:", 1, false, kNeeded);
+    RunBench rig(true, "sim:", 1, false, kSensorBench);
     rig.bench().devices().surface.reset();
     auto request = rig.request(test::withRun("bench.measureRest({ duration_s: 2 });"));
     PresetOperator desk(Settings{{"rest", "yes"}});
@@ -191,7 +191,7 @@ protected:
 
 TEST_F(SensorProfileKept, IsAFileThatALaterOneDoesNotOverwrite) {
     const auto settings = with(kShort, {{"store", "true"}});
-    const auto first = calibrate("sim:", settings), second = calibrate("sim:", settings, 2);
+    const auto first = calibrateSensor("sim:", settings), second = calibrateSensor("sim:", settings, 2);
     ASSERT_FALSE(first.error) << first.error->message;
     ASSERT_FALSE(second.error) << second.error->message;
     const auto one = first.results["profile"]["file"].get<std::string>();
@@ -206,14 +206,14 @@ TEST_F(SensorProfileKept, IsAFileThatALaterOneDoesNotOverwrite) {
 TEST_F(SensorProfileKept, IsNotWrittenForSurfacesThatCannotBeToldApart) {
     RecordProperty("hazard", "H7");
     // Two smooth surfaces, and taxels whose noise is far above what either does to them.
-    const auto outcome = calibrate("sim:finger?taxelnoise=1000", with(kShort, {{"store", "true"},
-                                                                               {"smooth", "glass"},
-                                                                               {"smooth_ra_um", "0.01"},
-                                                                               {"smooth_rz_um", "0.07"},
-                                                                               {"rough", "plastic"},
-                                                                               {"rough_ra_um", "1.6"},
-                                                                               {"rough_rz_um", "11"},
-                                                                               {"duration_s", "1"}}));
+    const auto outcome = calibrateSensor("sim:finger?taxelnoise=1000", with(kShort, {{"store", "true"},
+                                                                                     {"smooth", "glass"},
+                                                                                     {"smooth_ra_um", "0.01"},
+                                                                                     {"smooth_rz_um", "0.07"},
+                                                                                     {"rough", "plastic"},
+                                                                                     {"rough_ra_um", "1.6"},
+                                                                                     {"rough_rz_um", "11"},
+                                                                                     {"duration_s", "1"}}));
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Fail) << outcome.results["d_prime"].dump();
     ASSERT_FALSE(outcome.reasons.empty());
@@ -226,12 +226,12 @@ TEST_F(SensorProfileKept, IsNotWrittenForSurfacesThatCannotBeToldApart) {
 TEST(SensorCalibrationRun, TakesRaFromTheProfilometersFile) {
     test::ScratchDir folder;
     const auto rough = folder.write("p120.csv", "Ra;42,4;µm\nRz;301;µm\n");
-    const auto outcome = calibrate("sim:", with(kShort, {{"rough_file", rough.string()}}));
+    const auto outcome = calibrateSensor("sim:", with(kShort, {{"rough_file", rough.string()}}));
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_NEAR(outcome.results["surfaces"][1]["ra_um"].get<double>(), 42.4, 1e-9);
     EXPECT_EQ(outcome.results["surfaces"][1]["source"], rough.string());
     const auto bad = folder.write("bad.csv", "lc;0,8;mm\nRa;42,4\n");
-    const auto refused = calibrate("sim:", with(kShort, {{"rough_file", bad.string()}}));
+    const auto refused = calibrateSensor("sim:", with(kShort, {{"rough_file", bad.string()}}));
     ASSERT_TRUE(refused.error);
     EXPECT_THAT(refused.error->message, HasSubstr("line 2: Ra is 42.4 without a unit"));
 }
@@ -246,7 +246,7 @@ TEST(SensorCalibrationRun, RefusesTypingErrorsBeforeAnythingMoves) {
         {{{"weights_g", "20; 20"}}, "two or more different weights"},
         {{{"weights_g", "20; heavy"}}, "heavy; a number above 0"}};
     for (const auto& [changes, message] : wrong) {
-        const auto outcome = calibrate("sim:", with(kShort, changes));
+        const auto outcome = calibrateSensor("sim:", with(kShort, changes));
         ASSERT_TRUE(outcome.error) << message;
         EXPECT_THAT(outcome.error->message, HasSubstr(message));
         EXPECT_TRUE(outcome.results.is_null() || !outcome.results.contains("rest")) << message;
@@ -254,8 +254,8 @@ TEST(SensorCalibrationRun, RefusesTypingErrorsBeforeAnythingMoves) {
 }
 
 TEST(SensorCalibrationRun, WithoutAContactAreaTaxelsAreNotCalibratedAndItSaysSo) {
-    const auto outcome =
-        calibrate("sim:", with(kShort, {{"contact_area_cm2", "0"}, {"weights_g", "50; 200"}, {"weight_repeats", "1"}}));
+    const auto outcome = calibrateSensor(
+        "sim:", with(kShort, {{"contact_area_cm2", "0"}, {"weights_g", "50; 200"}, {"weight_repeats", "1"}}));
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     ASSERT_EQ(outcome.results["taxels"].size(), 8U);
     EXPECT_TRUE(outcome.results["taxels"][0]["scale"].is_null());
@@ -266,7 +266,9 @@ TEST(SensorCalibrationRun, WithoutAContactAreaTaxelsAreNotCalibratedAndItSaysSo)
 }
 
 TEST(SensorCalibrationRun, TheSameSeedGivesTheSameResultAndAnotherSeedAnother) {
-    const auto surfaces = [](std::uint64_t seed) { return calibrate("sim:", kShort, seed).results["surfaces"].dump(); };
+    const auto surfaces = [](std::uint64_t seed) {
+        return calibrateSensor("sim:", kShort, seed).results["surfaces"].dump();
+    };
     const auto first = surfaces(4);
     EXPECT_GT(first.size(), 100U);
     EXPECT_EQ(first, surfaces(4));
@@ -275,7 +277,7 @@ TEST(SensorCalibrationRun, TheSameSeedGivesTheSameResultAndAnotherSeedAnother) {
 
 TEST(SensorCalibrationRun, TheSessionHoldsEverySlideAndWeight) {
     RecordProperty("hazard", "H8");
-    RunBench rig(true, "sim:", 1, true, kNeeded);
+    RunBench rig(true, "sim:", 1, true, kSensorBench);
     const auto outcome = runProtocol(rig.shipped("sensor-calibration",
                                                  with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "2"}})))
                              .value();
@@ -294,7 +296,7 @@ TEST(SensorCalibrationRun, TheSessionHoldsEverySlideAndWeight) {
 }
 
 TEST(SensorCalibrationRun, ListensOnTheSteadyClockToo) {
-    RunBench rig(false, "sim:", 1, false, kNeeded);
+    RunBench rig(false, "sim:", 1, false, kSensorBench);
     const auto outcome =
         rig.run(test::withRun("verdict({ verdict: 'pass', rest: bench.measureRest({ duration_s: 0.5 }), at: "
                               "bench.measureWeight(200, { duration_s: 0.5 }) });"));
@@ -313,7 +315,7 @@ class SensorCalibrationFault : public ::testing::TestWithParam<std::tuple<const 
 TEST_P(SensorCalibrationFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     const auto [fault, at_s] = GetParam();
-    RunBench rig(true, fmt::format("sim:finger?fault={}@{}s", fault, at_s), 1, false, kNeeded);
+    RunBench rig(true, fmt::format("sim:finger?fault={}@{}s", fault, at_s), 1, false, kSensorBench);
     const auto settings = with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}});
     const auto outcome = runProtocol(rig.shipped("sensor-calibration", settings)).value();
     ASSERT_TRUE(outcome.error);
@@ -337,7 +339,7 @@ class SensorCalibrationCancel : public ::testing::TestWithParam<int> {};
 
 TEST_P(SensorCalibrationCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
-    RunBench rig(true, "sim:", 1, false, kNeeded);
+    RunBench rig(true, "sim:", 1, false, kSensorBench);
     auto request = rig.shipped("sensor-calibration", with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}}));
     Bench& bench = rig.bench();
     int readings = 0;

@@ -10,7 +10,7 @@
 namespace tacto::test {
 namespace {
 
-constexpr int kRuns = 1000;
+constexpr int kCoverageRuns = 1000;
 constexpr BudgetOptions kBudget{.seed = 1, .draws = 1000};
 
 struct Looked {
@@ -50,7 +50,7 @@ LoadTruth drawn(const LoadTruth& stated, std::uint64_t seed) {
 
 std::array<Looked, 8> coverageOf(const LoadTruth& stated, int trains) {
     auto figures = figuresOf(stated);
-    for (int run = 0; run < kRuns; ++run) {
+    for (int run = 0; run < kCoverageRuns; ++run) {
         auto truth = drawn(stated, static_cast<std::uint64_t>(run) + 1);
         truth.width_s += Random(truth.seed, "width").uniform() / truth.rate_hz;  // no whole number of samples
         const auto captures = loadCaptures(truth, trains);

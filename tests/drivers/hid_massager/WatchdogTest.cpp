@@ -31,7 +31,7 @@ using testing::HasSubstr;
 using Steady = std::chrono::steady_clock;
 
 constexpr milliseconds kStopWithin{500};
-constexpr std::size_t kLength = 48;
+constexpr std::size_t kReportLength = 48;
 
 /// The program that drives the massager.
 class Host {
@@ -120,12 +120,12 @@ protected:
 
 UsbBytes padReport(std::uint8_t intensity) {
     UsbBytes report{2, 3, 0, intensity, intensity};
-    report.resize(kLength);
+    report.resize(kReportLength);
     return report;
 }
 
 TEST_P(WatchdogDeath, AHidrawMassagerGetsItsStop) {
-    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     Host host("hid:054c:0ce6");
     ASSERT_TRUE(host.vibrates()) << "the host ended without driving the massager";
     ASSERT_EQ(pad.waitForReports(2).back(), padReport(255));
@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(Deaths, WatchdogDeath, testing::ValuesIn(kDeaths),
 TEST(WatchdogStandstill, AProgramThatStandsStillInABurstIsStoppedForAndStaysOff) {
     RecordProperty("hazard", "H2");
     UsbTestbed bed;
-    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     Host host("hid:054c:0ce6");
     ASSERT_TRUE(host.vibrates());
     ASSERT_EQ(pad.waitForReports(2).back(), padReport(255));
@@ -186,7 +186,7 @@ protected:
 };
 
 TEST_F(WatchdogProcessTest, TriesUntilTheDeviceTakesTheStop) {
-    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     auto watchdog = hid::WatchdogProcess::start(hidraw());
     ASSERT_TRUE(watchdog) << watchdog.error().message;
     pad.refuseWrites(EIO);
@@ -209,7 +209,7 @@ std::vector<pid_t> children() {
 
 TEST_F(WatchdogProcessTest, OneThatStandsStillIsNoWatchdog) {
     RecordProperty("hazard", "H2");
-    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     const auto before = children();
     auto watchdog = hid::WatchdogProcess::start(hidraw());
     ASSERT_TRUE(watchdog) << watchdog.error().message;
@@ -239,7 +239,7 @@ TEST_F(WatchdogProcessTest, OneThatStandsStillIsNoWatchdog) {
 }
 
 TEST_F(WatchdogProcessTest, EndedInOrderSendsNothing) {
-    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     auto watchdog = hid::WatchdogProcess::start(hidraw());
     ASSERT_TRUE(watchdog) << watchdog.error().message;
     ASSERT_TRUE((*watchdog)->beat());

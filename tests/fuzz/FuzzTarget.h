@@ -1,0 +1,36 @@
+// FuzzTarget.h - what a fuzz target is: a function of some bytes that ends the program where something is wrong.
+//
+//     TACTO_FUZZ(Name, const std::uint8_t* data, std::size_t size) { ...; return 0; }
+//
+// in Name.cpp, in a namespace of its own. libFuzzer (the preset "fuzz") has a program for each; elsewhere all are in
+// one program, which finds them by name (ShortRun.cpp).
+//
+// Thread-safety: before main() and on its thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+namespace tacto::fuzz {
+
+using Target = int (*)(const std::uint8_t* data, std::size_t size);
+
+/// Those of this program.
+[[nodiscard]] inline std::map<std::string, Target, std::less<>>& targets() {
+    static std::map<std::string, Target, std::less<>> all;
+    return all;
+}
+
+}  // namespace tacto::fuzz
+
+#ifdef TACTO_LIBFUZZER
+#define TACTO_FUZZ(name, data, size) extern "C" int LLVMFuzzerTestOneInput(data, size)
+#else
+#define TACTO_FUZZ(name, data, size)                                                                      \
+    static int fuzzOne(data, size);                                                                       \
+    [[maybe_unused]] static const bool kKnown = ::tacto::fuzz::targets().emplace(#name, &fuzzOne).second; \
+    static int fuzzOne(data, size)
+#endif
