@@ -264,12 +264,9 @@ TEST_F(PresentationTest, APauseMakesItVoid) {
 /// A current source that does what the test says, on a bench load.
 class FakedPresentationTest : public testing::Test {
 protected:
-    void open(bool realTime = false) {
+    void open() {
         bench_.reset();
-        if (realTime)
-            clock_ = std::make_shared<SteadyClock>();
-        else
-            clock_ = std::make_shared<VirtualClock>();
+        clock_ = std::make_shared<VirtualClock>();
         BenchConfig config;
         auto device = std::make_unique<test::FakeStimulator>(*clock_);
         device->traits_.drive = Drive::Current;

@@ -36,7 +36,7 @@ protected:
         config.clock = clock_;
         config.limits = {test::generousLimits()};
         bench_ = Bench::create(std::move(config)).value();
-        ASSERT_TRUE(bench_->arm(ArmRequest{"1 kohm", true, true}));
+        ASSERT_IN_TIME(bench_->arm(ArmRequest{"1 kohm", true, true}));
     }
 
     std::shared_ptr<Clock> clock_;
@@ -51,9 +51,8 @@ TEST_F(PresentationTimeTest, NeverBeginsBeforeItsTime) {
     auto wanted = ascendingPresentation(Milliamps(1), Seconds(0.5));
     wanted.notBefore = clock_->now() + 300ms;
     const auto presented = bench_->present(wanted);
-    ASSERT_TRUE(presented) << presented.error().message;
-    ASSERT_IN_TIME(presented->end != PresentationEnd::Late) << presented->reason;
-    ASSERT_EQ(presented->end, PresentationEnd::Complete) << presented->reason;
+    ASSERT_IN_TIME(presented);
+    ASSERT_IN_TIME(presented->end == PresentationEnd::Complete) << presented->reason;
     ASSERT_EQ(presented->trains.size(), 3U);
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_GE(presented->trains[k].onset, wanted.notBefore + static_cast<int>(k) * Instant(500ms));
@@ -86,10 +85,10 @@ TEST_F(PresentationTimeTest, AStopAtAnyMomentIsAtTheOutputWithinTenMilliseconds)
         EXPECT_EQ(afterStop, 0) << "round " << round;
         EXPECT_FALSE(device_->on);
         if (!presented) {
-            EXPECT_EQ(presented.error().code, ErrorCode::Stopped);
+            EXPECT_IN_TIME(presented.error().code == ErrorCode::Stopped) << presented.error().message;
             continue;
         }
-        EXPECT_EQ(presented->end, PresentationEnd::Stopped) << presented->reason;
+        EXPECT_IN_TIME(presented->end == PresentationEnd::Stopped) << presented->reason;
         EXPECT_TRUE(presented->isVoid());
     }
     EXPECT_IN_TIME(soon >= kRounds - 1) << soon << " of " << kRounds << " within 10 ms";
@@ -104,9 +103,10 @@ TEST_F(PresentationTimeTest, APauseMakesItVoid) {
     });
     const auto presented = bench_->present(testPresentation(Milliamps(1), Seconds(0.5)));
     pauser.join();
-    ASSERT_TRUE(presented) << presented.error().message;
-    EXPECT_EQ(presented->end, PresentationEnd::Paused);
-    EXPECT_EQ(bench_->telemetry().state, InterlockState::Paused);
+    ASSERT_IN_TIME(presented);
+    EXPECT_IN_TIME(presented->end == PresentationEnd::Paused) << presented->reason;
+    EXPECT_TRUE(presented->isVoid());
+    EXPECT_IN_TIME(bench_->telemetry().state == InterlockState::Paused);
 }
 
 TEST_F(PresentationTimeTest, AMassagerVibratesAtTheSameOnsets) {

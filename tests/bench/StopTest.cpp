@@ -5,6 +5,7 @@
 
 #include "core/bench/Bench.h"
 #include "tests/bench/FakeStimulator.h"
+#include "tests/support/InTime.h"
 
 namespace tacto {
 namespace {
@@ -75,15 +76,15 @@ TEST_F(StopTest, WhileTheDriveIsSetLeavesNoDriveForTheNextArming) {
         return true;
     };
     open(true);
-    ASSERT_TRUE(arm());
+    ASSERT_IN_TIME(arm());
     stops = true;
     const auto driven = bench_->drive(DriveSource::Manual, 1, 1);
     ASSERT_FALSE(driven);
-    EXPECT_EQ(driven.error().code, ErrorCode::Stopped);
-    ASSERT_TRUE(bench_->begin(bench_->stops().mark()));
-    ASSERT_TRUE(arm());
+    EXPECT_IN_TIME(driven.error().code == ErrorCode::Stopped);
+    ASSERT_IN_TIME(bench_->begin(bench_->stops().mark()));
+    ASSERT_IN_TIME(arm());
     const int delivered = device_->delivered;
-    ASSERT_TRUE(bench_->wait(Seconds(1)));
+    ASSERT_IN_TIME(bench_->wait(Seconds(1)));
     EXPECT_EQ(device_->delivered, delivered);
 }
 
@@ -204,7 +205,7 @@ TEST_F(StopTest, AtAnyMomentOfArmingAndDrivingIsFollowedByNoTrain) {
             ++armed;
             if (bench_->drive(DriveSource::Manual, 1, 1)) {
                 ++driven;
-                EXPECT_FALSE(bench_->wait(Seconds(1))) << "the stop ends it";
+                EXPECT_IN_TIME(!bench_->wait(Seconds(1))) << "the stop ends it";
             }
         }
         stopper.join();
@@ -214,21 +215,21 @@ TEST_F(StopTest, AtAnyMomentOfArmingAndDrivingIsFollowedByNoTrain) {
     }
     RecordProperty("armed", armed);
     RecordProperty("driven", driven);
-    EXPECT_GE(driven, kRounds / 10) << "most stops came before there was anything to stop";
-    EXPECT_LT(driven, kRounds) << "no stop came while it was arming";
+    EXPECT_IN_TIME(driven >= kRounds / 10) << "most stops came before there was anything to stop";
+    EXPECT_IN_TIME(driven < kRounds) << "no stop came while it was arming";
 }
 
 TEST_F(StopTest, AStatusThatNeverComesIsAFault) {
     RecordProperty("hazard", "H3");
     open(true);
-    ASSERT_TRUE(arm());
+    ASSERT_IN_TIME(arm());
     device_->statusBlocks = true;
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 1, 1));
     const auto waited = bench_->wait(Seconds(5));
     device_->statusBlocks = false;
     ASSERT_FALSE(waited);
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
-    EXPECT_LT(clock_->now(), 3s) << "found by the loop, not by the device thread that waits";
+    EXPECT_IN_TIME(clock_->now() < 3s) << "found by the loop, not by the device thread that waits";
 }
 
 TEST_F(StopTest, APauseHoldsBackTheTrainAlreadyHandedOver) {

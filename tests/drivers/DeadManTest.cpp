@@ -14,6 +14,7 @@
 #include "drivers/simulated/SimulatedStimulator.h"
 #include "tests/drivers/SimBench.h"
 #include "tests/drivers/conformance/StimulatorConformance.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -69,7 +70,7 @@ protected:
         RecordProperty("hazard", "H2");
         const auto opened =
             makeSimulatedDriver()->open({"sim", "stimulator", {}}, {}, OpenContext{clock_, 1, "1 kohm"}, devices_);
-        ASSERT_TRUE(opened.has_value()) << opened.error().message;
+        ASSERT_IN_TIME(opened);
         circuit_ = &dynamic_cast<sim::WorldMember&>(*devices_.stimulator).world()->circuit();
     }
 
@@ -83,9 +84,9 @@ protected:
         request.interval = Seconds(22);
         request.onset = clock_.now();
         auto approval = gate->approve(request);
-        ASSERT_TRUE(approval.has_value()) << approval.error().message;
+        ASSERT_IN_TIME(approval);
         const auto begun = devices_.stimulator->deliver(std::move(*approval));
-        ASSERT_TRUE(begun.has_value()) << begun.error().message;
+        ASSERT_IN_TIME(begun);
     }
 
     /// Passes the host's heartbeats on to the device for `duration`.
@@ -93,7 +94,7 @@ protected:
         const Instant end = clock_.now() + toInstant(duration);
         while (clock_.now() < end) {
             if (host_.beat(std::chrono::milliseconds(10))) {
-                EXPECT_TRUE(devices_.stimulator->keepAlive().has_value());
+                EXPECT_IN_TIME(devices_.stimulator->keepAlive());
             }
         }
     }
@@ -102,7 +103,7 @@ protected:
     void runToHeartbeat() {
         for (int i = 0; i < 1000 && !host_.beat(std::chrono::milliseconds(10)); ++i) {
         }
-        EXPECT_TRUE(devices_.stimulator->keepAlive().has_value());
+        EXPECT_IN_TIME(devices_.stimulator->keepAlive());
     }
 
     [[nodiscard]] bool outputOn() { return circuit_->active(clock_.now()); }
@@ -120,20 +121,21 @@ protected:
 TEST_F(DeadMan, OutputEndsWithin2SecondsOfAKill) {
     ASSERT_NO_FATAL_FAILURE(begin());
     runFor(Seconds(1));
-    ASSERT_TRUE(outputOn());
+    ASSERT_IN_TIME(outputOn());
     runToHeartbeat();
     host_.send(SIGKILL);
     const Instant killed = clock_.now();
     runFor(Seconds(2.5));
     EXPECT_FALSE(outputOn());
     EXPECT_LE(lastOutput() - killed, std::chrono::milliseconds(2000));
-    EXPECT_GE(lastOutput() - killed, std::chrono::milliseconds(1700)) << "it would have gone on without the kill";
+    EXPECT_IN_TIME(lastOutput() - killed >= std::chrono::milliseconds(1700))
+        << "it would have gone on without the kill";
 }
 
 TEST_F(DeadMan, OutputEndsWithin2100MillisecondsOfAHang) {
     ASSERT_NO_FATAL_FAILURE(begin());
     runFor(Seconds(1));
-    ASSERT_TRUE(outputOn());
+    ASSERT_IN_TIME(outputOn());
     runToHeartbeat();
     host_.send(SIGSTOP);
     const Instant hung = clock_.now();
@@ -148,9 +150,9 @@ TEST_F(DeadMan, OutputEndsWithin2100MillisecondsOfAHang) {
 TEST_F(DeadMan, ControlRunWithHeartbeatGoesOnFor10Seconds) {
     ASSERT_NO_FATAL_FAILURE(begin());
     runFor(Seconds(10));
-    EXPECT_TRUE(outputOn());
-    EXPECT_LE(clock_.now() - lastOutput(), std::chrono::milliseconds(100));
-    EXPECT_GE(circuit_->inspect(clock_.now(), [](const auto& pulses) { return pulses.back().number; }), 490U);
+    EXPECT_IN_TIME(outputOn());
+    EXPECT_IN_TIME(clock_.now() - lastOutput() <= std::chrono::milliseconds(100));
+    EXPECT_IN_TIME(circuit_->inspect(clock_.now(), [](const auto& pulses) { return pulses.back().number; }) >= 490U);
 }
 
 }  // namespace

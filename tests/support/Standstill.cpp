@@ -86,15 +86,22 @@ private:
     std::thread echo_;  // last: starts when all else is ready
 };
 
-/// Whether anything failed that no standstill excuses.
+/// Whether anything failed that no standstill excuses. An ASSERT_IN_TIME ends its test from within a function that the
+/// test calls, too: what failed for want of it would be no deadline.
 class Failures : public testing::EmptyTestEventListener {
 public:
     void OnTestPartResult(const testing::TestPartResult& part) override {
-        if (part.failed() && std::string_view(part.message()).find(tacto::test::kNotInTime) != 0) broken_ = true;
+        if (!part.failed()) return;
+        if (std::string_view(part.message()).find(tacto::test::kNotInTime) != 0) {
+            broken_ = true;
+        } else if (part.fatally_failed() && std::this_thread::get_id() == tests_) {
+            throw testing::AssertionException(part);
+        }
     }
     [[nodiscard]] bool broken() const noexcept { return broken_; }
 
 private:
+    const std::thread::id tests_ = std::this_thread::get_id();
     std::atomic<bool> broken_{false};  // a test's threads may fail, too
 };
 
@@ -102,16 +109,20 @@ class StandstillWatch : public testing::Environment {
 public:
     void SetUp() override {
         testing::UnitTest::GetInstance()->listeners().Append(owned_.release());
-        thread_ = std::thread([this] {
+        // From here on, not from when the thread is first given a processor; and to the end.
+        thread_ = std::thread([this, last = Clock::now()]() mutable {
             Words words;
-            auto last = Clock::now();
-            for (int turn = 0; !ending_; ++turn) {
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            const auto look = [&] {
                 const auto now = Clock::now();
                 longest_ = std::max(longest_, Milliseconds(now - last));
                 last = now;
+            };
+            for (int turn = 0; !ending_; ++turn) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                look();
                 if (turn % 5 == 0) words.pass();
             }
+            look();
             slowly_ = words.slow();
             said_ = std::to_string(words.slowOnes()) + " of " + std::to_string(words.passed());
         });

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/support/InTime.h"
+
 namespace tacto::test {
 
 void OscilloscopeConformance::SetUp() {
@@ -23,7 +25,8 @@ ScopeSettings OscilloscopeConformance::usual() const {
 std::optional<Capture> OscilloscopeConformance::captured() {
     for (int i = 0; i < 20; ++i) {
         auto found = device().poll();
-        if (!found) throw std::runtime_error(found.error().message);
+        EXPECT_IN_TIME(found);
+        if (!found) return std::nullopt;
         if (*found) return std::move(**found);
         rig_->wait(Seconds(0.01));
     }
@@ -56,24 +59,24 @@ TEST_P(OscilloscopeConformance, RefusesSettingsItCannotKeep) {
     refused("trigger level NaN", [&](auto& s) { s.triggerLevel = nan; });
     refused("no voltage range", [](auto& s) { s.voltageRange = Volts(0); });
     refused("no current range", [](auto& s) { s.currentRange = Milliamps(-1); });
-    EXPECT_TRUE(device().configure(usual()).has_value());
+    EXPECT_IN_TIME(device().configure(usual()));
 }
 
 TEST_P(OscilloscopeConformance, HasNothingBeforeATrigger) {
-    ASSERT_TRUE(device().configure(usual()).has_value());
-    ASSERT_TRUE(device().arm().has_value());
+    ASSERT_IN_TIME(device().configure(usual()));
+    ASSERT_IN_TIME(device().arm());
     rig_->wait(Seconds(0.05));
     const auto found = device().poll();
-    ASSERT_TRUE(found.has_value());
+    ASSERT_IN_TIME(found);
     EXPECT_FALSE(found->has_value());
 }
 
 TEST_P(OscilloscopeConformance, ACaptureIsWhatWasAskedFor) {
-    ASSERT_TRUE(device().configure(usual()).has_value());
-    ASSERT_TRUE(device().arm().has_value());
+    ASSERT_IN_TIME(device().configure(usual()));
+    ASSERT_IN_TIME(device().arm());
     if (!rig_->pulse()) GTEST_SKIP() << "this rig cannot make a pulse";
     const auto capture = captured();
-    ASSERT_TRUE(capture.has_value());
+    ASSERT_IN_TIME(capture);
     ASSERT_EQ(capture->channels.size(), 2U);
     EXPECT_EQ(capture->channels[0].unit, "V");
     EXPECT_EQ(capture->channels[1].unit, "A");
@@ -89,11 +92,11 @@ TEST_P(OscilloscopeConformance, ACaptureIsWhatWasAskedFor) {
 }
 
 TEST_P(OscilloscopeConformance, TheTriggerStandsWhereThePreTriggerSays) {
-    ASSERT_TRUE(device().configure(usual()).has_value());
-    ASSERT_TRUE(device().arm().has_value());
+    ASSERT_IN_TIME(device().configure(usual()));
+    ASSERT_IN_TIME(device().arm());
     if (!rig_->pulse()) GTEST_SKIP() << "this rig cannot make a pulse";
     const auto capture = captured();
-    ASSERT_TRUE(capture.has_value());
+    ASSERT_IN_TIME(capture);
     const double before = (capture->trigger_s - capture->start_s) * capture->rate_hz;
     EXPECT_NEAR(before, usual().preTrigger * static_cast<double>(usual().samples), 1.0);
     const auto at = static_cast<std::size_t>(std::ceil(before)) + 1;
@@ -103,35 +106,35 @@ TEST_P(OscilloscopeConformance, TheTriggerStandsWhereThePreTriggerSays) {
 }
 
 TEST_P(OscilloscopeConformance, EachPulseGivesOneCaptureUntilDisarmed) {
-    ASSERT_TRUE(device().configure(usual()).has_value());
-    ASSERT_TRUE(device().arm().has_value());
+    ASSERT_IN_TIME(device().configure(usual()));
+    ASSERT_IN_TIME(device().arm());
     double last = -1;
     for (int i = 0; i < 3; ++i) {
         if (!rig_->pulse()) GTEST_SKIP() << "this rig cannot make a pulse";
         const auto capture = captured();
-        ASSERT_TRUE(capture.has_value());
+        ASSERT_IN_TIME(capture);
         EXPECT_GT(capture->trigger_s, last);
         last = capture->trigger_s;
         EXPECT_FALSE(captured().has_value());
     }
     device().disarm();
-    ASSERT_TRUE(rig_->pulse());
+    ASSERT_IN_TIME(rig_->pulse());
     EXPECT_FALSE(captured().has_value());
 }
 
 TEST_P(OscilloscopeConformance, AForcedRecordIsMarkedOverlapsNoOtherAndLeavesItWaiting) {
     auto* forced = dynamic_cast<ForcedTrigger*>(&device());
     if (forced == nullptr) GTEST_SKIP() << "this oscilloscope takes no record without a trigger";
-    ASSERT_TRUE(device().configure(usual()).has_value());
+    ASSERT_IN_TIME(device().configure(usual()));
     const auto idle = forced->forceTrigger();
     ASSERT_FALSE(idle.has_value()) << "it is not armed";
     EXPECT_EQ(idle.error().code, ErrorCode::Unsupported);
     double free_s = toSeconds(rig_->clock().now());  // from here on no record has been
-    ASSERT_TRUE(device().arm().has_value());
+    ASSERT_IN_TIME(device().arm());
     for (int i = 0; i < 2; ++i) {
-        ASSERT_TRUE(forced->forceTrigger().has_value());
+        ASSERT_IN_TIME(forced->forceTrigger());
         const auto capture = captured();
-        ASSERT_TRUE(capture.has_value());
+        ASSERT_IN_TIME(capture);
         EXPECT_TRUE(capture->untriggered);
         EXPECT_TRUE(std::isnan(capture->trigger_s));
         EXPECT_EQ(capture->samples(), usual().samples);
@@ -142,7 +145,7 @@ TEST_P(OscilloscopeConformance, AForcedRecordIsMarkedOverlapsNoOtherAndLeavesItW
     }
     if (!rig_->pulse()) GTEST_SKIP() << "this rig cannot make a pulse";
     const auto triggered = captured();
-    ASSERT_TRUE(triggered.has_value());
+    ASSERT_IN_TIME(triggered);
     EXPECT_FALSE(triggered->untriggered);
     EXPECT_GT(triggered->trigger_s, free_s);
 }

@@ -4,6 +4,7 @@
 
 #include "drivers/hid_massager/HidDriver.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -52,12 +53,12 @@ TEST_F(HidDriverTest, ADualSenseIsListedAndOpenedAndGetsItsOwnReport) {
     EXPECT_EQ(list[0].name, "DualSense");
     EXPECT_EQ(list[0].role, Role::Massager);
     EXPECT_FALSE(list[0].simulated);
-    ASSERT_TRUE(open(list[0].uri));
+    ASSERT_IN_TIME(open(list[0].uri));
     ASSERT_NE(devices.massager, nullptr);
     EXPECT_EQ(devices.massager->identity().uri, list[0].uri);
     SafetyGate gate(clock);
     auto burst = gate.approve(VibrationBurst{1, Seconds(0.5)});
-    ASSERT_TRUE(devices.massager->vibrate(std::move(*burst)));
+    ASSERT_IN_TIME(devices.massager->vibrate(std::move(*burst)));
     Bytes expected{2, 3, 0, 0xFF, 0xFF};
     expected.resize(48);
     EXPECT_EQ(pad->last(), expected);
@@ -72,13 +73,13 @@ TEST_F(HidDriverTest, ADeviceWithAHapticsPageNeedsNoTemplate) {
     pad->setFeature({2, 0x03, 0x10, 0x04, 0x10, 50, 0, 0, 0});  // ordinal 3 clicks for 50 ms
     ASSERT_EQ(driver()->list().size(), 1u);
     const auto opened = open("hid:");
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_IN_TIME(opened);
     SafetyGate gate(clock);
     auto burst = gate.approve(VibrationBurst{1, Seconds(0.5)});
-    ASSERT_TRUE(devices.massager->vibrate(std::move(*burst)));
+    ASSERT_IN_TIME(devices.massager->vibrate(std::move(*burst)));
     EXPECT_EQ(pad->last(), (Bytes{1, 0xFF, 0xFF, 3, 9}));  // 10 times, then it is over by itself
     devices.massager->forceOff();
-    EXPECT_TRUE(pad->waitForLast({1, 0, 0, 2, 0}));
+    EXPECT_IN_TIME(pad->waitForLast({1, 0, 0, 2, 0}));
 }
 
 TEST_F(HidDriverTest, OneThatMayNotBeOpenedIsListedWithTheSentenceThatHelps) {
@@ -95,7 +96,7 @@ TEST_F(HidDriverTest, OfTwoTheSerialNumberChooses) {
     plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
     const auto second = plug(0x054C, 0x0CE6, "A2", outputDescriptor(2, 48));
     EXPECT_THAT(refusal("hid:054c:0ce6", ErrorCode::InvalidArgument), AllOf(HasSubstr("A1"), HasSubstr("A2")));
-    ASSERT_TRUE(open("hid:054c:0ce6?serial=A2"));
+    ASSERT_IN_TIME(open("hid:054c:0ce6?serial=A2"));
     EXPECT_EQ(second->openNow(), 1);
     EXPECT_THAT(refusal("hid:054c:0ce6?serial=A3", ErrorCode::NotFound), HasSubstr("A3"));
 }
@@ -116,7 +117,7 @@ TEST_F(HidDriverTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
                                            "hid:054c:0df2?serial=same&at=/dev/hidraw4",
                                            "hid:054c:0df2?serial=same&at=/dev/hidraw5"));
     for (std::size_t i = 0; i < uris.size(); ++i) {
-        ASSERT_TRUE(open(uris[i])) << uris[i];
+        ASSERT_IN_TIME(open(uris[i])) << uris[i];
         EXPECT_EQ(devices.massager->identity().uri, uris[i]);
         for (std::size_t other = 0; other < uris.size(); ++other) {
             EXPECT_EQ(hidraw->plugged[other]->openNow(), other == i ? 1 : 0) << uris[i];
@@ -141,7 +142,7 @@ TEST_F(HidDriverTest, ADeviceThatItsTemplateDoesNotFitIsRefused) {
 TEST_F(HidDriverTest, AnotherDeviceInItsPlaceIsNotTakenForIt) {
     RecordProperty("hazard", "H4");
     const auto pad = plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
-    ASSERT_TRUE(open("hid:"));
+    ASSERT_IN_TIME(open("hid:"));
     SafetyGate gate(clock);
     pad->unplug();
     const auto burst = [&] {
@@ -152,7 +153,7 @@ TEST_F(HidDriverTest, AnotherDeviceInItsPlaceIsNotTakenForIt) {
     pad->plug();
     EXPECT_FALSE(burst());
     pad->setDescriptor(outputDescriptor(2, 48));
-    EXPECT_TRUE(burst());
+    EXPECT_IN_TIME(burst());
 }
 
 TEST_F(HidDriverTest, ATemplateOfOnesOwnServesADeviceThatNoOtherDescribes) {
@@ -160,10 +161,10 @@ TEST_F(HidDriverTest, ATemplateOfOnesOwnServesADeviceThatNoOtherDescribes) {
     EXPECT_TRUE(driver()->list().empty());
     EXPECT_THAT(refusal("hid:1111:2222?template=wheel", ErrorCode::NotFound),
                 AllOf(HasSubstr("wheel"), HasSubstr("dualsense")));
-    ASSERT_TRUE(open("hid:1111:2222?template=dualshock4"));
+    ASSERT_IN_TIME(open("hid:1111:2222?template=dualshock4"));
     EXPECT_EQ(pad->openNow(), 1);
     const auto file = (sourceDir() / "resources" / "massagers" / "dualshock4.json").string();
-    ASSERT_TRUE(open("hid:1111:2222?template=" + file));
+    ASSERT_IN_TIME(open("hid:1111:2222?template=" + file));
 }
 
 TEST_F(HidDriverTest, WhatIsNoUriOfOursIsRefusedByName) {
@@ -172,7 +173,7 @@ TEST_F(HidDriverTest, WhatIsNoUriOfOursIsRefusedByName) {
     EXPECT_THAT(refusal("hid:054c:0ce6:9", ErrorCode::InvalidArgument), HasSubstr("four hexadecimal"));
     EXPECT_THAT(refusal("hid:?motor=left", ErrorCode::InvalidArgument), AllOf(HasSubstr("motor"), HasSubstr("serial")));
     plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
-    ASSERT_TRUE(open("hid:"));
+    ASSERT_IN_TIME(open("hid:"));
     const auto second = driver()->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock}, devices);
     ASSERT_FALSE(second);
     EXPECT_THAT(second.error().message, HasSubstr("open already"));

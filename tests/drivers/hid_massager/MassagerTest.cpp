@@ -23,7 +23,7 @@ class HidMassagerTest : public testing::Test {
 protected:
     void open(hid::VibrationReports reports = padReports()) {
         auto opened = HidMassager::open([this] { return device.open(); }, identity, std::move(reports), clock);
-        ASSERT_TRUE(opened) << opened.error().message;
+        ASSERT_IN_TIME(opened);
         massager = std::move(*opened);
     }
     ApprovedBurst approved(double intensity = 1, Seconds duration = Seconds(1)) {
@@ -88,17 +88,17 @@ TEST_F(HidMassagerTest, WithoutAWatchdogNothingIsWrittenButTheStop) {
     ASSERT_IN_TIME(device.waitForWrites(before + 1));
     EXPECT_EQ(device.last(), kOff);
     device.refuseWatch(false);
-    EXPECT_TRUE(vibrate());  // with another one
+    EXPECT_IN_TIME(vibrate());  // with another one
 }
 
 TEST_F(HidMassagerTest, TheWatchdogIsToldThatOutputIsOnUntilTheDeviceTookItsStop) {
     RecordProperty("hazard", "H2");
     open();
     EXPECT_EQ(device.beats(), 0);
-    ASSERT_TRUE(vibrate(Seconds(0.3)));
+    ASSERT_IN_TIME(vibrate(Seconds(0.3)));
     EXPECT_FALSE(device.watchRests());
     ASSERT_IN_TIME(device.waitForWrites(3));
-    EXPECT_GE(device.beats(), 4);  // every 50 ms
+    EXPECT_IN_TIME(device.beats() >= 4);  // every 50 ms
     massager->forceOff();
     ASSERT_IN_TIME(device.waitForWrites(4));
     massager.reset();
@@ -108,11 +108,11 @@ TEST_F(HidMassagerTest, TheWatchdogIsToldThatOutputIsOnUntilTheDeviceTookItsStop
 TEST_F(HidMassagerTest, AWatchdogThatEndsInABurstEndsTheBurst) {
     RecordProperty("hazard", "H2");
     open();
-    ASSERT_TRUE(vibrate(Seconds(1)));
+    ASSERT_IN_TIME(vibrate(Seconds(1)));
     device.refuseWatch(true);
     const Instant ended = clock.now();
     ASSERT_IN_TIME(device.waitForWrites(3));
-    EXPECT_LE(toSeconds(clock.now() - ended), 0.5);
+    EXPECT_IN_TIME(toSeconds(clock.now() - ended) <= 0.5);
     EXPECT_EQ(device.last(), kOff);
     const auto told = vibrate();
     ASSERT_FALSE(told);
@@ -121,34 +121,34 @@ TEST_F(HidMassagerTest, AWatchdogThatEndsInABurstEndsTheBurst) {
 
 TEST_F(HidMassagerTest, ABurstIsAsLongAsItWasApproved) {
     open();
-    ASSERT_TRUE(vibrate(Seconds(0.1)));
-    EXPECT_EQ(device.last(), kOn);
+    ASSERT_IN_TIME(vibrate(Seconds(0.1)));
+    EXPECT_IN_TIME(device.last() == kOn);
     ASSERT_IN_TIME(device.waitForWrites(3));
     const auto writes = device.writes();
     EXPECT_EQ(writes[2].bytes, kOff);
     const double lasted = toSeconds(writes[2].at - writes[1].at);
     EXPECT_GE(lasted, 0.1 - 1e-6);
-    EXPECT_LE(lasted, 0.2);  // a loaded machine may be late
+    EXPECT_IN_TIME(lasted <= 0.2);  // a loaded machine may be late
 }
 
 TEST_F(HidMassagerTest, KeepAliveRepeatsTheBurst) {
     open(padReports(Seconds(0.02)));
-    ASSERT_TRUE(vibrate(Seconds(0.1)));
+    ASSERT_IN_TIME(vibrate(Seconds(0.1)));
     ASSERT_IN_TIME(device.waitForLast(kOff));
     const auto writes = device.writes();
-    EXPECT_GE(writes.size(), 4u);
+    EXPECT_IN_TIME(writes.size() >= 4u);
     for (std::size_t i = 1; i + 1 < writes.size(); ++i) EXPECT_EQ(writes[i].bytes, kOn);
 }
 
 TEST_F(HidMassagerTest, ForceOffSendsTheStopFromAnyThreadAtOnce) {
     RecordProperty("hazard", "H2");
     open();
-    ASSERT_TRUE(vibrate());
+    ASSERT_IN_TIME(vibrate());
     const Instant before = clock.now();
     std::async(std::launch::async, [&] { massager->forceOff(); }).get();
     ASSERT_IN_TIME(device.waitForWrites(3));
     EXPECT_EQ(device.last(), kOff);
-    EXPECT_LE(toSeconds(device.writes()[2].at - before), 0.1);
+    EXPECT_IN_TIME(toSeconds(device.writes()[2].at - before) <= 0.1);
     EXPECT_FALSE(massager->vibrating());
 }
 
@@ -158,7 +158,7 @@ TEST_F(HidMassagerTest, AStopIsWithTheDeviceInLessThanTenMilliseconds) {
     std::vector<double> stops, bursts;
     for (int i = 0; i < 200; ++i) {
         const Instant asked = clock.now();
-        ASSERT_TRUE(vibrate());
+        ASSERT_IN_TIME(vibrate());
         bursts.push_back(toSeconds(device.writes().back().at - asked));
         const auto before = device.writes().size();
         const Instant called = clock.now();
@@ -172,7 +172,7 @@ TEST_F(HidMassagerTest, AStopIsWithTheDeviceInLessThanTenMilliseconds) {
     RecordProperty("stop_median_us", static_cast<int>(stops[100] * 1e6));
     RecordProperty("stop_p99_us", static_cast<int>(stops[197] * 1e6));
     RecordProperty("burst_median_us", static_cast<int>(bursts[100] * 1e6));
-    EXPECT_LE(stops[197], 0.01);
+    EXPECT_IN_TIME(stops[197] <= 0.01);
 }
 
 TEST_F(HidMassagerTest, ForceOffNeitherAllocatesNorWaitsForAWriteThatIsUnderWay) {
@@ -181,7 +181,7 @@ TEST_F(HidMassagerTest, ForceOffNeitherAllocatesNorWaitsForAWriteThatIsUnderWay)
     open();
     device.hold(true);
     auto late = std::async(std::launch::async, [&] { return vibrate(); });
-    ASSERT_TRUE(device.waitForHeld());
+    ASSERT_IN_TIME(device.waitForHeld());
     const auto before = allocationsOfThisThread();
     massager->forceOff();
     massager->forceOff();
@@ -199,7 +199,7 @@ TEST_F(HidMassagerTest, APortThatCanStopAtOnceIsAskedTo) {
     device.setUrgentStop(urgent);
     device.hold(true);
     auto late = std::async(std::launch::async, [&] { return vibrate(); });
-    ASSERT_TRUE(device.waitForHeld());
+    ASSERT_IN_TIME(device.waitForHeld());
     massager->forceOff();
     EXPECT_EQ(device.last(), urgent);  // though the write before is held
     device.hold(false);
@@ -213,17 +213,17 @@ TEST_F(HidMassagerTest, ASlowDeviceIsATimeoutAndItsBurstIsStopped) {
     device.hold(true);
     const auto slow = vibrate();
     ASSERT_FALSE(slow);
-    EXPECT_EQ(slow.error().code, ErrorCode::Timeout);
+    ASSERT_IN_TIME(slow.error().code == ErrorCode::Timeout);
     EXPECT_THAT(slow.error().message, HasSubstr("50 ms"));
     const auto again = vibrate();
     ASSERT_FALSE(again);
-    EXPECT_EQ(again.error().code, ErrorCode::Timeout);
+    ASSERT_IN_TIME(again.error().code == ErrorCode::Timeout);
     EXPECT_THAT(again.error().message, HasSubstr("before"));
     device.hold(false);
     ASSERT_IN_TIME(device.waitForWrites(3));
     EXPECT_EQ(device.writes()[1].bytes, kOn);  // the one that was held
     EXPECT_EQ(device.writes()[2].bytes, kOff);
-    EXPECT_TRUE(vibrate());  // slow is not broken
+    EXPECT_IN_TIME(vibrate());  // slow is not broken
     EXPECT_EQ(device.openings(), 1);
 }
 
@@ -233,11 +233,11 @@ TEST_F(HidMassagerTest, AShortWriteIsAFaultAndStopped) {
     device.takeOnly(3);
     const auto cut = vibrate();
     ASSERT_FALSE(cut);
-    EXPECT_EQ(cut.error().code, ErrorCode::Device);
+    ASSERT_IN_TIME(cut.error().code == ErrorCode::Device);
     EXPECT_THAT(cut.error().message, testing::AllOf(HasSubstr("3 bytes"), HasSubstr("8 were expected")));
     ASSERT_IN_TIME(device.waitForWrites(2));
     EXPECT_EQ(device.last(), kOff);
-    EXPECT_TRUE(vibrate());
+    EXPECT_IN_TIME(vibrate());
     EXPECT_EQ(device.openings(), 2);  // after a fault it is opened anew
 }
 
@@ -247,7 +247,7 @@ TEST_F(HidMassagerTest, ARefusedReportIsAFaultAndTheStopIsTriedUntilItIsTaken) {
     device.refuse(true);
     const auto refused = vibrate();
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+    ASSERT_IN_TIME(refused.error().code == ErrorCode::Device);
     EXPECT_THAT(refused.error().message, testing::AllOf(HasSubstr("Pad"), HasSubstr("refused")));
     device.refuse(false);
     ASSERT_IN_TIME(device.waitForWrites(2));
@@ -257,18 +257,18 @@ TEST_F(HidMassagerTest, ARefusedReportIsAFaultAndTheStopIsTriedUntilItIsTaken) {
 TEST_F(HidMassagerTest, AStopThatFailsWhileNobodyAsksIsToldOnceAndSentWhenItCan) {
     RecordProperty("hazard", "H2");
     open();
-    ASSERT_TRUE(vibrate(Seconds(0.02)));
+    ASSERT_IN_TIME(vibrate(Seconds(0.02)));
     const int before = device.attempts();
     device.refuse(true);
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     while (device.attempts() < before + 2 && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
-    ASSERT_GE(device.attempts(), before + 2);  // tried again by itself
+    ASSERT_IN_TIME(device.attempts() >= before + 2);  // tried again by itself
     const auto told = vibrate();
     ASSERT_FALSE(told);
-    EXPECT_EQ(told.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(told.error().code == ErrorCode::Device);
     device.refuse(false);
     ASSERT_IN_TIME(device.waitForLast(kOff));
-    EXPECT_TRUE(vibrate());
+    EXPECT_IN_TIME(vibrate());
 }
 
 TEST_F(HidMassagerTest, ABurstThatWaitsBehindAStopThatFailsIsToldWhy) {
@@ -276,13 +276,13 @@ TEST_F(HidMassagerTest, ABurstThatWaitsBehindAStopThatFailsIsToldWhy) {
     open();
     device.hold(true);
     massager->forceOff();
-    ASSERT_TRUE(device.waitForHeld());
+    ASSERT_IN_TIME(device.waitForHeld());
     auto behind = std::async(std::launch::async, [&] { return vibrate(); });
     device.refuse(true);
     device.hold(false);
     const auto told = behind.get();
     ASSERT_FALSE(told);
-    EXPECT_EQ(told.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(told.error().code == ErrorCode::Device);
     device.refuse(false);
     EXPECT_IN_TIME(device.waitForLast(kOff));
 }
@@ -290,16 +290,16 @@ TEST_F(HidMassagerTest, ABurstThatWaitsBehindAStopThatFailsIsToldWhy) {
 TEST_F(HidMassagerTest, UnpluggedInABurstIsAFaultAndThePluggedInDeviceServesAgain) {
     RecordProperty("hazard", "H2");
     open();
-    ASSERT_TRUE(vibrate());
+    ASSERT_IN_TIME(vibrate());
     device.unplug();
     const auto gone = vibrate();
     ASSERT_FALSE(gone);
-    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
     const auto still = vibrate();
     ASSERT_FALSE(still);
     EXPECT_THAT(still.error().message, HasSubstr("could not be opened again"));
     device.plug();
-    EXPECT_TRUE(vibrate());
+    EXPECT_IN_TIME(vibrate());
     const auto writes = device.writes();
     ASSERT_GE(writes.size(), 4u);
     EXPECT_EQ(writes[writes.size() - 2].bytes, kOff);  // stopped before it may vibrate again
@@ -310,7 +310,7 @@ TEST_F(HidMassagerTest, UnpluggedInABurstIsAFaultAndThePluggedInDeviceServesAgai
 TEST_F(HidMassagerTest, ClosingInABurstStops) {
     RecordProperty("hazard", "H2");
     open();
-    ASSERT_TRUE(vibrate());
+    ASSERT_IN_TIME(vibrate());
     massager.reset();
     EXPECT_EQ(device.last(), kOff);
     EXPECT_EQ(device.openNow(), 0);
@@ -322,7 +322,7 @@ TEST_F(HidMassagerTest, ClosingWhileABurstIsUnderWayStopsBehindIt) {
     device.hold(true);
     ASSERT_FALSE(vibrate());  // slow, and still under way
     auto closing = std::async(std::launch::async, [&] { massager.reset(); });
-    ASSERT_TRUE(device.waitForHeld());
+    ASSERT_IN_TIME(device.waitForHeld());
     device.hold(false);
     closing.get();
     EXPECT_EQ(device.last(), kOff);
@@ -330,7 +330,7 @@ TEST_F(HidMassagerTest, ClosingWhileABurstIsUnderWayStopsBehindIt) {
 
 TEST_F(HidMassagerTest, ClosingADeviceThatIsGoneEnds) {
     open();
-    ASSERT_TRUE(vibrate());
+    ASSERT_IN_TIME(vibrate());
     device.unplug();
     massager.reset();
     EXPECT_EQ(device.openNow(), 0);
@@ -351,7 +351,7 @@ TEST_F(HidMassagerTest, AStopBetweenApprovalAndWriteLeavesNothingVibrating) {
     stopper.join();
     massager->forceOff();
     RecordProperty("vibrated", vibrated);
-    EXPECT_GE(vibrated, 1) << "each was refused: there was nothing to stop";
+    EXPECT_IN_TIME(vibrated >= 1) << "each was refused: there was nothing to stop";
     EXPECT_IN_TIME(device.waitForLast(kOff));
     EXPECT_FALSE(massager->vibrating());
 }

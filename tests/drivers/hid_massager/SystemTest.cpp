@@ -58,21 +58,25 @@ TEST_F(HidSystem, ABurstGoesOutAndEndsByItselfAndClosingStops) {
     RecordProperty("hazard", "H2");
     const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
     const auto opened = open();
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_IN_TIME(opened);
     EXPECT_EQ(devices.massager->identity().serial, "SN7");
-    ASSERT_TRUE(vibrate(1, Seconds(0.1)));
-    EXPECT_THAT(pad.waitForReports(3), testing::ElementsAre(kOff, kOn, kOff));
-    ASSERT_TRUE(vibrate(1, Seconds(1)));
+    ASSERT_IN_TIME(vibrate(1, Seconds(0.1)));
+    const auto burst = pad.waitForReports(3);
+    ASSERT_IN_TIME(burst.size() >= 3U);
+    EXPECT_THAT(burst, testing::ElementsAre(kOff, kOn, kOff));
+    ASSERT_IN_TIME(vibrate(1, Seconds(1)));
     // A stop within 4 ms of the report before, the shortest time between two writes, would be sent twice.
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     devices = {};
-    EXPECT_THAT(pad.waitForReports(5), testing::ElementsAre(kOff, kOn, kOff, kOn, kOff));
+    const auto stopped = pad.waitForReports(5);
+    ASSERT_IN_TIME(stopped.size() >= 5U);
+    EXPECT_THAT(stopped, testing::ElementsAre(kOff, kOn, kOff, kOn, kOff));
 }
 
 TEST_F(HidSystem, AShortWriteAndARefusalAreFaults) {
     RecordProperty("hazard", "H2");
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
-    ASSERT_TRUE(open());
+    ASSERT_IN_TIME(open());
     pad.takeOnly(10);
     const auto cut = vibrate(1, Seconds(0.1));
     ASSERT_FALSE(cut);
@@ -82,7 +86,7 @@ TEST_F(HidSystem, AShortWriteAndARefusalAreFaults) {
     // On a busy machine starting the watchdog takes longer than the 100 ms of an approval; the next one finds it open.
     if (!again && again.error().message.find("approval has expired") != std::string::npos)
         again = vibrate(1, Seconds(0.1));
-    ASSERT_TRUE(again) << again.error().message;
+    ASSERT_IN_TIME(again);
     pad.refuseWrites(EIO);
     const auto refused = vibrate(1, Seconds(0.1));
     ASSERT_FALSE(refused);
@@ -92,27 +96,28 @@ TEST_F(HidSystem, AShortWriteAndARefusalAreFaults) {
 TEST_F(HidSystem, ASlowDeviceIsATimeoutAndIsStopped) {
     RecordProperty("hazard", "H2");
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
-    ASSERT_TRUE(open());
+    ASSERT_IN_TIME(open());
     pad.hold(true);
     const auto slow = vibrate(1, Seconds(1));
     ASSERT_FALSE(slow);
     EXPECT_EQ(slow.error().code, ErrorCode::Timeout);
     pad.hold(false);
     const auto all = pad.waitForReports(3);
-    ASSERT_EQ(all.size(), 3u);
+    ASSERT_IN_TIME(all.size() >= 3U);
+    EXPECT_EQ(all.size(), 3U);
     EXPECT_EQ(all.back(), kOff);
 }
 
 TEST_F(HidSystem, UnpluggedInABurstIsAFaultAndTheSameDeviceServesAgain) {
     RecordProperty("hazard", "H2");
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
-    ASSERT_TRUE(open());
-    ASSERT_TRUE(vibrate(1, Seconds(1)));
+    ASSERT_IN_TIME(open());
+    ASSERT_IN_TIME(vibrate(1, Seconds(1)));
     pad.unplug();
     devices.massager->forceOff();
     const auto gone = vibrate(1, Seconds(0.1));
     ASSERT_FALSE(gone);
-    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
     pad.plug();
     // On a busy machine starting the watchdog takes longer than the 100 ms of an approval; a later one finds it open.
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
@@ -120,7 +125,7 @@ TEST_F(HidSystem, UnpluggedInABurstIsAFaultAndTheSameDeviceServesAgain) {
     do {
         again = vibrate(1, Seconds(0.1));
     } while (!again && std::chrono::steady_clock::now() < deadline);
-    EXPECT_TRUE(again) << again.error().message;
+    EXPECT_IN_TIME(again);
 }
 
 TEST_F(HidSystem, WhoMayNotOpenItIsTold) {
@@ -138,7 +143,7 @@ TEST_F(HidSystem, WhoMayNotOpenItIsTold) {
 TEST_F(HidSystem, AProgramThatUsesItThroughTheKernelLosesNothing) {
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
     const OtherProgram other(pad.usb().addTerminal("ttyACM0", 1));
-    EXPECT_TRUE(open()) << "hidraw shares";
+    EXPECT_IN_TIME(open()) << "hidraw shares";
     EXPECT_TRUE(pad.usb().kernelDriverBound());
 }
 
@@ -183,17 +188,17 @@ TEST_F(TranceTest, IsListedAndVibratesByItsOneRequest) {
     waitForDevice();
     const auto driver = systemDriver(provider);
     const auto list = driver->list();
-    ASSERT_EQ(list.size(), 1u);
+    ASSERT_IN_TIME(list.size() == 1u);
     EXPECT_EQ(list[0].uri, "hid:0b49:064f?serial=T1");
     const auto opened = driver->open(DeviceUri::parse(list[0].uri).value(), {}, OpenContext{clock}, devices);
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_IN_TIME(opened);
     EXPECT_EQ(speeds(device), (std::vector<int>{0}));
-    ASSERT_TRUE(devices.massager->vibrate(std::move(*gate.approve(VibrationBurst{0.5, Seconds(1)}))));
+    ASSERT_IN_TIME(devices.massager->vibrate(std::move(*gate.approve(VibrationBurst{0.5, Seconds(1)}))));
     EXPECT_EQ(speeds(device), (std::vector<int>{0, 128}));
     devices.massager->forceOff();
     devices = {};
     const auto all = speeds(device);
-    ASSERT_GE(all.size(), 3u);
+    ASSERT_IN_TIME(all.size() >= 3u);
     for (std::size_t i = 2; i < all.size(); ++i) EXPECT_EQ(all[i], 0);
 }
 
@@ -205,11 +210,11 @@ TEST_F(TranceTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
     while (context->devices().size() < 2) seen = context->waitForChange(seen, Seconds(1));
     const auto driver = systemDriver(provider);
     const auto list = driver->list();
-    ASSERT_EQ(list.size(), 2u);
+    ASSERT_IN_TIME(list.size() == 2u);
     EXPECT_EQ(list[0].uri, "hid:0b49:064f?at=1-1");
     EXPECT_EQ(list[1].uri, "hid:0b49:064f?at=1-2");
     const auto opened = driver->open(DeviceUri::parse(list[1].uri).value(), {}, OpenContext{clock}, devices);
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_IN_TIME(opened);
     EXPECT_TRUE(speeds(first).empty());
     EXPECT_EQ(speeds(second), (std::vector<int>{0}));
 }
@@ -219,7 +224,7 @@ TEST_F(TranceTest, AStopPassesARequestThatTheDeviceDoesNotTake) {
     EmulatedUsbDevice device(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, "T1"), {});
     waitForDevice();
     const auto driver = systemDriver(provider);
-    ASSERT_TRUE(driver->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock}, devices));
+    ASSERT_IN_TIME(driver->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock}, devices));
     device.hold(0, true);
     const auto slow = devices.massager->vibrate(std::move(*gate.approve(VibrationBurst{1, Seconds(1)})));
     ASSERT_FALSE(slow);
@@ -237,8 +242,9 @@ class SystemRig final : public MassagerRig {
 public:
     SystemRig() {
         const auto opened = systemDriver()->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock_}, devices_);
-        if (!opened) throw std::runtime_error(opened.error().message);
+        EXPECT_IN_TIME(opened);
     }
+    [[nodiscard]] bool open() const { return devices_.massager != nullptr; }
     Massager& device() override { return *devices_.massager; }
     const Clock& clock() const override { return clock_; }
     void wait(Seconds duration) override { std::this_thread::sleep_for(duration); }
@@ -259,7 +265,12 @@ private:
 };
 
 INSTANTIATE_TEST_SUITE_P(HidSystem, MassagerConformance,
-                         testing::Values(MassagerKind{"Hidraw", [] { return std::make_unique<SystemRig>(); }}),
+                         testing::Values(MassagerKind{"Hidraw",
+                                                      []() -> std::unique_ptr<MassagerRig> {
+                                                          auto rig = std::make_unique<SystemRig>();
+                                                          if (!rig->open()) return nullptr;
+                                                          return rig;
+                                                      }}),
                          [](const testing::TestParamInfo<MassagerKind>& kind) { return kind.param.name; });
 
 }  // namespace

@@ -127,7 +127,7 @@ UsbBytes padReport(std::uint8_t intensity) {
 TEST_P(WatchdogDeath, AHidrawMassagerGetsItsStop) {
     const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     Host host("hid:054c:0ce6");
-    ASSERT_TRUE(host.vibrates()) << "the host ended without driving the massager";
+    ASSERT_IN_TIME(host.vibrates()) << "the host ended without driving the massager";
     ASSERT_EQ(pad.waitForReports(2).back(), padReport(255));
     die(host);
     const auto dead = Steady::now();
@@ -139,7 +139,7 @@ TEST_P(WatchdogDeath, AHidrawMassagerGetsItsStop) {
 TEST_P(WatchdogDeath, ATranceVibratorGetsItsStop) {
     EmulatedUsbDevice device(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, "T1"), {});
     Host host("hid:0b49:064f");
-    ASSERT_TRUE(host.vibrates());
+    ASSERT_IN_TIME(host.vibrates());
     const auto speeds = [&](std::size_t count) {
         std::vector<int> all;
         for (const auto& setup : device.waitForRequests(count)) all.push_back(setup.value);
@@ -161,7 +161,7 @@ TEST(WatchdogStandstill, AProgramThatStandsStillInABurstIsStoppedForAndStaysOff)
     UsbTestbed bed;
     const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     Host host("hid:054c:0ce6");
-    ASSERT_TRUE(host.vibrates());
+    ASSERT_IN_TIME(host.vibrates());
     ASSERT_EQ(pad.waitForReports(2).back(), padReport(255));
     host.signal(SIGSTOP);
     const auto stopped = Steady::now();
@@ -188,9 +188,9 @@ protected:
 TEST_F(WatchdogProcessTest, TriesUntilTheDeviceTakesTheStop) {
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     auto watchdog = hid::WatchdogProcess::start(hidraw());
-    ASSERT_TRUE(watchdog) << watchdog.error().message;
+    ASSERT_IN_TIME(watchdog);
     pad.refuseWrites(EIO);
-    ASSERT_TRUE((*watchdog)->beat());
+    ASSERT_IN_TIME((*watchdog)->beat());
     watchdog->reset();  // as a death: no word that the output is off
     EXPECT_TRUE(pad.waitForReports(0).empty());
     pad.refuseWrites(0);
@@ -212,7 +212,7 @@ TEST_F(WatchdogProcessTest, OneThatStandsStillIsNoWatchdog) {
     const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     const auto before = children();
     auto watchdog = hid::WatchdogProcess::start(hidraw());
-    ASSERT_TRUE(watchdog) << watchdog.error().message;
+    ASSERT_IN_TIME(watchdog);
     auto started = children();
     std::erase_if(started, [&](pid_t one) { return std::find(before.begin(), before.end(), one) != before.end(); });
     ASSERT_EQ(started.size(), 1U);
@@ -234,15 +234,15 @@ TEST_F(WatchdogProcessTest, OneThatStandsStillIsNoWatchdog) {
     kill(started.front(), SIGCONT);
     (*watchdog)->rest();
     std::this_thread::sleep_for(milliseconds(100));
-    EXPECT_TRUE((*watchdog)->beat()) << "it answers again";
+    EXPECT_IN_TIME((*watchdog)->beat()) << "it answers again";
     (*watchdog)->rest();
 }
 
 TEST_F(WatchdogProcessTest, EndedInOrderSendsNothing) {
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     auto watchdog = hid::WatchdogProcess::start(hidraw());
-    ASSERT_TRUE(watchdog) << watchdog.error().message;
-    ASSERT_TRUE((*watchdog)->beat());
+    ASSERT_IN_TIME(watchdog);
+    ASSERT_IN_TIME((*watchdog)->beat());
     (*watchdog)->rest();
     watchdog->reset();  // returns when its process has ended
     EXPECT_TRUE(pad.waitForReports(0).empty());

@@ -51,7 +51,7 @@ TEST_F(PulsePalUsb, OpensDeliversAndClosesSilent) {
     const EmulatedUsbDevice usb(bed, cdcAcmDevice(kPulsePalVendor, kPulsePalProduct, "PP1"), behaviour());
     ASSERT_IN_TIME(waitForDevices(1));
     auto opened = pulsepal::PulsePalStimulator::open(connector(true), "pulsepal:PP1", "PP1", 1, clock);
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_IN_TIME(opened);
     SafetyGate gate(clock);
     LimitRow row;
     row.quantity = Quantity::PeakVoltage;
@@ -70,11 +70,15 @@ TEST_F(PulsePalUsb, OpensDeliversAndClosesSilent) {
     const auto before = std::chrono::steady_clock::now();
     const auto delivered = (*opened)->deliver(std::move(*gate.approve(request)));
     const Seconds took = std::chrono::steady_clock::now() - before;
-    ASSERT_TRUE(delivered) << delivered.error().message;
+    ASSERT_IN_TIME(delivered);
     RecordProperty("deliver_us", static_cast<int>(took.count() * 1e6));
-    EXPECT_TRUE((*opened)->status().value().delivering);
+    const auto begun = (*opened)->status();
+    ASSERT_IN_TIME(begun);
+    EXPECT_IN_TIME(begun->delivering);
     (*opened)->forceOff();
-    EXPECT_FALSE((*opened)->status().value().delivering);
+    const auto stopped = (*opened)->status();
+    ASSERT_IN_TIME(stopped);
+    EXPECT_FALSE(stopped->delivering);
     opened->reset();
     const std::scoped_lock lock(mutex);
     EXPECT_FALSE(device.active(time));
@@ -95,15 +99,15 @@ TEST_F(PulsePalUsb, UnpluggedIsAFaultAndComesBackByIdentity) {
     EmulatedUsbDevice usb(bed, cdcAcmDevice(kPulsePalVendor, kPulsePalProduct, "PP1"), behaviour());
     ASSERT_IN_TIME(waitForDevices(1));
     auto opened = pulsepal::PulsePalStimulator::open(connector(true), "pulsepal:PP1", "PP1", 1, clock);
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_IN_TIME(opened);
     usb.unplug();
     const auto gone = (*opened)->status();
     ASSERT_FALSE(gone);
-    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
     usb.plug();
     ASSERT_IN_TIME(waitForDevices(1));
     const auto back = (*opened)->status();
-    EXPECT_TRUE(back) << back.error().message;
+    EXPECT_IN_TIME(back);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ protected:
     void deliver(double milliamps = 5) {
         const auto gate = wideGate(clock_, devices_.stimulator->traits());
         const auto delivered = devices_.stimulator->deliver(approve(*gate, clock_, biphasic(milliamps), Seconds(2)));
-        ASSERT_TRUE(delivered.has_value()) << delivered.error().message;
+        ASSERT_IN_TIME(delivered);
     }
 
     SteadyClock clock_;
@@ -72,7 +72,7 @@ TEST_F(ScienceModeUri, OpensTheOneThatAnswersAsAStimulator) {
     const auto other = ports_->add({"A1", "1-1", ""}, named("whatever"));
     other->inspect([](auto& device, Instant) { device.misbehave(AckFault::Drop, 1000); });  // some other STM32
     ports_->add({"A2", "1-2", ""}, named("P24-000002"));
-    ASSERT_TRUE(open("sciencemode:").has_value());
+    ASSERT_IN_TIME(open("sciencemode:"));
     EXPECT_EQ(serial(), "P24-000002");
     EXPECT_FALSE(devices_.stimulator->identity().simulated);
 }
@@ -81,14 +81,14 @@ TEST_F(ScienceModeUri, FindsADeviceByItsUsbSerialOrItsIdentity) {
     RecordProperty("hazard", "H4");
     ports_->add({"A1", "1-1", ""}, named("P24-000001"));
     ports_->add({"A2", "1-2", ""}, named("P24-000002"));
-    ASSERT_TRUE(open("sciencemode:P24-000002").has_value());
+    ASSERT_IN_TIME(open("sciencemode:P24-000002"));
     EXPECT_EQ(serial(), "P24-000002");
-    ASSERT_TRUE(open("sciencemode:A1").has_value());
+    ASSERT_IN_TIME(open("sciencemode:A1"));
     EXPECT_EQ(serial(), "P24-000001");
     EXPECT_EQ(ports_->opened.back(), "1-1");
     const auto missing = open("sciencemode:P24-000003");
-    ASSERT_FALSE(missing.has_value());
-    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
+    ASSERT_IN_TIME(!missing);
+    EXPECT_IN_TIME(missing.error().code == ErrorCode::NotFound);
     EXPECT_EQ(devices_.stimulator, nullptr);
 }
 
@@ -104,7 +104,7 @@ TEST_F(ScienceModeUri, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
     EXPECT_THAT(uris, testing::ElementsAre("sciencemode:A1", "sciencemode:1-2", "sciencemode:1-3", "sciencemode:1-4"));
     for (std::size_t i = 0; i < uris.size(); ++i) {
         ports_->opened.clear();
-        ASSERT_TRUE(open(uris[i]).has_value()) << uris[i];
+        ASSERT_IN_TIME(open(uris[i])) << uris[i];
         EXPECT_EQ(serial(), fmt::format("P24-00000{}", i + 1));
         EXPECT_THAT(ports_->opened, testing::Each(fmt::format("1-{}", i + 1))) << "another one was spoken to";
     }
@@ -119,13 +119,13 @@ TEST_F(ScienceModeUri, OfSeveralThatAnswerOneMustBeNamed) {
     ports_->add({"A1", "1-1", ""}, named("P24-000001"));
     ports_->add({"A2", "1-2", ""}, named("P24-000002"));
     const auto opened = open("sciencemode:");
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, ErrorCode::InvalidArgument);
+    ASSERT_IN_TIME(!opened);
+    ASSERT_IN_TIME(opened.error().code == ErrorCode::InvalidArgument);
     EXPECT_THAT(opened.error().message, HasSubstr("could be sciencemode:A1 or sciencemode:A2: name one"));
     const auto looked = lookAt(DeviceUri::parse("sciencemode:").value(), ports_.get(), clock_);
     ASSERT_FALSE(looked);
     EXPECT_EQ(looked.error().message, opened.error().message);
-    ASSERT_TRUE(open("sciencemode:A2"));
+    ASSERT_IN_TIME(open("sciencemode:A2"));
     EXPECT_EQ(serial(), "P24-000002");
 }
 
@@ -142,7 +142,7 @@ TEST_F(ScienceModeUri, ALookSaysWhoIsWhereAndLeavesWhatRunsAlone) {
     const auto before = stops();
     for (const auto* text : {"sciencemode:", "sciencemode:P24-000002", "sciencemode:A2"}) {
         const auto seen = lookAt(*DeviceUri::parse(text), ports_.get(), clock_);
-        ASSERT_TRUE(seen.has_value()) << seen.error().message;
+        ASSERT_IN_TIME(seen);
         EXPECT_EQ(seen->identification.id, "P24-000002");
         EXPECT_EQ(seen->place, "1-2");
         EXPECT_FALSE(seen->simulated());
@@ -172,7 +172,7 @@ TEST_F(ScienceModeUri, SaysWhyNothingCouldBeOpened) {
 TEST_F(ScienceModeUri, ParametersReachTheDevice) {
     RecordProperty("hazard", "H4");
     const auto line = ports_->add({"A1", "1-1", ""}, named("P24-000001"));
-    ASSERT_TRUE(open("sciencemode:?channel=2&connector=green&voltage=60&measure=current").has_value());
+    ASSERT_IN_TIME(open("sciencemode:?channel=2&connector=green&voltage=60&measure=current"));
     EXPECT_FALSE(devices_.stimulator->traits().readsBack);
     deliver();
     ASSERT_EQ(line->pulses(), 1U);
@@ -199,7 +199,7 @@ TEST_F(ScienceModeUri, RefusesWhatItDoesNotKnow) {
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
     }
     EXPECT_TRUE(ports_->opened.empty());
-    ASSERT_TRUE(open("sciencemode:").has_value());
+    ASSERT_IN_TIME(open("sciencemode:"));
     const auto second = driver_->open({"sciencemode", "", {}}, {}, OpenContext{clock_, 1, "1 kohm"}, devices_);
     EXPECT_EQ(second.error().code, ErrorCode::InvalidArgument) << "a bench has one stimulator";
 }
@@ -209,7 +209,7 @@ TEST_F(ScienceModeUri, AReplugIntoAnotherSocketIsFoundByItsSerialNumber) {
     ASSERT_TRUE(open("sciencemode:").has_value());
     line->unplug();
     ports_->ports_.clear();
-    EXPECT_EQ(devices_.stimulator->status().error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(devices_.stimulator->status().error().code == ErrorCode::Device);
     line->plug();
     const auto stranger = ports_->add({"B7", "1-1", ""}, named("P24-000007"));
     EXPECT_FALSE(devices_.stimulator->status().has_value()) << "the same socket, another device";
@@ -232,13 +232,13 @@ protected:
 
 TEST_F(ScienceModePty, DeliversAndReadsBack) {
     const auto opened = open("sciencemode:?tty=" + pty_->path());
-    ASSERT_TRUE(opened.has_value()) << opened.error().message;
+    ASSERT_IN_TIME(opened);
     EXPECT_TRUE(devices_.stimulator->identity().simulated) << "an emulated device is never taken for a real one";
     for (int i = 0; i < 100; ++i) {
         ASSERT_NO_FATAL_FAILURE(deliver(0.5 * (i + 1)));
         const auto status = devices_.stimulator->status();
-        ASSERT_TRUE(status.has_value()) << status.error().message;
-        ASSERT_TRUE(status->impedance.has_value());
+        ASSERT_IN_TIME(status);
+        ASSERT_IN_TIME(status->impedance);
         EXPECT_NEAR(status->impedance->value(), 1000, 20);
     }
     EXPECT_EQ(pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); }), 100U);
@@ -246,26 +246,26 @@ TEST_F(ScienceModePty, DeliversAndReadsBack) {
 
 TEST_F(ScienceModePty, StopReachesTheDevice) {
     RecordProperty("hazard", "H2");
-    ASSERT_TRUE(open("sciencemode:?tty=" + pty_->path()).has_value());
+    ASSERT_IN_TIME(open("sciencemode:?tty=" + pty_->path()));
     pty_->inspect(startRepeating);
     ASSERT_TRUE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
-    ASSERT_TRUE(devices_.stimulator->status()->delivering);
+    ASSERT_IN_TIME(devices_.stimulator->status().value_or(StimulatorStatus{}).delivering);
     devices_.stimulator->forceOff();
     const auto status = devices_.stimulator->status();  // its ack comes behind the stops
-    ASSERT_TRUE(status.has_value()) << status.error().message;
+    ASSERT_IN_TIME(status);
     EXPECT_FALSE(status->delivering);
     EXPECT_FALSE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
 }
 
 TEST_F(ScienceModePty, AHungUpTerminalIsADeviceThatIsGone) {
     RecordProperty("hazard", "H2");
-    ASSERT_TRUE(open("sciencemode:?tty=" + pty_->path()).has_value());
+    ASSERT_IN_TIME(open("sciencemode:?tty=" + pty_->path()));
     pty_.reset();
     const auto gate = wideGate(clock_, devices_.stimulator->traits());
     const auto gone = devices_.stimulator->deliver(approve(*gate, clock_, biphasic(5), Seconds(2)));
     ASSERT_FALSE(gone.has_value());
-    EXPECT_EQ(gone.error().code, ErrorCode::Device);
-    EXPECT_EQ(devices_.stimulator->status().error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
+    EXPECT_IN_TIME(devices_.stimulator->status().error().code == ErrorCode::Device);
     devices_.stimulator->forceOff();
 }
 
@@ -284,7 +284,7 @@ TEST_F(ScienceModePty, ATerminalThatAnotherProgramHasLockedIsRefusedAndThatProgr
         EXPECT_THAT(refused.error().message,
                     testing::AllOf(HasSubstr(pty_->path()), HasSubstr(other.text()), HasSubstr("close that program")));
     }
-    ASSERT_TRUE(open("sciencemode:?tty=" + pty_->path()).has_value());
+    ASSERT_IN_TIME(open("sciencemode:?tty=" + pty_->path()));
     // Nor do two parts of this program share it.
     EXPECT_EQ(TtyTransport::open(pty_->path()).error().code, ErrorCode::Io);
 }
@@ -318,7 +318,7 @@ TEST_F(ScienceModePty, UrgentMessagesAndFramesNeverMix) {
     Exchange exchange(**transport, clock_);
     for (int i = 0; i < 300; ++i) {
         const auto answer = exchange.ask(Command::StimStatus, {}, Seconds(10));
-        ASSERT_TRUE(answer.has_value()) << answer.error().message;
+        ASSERT_IN_TIME(answer);
     }
     stoppers.clear();
     EXPECT_EQ(exchange.counts().junkBytes, 0U);

@@ -178,7 +178,7 @@ class ScienceModeThreads : public testing::Test {
 protected:
     void SetUp() override {
         auto opened = ScienceModeStimulator::open(line_->connector(), "sciencemode:", {}, {}, clock_);
-        ASSERT_TRUE(opened.has_value()) << opened.error().message;
+        ASSERT_IN_TIME(opened);
         stimulator_ = std::move(*opened);
         gate_ = wideGate(clock_, stimulator_->traits());
     }
@@ -204,7 +204,7 @@ TEST_F(ScienceModeThreads, TheDriversOwnThreadSendsTheRestOfATrain) {
     // A busy machine may make a train late, and a train that is too late is given up: then another is tried.
     for (int attempt = 0; attempt < 20; ++attempt) {
         const auto before = line_->pulses();
-        ASSERT_TRUE(stimulator_->deliver(approved(20, 200)).has_value());
+        ASSERT_IN_TIME(stimulator_->deliver(approved(20, 200)));
         const auto status = untilDone();
         const auto pulses = line_->pulseList();
         for (std::size_t i = before + 1; i < pulses.size(); ++i) {
@@ -214,9 +214,9 @@ TEST_F(ScienceModeThreads, TheDriversOwnThreadSendsTheRestOfATrain) {
             EXPECT_EQ(pulses.size() - before, 20U);
             return;
         }
-        ASSERT_NE(status.error().message.find("given up"), std::string::npos) << status.error().message;
+        ASSERT_IN_TIME(status.error().message.find("given up") != std::string::npos) << status.error().message;
     }
-    FAIL() << "20 trains were late";
+    ASSERT_IN_TIME(!"one of 20 trains");
 }
 
 TEST_F(ScienceModeThreads, ForceOffFromManyThreadsWhileDelivering) {
@@ -240,7 +240,7 @@ TEST_F(ScienceModeThreads, ForceOffFromManyThreadsWhileDelivering) {
     for (auto& stopper : stoppers) stopper.join();
     stimulator_->forceOff();
     RecordProperty("delivered", delivered);
-    EXPECT_GE(delivered, 1) << "each was refused: there was nothing to stop";
+    EXPECT_IN_TIME(delivered >= 1) << "each was refused: there was nothing to stop";
     const auto status = untilDone();
     EXPECT_TRUE(!status || !status->delivering);
     const auto after = line_->pulses();
@@ -248,7 +248,7 @@ TEST_F(ScienceModeThreads, ForceOffFromManyThreadsWhileDelivering) {
     while (clock_.now() < quietUntil) std::this_thread::sleep_for(milliseconds(5));
     EXPECT_EQ(line_->pulses(), after);
     // And it works as before.
-    EXPECT_TRUE(stimulator_->deliver(approved(1, 100)).has_value());
+    EXPECT_IN_TIME(stimulator_->deliver(approved(1, 100)));
     EXPECT_EQ(line_->pulses(), after + 1);
 }
 
@@ -262,7 +262,7 @@ TEST_F(ScienceModeThreads, NoPulseFollowsAStopThatNothingWasInFlightAt) {
         stimulator_->forceOff();
     }
     RecordProperty("delivered", delivered);
-    EXPECT_GE(delivered, kRounds / 2) << "most were refused: there was nothing to stop";
+    EXPECT_IN_TIME(delivered >= kRounds / 2) << "most were refused: there was nothing to stop";
     // Each pulse that came after a stop of the train it belongs to has a stop of its own behind it.
     const auto commands = commandsOf(line_->written());
     EXPECT_NE(commands.back(), Command::ChannelConfig);
@@ -276,16 +276,16 @@ TEST_F(ScienceModeThreads, FromApprovalToTheWireTakesLessThan200Microseconds) {
 #ifdef TACTOSCOPE_SANITIZED
     GTEST_SKIP() << "the sanitizers take their own time";
 #else
-    ASSERT_TRUE(stimulator_->deliver(approved(1, 100)).has_value());
+    ASSERT_IN_TIME(stimulator_->deliver(approved(1, 100)));
     Instant atWire{0};
     line_->onWrite([&] { atWire = clock_.now(); });
     std::vector<Instant> took;
     for (int i = 0; i < 201; ++i) {
         auto approval = approved(1, 100);
         const Instant begin = clock_.now();
-        ASSERT_TRUE(stimulator_->deliver(std::move(approval)).has_value());
+        ASSERT_IN_TIME(stimulator_->deliver(std::move(approval)));
         took.push_back(atWire - begin);
-        ASSERT_FALSE(untilDone()->delivering);
+        ASSERT_IN_TIME(untilDone());
     }
     std::ranges::nth_element(took, took.begin() + 100);
     RecordProperty("median_ns", std::to_string(took[100].count()));

@@ -39,7 +39,7 @@ protected:
         auto drivers = registry();
         auto devices = drivers.open(std::vector{*DeviceUri::parse("sciencemode:")}, {Role::Stimulator},
                                     OpenContext{*clock_, 1, "1 kohm"});
-        ASSERT_TRUE(devices) << devices.error().message;
+        ASSERT_IN_TIME(devices);
         SessionAbout about;
         about.protocol = "test";
         session_ = SessionWriter::create(folder_.path() / "run.tacto", about, *clock_).value();
@@ -49,7 +49,7 @@ protected:
         config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
         config.session = session_.get();
         auto bench = Bench::create(std::move(config));
-        ASSERT_TRUE(bench) << bench.error().message;
+        ASSERT_IN_TIME(bench);
         bench_ = std::move(*bench);
     }
     [[nodiscard]] Result<void> arm() { return bench_->arm(ArmRequest{"1 kohm", true, true}); }
@@ -69,13 +69,13 @@ TEST_F(ScienceModeOnUsb, IsFoundAndDrivenThroughTheRealLibusb) {
     const auto& identity = bench_->devices().stimulator->identity();
     EXPECT_TRUE(identity.simulated) << "an emulated device says so";
     const auto armed = arm();
-    ASSERT_TRUE(armed) << armed.error().message;
+    ASSERT_IN_TIME(armed);
     EXPECT_EQ(device_.pulses(), 1U) << "the impedance check";
     EXPECT_NEAR(bench_->telemetry().impedance_ohm, 1000, 50);
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 1, 1));
     const auto waited = bench_->wait(Seconds(2.2));
-    ASSERT_TRUE(waited) << waited.error().message;
-    EXPECT_GE(bench_->telemetry().trainsDelivered, 4U);
+    ASSERT_IN_TIME(waited);
+    EXPECT_IN_TIME(bench_->telemetry().trainsDelivered >= 4U);
     const auto currents = device_.inspect([](auto& device, Instant now) {
         std::vector<double> all;
         for (const auto& pulse : device.pulses(now)) all.push_back(pulse.points.items[0].current.value());
@@ -88,28 +88,28 @@ TEST_F(ScienceModeOnUsb, IsFoundAndDrivenThroughTheRealLibusb) {
 TEST_F(ScienceModeOnUsb, StopSilencesItAtOnce) {
     RecordProperty("hazard", "H2");
     open();
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
-    ASSERT_TRUE(bench_->wait(Seconds(0.8)));
+    ASSERT_IN_TIME(arm());
+    ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_IN_TIME(bench_->wait(Seconds(0.8)));
     bench_->stop("test");
     std::this_thread::sleep_for(50ms);
     const auto pulses = device_.pulses();
     std::this_thread::sleep_for(1500ms);
     EXPECT_EQ(device_.pulses(), pulses);
-    EXPECT_GT(
-        device_.inspect([](auto& device, Instant) { return device.requests(sciencemode::Command::LowLevelStop); }), 0U);
+    EXPECT_IN_TIME(device_.inspect(
+                       [](auto& device, Instant) { return device.requests(sciencemode::Command::LowLevelStop); }) > 0U);
 }
 
 TEST_F(ScienceModeOnUsb, UnpluggedInMidDeliveryFaultsKeepsTheSessionAndComesBackAfterAReset) {
     RecordProperty("hazard", "H2");
     open();
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
-    ASSERT_TRUE(bench_->wait(Seconds(0.8)));
+    ASSERT_IN_TIME(arm());
+    ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_IN_TIME(bench_->wait(Seconds(0.8)));
     device_.unplug();
     const auto waited = bench_->wait(Seconds(3));
     ASSERT_FALSE(waited);
-    EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted) << waited.error().message;
+    EXPECT_IN_TIME(bench_->telemetry().state == InterlockState::Faulted) << waited.error().message;
     EXPECT_FALSE(bench_->resetFault()) << "the cause is still there";
     EXPECT_IN_TIME(comes([&] { return registry().list().empty(); }));
 
@@ -118,14 +118,14 @@ TEST_F(ScienceModeOnUsb, UnpluggedInMidDeliveryFaultsKeepsTheSessionAndComesBack
     const auto before = device_.pulses();
     std::this_thread::sleep_for(700ms);
     EXPECT_EQ(device_.pulses(), before) << "nothing goes on by itself";
-    EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
+    EXPECT_IN_TIME(bench_->telemetry().state == InterlockState::Faulted);
     ASSERT_IN_TIME(comes([&] { return bench_->resetFault().has_value(); })) << "explicitly, found by its identity";
-    EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed);
+    EXPECT_IN_TIME(bench_->telemetry().state == InterlockState::Disarmed);
     const auto armed = arm();
-    ASSERT_TRUE(armed) << armed.error().message;
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
-    ASSERT_TRUE(bench_->wait(Seconds(0.8)));
-    EXPECT_GT(device_.pulses(), before);
+    ASSERT_IN_TIME(armed);
+    ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_IN_TIME(bench_->wait(Seconds(0.8)));
+    EXPECT_IN_TIME(device_.pulses() > before);
 
     bench_.reset();
     ASSERT_TRUE(session_->close());

@@ -49,11 +49,11 @@ TEST_F(SensorBoardOnTerminal, IsOpenedByThePathAndStreams) {
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-0003");
     EXPECT_EQ(devices_.sensor->streams()[0].rate_hz, 2000);
     const auto read = readUntil([&] { return blocks_[0].samples() >= 1000; });
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_GE(blocks_[0].samples(), 1000U);
-    EXPECT_EQ(dynamic_cast<ReportingDevice&>(*devices_.sensor).deviceReport().losses, 0U);
+    ASSERT_IN_TIME(read);
+    EXPECT_IN_TIME(blocks_[0].samples() >= 1000U);
+    EXPECT_IN_TIME(dynamic_cast<ReportingDevice&>(*devices_.sensor).deviceReport().losses == 0U);
     devices_ = {};
-    EXPECT_TRUE(open("TSB-0003?tty=" + board.path())) << "closed and opened again";
+    EXPECT_IN_TIME(open("TSB-0003?tty=" + board.path())) << "closed and opened again";
 }
 
 TEST_F(SensorBoardOnTerminal, AnotherBoardThanTheOneNamedIsRefused) {
@@ -61,7 +61,7 @@ TEST_F(SensorBoardOnTerminal, AnotherBoardThanTheOneNamedIsRefused) {
     BoardOnPty board(clock_);
     const auto refused = open("TSB-0009?tty=" + board.path());
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
+    EXPECT_IN_TIME(refused.error().code == ErrorCode::NotFound);
     EXPECT_THAT(refused.error().message, HasSubstr("its serial number is \"EMU-0001\"; \"TSB-0009\" was expected"));
 }
 
@@ -69,12 +69,12 @@ TEST_F(SensorBoardOnTerminal, TheOtherEndGoingIsAnErrorOfRead) {
     RecordProperty("hazard", "H7");
     auto board = std::make_unique<BoardOnPty>(clock_);
     const auto path = board->path();
-    ASSERT_TRUE(open("?tty=" + path));
-    ASSERT_TRUE(readUntil([&] { return blocks_[0].samples() >= 200; }));
+    ASSERT_IN_TIME(open("?tty=" + path));
+    ASSERT_IN_TIME(readUntil([&] { return blocks_[0].samples() >= 200; }));
     board.reset();
     const auto gone = readUntil([] { return false; });
     ASSERT_FALSE(gone);
-    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
     EXPECT_THAT(gone.error().message, HasSubstr(path));
 }
 

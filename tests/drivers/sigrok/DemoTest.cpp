@@ -60,15 +60,15 @@ TEST(SigrokDriver, RefusesAnUnknownDriverWithoutWaitingForItself) {
 TEST(SigrokDemo, ItsSquareAndSineAreCapturedAndMeasured) {
     const SteadyClock clock;
     auto devices = openDemo("sigrok:demo?voltage=A0&current=A1&shunt=100", clock);
-    ASSERT_TRUE(devices.has_value()) << devices.error().message;
+    ASSERT_IN_TIME(devices);
     auto& scope = *devices->oscilloscope;
     EXPECT_TRUE(scope.identity().simulated);
-    ASSERT_TRUE(scope.configure(demoSettings()).has_value());
-    ASSERT_TRUE(scope.arm().has_value());
+    ASSERT_IN_TIME(scope.configure(demoSettings()));
+    ASSERT_IN_TIME(scope.arm());
     double last = -1;
     for (int i = 0; i < 3; ++i) {
         const auto capture = captured(scope);
-        ASSERT_TRUE(capture.has_value()) << capture.error().message;
+        ASSERT_IN_TIME(capture);
         EXPECT_TRUE(capture->simulated);
         EXPECT_DOUBLE_EQ(capture->rate_hz, 100e3);
         EXPECT_GT(capture->trigger_s, last);
@@ -90,18 +90,18 @@ TEST(SigrokDemo, ItsSquareAndSineAreCapturedAndMeasured) {
     }
     scope.disarm();
     EXPECT_FALSE(scope.poll()->has_value());
-    ASSERT_TRUE(scope.arm().has_value()) << "armed again after disarming";
-    EXPECT_TRUE(captured(scope).has_value());
+    ASSERT_IN_TIME(scope.arm()) << "armed again after disarming";
+    EXPECT_IN_TIME(captured(scope));
 }
 
 TEST(SigrokDemo, ItsSquareIsMeasuredLikeAPulseTrain) {
     const SteadyClock clock;
     auto devices = openDemo("sigrok:demo", clock);
-    ASSERT_TRUE(devices.has_value()) << devices.error().message;
-    ASSERT_TRUE(devices->oscilloscope->configure(demoSettings()).has_value());
-    ASSERT_TRUE(devices->oscilloscope->arm().has_value());
+    ASSERT_IN_TIME(devices);
+    ASSERT_IN_TIME(devices->oscilloscope->configure(demoSettings()));
+    ASSERT_IN_TIME(devices->oscilloscope->arm());
     const auto capture = captured(*devices->oscilloscope);
-    ASSERT_TRUE(capture.has_value()) << capture.error().message;
+    ASSERT_IN_TIME(capture);
     ASSERT_EQ(capture->channels.size(), 1U) << "no current channel was named";
     const auto& volts = capture->channels[0].samples;
     // Equal phases: the period is what libsigrok's demo makes of it; each rising edge stands one period after the last.
@@ -116,19 +116,19 @@ TEST(SigrokDemo, ItsSquareIsMeasuredLikeAPulseTrain) {
 TEST(SigrokDemo, ARecordIsForcedWhereNothingTriggers) {
     const SteadyClock clock;
     auto devices = openDemo("sigrok:demo", clock);
-    ASSERT_TRUE(devices.has_value());
+    ASSERT_IN_TIME(devices);
     auto& scope = *devices->oscilloscope;
     auto* forced = dynamic_cast<ForcedTrigger*>(&scope);
     ASSERT_NE(forced, nullptr);
     EXPECT_EQ(forced->forceTrigger().error().code, ErrorCode::Unsupported) << "not armed";
     auto high = demoSettings();
     high.triggerLevel = 40;  // the signal is ±10 V
-    ASSERT_TRUE(scope.configure(high).has_value());
-    ASSERT_TRUE(scope.arm().has_value());
+    ASSERT_IN_TIME(scope.configure(high));
+    ASSERT_IN_TIME(scope.arm());
     EXPECT_FALSE(scope.poll()->has_value());
-    ASSERT_TRUE(forced->forceTrigger().has_value());
+    ASSERT_IN_TIME(forced->forceTrigger());
     const auto capture = captured(scope);
-    ASSERT_TRUE(capture.has_value()) << capture.error().message;
+    ASSERT_IN_TIME(capture);
     EXPECT_TRUE(capture->untriggered);
     EXPECT_TRUE(std::isnan(capture->trigger_s));
 }
@@ -144,24 +144,24 @@ TEST(SigrokDemo, RefusalsNameWhatThereIs) {
     const auto unknown = openDemo("sigrok:no-such-driver", clock);
     EXPECT_EQ(unknown.error().code, ErrorCode::InvalidArgument);
     EXPECT_THAT(unknown.error().message, HasSubstr("no-such-driver"));
-    EXPECT_TRUE(openDemo("sigrok:demo:analog_channels=2", clock).has_value());
+    EXPECT_IN_TIME(openDemo("sigrok:demo:analog_channels=2", clock));
 }
 
 TEST(SigrokDemo, TwoAreOpenAtOnceAndCloseWhileTheyRun) {
     const SteadyClock clock;
     auto first = openDemo("sigrok:demo", clock);
     auto second = openDemo("sigrok:demo?voltage=A1", clock);
-    ASSERT_TRUE(first.has_value() && second.has_value());
+    ASSERT_IN_TIME(first.has_value() && second.has_value());
     for (auto* one : {&*first, &*second}) {
-        ASSERT_TRUE(one->oscilloscope->configure(demoSettings()).has_value());
-        ASSERT_TRUE(one->oscilloscope->arm().has_value());
+        ASSERT_IN_TIME(one->oscilloscope->configure(demoSettings()));
+        ASSERT_IN_TIME(one->oscilloscope->arm());
     }
-    EXPECT_TRUE(captured(*first->oscilloscope).has_value());
-    EXPECT_TRUE(captured(*second->oscilloscope).has_value());
+    EXPECT_IN_TIME(captured(*first->oscilloscope));
+    EXPECT_IN_TIME(captured(*second->oscilloscope));
     const auto before = std::chrono::steady_clock::now();
     first->oscilloscope.reset();
     EXPECT_IN_TIME(std::chrono::steady_clock::now() - before < std::chrono::seconds(2));
-    EXPECT_TRUE(captured(*second->oscilloscope).has_value()) << "the other goes on";
+    EXPECT_IN_TIME(captured(*second->oscilloscope)) << "the other goes on";
 }
 
 }  // namespace

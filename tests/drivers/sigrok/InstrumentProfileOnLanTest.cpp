@@ -9,6 +9,7 @@
 #include "drivers/sigrok/driver/SigrokDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/drivers/sigrok/ScopeOnLan.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -46,10 +47,10 @@ Capture captured(const std::string& model, const std::string& keys) {
     lan.bench().deliver(pulse, Seconds(0));
     lan.pass(Seconds(0.06));
     auto capture = lan.poll();
-    EXPECT_TRUE(capture.has_value() && capture->has_value());
+    EXPECT_IN_TIME(capture.has_value() && capture->has_value());
     lan.close();
     const auto statement = statementUnder(lan.uri() + keys, lan.bench().clock);
-    EXPECT_TRUE(statement) << statement.error().message;
+    EXPECT_IN_TIME(statement);
     if (!capture || !*capture || !statement) return {};
     applyStatement(**capture, *statement);  // as Bench does
     return std::move(**capture);

@@ -4,6 +4,7 @@
 
 #include "core/measure/PulseMeasurement.h"
 #include "tests/drivers/sigrok/ScopeOnLan.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -38,8 +39,8 @@ TEST(ScopeOnLan, APulseHasItsAmplitudeWidthAndInterval) {
     lan.bench().deliver(two, Seconds(0));
     lan.pass(Seconds(0.06));
     const auto capture = lan.poll();
-    ASSERT_TRUE(capture.has_value()) << capture.error().message;
-    ASSERT_TRUE(capture->has_value());
+    ASSERT_IN_TIME(capture);
+    ASSERT_IN_TIME(capture->has_value());
     ASSERT_EQ((*capture)->channels.size(), 2U);
     const double lsb_V = 5 / 25.0;  // 5 V a division
     EXPECT_NEAR((*capture)->channels[0].lsb, lsb_V, 1e-6);
@@ -62,13 +63,13 @@ TEST(ScopeOnLan, ManyTriggersGiveManyCaptures) {
     lan.arm(lanSettings(1e6, 2000));
     double last = -1;
     for (int i = 0; i < 5; ++i) {
-        ASSERT_TRUE(lan.instrument().waits(Seconds(5)));
+        ASSERT_IN_TIME(lan.instrument().waits(Seconds(5)));
         lan.bench().wait(Seconds(0.02));
         lan.bench().deliver(voltagePulse(10), Seconds(0));
         lan.pass(Seconds(0.06));
         const auto capture = lan.poll();
-        ASSERT_TRUE(capture.has_value()) << capture.error().message;
-        ASSERT_TRUE(capture->has_value()) << i;
+        ASSERT_IN_TIME(capture);
+        ASSERT_IN_TIME(capture->has_value()) << i;
         EXPECT_GT((*capture)->trigger_s, last);
         last = (*capture)->trigger_s;
         EXPECT_NEAR(((*capture)->trigger_s - (*capture)->start_s) * 1e6, 200, 1.0);
@@ -83,7 +84,7 @@ TEST(ScopeOnLan, PulsesThatBeginNegativeTriggerWithSlopeFall) {
     lan.bench().deliver(pulse, Seconds(0));
     lan.pass(Seconds(0.06));
     const auto capture = lan.poll();
-    ASSERT_TRUE(capture.has_value() && capture->has_value());
+    ASSERT_IN_TIME(capture.has_value() && capture->has_value());
     EXPECT_NEAR(((*capture)->trigger_s - (*capture)->start_s) * 1e6, 200, 1.0);
     EXPECT_LT((*capture)->channels[0].samples[250], -9.0F);
 }
@@ -102,7 +103,7 @@ TEST(ScopeOnLan, ProbesCouplingScaleAndTriggerReachTheInstrument) {
     }
     lan.bench().deliver(voltagePulse(10), Seconds(0));
     lan.pass(Seconds(0.06));
-    EXPECT_TRUE(lan.poll()->has_value());
+    EXPECT_IN_TIME(lan.poll()->has_value());
 }
 
 TEST(ScopeOnLan, LiveGivesEachRecordOnce) {
@@ -111,8 +112,8 @@ TEST(ScopeOnLan, LiveGivesEachRecordOnce) {
     lan.arm(s);
     lan.bench().deliver(voltagePulse(10), Seconds(0.06));
     const auto first = lan.poll();
-    ASSERT_TRUE(first.has_value()) << first.error().message;
-    ASSERT_TRUE(first->has_value());
+    ASSERT_IN_TIME(first);
+    ASSERT_IN_TIME(first->has_value());
     EXPECT_NEAR(measureChannel(**first, 0).amplitude.mean, 10, 0.1);
 }
 

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "drivers/sigrok/driver/SigrokDriver.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 
@@ -34,9 +35,9 @@ Result<void> ScopeOnLan::open() {
 
 void ScopeOnLan::arm(const ScopeSettings& settings) {
     const auto configured = scope().configure(settings);
-    ASSERT_TRUE(configured.has_value()) << configured.error().message;
+    ASSERT_IN_TIME(configured);
     const auto armed = scope().arm();
-    ASSERT_TRUE(armed.has_value()) << armed.error().message;
+    ASSERT_IN_TIME(armed);
     // So much signal time that the part of a record before the trigger is filled.
     bench_.wait(Seconds(0.05));
 }

@@ -6,6 +6,7 @@
 #include <hidapi/hidapi.h>
 #include <memory>
 
+#include "tests/support/InTime.h"
 #include "tests/support/usb_emulation/EmulatedHidDevice.h"
 
 namespace tacto::test {
@@ -67,7 +68,7 @@ TEST_F(EmulatedHid, IsEnumeratedWithItsSerialNumber) {
 TEST_F(EmulatedHid, ReportsGoOutAndComeBackWhole) {
     const EmulatedHidDevice device(bed, 0x1234, 0x5679, "SN7", kPlain, {.onReport = inverted});
     const auto hid = open();
-    ASSERT_TRUE(hid);
+    ASSERT_IN_TIME(hid);
     UsbBytes out(65, 0x11);
     out[0] = 0;  // no number
     ASSERT_EQ(hid_write(hid.get(), out.data(), out.size()), 65);
@@ -78,7 +79,7 @@ TEST_F(EmulatedHid, ReportsGoOutAndComeBackWhole) {
 TEST_F(EmulatedHid, NumberedReportsKeepTheirNumber) {
     const EmulatedHidDevice device(bed, 0x1234, 0x5679, "SN7", kNumbered, {});
     const auto hid = open();
-    ASSERT_TRUE(hid);
+    ASSERT_IN_TIME(hid);
     const auto out = numbered(5, 32, 0x77);
     ASSERT_EQ(hid_write(hid.get(), out.data(), out.size()), 32);
     EXPECT_THAT(device.waitForReports(1), ElementsAre(out));
@@ -93,7 +94,7 @@ TEST_F(EmulatedHid, NumberedReportsKeepTheirNumber) {
 TEST_F(EmulatedHid, ABurstKeepsItsReportsApartAndInOrder) {
     EmulatedHidDevice device(bed, 0x1234, 0x5679, "SN7", kNumbered, {});
     const auto hid = open();
-    ASSERT_TRUE(hid);
+    ASSERT_IN_TIME(hid);
     for (std::uint8_t i = 0; i < 5; ++i) device.send(numbered(5, 32, i));
     for (std::uint8_t i = 0; i < 5; ++i) EXPECT_EQ(read(hid), numbered(5, 32, i));
     EXPECT_TRUE(read(hid, 30).empty());
@@ -102,7 +103,7 @@ TEST_F(EmulatedHid, ABurstKeepsItsReportsApartAndInOrder) {
 TEST_F(EmulatedHid, AShortWriteAndARefusedOneAreSeen) {
     EmulatedHidDevice device(bed, 0x1234, 0x5679, "SN7", kNumbered, {});
     const auto hid = open();
-    ASSERT_TRUE(hid);
+    ASSERT_IN_TIME(hid);
     const auto out = numbered(5, 32, 1);
     device.takeOnly(10);
     EXPECT_EQ(hid_write(hid.get(), out.data(), out.size()), 10);
@@ -113,21 +114,21 @@ TEST_F(EmulatedHid, AShortWriteAndARefusedOneAreSeen) {
 TEST_F(EmulatedHid, ASlowDeviceIsWaitedFor) {
     EmulatedHidDevice device(bed, 0x1234, 0x5679, "SN7", kNumbered, {});
     const auto hid = open();
-    ASSERT_TRUE(hid);
+    ASSERT_IN_TIME(hid);
     const auto out = numbered(5, 32, 1);
     device.hold(true);
     auto writing = std::async(std::launch::async, [&] { return hid_write(hid.get(), out.data(), out.size()); });
     EXPECT_EQ(writing.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
     EXPECT_TRUE(device.waitForReports(0).empty());
     device.hold(false);
-    EXPECT_EQ(writing.get(), 32);
-    EXPECT_EQ(device.waitForReports(1).size(), 1u);
+    EXPECT_IN_TIME(writing.get() == 32);
+    EXPECT_IN_TIME(device.waitForReports(1).size() == 1u);
 }
 
 TEST_F(EmulatedHid, AnUnpluggedDeviceEndsAReadAndComesBack) {
     EmulatedHidDevice device(bed, 0x1234, 0x5679, "SN7", kNumbered, {});
     auto hid = open();
-    ASSERT_TRUE(hid);
+    ASSERT_IN_TIME(hid);
     std::promise<void> started;
     auto reading = std::async(std::launch::async, [&] {
         UsbBytes report(64);
@@ -136,14 +137,14 @@ TEST_F(EmulatedHid, AnUnpluggedDeviceEndsAReadAndComesBack) {
     });
     started.get_future().wait();
     device.unplug();
-    EXPECT_EQ(reading.get(), -1);
+    EXPECT_IN_TIME(reading.get() == -1);
     const auto out = numbered(5, 32, 1);
     EXPECT_EQ(hid_write(hid.get(), out.data(), out.size()), -1);
     hid.reset();
     device.plug();
     hid = open();
-    ASSERT_TRUE(hid);
-    EXPECT_EQ(hid_write(hid.get(), out.data(), out.size()), 32);
+    ASSERT_IN_TIME(hid);
+    EXPECT_IN_TIME(hid_write(hid.get(), out.data(), out.size()) == 32);
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ class UsbBulk : public UsbTest {};
 TEST_F(UsbBulk, CarriesBytesThereAndBack) {
     const EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {.onBytes = echo});
     const auto transport = open(device);
-    ASSERT_TRUE(transport);
-    ASSERT_TRUE(transport->write(bytesOf("hello"), kLong));
+    ASSERT_IN_TIME(transport);
+    ASSERT_IN_TIME(transport->write(bytesOf("hello"), kLong));
     EXPECT_EQ(readAll(*transport, 5), bytesOf("hello"));
     EXPECT_EQ(transport->dropped(), 0u);
     EXPECT_EQ(transport->info().serial, "S");
@@ -27,10 +27,10 @@ TEST_F(UsbBulk, CarriesBytesThereAndBack) {
 TEST_F(UsbBulk, AWriteIsOneTransferHoweverLong) {
     const EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S", 64), {.onBytes = echo});
     const auto transport = open(device);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     UsbBytes large(5000);
     for (std::size_t i = 0; i < large.size(); ++i) large[i] = static_cast<std::uint8_t>(i * 7);
-    ASSERT_TRUE(transport->write(large, kLong));
+    ASSERT_IN_TIME(transport->write(large, kLong));
     EXPECT_THAT(device.waitForReceived(1), ElementsAre(large));
     EXPECT_EQ(readAll(*transport, large.size()), large);
 }
@@ -39,7 +39,7 @@ TEST_F(UsbBulk, AnAnswerOfExactlyOneFullPacketArrivesAtOnce) {
     // Without an empty packet behind it a larger buffer would wait for more.
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S", 64), {});
     const auto transport = open(device);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     const UsbBytes full(64, 0xAA);
     device.send(kIn, full);
     EXPECT_EQ(readAll(*transport, 64), full);
@@ -53,7 +53,7 @@ TEST_F(UsbBulk, ASerialPortIsToldItsLineCodingAndThatSomebodyListens) {
                                  return UsbBytes{};
                              }});
     auto transport = open(device);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     EXPECT_THAT(device.requests(), ElementsAre(UsbSetup{0x21, 0x20, 0, 0, 7}, UsbSetup{0x21, 0x22, 3, 0, 0}));
     EXPECT_THAT(codings, ElementsAre(UsbBytes{0x00, 0xC2, 0x01, 0x00, 0, 0, 8}));  // 115200 8N1
     transport.reset();
@@ -63,7 +63,7 @@ TEST_F(UsbBulk, ASerialPortIsToldItsLineCodingAndThatSomebodyListens) {
 TEST_F(UsbBulk, DataTerminalReadyIsLeftAloneWhereItIsNotAskedFor) {
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {});
     auto transport = open(device, {.dataTerminalReady = false});
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     transport.reset();
     for (const auto& setup : device.requests()) EXPECT_NE(setup.request, 0x22);
 }
@@ -75,7 +75,7 @@ TEST_F(UsbBulk, ADeviceWithoutLineCodingIsUsedOneThatRefusesReadyIsNot) {
                                        if (setup.request == refused) return std::nullopt;
                                        return UsbBytes{};
                                    }});
-    EXPECT_TRUE(open(device));
+    EXPECT_IN_TIME(open(device));
     refused = 0x22;
     const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
     ASSERT_FALSE(opened);
@@ -86,7 +86,7 @@ TEST_F(UsbBulk, TheKernelsDriverStepsAsideAndComesBack) {
     const EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {.onBytes = echo});
     ASSERT_TRUE(device.kernelDriverBound());
     auto transport = open(device);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     EXPECT_FALSE(device.kernelDriverBound());
     transport.reset();
     EXPECT_TRUE(device.kernelDriverBound());
@@ -126,7 +126,7 @@ TEST_F(UsbBulk, ADeviceIsNotTakenFromAProgramThatUsesItsTerminalAndThatProgramIs
         EXPECT_TRUE(device.kernelDriverBound());
         EXPECT_TRUE(device.requests().empty()) << "it was not spoken to either";
     }
-    EXPECT_TRUE(UsbBulkTransport::open(context, context->devices().front(), {}));
+    EXPECT_IN_TIME(UsbBulkTransport::open(context, context->devices().front(), {}));
 }
 
 TEST_F(UsbBulk, AProgramThatHasClaimedTheDeviceIsNamed) {
@@ -143,7 +143,7 @@ TEST_F(UsbBulk, TheKernelsDriverThatAKilledProgramTookAwayIsBackAfterTheNextClos
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {.onBytes = echo});
     device.loseKernelDriver();
     auto transport = open(device);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     EXPECT_FALSE(device.kernelDriverBound());
     transport.reset();
     EXPECT_TRUE(device.kernelDriverBound());
@@ -152,7 +152,7 @@ TEST_F(UsbBulk, TheKernelsDriverThatAKilledProgramTookAwayIsBackAfterTheNextClos
 TEST_F(UsbBulk, AReadEndsWithItsTimeAndAZeroTimeOnlyLooks) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     const auto transport = open(device, {.function = UsbFunction::Vendor});
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     std::array<std::uint8_t, 8> into{};
     const auto [late, took] = timed([&] { return transport->read(into, kShort); });
     ASSERT_FALSE(late);
@@ -166,21 +166,21 @@ TEST_F(UsbBulk, AReadEndsWithItsTimeAndAZeroTimeOnlyLooks) {
 TEST_F(UsbBulk, AWriteThatTheDeviceDoesNotTakeIsCancelledAndTheNextIsWhole) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {.onBytes = echo});
     const auto transport = open(device, {.function = UsbFunction::Vendor});
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.hold(kOut, true);
     const auto [late, took] = timed([&] { return transport->write(bytesOf("first"), kShort); });
     ASSERT_FALSE(late);
     EXPECT_EQ(late.error().code, ErrorCode::Timeout);
     EXPECT_IN_TIME(took < Seconds(2));
     device.hold(kOut, false);
-    ASSERT_TRUE(transport->write(bytesOf("second"), kLong));
+    ASSERT_IN_TIME(transport->write(bytesOf("second"), kLong));
     EXPECT_THAT(device.waitForReceived(1), ElementsAre(bytesOf("second")));
 }
 
 TEST_F(UsbBulk, AWriteThatIsTakenInPartIsAFault) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     const auto transport = open(device, {.function = UsbFunction::Vendor});
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.takeOnly(kOut, 3);
     const auto written = transport->write(bytesOf("hello"), kLong);
     ASSERT_FALSE(written);
@@ -191,27 +191,27 @@ TEST_F(UsbBulk, AWriteThatIsTakenInPartIsAFault) {
 TEST_F(UsbBulk, AStalledWriteIsAFaultAndTheNextOneWorks) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {.onBytes = echo});
     const auto transport = open(device, {.function = UsbFunction::Vendor});
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.stall(kOut);
     const auto written = transport->write(bytesOf("hello"), kLong);
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().code, ErrorCode::Device);
     EXPECT_THAT(written.error().message, HasSubstr("stall"));
-    ASSERT_TRUE(transport->write(bytesOf("again"), kLong));
+    ASSERT_IN_TIME(transport->write(bytesOf("again"), kLong));
     EXPECT_EQ(readAll(*transport, 5), bytesOf("again"));
 }
 
 TEST_F(UsbBulk, AStalledReadIsToldOnceAndReadingGoesOn) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {.onBytes = echo});
     const auto transport = open(device, {.function = UsbFunction::Vendor});
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.stall(kIn);
     std::array<std::uint8_t, 8> into{};
     const auto read = transport->read(into, kLong);
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().code, ErrorCode::Device);
     EXPECT_EQ(device.cleared(), 1);
-    ASSERT_TRUE(transport->write(bytesOf("after"), kLong));
+    ASSERT_IN_TIME(transport->write(bytesOf("after"), kLong));
     EXPECT_EQ(readAll(*transport, 5), bytesOf("after"));
 }
 
@@ -219,7 +219,7 @@ TEST_F(UsbBulk, APacketLargerThanTheDeviceSaidIsAFaultAndReadingGoesOn) {
     RecordProperty("hazard", "H10");
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S", 64), {});
     const auto transport = open(device, {.function = UsbFunction::Vendor});
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.sendPacket(kIn, UsbBytes(100, 1));
     UsbBytes into(256);
     ASSERT_EQ(transport->read(into, kLong).value(), 64u);  // what fitted is not hidden
@@ -234,7 +234,7 @@ TEST_F(UsbBulk, APacketLargerThanTheDeviceSaidIsAFaultAndReadingGoesOn) {
 TEST_F(UsbBulk, RefusesWhatItCannotCarry) {
     const EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     const auto transport = open(device, {.function = UsbFunction::Vendor});
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     const auto nan = Seconds(std::numeric_limits<double>::quiet_NaN());
     std::array<std::uint8_t, 1> one{};
     const auto refused = [](const auto& result) {

@@ -29,9 +29,9 @@ TEST_F(UsbContext_, ListsADeviceWithItsIdentityAndSocket) {
 TEST_F(UsbContext_, FindsDevicesThatWereThereBeforeIt) {
     const EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "B1"), {});
     const auto later = UsbContext::start();
-    ASSERT_TRUE(later) << later.error().message;
-    EXPECT_EQ((*later)->devices().size(), 1u);
-    EXPECT_TRUE((*later)->find({0x1209, 1}));
+    ASSERT_IN_TIME(later);
+    EXPECT_IN_TIME((*later)->devices().size() == 1u);
+    EXPECT_IN_TIME((*later)->find({0x1209, 1}));
 }
 
 TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt) {
@@ -41,7 +41,7 @@ TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt)
     {
         const UnprivilegedUser user(bed);
         const auto list = context->devices();
-        ASSERT_EQ(list.size(), 1u);
+        ASSERT_IN_TIME(list.size() == 1u);
         EXPECT_FALSE(list.front().permitted);
         EXPECT_EQ(list.front().serial, "P24-17");
         EXPECT_THAT(list.front().obstacle(), HasSubstr("./dev install-rules"));
@@ -59,7 +59,7 @@ TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt)
     const UnprivilegedUser user(bed);
     const auto list = context->devices();
     EXPECT_TRUE(list.front().permitted);
-    EXPECT_TRUE(UsbBulkTransport::open(context, list.front(), {}));
+    EXPECT_IN_TIME(UsbBulkTransport::open(context, list.front(), {}));
 }
 
 TEST_F(UsbContext_, TellsOfPluggingInBothDirections) {
@@ -69,11 +69,11 @@ TEST_F(UsbContext_, TellsOfPluggingInBothDirections) {
     auto waiting = std::async(std::launch::async, [&] { return context->waitForChange(empty, kLong); });
     device.plug();
     const auto plugged = waiting.get();
-    EXPECT_GT(plugged, empty);
-    ASSERT_EQ(context->devices().size(), 1u);
+    EXPECT_IN_TIME(plugged > empty);
+    ASSERT_IN_TIME(context->devices().size() == 1u);
     waiting = std::async(std::launch::async, [&] { return context->waitForChange(plugged, kLong); });
     device.unplug();
-    EXPECT_GT(waiting.get(), plugged);
+    EXPECT_IN_TIME(waiting.get() > plugged);
     EXPECT_TRUE(context->devices().empty());
 }
 
@@ -89,14 +89,14 @@ TEST_F(UsbContext_, FindsADeviceAgainBySerialInAnotherSocket) {
     const EmulatedUsbDevice other(bed, vendorDevice(0x1209, 1, "B2"), {}, 2);
     ASSERT_IN_TIME(waitForDevices(2));
     const auto before = context->find({0x1209, 1, "B1"});
-    ASSERT_TRUE(before);
+    ASSERT_IN_TIME(before);
     first.reset();
     ASSERT_IN_TIME(waitForDevices(1));
     EXPECT_EQ(context->find({0x1209, 1, "B1"}).error().code, ErrorCode::NotFound);
     const EmulatedUsbDevice again(bed, vendorDevice(0x1209, 1, "B1"), {}, 4);
     ASSERT_IN_TIME(waitForDevices(2));
     const auto after = context->find(before->identity());
-    ASSERT_TRUE(after);
+    ASSERT_IN_TIME(after);
     EXPECT_EQ(after->path, "1-4");
     EXPECT_NE(after->address, before->address);
 }

@@ -19,7 +19,7 @@ protected:
     [[nodiscard]] std::unique_ptr<UsbControl> openControl() const {
         if (!waitForDevices(1)) return nullptr;
         auto opened = UsbControl::open(context, context->devices().front(), kSpeed);
-        EXPECT_TRUE(opened) << opened.error().message;
+        EXPECT_IN_TIME(opened);
         return opened ? std::move(*opened) : nullptr;
     }
     UsbDescription vibrator() const {
@@ -33,10 +33,10 @@ protected:
 TEST_F(UsbControlTest, SendsTheVibratorsRequestWithTheValue) {
     const EmulatedUsbDevice device(bed, vibrator(), {});
     auto control = openControl();
-    ASSERT_TRUE(control);
+    ASSERT_IN_TIME(control);
     EXPECT_FALSE(device.kernelDriverBound());
-    ASSERT_TRUE(control->send(0, kLong));
-    ASSERT_TRUE(control->send(255, kLong));
+    ASSERT_IN_TIME(control->send(0, kLong));
+    ASSERT_IN_TIME(control->send(255, kLong));
     EXPECT_THAT(device.requests(), ElementsAre(speed(0), speed(255)));
     control.reset();
     EXPECT_TRUE(device.kernelDriverBound());
@@ -46,7 +46,7 @@ TEST_F(UsbControlTest, AnUrgentValueIsBehindTheOneInFlightAndAheadOfTheNext) {
     RecordProperty("hazard", "H2");
     EmulatedUsbDevice device(bed, vibrator(), {});
     const auto control = openControl();
-    ASSERT_TRUE(control);
+    ASSERT_IN_TIME(control);
     device.hold(0, true);
     auto sending = std::async(std::launch::async, [&] { return control->send(200, kLong); });
     ASSERT_IN_TIME(device.waitForWaiting(0, 1));
@@ -54,8 +54,8 @@ TEST_F(UsbControlTest, AnUrgentValueIsBehindTheOneInFlightAndAheadOfTheNext) {
     control->sendUrgent(0);
     ASSERT_IN_TIME(device.waitForWaiting(0, 2));
     device.hold(0, false);
-    ASSERT_TRUE(sending.get());
-    ASSERT_TRUE(control->send(7, kLong));
+    ASSERT_IN_TIME(sending.get());
+    ASSERT_IN_TIME(control->send(7, kLong));
     EXPECT_THAT(device.requests(), ElementsAre(speed(200), speed(0), speed(0), speed(7)));
     EXPECT_EQ(control->urgentDelivered(), 2u);
 }
@@ -67,10 +67,10 @@ TEST_F(UsbControlTest, ARefusalATimeOutAndAnUnplugAreToldApart) {
                                  return UsbBytes{};
                              }});
     const auto control = openControl();
-    ASSERT_TRUE(control);
-    EXPECT_EQ(control->send(1, kLong).error().code, ErrorCode::Device);
+    ASSERT_IN_TIME(control);
+    EXPECT_IN_TIME(control->send(1, kLong).error().code == ErrorCode::Device);
     refuse = false;
-    EXPECT_TRUE(control->send(1, kLong));
+    EXPECT_IN_TIME(control->send(1, kLong));
     device.hold(0, true);
     EXPECT_EQ(control->send(2, kShort).error().code, ErrorCode::Timeout);
     auto sending = std::async(std::launch::async, [&] { return control->send(3, kLong); });
@@ -78,7 +78,7 @@ TEST_F(UsbControlTest, ARefusalATimeOutAndAnUnplugAreToldApart) {
     device.unplug();
     const auto sent = sending.get();
     ASSERT_FALSE(sent);
-    EXPECT_EQ(sent.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(sent.error().code == ErrorCode::Device);
 }
 
 TEST_F(UsbControlTest, ARequestForInputIsRefused) {
@@ -95,7 +95,7 @@ TEST_F(UsbControlTest, AnAnswerGivesTheBytesThatCameAndBabbleIsAFault) {
         bed, vibrator(), {.onRequest = [&](const UsbSetup&, auto) { return std::optional(UsbBytes(length, 1)); }});
     ASSERT_IN_TIME(waitForDevices(1));
     const auto opened = UsbDevice::open(context, context->devices().front());
-    ASSERT_TRUE(opened);
+    ASSERT_IN_TIME(opened);
     std::array<std::uint8_t, 16> into{};
     EXPECT_EQ((*opened)->controlIn({.type = 0xC0, .request = 0x42}, into, kLong).value(), 6u);
     length = 40;

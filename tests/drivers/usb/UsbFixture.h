@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "drivers/usb/UsbBulkTransport.h"
+#include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/usb_emulation/EmulatedUsbDevice.h"
 
@@ -26,7 +27,7 @@ class UsbTest : public testing::Test {
 protected:
     void SetUp() override {
         auto started = UsbContext::start();
-        ASSERT_TRUE(started) << started.error().message;
+        ASSERT_IN_TIME(started);
         context = *started;
     }
 
@@ -51,7 +52,7 @@ protected:
         const auto list = context->devices();
         EXPECT_EQ(list.front().path, device.socket());
         auto opened = UsbBulkTransport::open(context, list.front(), options);
-        EXPECT_TRUE(opened) << opened.error().message;
+        EXPECT_IN_TIME(opened);
         return opened ? std::move(*opened) : nullptr;
     }
 

@@ -16,7 +16,7 @@ TEST_F(UsbUnplug, AWaitingReadReturnsAtOnce) {
     RecordProperty("hazard", "H2");
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     const auto transport = open(device, vendor);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     std::chrono::steady_clock::time_point returned;
     auto reading = std::async(std::launch::async, [&] {
         std::array<std::uint8_t, 8> into{};
@@ -29,7 +29,7 @@ TEST_F(UsbUnplug, AWaitingReadReturnsAtOnce) {
     device.unplug();
     const auto read = reading.get();
     ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(read.error().code == ErrorCode::Device);
     EXPECT_IN_TIME(Seconds(returned - pulled) < kNoticed);
     RecordProperty("noticed_ms", std::to_string(Seconds(returned - pulled).count() * 1e3));
 }
@@ -38,7 +38,7 @@ TEST_F(UsbUnplug, AWriteInFlightReturnsAtOnce) {
     RecordProperty("hazard", "H2");
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     const auto transport = open(device, vendor);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.hold(kOut, true);
     auto writing = std::async(std::launch::async,
                               [&] { return timed([&] { return transport->write(bytesOf("train"), kLong); }); });
@@ -46,11 +46,11 @@ TEST_F(UsbUnplug, AWriteInFlightReturnsAtOnce) {
     device.unplug();
     const auto [written, took] = writing.get();
     ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(written.error().code == ErrorCode::Device);
     EXPECT_IN_TIME(took < kLong);
     const auto [after, immediate] = timed([&] { return transport->write(bytesOf("more"), kLong); });
     ASSERT_FALSE(after);
-    EXPECT_EQ(after.error().code, ErrorCode::Device);
+    EXPECT_IN_TIME(after.error().code == ErrorCode::Device);
     EXPECT_IN_TIME(immediate < kNoticed);
     transport->writeUrgent(bytesOf("stop"));  // nobody there: no harm
 }
@@ -58,7 +58,7 @@ TEST_F(UsbUnplug, AWriteInFlightReturnsAtOnce) {
 TEST_F(UsbUnplug, WhatArrivedBeforeIsStillRead) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {.onBytes = echo});
     const auto transport = open(device, vendor);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.send(kIn, bytesOf("last words"));
     std::array<std::uint8_t, 4> first{};
     ASSERT_EQ(transport->read(first, kLong).value(), 4u);
@@ -70,18 +70,18 @@ TEST_F(UsbUnplug, WhatArrivedBeforeIsStillRead) {
 TEST_F(UsbUnplug, TheSameDeviceIsFoundAgainAndWorks) {
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "P24-17"), {.onBytes = echo});
     auto transport = open(device);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     const auto who = transport->info().identity();
     device.unplug();
     ASSERT_IN_TIME(waitForDevices(0));
     device.plug();
     ASSERT_IN_TIME(waitForDevices(1));
     const auto found = context->find(who);
-    ASSERT_TRUE(found);
+    ASSERT_IN_TIME(found);
     // The old transport may still be there while the new one works.
     auto again = UsbBulkTransport::open(context, *found, {});
-    ASSERT_TRUE(again) << again.error().message;
-    ASSERT_TRUE((*again)->write(bytesOf("back"), kLong));
+    ASSERT_IN_TIME(again);
+    ASSERT_IN_TIME((*again)->write(bytesOf("back"), kLong));
     EXPECT_EQ(readAll(**again, 4), bytesOf("back"));
     EXPECT_EQ(transport->write(bytesOf("old"), kLong).error().code, ErrorCode::Device);
 }
@@ -90,7 +90,7 @@ TEST_F(UsbUnplug, ATransportIsDestroyedWithTransfersInFlight) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     for (int round = 0; round < 20; ++round) {
         auto transport = open(device, vendor);
-        ASSERT_TRUE(transport);
+        ASSERT_IN_TIME(transport);
         device.hold(kOut, true);
         transport->writeUrgent(bytesOf("stop"));
         ASSERT_IN_TIME(device.waitForWaiting(kIn, 8));
@@ -105,7 +105,7 @@ TEST_F(UsbUnplug, PullingThePlugAtAnyMomentIsAnErrorAndNothingWorse) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {.onBytes = echo});
     for (int round = 0; round < 30; ++round) {
         auto transport = open(device, vendor);
-        ASSERT_TRUE(transport);
+        ASSERT_IN_TIME(transport);
         // The session's thread works and the stop comes from another until the device is gone.
         auto working = std::async(std::launch::async, [&] {
             std::array<std::uint8_t, 64> into{};
@@ -117,11 +117,11 @@ TEST_F(UsbUnplug, PullingThePlugAtAnyMomentIsAnErrorAndNothingWorse) {
             }
         });
         const auto busy = static_cast<std::size_t>(round % 7) + 1;
-        ASSERT_GE(device.waitForReceived(busy).size(), busy);
+        ASSERT_IN_TIME(device.waitForReceived(busy).size() >= busy);
         transport->writeUrgent(bytesOf("stop"));
         device.unplug();
         transport->writeUrgent(bytesOf("stop"));
-        EXPECT_EQ(working.get(), ErrorCode::Device);
+        EXPECT_IN_TIME(working.get() == ErrorCode::Device);
         transport.reset();
         ASSERT_IN_TIME(waitForDevices(0));
         device.plug();

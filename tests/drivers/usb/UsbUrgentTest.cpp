@@ -20,15 +20,15 @@ TEST_F(UsbUrgent, GoesOutBehindTheWriteInFlightAndAheadOfTheNext) {
     RecordProperty("hazard", "H2");
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     const auto transport = open(device, vendor);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.hold(kOut, true);
     auto writing = std::async(std::launch::async, [&] { return transport->write(bytesOf("train"), kLong); });
     ASSERT_IN_TIME(device.waitForWaiting(kOut, 1));
     transport->writeUrgent(bytesOf("stop"));
     ASSERT_IN_TIME(device.waitForWaiting(kOut, 2));  // in the queue before the call returned
     device.hold(kOut, false);
-    ASSERT_TRUE(writing.get());
-    ASSERT_TRUE(transport->write(bytesOf("next"), kLong));
+    ASSERT_IN_TIME(writing.get());
+    ASSERT_IN_TIME(transport->write(bytesOf("next"), kLong));
     EXPECT_THAT(device.waitForReceived(3), ElementsAre(bytesOf("train"), bytesOf("stop"), bytesOf("next")));
     EXPECT_EQ(transport->urgentDelivered(), 1u);
 }
@@ -36,7 +36,7 @@ TEST_F(UsbUrgent, GoesOutBehindTheWriteInFlightAndAheadOfTheNext) {
 TEST_F(UsbUrgent, ReturnsAtOnceWhileTheDeviceTakesNothing) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     const auto transport = open(device, vendor);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.hold(kOut, true);
     const auto stop = bytesOf("stop");
     const auto before = allocationsOfThisThread();
@@ -52,14 +52,14 @@ TEST_F(UsbUrgent, WhileItIsUnderWayTheNewestIsSentBehindIt) {
     RecordProperty("hazard", "H2");
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     const auto transport = open(device, vendor);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     device.hold(kOut, true);
     transport->writeUrgent(bytesOf("stop 1"));
     transport->writeUrgent(bytesOf("stop 2"));
     transport->writeUrgent(bytesOf("stop 3"));
     auto writing = std::async(std::launch::async, [&] { return transport->write(bytesOf("later"), kLong); });
     device.hold(kOut, false);
-    ASSERT_TRUE(writing.get());
+    ASSERT_IN_TIME(writing.get());
     EXPECT_THAT(device.waitForReceived(3), ElementsAre(bytesOf("stop 1"), bytesOf("stop 3"), bytesOf("later")));
     EXPECT_EQ(transport->urgentDelivered(), 2u);
 }
@@ -84,7 +84,7 @@ TEST_F(UsbUrgent, LeavesBeforeTheTransportCloses) {
     RecordProperty("hazard", "H2");
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
     auto transport = open(device, vendor);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     transport->writeUrgent(bytesOf("stop 1"));
     transport->writeUrgent(bytesOf("stop 2"));
     transport.reset();
@@ -94,7 +94,7 @@ TEST_F(UsbUrgent, LeavesBeforeTheTransportCloses) {
 TEST_F(UsbUrgent, ManyThreadsMayStopWhileOneWritesAndReads) {
     const EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {.onBytes = echo});
     const auto transport = open(device, vendor);
-    ASSERT_TRUE(transport);
+    ASSERT_IN_TIME(transport);
     std::atomic<bool> ending{false};
     std::vector<std::thread> stoppers;
     for (int i = 0; i < 3; ++i) {
@@ -102,7 +102,7 @@ TEST_F(UsbUrgent, ManyThreadsMayStopWhileOneWritesAndReads) {
             while (!ending) transport->writeUrgent(bytesOf("S"));
         });
     }
-    for (int i = 0; i < 300; ++i) ASSERT_TRUE(transport->write(bytesOf("work"), kLong)) << i;
+    for (int i = 0; i < 300; ++i) ASSERT_IN_TIME(transport->write(bytesOf("work"), kLong)) << i;
     ending = true;
     for (auto& stopper : stoppers) stopper.join();
     std::size_t works = 0;
