@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <fstream>
 #include <sys/file.h>
 #include <thread>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
 #include "core/session/Digest.h"
+#include "core/session/Durable.h"
 
 namespace tacto {
 
@@ -63,29 +65,62 @@ std::string digestOf(const nlohmann::json& line) { return sha256Hex(dumpJson(lin
 
 }  // namespace
 
-Result<void> ChainedLines::read(const std::function<Result<void>(const nlohmann::json& line)>& take) {
-    head_.clear();
-    wholeBytes_ = 0;
-    cut_ = false;
-    const auto content = readTextFile(file_);
-    if (!content) {
-        if (content.error().code == ErrorCode::NotFound) return {};
-        return failure(content);
+std::filesystem::path ChainedLines::noteFile() const { return file_.string() + ".end"; }
+
+Result<std::optional<ChainedLines::End>> ChainedLines::notedEnd() const {
+    const auto text = readTextFile(noteFile());
+    if (!text && text.error().code == ErrorCode::NotFound) return std::nullopt;
+    if (!text) return failure(text);
+    const auto note = parseJson(*text, noteFile().string());
+    if (!note) return failure(note);
+    if (note->is_object() && note->size() == 2 && note->contains("bytes") && note->contains("sha256") &&
+        (*note)["bytes"].is_number_unsigned() && (*note)["sha256"].is_string())
+        return End{(*note)["bytes"].get<std::size_t>(), (*note)["sha256"].get<std::string>()};
+    return fail(ErrorCode::ParseError, "{} does not say where {} ends; a note of this program was expected",
+                noteFile().string(), file_.string());
+}
+
+Result<void> ChainedLines::noteEnd() const {
+    const auto draft = noteFile().string() + ".new";
+    {
+        std::ofstream out(draft, std::ios::binary | std::ios::trunc);
+        out << dumpJson({{"bytes", end_.bytes}, {"sha256", end_.head}}) << '\n';
+        out.flush();
+        if (!out) return fail(ErrorCode::Io, "{} cannot be written", draft);
     }
-    std::string_view text = *content;
-    std::size_t number = 0;
-    while (!text.empty()) {
-        const auto end = text.find('\n');
-        if (end == std::string_view::npos) {
+    if (const auto synced = syncFile(draft); !synced) return synced;
+    std::error_code error;
+    std::filesystem::rename(draft, noteFile(), error);
+    if (error) return fail(ErrorCode::Io, "{} cannot be replaced: {}", noteFile().string(), error.message());
+    syncFolderOf(noteFile());
+    return {};
+}
+
+Result<void> ChainedLines::read(const std::function<Result<void>(const nlohmann::json& line)>& take) {
+    end_ = {};
+    cut_ = false;
+    const auto noted = notedEnd();  // before the lines, which are written before it: another process may append
+    if (!noted) return failure(noted);
+    const auto content = readTextFile(file_);
+    if (!content && content.error().code != ErrorCode::NotFound) return failure(content);
+    return readLines(content ? *content : "", *noted, take);
+}
+
+Result<void> ChainedLines::readLines(std::string_view text, const std::optional<End>& noted,
+                                     const std::function<Result<void>(const nlohmann::json& line)>& take) {
+    bool reached = !noted || *noted == end_;
+    bool isNoted = false;
+    for (std::size_t number = 1; !text.empty(); ++number) {
+        const auto length = text.find('\n');
+        if (length == std::string_view::npos) {
             cut_ = true;  // a crash while it was written: it was never confirmed
-            return {};
+            break;
         }
-        ++number;
         const auto wrong = [&](std::string_view why) {
             return fail(ErrorCode::ParseError, "{}:{}: {}; an unchanged line of this program was expected",
                         file_.string(), number, why);
         };
-        auto line = parseJson(text.substr(0, end), "the line");
+        auto line = parseJson(text.substr(0, length), "the line");
         if (!line) return wrong(fmt::format("this is no {}: {}", what_, line.error().message));
         if (!line->is_object() || !line->contains("sha256") || !line->contains("previous")) {
             return wrong("this is no " + what_);
@@ -94,11 +129,21 @@ Result<void> ChainedLines::read(const std::function<Result<void>(const nlohmann:
         line->erase("sha256");
         const auto digest = digestOf(*line);
         if (stated != digest) return wrong("its digest does not fit what it says");
-        if ((*line)["previous"] != head_) return wrong("the line before it is not the one that it followed");
+        if ((*line)["previous"] != end_.head) return wrong("the line before it is not the one that it followed");
+        isNoted = line->erase("end_noted") > 0 || isNoted;
         if (const auto taken = take(*line); !taken) return wrong(taken.error().message);
-        head_ = digest;
-        wholeBytes_ += end + 1;
-        text.remove_prefix(end + 1);
+        end_ = {end_.bytes + length + 1, digest};
+        reached = reached || *noted == end_;
+        text.remove_prefix(length + 1);
+    }
+    if (!reached) {
+        return fail(ErrorCode::ParseError,
+                    "{} ends at byte {} where {} says {}: lines are missing; put it back from your copy",
+                    file_.string(), end_.bytes, noteFile().string(), noted->bytes);
+    }
+    if (isNoted && !noted) {
+        return fail(ErrorCode::ParseError, "{} is missing, so lines of {} may be; put both back from your copy",
+                    noteFile().string(), file_.string());
     }
     return {};
 }
@@ -114,17 +159,23 @@ Result<void> ChainedLines::append(const std::function<Result<nlohmann::json>()>&
     }
     auto body = line();
     if (!body) return failure(body);
-    (*body)["previous"] = head_;
+    // A line that says so, and no note after a crash, would be a line too many.
+    const auto noted = notedEnd();
+    if (!noted) return failure(noted);
+    if (!*noted) {
+        if (const auto first = noteEnd(); !first) return first;
+    }
+    (*body)["end_noted"] = true;
+    (*body)["previous"] = end_.head;
     const auto digest = digestOf(*body);
     (*body)["sha256"] = digest;
     const std::string text = dumpJson(*body) + '\n';
-    if (!lock.write(wholeBytes_, text)) {
+    if (!lock.write(end_.bytes, text)) {
         return fail(ErrorCode::Io, "{} cannot be written: {}", file_.string(), std::strerror(errno));
     }
-    head_ = digest;
-    wholeBytes_ += text.size();
+    end_ = {end_.bytes + text.size(), digest};
     cut_ = false;
-    return {};
+    return noteEnd();
 }
 
 std::filesystem::path labFile(std::string_view name) {

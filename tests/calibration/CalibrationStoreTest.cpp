@@ -4,7 +4,7 @@
 
 #include "core/base/NaN.h"
 #include "core/calibration/CalibrationStore.h"
-#include "core/session/Digest.h"
+#include "tests/calibration/UnnotedLine.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -111,9 +111,10 @@ TEST_F(CalibrationStoreFile, FindsALineThatWasChangedTakenOutOrMoved) {
 TEST_F(CalibrationStoreFile, ALineCutShortByACrashIsLeftOutAndReplaced) {
     auto kept = store();
     ASSERT_TRUE(kept.add(sample("A1", 1.01)));
-    const auto whole = textOf(path);
+    const auto whole = textOf(path), end = textOf(path.string() + ".end");
     ASSERT_TRUE(kept.add(sample("A1", 1.02)));
     write(path, textOf(path).substr(0, whole.size() + 40));
+    write(path.string() + ".end", end);
     auto opened = store();
     EXPECT_TRUE(opened.lastLineCut());
     EXPECT_DOUBLE_EQ(opened.latest("A1", "V")->amplitude.gain, 1.01);
@@ -171,9 +172,7 @@ TEST_F(CalibrationStoreFile, OneWithoutItsTimesIsReadAndHoldsForNothing) {
     // As the store wrote it while it kept amplitudes alone.
     auto line = nlohmann::json::parse(textOf(path));
     for (const char* time : {"interval", "width", "gap"}) line["calibration"].erase(time);
-    line.erase("sha256");
-    line["sha256"] = sha256Hex(line.dump());
-    write(path, line.dump() + '\n');
+    writeUnnoted(path, std::move(line));
     auto old = store();
     ASSERT_NE(old.latest("A1", "V"), nullptr);
     EXPECT_DOUBLE_EQ(old.latest("A1", "V")->amplitude.gain, 1.02);
@@ -189,13 +188,12 @@ TEST_F(CalibrationStoreFile, OneWithoutItsProvenanceIsReadAndNotApplied) {
     RecordProperty("hazard", "H1");
     const auto forged = [&](auto change) {
         std::filesystem::remove(path);
+        std::filesystem::remove(path.string() + ".end");
         auto kept = store();
         EXPECT_TRUE(kept.add(sample("A1", 0.9)));
         auto line = nlohmann::json::parse(textOf(path));
         change(line["calibration"]);
-        line.erase("sha256");
-        line["sha256"] = sha256Hex(line.dump());
-        write(path, line.dump() + '\n');
+        writeUnnoted(path, std::move(line));
         const auto opened = store();
         EXPECT_NE(opened.latest("A1", "V"), nullptr);
         const auto valid = opened.valid("A1", "V", on("2026-12-01"), false);

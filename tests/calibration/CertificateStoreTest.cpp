@@ -104,6 +104,7 @@ TEST_F(CertificateStoreFile, WhatWasChangedOrTakenOutIsFound) {
     RecordProperty("hazard", "H8");
     auto kept = store();
     ASSERT_TRUE(kept.add(certificateOf("A1"), today));
+    const auto endOfFirst = contentsOf(path.string() + ".end");
     ASSERT_TRUE(kept.add(certificateOf("B2"), today));
     const auto sound = contentsOf(path);
     const auto why = [&](const std::string& text) {
@@ -116,7 +117,9 @@ TEST_F(CertificateStoreFile, WhatWasChangedOrTakenOutIsFound) {
     EXPECT_THAT(why(changed), HasSubstr("certificates.jsonl:1: its digest"));
     EXPECT_THAT(why(sound.substr(sound.find('\n') + 1)), HasSubstr(":1: the line before it"));
     EXPECT_THAT(why("{}\n"), HasSubstr("this is no certificate"));
-    EXPECT_EQ(why(sound.substr(0, sound.size() - 5)), "read");  // cut short by a crash
+    EXPECT_THAT(why(sound.substr(0, sound.size() - 5)), HasSubstr("lines are missing"));
+    std::ofstream(path.string() + ".end") << endOfFirst;
+    EXPECT_EQ(why(sound.substr(0, sound.size() - 5)), "read");  // cut short by a crash, before its end was noted
     EXPECT_TRUE(store().lastLineCut());
     EXPECT_EQ(store().all().size(), 1U);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/calibration/LoadSafetyStore.h"
+#include "tests/calibration/UnnotedLine.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -160,6 +161,50 @@ TEST_F(LoadSafetyChecks, AChangedFileCannotBeReadOrAddedTo) {
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().code, ErrorCode::ParseError);
     EXPECT_THAT(opened.error().message, HasSubstr("load-safety.jsonl:1: its digest does not fit"));
+}
+
+TEST_F(LoadSafetyChecks, LinesTakenOffItsEndAreMissed) {
+    RecordProperty("hazard", "H9");
+    const auto note = path.string() + ".end";
+    keep(checkOf());
+    const auto older = bytesOf(path), olderNote = bytesOf(note);
+    keep(checkOf(CheckVerdict::Fail));
+    const auto newer = bytesOf(path), newerNote = bytesOf(note);
+    const auto refusal = [&](const std::optional<std::string>& lines, const std::optional<std::string>& end) {
+        std::filesystem::remove(path);
+        std::filesystem::remove(note);
+        if (lines) std::ofstream(path) << *lines;
+        if (end) std::ofstream(note) << *end;
+        const auto opened = LoadSafetyStore::open(path);
+        return opened ? std::string() : opened.error().message;
+    };
+    EXPECT_EQ(refusal(newer, newerNote), "");
+    EXPECT_EQ(refusal(older, newerNote), fmt::format("{} ends at byte {} where {} says {}: lines are missing; put it "
+                                                     "back from your copy",
+                                                     path.string(), older.size(), note, newer.size()));
+    EXPECT_THAT(refusal("", newerNote), HasSubstr("lines are missing"));
+    EXPECT_THAT(refusal(std::nullopt, newerNote), HasSubstr("lines are missing"));
+    EXPECT_THAT(refusal(older, std::nullopt), HasSubstr("load-safety.jsonl.end is missing"));
+    EXPECT_THAT(refusal(newer, "{}"), HasSubstr("does not say where"));
+    EXPECT_THAT(refusal(newer, "bytes"), HasSubstr("load-safety.jsonl.end"));
+
+    // The power failed when the line was on disk and its end was not noted.
+    EXPECT_EQ(refusal(newer, olderNote), "");
+    EXPECT_THAT(why(), HasSubstr("ended with the verdict \"fail\"")) << "the line counts";
+    keep(checkOf(CheckVerdict::Fail));
+    EXPECT_EQ(store().all().size(), 3U);
+    EXPECT_THAT(refusal(newer, bytesOf(note)), HasSubstr("lines are missing"));
+}
+
+TEST_F(LoadSafetyChecks, AFileFromBeforeEndsWereNotedIsReadAndNotedFromThenOn) {
+    keep(checkOf());
+    writeUnnoted(path, nlohmann::json::parse(bytesOf(path)));
+    const auto text = bytesOf(path);
+    EXPECT_EQ(store().all().size(), 1U);
+    keep(checkOf(CheckVerdict::Fail));
+    EXPECT_EQ(store().all().size(), 2U);
+    std::ofstream(path) << text;
+    EXPECT_FALSE(LoadSafetyStore::open(path));
 }
 
 TEST_F(LoadSafetyChecks, OneThatIsNotWholeIsNotKept) {
