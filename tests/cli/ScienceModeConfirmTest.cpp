@@ -22,6 +22,12 @@ protected:
     [[nodiscard]] std::size_t putOut() const {
         return pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); });
     }
+    void expectUnconfirmed(TerminalCli& cli) const {
+        const int code = cli.wait();
+        EXPECT_NE(code, 0) << cli.screen();
+        EXPECT_EQ(putOut(), 0U) << cli.screen();
+        ASSERT_IN_TIME(code == 4) << cli.screen();
+    }
     static constexpr const char* kQuestion = "anything else delivers nothing: ";
 
     const SteadyClock clock_;
@@ -37,7 +43,7 @@ TEST_F(ScienceModeConfirm, TheTypedWordDelivers) {
     EXPECT_THAT(cli.screen(), HasSubstr("bench load of 1 kohm"));
     EXPECT_EQ(putOut(), 0U) << "before it was confirmed";
     cli.type("bench load\n");
-    EXPECT_EQ(cli.wait(), 0) << cli.screen();
+    ASSERT_IN_TIME(cli.wait() == 0) << cli.screen();
     EXPECT_EQ(putOut(), 2U);
     EXPECT_THAT(cli.screen(), HasSubstr("verdict  pass"));
 }
@@ -47,7 +53,7 @@ TEST_F(ScienceModeConfirm, AnythingElseDeliversNothing) {
         TerminalCli cli(desk_, words());
         ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
         cli.type(typed);
-        EXPECT_EQ(cli.wait(), 4) << typed << cli.screen();
+        expectUnconfirmed(cli);
         EXPECT_THAT(cli.screen(), HasSubstr("not confirmed: nothing was delivered"));
     }
     EXPECT_EQ(putOut(), 0U);
@@ -58,7 +64,7 @@ TEST_F(ScienceModeConfirm, WhatWasTypedBeforeTheQuestionIsNoAnswer) {
     cli.type("bench load\n");
     ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
     cli.type("no\n");
-    EXPECT_EQ(cli.wait(), 4) << cli.screen();
+    expectUnconfirmed(cli);
     EXPECT_EQ(putOut(), 0U);
 }
 
@@ -67,7 +73,7 @@ TEST_F(ScienceModeConfirm, CtrlCWhileItWaitsDeliversNothing) {
     TerminalCli cli(desk_, words());
     ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
     cli.type("bench load\x03");
-    EXPECT_EQ(cli.wait(), 4) << cli.screen();
+    expectUnconfirmed(cli);
     EXPECT_THAT(cli.screen(), HasSubstr("stopped by the operator"));
     EXPECT_EQ(putOut(), 0U);
     EXPECT_GE(pty_->inspect([](auto& device, Instant) { return device.requests(sciencemode::Command::LowLevelStop); }),
@@ -79,7 +85,7 @@ TEST_F(ScienceModeConfirm, ADrawingIsAsWideAsItsTerminal) {
     TerminalCli cli(desk_, words(), 50);
     ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
     cli.type("bench load\n");
-    ASSERT_EQ(cli.wait(), 0) << cli.screen();
+    ASSERT_IN_TIME(cli.wait() == 0) << cli.screen();
     const auto axis = cli.screen().find("+---");
     ASSERT_NE(axis, std::string::npos);
     const auto begin = cli.screen().rfind('\n', axis) + 1;

@@ -12,6 +12,7 @@
 #include "app/gui/window/SafetyBar.h"
 #include "tests/e2e/Hand.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -23,7 +24,7 @@ protected:
 
     void expectAllOnScreen(gui::MainWindow& window, const char* when) {
         window.show();
-        ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+        ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
         QTest::qWait(100);  // docks take their sizes one turn later
         const auto screen = QGuiApplication::primaryScreen()->availableGeometry();
         const auto isOn = [&](const QWidget& widget) {
@@ -78,7 +79,7 @@ TEST_F(Screen, DISABLED_LeftOnALargerScreen) {
 TEST_F(Screen, DISABLED_ItGetsSmallerThanALaptopsScreen) {
     gui::MainWindow window(simulatedRegistry);
     window.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
     // 1920 x 1080 at 200 % is 960 x 540; the title bar and a panel take their part.
     window.resize(940, 480);
     QTest::qWait(50);

@@ -67,7 +67,7 @@ protected:
         RecordProperty("hazard", "H2");
         EXPECT_EQ(QGuiApplication::platformName(), "xcb");
         window.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
         focus(window);
         stop = window.findChild<gui::SafetyBar*>()->findChild<QPushButton*>("stopButton");
         makeStudy();

@@ -25,7 +25,7 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     window.resize(QGuiApplication::primaryScreen()->size());
     window.move(0, 0);
     window.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
     window.activateWindow();
     auto& controller = window.controller();
     const auto state = [&] { return controller.telemetry().state; };
@@ -61,7 +61,7 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     menuDialog->setModal(true);
     auto* field = new QLineEdit(menuDialog);
     menuDialog->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(menuDialog));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(menuDialog));
     menuDialog->activateWindow();
     field->setFocus();
     type("Escape");

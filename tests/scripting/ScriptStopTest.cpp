@@ -61,7 +61,7 @@ struct Stopping {
         reached.get_future().wait();
         armedBefore = !rig.outputOff();
         // Long enough for the script to be inside what it does next.
-        EXPECT_FALSE(run->waitFor(milliseconds(150))) << "the script ended by itself";
+        [&] { ASSERT_IN_TIME(!run->waitFor(milliseconds(150))) << "the script ended by itself"; }();
         const auto begin = steady_clock::now();
         run->stop("the test");
         offAtOnce = rig.outputOff();
@@ -75,7 +75,7 @@ struct Stopping {
 };
 
 void expectStopped(const Stopping& stopping, int line) {
-    EXPECT_TRUE(stopping.armedBefore);
+    ASSERT_IN_TIME(stopping.armedBefore);
     EXPECT_TRUE(stopping.offAtOnce);
     EXPECT_TRUE(stopping.offAfter);
     EXPECT_EQ(stopping.outcome.verdict, ScriptVerdict::Stopped);
@@ -92,7 +92,7 @@ TEST(ScriptStop, AScriptThatDrivesAndWaitsNoMoreEndsItsOutput) {
     const auto outcome = rig.run(withRun(kArmed + "const until = Date.now() + 4000; while (Date.now() < until);\n"
                                                   "log(bench.live().state); bench.wait(0.1);"));
     ASSERT_TRUE(outcome.error);
-    EXPECT_EQ(outcome.error->code, ErrorCode::Stopped);
+    ASSERT_IN_TIME(outcome.error->code == ErrorCode::Stopped) << outcome.error->message;
     EXPECT_NE(outcome.error->message.find("did not look after it"), std::string::npos) << outcome.error->message;
     ASSERT_EQ(outcome.log.size(), 2U);
     EXPECT_EQ(outcome.log[1], "disarmed");
@@ -245,7 +245,7 @@ TEST(ScriptStop, OfTheBenchByAnotherDoorEndsTheRunToo) {
     reached.get_future().wait();
     rig.bench().stop("the red button");
     const auto outcome = run->wait();
-    EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
+    ASSERT_IN_TIME(outcome.verdict == ScriptVerdict::Stopped);
     ASSERT_TRUE(outcome.error);
     EXPECT_TRUE(outcome.error->message.starts_with("/lab/probe.js:3: ")) << outcome.error->message;
     EXPECT_TRUE(rig.outputOff());

@@ -257,7 +257,10 @@ void SessionOverview::saved(const SessionLabels& before, const SessionLabels& ed
         kept_ = *done;
         showLabels(shown);
     }
-    saySaved(refused_.isEmpty() ? tr("Kept in the session.") : refused_, !refused_.isEmpty());
+    if (!refused_.isEmpty())
+        saySaved(refused_, true);
+    else if (pending_ == 0)  // else an edit that followed is still being saved, and the label says so
+        saySaved(tr("Kept in the session."), false);
 }
 
 void SessionOverview::saySaved(const QString& text, bool refused) {

@@ -77,7 +77,7 @@ TEST_F(Editor, RefusesWhatIsNoNumber) {
 }
 
 TEST_F(Editor, AppliesARightValueToAnOpenBench) {
-    ASSERT_TRUE(openSimulated());
+    ASSERT_IN_TIME(openSimulated());
     EXPECT_THAT(says().toStdString(), HasSubstr("In force."));
     EXPECT_FALSE(button("Apply").isEnabled()) << "nothing has changed";
     type("amplitude_max_v", "30");
@@ -85,7 +85,7 @@ TEST_F(Editor, AppliesARightValueToAnOpenBench) {
     click(button("Apply"));
     ASSERT_IN_TIME(comesTrue([this] { return controller.profile().encoding.amplitudeMax.value() == 30; }));
     EXPECT_IN_TIME(comesTrue([this] { return says().contains("In force."); }));
-    ASSERT_TRUE(armed());
+    ASSERT_IN_TIME(armed());
     controller.drive(DriveSource::Manual, 1, 1);
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().amplitude_v == 30; }))
         << controller.telemetry().amplitude_v;
@@ -93,8 +93,8 @@ TEST_F(Editor, AppliesARightValueToAnOpenBench) {
 }
 
 TEST_F(Editor, SaysWhyItWasNotAppliedWhileArmed) {
-    ASSERT_TRUE(openSimulated());
-    ASSERT_TRUE(armed());
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(armed());
     type("amplitude_max_v", "30");
     click(button("Apply"));
     ASSERT_IN_TIME(comesTrue([this] { return says().contains("Not applied"); }));
@@ -169,8 +169,8 @@ TEST_F(Editor, TellsChargeAndImbalanceOfThePulse) {
 }
 
 TEST_F(Editor, MarksWhereTouchStandsOnTheCurves) {
-    ASSERT_TRUE(openSimulated());
-    ASSERT_TRUE(armed());
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(armed());
     controller.drive(DriveSource::Manual, 0.5, 1);
     auto* preview = editor.findChild<gui::ProfilePreview*>();
     ASSERT_IN_TIME(comesTrue([&] {
@@ -221,11 +221,11 @@ TEST_F(Editor, AFileThatIsWrongIsRefusedAndTheFormStays) {
 
 TEST_F(Editor, LooksRightInBothThemes) {
     const auto looks = [this](const char* name) {
-        ASSERT_TRUE(passes(0.2));
+        ASSERT_IN_TIME(passes(0.2));
         shot(editor, name);
         EXPECT_EQ(faultsOf(editor), "") << name;
     };
-    ASSERT_TRUE(openSimulated());
+    ASSERT_IN_TIME(openSimulated());
     type("amplitude_min_v", "45");
     looks("profile_wrong");
     type("amplitude_min_v", "10");

@@ -5,6 +5,7 @@
 #include "core/session/SessionWriter.h"
 #include "tests/bench/PersonFixture.h"
 #include "tests/gui/pilot/SeatedPeople.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -103,7 +104,7 @@ protected:
                 return false;
             },
             60'000);
-        EXPECT_TRUE(done) << "still asks: " << window.title().toStdString();
+        EXPECT_IN_TIME(done) << "still asks: " << window.title().toStdString();
         if (!done) desk.cancel();
         return running.get();
     }
@@ -118,14 +119,14 @@ TEST_P(DetectionByKey, FindsWhatThePersonFeels) {
     RecordProperty("hazard", "H9");
     PilotThresholds thresholds(*behind.stage);
     const auto limits = answering([&] { return thresholds.ascendingLimits(); });
-    ASSERT_TRUE(limits) << limits.error().message;
+    ASSERT_IN_TIME(limits);
     EXPECT_DOUBLE_EQ(thresholds.limits().felt, kFelt_ma);
     ASSERT_IN_TIME(comesTrue([this] { return window.title().contains("let go"); }));
     QTest::keyRelease(window.windowHandle(), Qt::Key_H);
     EXPECT_EQ(behind.stage->record().count(row::kParticipantStop), 0U) << "levels rise no more: nothing is held";
 
     const auto found = answering([&] { return thresholds.detection(GetParam()); });
-    ASSERT_TRUE(found) << found.error().message;
+    ASSERT_IN_TIME(found);
     EXPECT_GT(thresholds.estimate(), kFelt_ma - 1);
     EXPECT_LT(thresholds.estimate(), kFelt_ma + 0.5);
     EXPECT_GE(asked, GetParam() == DetectionMethod::Quest ? 24 : 10);
@@ -133,7 +134,7 @@ TEST_P(DetectionByKey, FindsWhatThePersonFeels) {
     EXPECT_EQ(marked[2], asked);
 
     const auto range = answering([&] { return thresholds.range(); });
-    ASSERT_TRUE(range) << range.error().message;
+    ASSERT_IN_TIME(range);
     ASSERT_TRUE(thresholds.found());
     EXPECT_TRUE(thresholds.found()->usable) << thresholds.found()->reason;
 }

@@ -11,6 +11,7 @@
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/pilot/SeatedPeople.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -25,7 +26,7 @@ protected:
         page.resize(880, 720);
         page.begin(true, true);
         page.setVisible(true);
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&page));
+        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&page));
     }
     ~Operator8b() override {
         gui::applyTextSize(100);
@@ -165,7 +166,7 @@ TEST(Rehearsal, PageSaysWhoAnswersAndBegins) {
     gui::RehearsalPage page;
     page.resize(900, 700);
     page.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&page));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&page));
     EXPECT_FALSE(page.rehearsal().person);
     EXPECT_TRUE(page.rehearsal().blind);
     auto* who = page.findChild<QComboBox*>("whoAnswers");

@@ -4,6 +4,7 @@
 
 #include "app/gui/pilot/ParticipantDesk.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -26,7 +27,7 @@ protected:
     void ask(const PilotPrompt& prompt) {
         asked = 0;
         answer = std::async(std::launch::async, [this, prompt] { return desk.ask(prompt); });
-        ASSERT_TRUE(comesTrue([this] { return asked != 0; }));
+        ASSERT_IN_TIME(comesTrue([this] { return asked != 0; }));
     }
     [[nodiscard]] bool waits() const { return answer.wait_for(30ms) != std::future_status::ready; }
     static PilotAnswer with(const char* key) {

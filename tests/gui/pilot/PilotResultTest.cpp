@@ -7,6 +7,7 @@
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -67,7 +68,7 @@ TEST(PilotResult, ShowsTheMatrixAndLooksRight) {
         view.resize(1000, 720);
         view.show(run, "/home/lab/rehearsal-1");
         static_cast<QWidget&>(view).show();
-        ASSERT_TRUE(QTest::qWaitForWindowExposed(&view));
+        ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&view));
         QTest::qWait(30);
         shot(view, QString("pilot-result-%1").arg(theme == gui::Theme::Dark ? "dark" : "light"));
         EXPECT_EQ(faultsOf(view), "");
@@ -86,7 +87,7 @@ TEST(PilotResult, AnEarlyEndSaysWhyAndOffersToGoOn) {
     gui::PilotResult view;
     view.show(run, "/home/lab/rehearsal-1");
     static_cast<QWidget&>(view).show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&view));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&view));
     EXPECT_NE(find<QPushButton>(view, "Go on with the session"), nullptr);
     EXPECT_FALSE(view.findChild<QTableWidget*>("confusion")->isVisible());
 }

@@ -13,6 +13,7 @@
 #include "app/gui/pilot/PilotWorkspace.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -90,7 +91,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     ASSERT_NE(strip, nullptr);
     const auto runs = [this] { return pilot->running(); };
     ASSERT_IN_TIME(comesTrue([&] { return !runs() || (strip->isVisible() && strip->question().open()); }, 20'000));
-    ASSERT_TRUE(runs()) << headline();
+    ASSERT_IN_TIME(runs()) << headline();
     QTest::qWait(100);
     shot(*theirs, "pilot-strip");
     QTest::mousePress(strip->findChild<gui::ParticipantStop*>("operatorStop"), Qt::LeftButton);
@@ -99,7 +100,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     click(*find<QPushButton>(*strip, "0"));
     ASSERT_IN_TIME(comesTrue(
         [&] { return !runs() || (strip->isVisible() && find<QPushButton>(*strip, "0") != nullptr); }, 20'000));
-    ASSERT_TRUE(runs()) << headline();
+    ASSERT_IN_TIME(runs()) << headline();
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_EQ(pilot->participantWindow(), nullptr);

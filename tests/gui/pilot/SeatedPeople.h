@@ -41,10 +41,10 @@ protected:
         desk.show(testScreen(ScreenState::Rest));
         window.resize(1440, 900);
         window.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
         window.activateWindow();
         window.setFocus();
-        EXPECT_TRUE(QTest::qWaitForWindowActive(&window));
+        EXPECT_IN_TIME(QTest::qWaitForWindowActive(&window));
     }
     ~Seated() override {
         desk.end();

@@ -12,6 +12,7 @@
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -35,7 +36,7 @@ protected:
         page.resize(1000, 640);
         page.prepare(*study, who);
         page.show();
-        ASSERT_TRUE(QTest::qWaitForWindowExposed(&page));
+        ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&page));
     }
     void answer(const char* word) {
         for (const auto& item : exclusionItems())

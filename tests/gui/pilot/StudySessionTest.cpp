@@ -178,7 +178,7 @@ TEST_F(StudyInTheWindow, EveryPageLooksRightAtEverySize) {
             gui::applyTheme(theme);
             window.resize(size);
             // Texts grow before their places do.
-            EXPECT_TRUE(comesTrue([this] { return faultsOf(*pilot).empty(); }, 3000)) << name << faultsOf(*pilot);
+            EXPECT_IN_TIME(comesTrue([this] { return faultsOf(*pilot).empty(); }, 3000)) << name << faultsOf(*pilot);
             shot(window, QString("pilot-%1-%2").arg(name).arg(percent));
         }
     };

@@ -45,7 +45,7 @@ function run(p) {
 
 TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     open("separability");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     type("operator", "A. Lind");
     type("repeats", "2");
     ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("into 1"); }));
@@ -97,7 +97,7 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
 TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
     RecordProperty("hazard", "H1");
     open("separability");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     type("load", "50");
     // At once, by the key: the table may still show the load of a moment ago.
     QTest::keyClick(&the<QLineEdit>("load"), Qt::Key_F5);
@@ -114,7 +114,7 @@ TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
     EXPECT_EQ(wanted, 1);
     shot(*workspace, "cannot_run");
     type("load", "1000");
-    EXPECT_TRUE(ready());
+    EXPECT_IN_TIME(ready());
     EXPECT_EQ(says("runObstacle"), "");
     EXPECT_EQ(find<QPushButton>(*workspace, "changeProfile"), nullptr);
 }
@@ -128,7 +128,7 @@ TEST_F(WorkspaceInLargeText, ThePathIsARowAndThePlotKeepsItsRoom) {
     for (const char* protocol : {"load-safety", ""}) {
         open(protocol, {1190, 640});
         if (*protocol == '\0') choose("separability");
-        ASSERT_TRUE(comesTrue([this] { return find<QWidget>(*workspace, "path") != nullptr; }));
+        ASSERT_IN_TIME(comesTrue([this] { return find<QWidget>(*workspace, "path") != nullptr; }));
         auto& path = the<QWidget>("path");
         ASSERT_IN_TIME(comesTrue([&] { return path.width() >= workspace->width() - 2; })) << path.width();
         EXPECT_LE(path.height(), workspace->height() / 3) << protocol;
@@ -148,7 +148,7 @@ TEST_F(WorkspaceInLargeText, ARunInARowSaysHowFarItIsAndCanBeStopped) {
     write("loop", kLoop);
     open("", {1190, 640});
     choose("loop");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(*workspace, "stopButton") != nullptr; }));
     EXPECT_EQ(find<QPushButton>(*workspace, "runButton"), nullptr) << "two of three buttons have room";
@@ -168,7 +168,7 @@ TEST_F(Workspace, EveryShippedProtocolRunsAsItComes) {
     open("");
     for (const char* name : {"encoding-comparison", "live", "separability", "stimulator-calibration", "transitions"}) {
         choose(name);
-        EXPECT_TRUE(ready()) << name;
+        EXPECT_IN_TIME(ready()) << name;
         QTest::qWait(200);  // judged a moment after it is shown
         EXPECT_TRUE(the<QPushButton>("runButton").isEnabled()) << name << says("runObstacle").toStdString();
     }
@@ -178,7 +178,7 @@ TEST_F(Workspace, LooksRightDarkAndSmall) {
     gui::applyTheme(gui::Theme::Dark);
     open("", {760, 500});
     choose("separability");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     type("repeats", "2");
     type("load", "0");
     ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("accepted"); }));
@@ -193,7 +193,7 @@ TEST_F(Workspace, LooksRightDarkAndSmall) {
 
 TEST_F(Workspace, RefusesAWrongSettingInPlaceAndRunsNothing) {
     open("separability");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     type("repeats", "1");
     ASSERT_IN_TIME(comesTrue([this] { return !says("trouble-repeats").isEmpty(); }));
     EXPECT_THAT(says("trouble-repeats").toStdString(), HasSubstr("2"));
@@ -211,8 +211,8 @@ TEST_F(Workspace, RefusesAWrongSettingInPlaceAndRunsNothing) {
 
 TEST_F(Workspace, ShowsTheWorstCaseOfTheDeclaredLoad) {
     open("separability");
-    ASSERT_TRUE(ready());
-    ASSERT_TRUE(
+    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(
         comesTrue([this] { return says("worstCase").contains("1 kΩ") || says("worstCase").contains("1\u202fkΩ"); }));
     EXPECT_THAT(says("worstCase").toStdString(), HasSubstr("Every limit that can be evaluated is kept"));
     type("load", "10");
@@ -226,7 +226,7 @@ TEST_F(Workspace, PutsQuestionsInPlaceAndRefusesAnAnswerThatDoesNotFit) {
     write("ask", kAsk);
     open("");
     choose("ask");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     gui::ProtocolWorkspace other(controller, "separability");
     other.show();
     QTest::keyClick(workspace.get(), Qt::Key_F5);
@@ -253,7 +253,7 @@ TEST_F(Workspace, ARefusedQuestionEndsTheRun) {
     write("ask", kAsk);
     open("");
     choose("ask");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("runButton"));
     click(the<QPushButton>("Refuse and end the run"));
     ASSERT_IN_TIME(ends());
@@ -266,7 +266,7 @@ TEST_F(Workspace, StopsAScriptThatLoopsForEver) {
     write("loop", kLoop);
     open("");
     choose("loop");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Armed; }));
     EXPECT_FALSE(the<QPushButton>("runButton").isEnabled());
@@ -283,7 +283,7 @@ TEST_F(Workspace, AScriptErrorNamesItsLineAndTheEditorMarksIt) {
     write("broken", kBroken);
     open("");
     choose("broken");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("(broken.js:4)"));
@@ -309,7 +309,7 @@ TEST_F(Workspace, AScriptThatCannotBeReadSaysWhereAndLeadsThere) {
 
 TEST_F(Workspace, AFolderThatCannotBeWrittenGivesASentenceAndLeavesTheWindowAlive) {
     open("separability");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     type("repeats", "2");
     type("out", "/proc/nothing/here");
     click(the<QPushButton>("runButton"));
@@ -336,14 +336,14 @@ function run(p) {
 )js");
     open("");
     choose("steps");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     workspace->goTo(gui::kWiring);
     auto& realtime = the<QCheckBox>("realtime");
     QTest::mouseClick(&realtime, Qt::LeftButton, {}, QPoint(8, realtime.height() / 2));  // its box, not its row
     ASSERT_TRUE(realtime.isChecked());
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().trainsDelivered > 0 || ended; }));
-    ASSERT_FALSE(ended) << says("verdictWhy").toStdString();
+    ASSERT_IN_TIME(!ended) << says("verdictWhy").toStdString();
     ASSERT_IN_TIME(comesTrue([this] {
         return says("timeLeft").contains("left") && !says("timeLeft").contains("not known");
     })) << says("timeLeft").toStdString();
@@ -352,7 +352,7 @@ function run(p) {
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Paused; }));
     click(the<QPushButton>("pauseButton"));
     ASSERT_IN_TIME(ends());
-    EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
+    EXPECT_IN_TIME(!ended->result.outcome.error) << ended->result.outcome.error->message;
 }
 
 TEST_F(Workspace, ARunsEndIsThatOfThePageThatBeganIt) {
@@ -364,7 +364,7 @@ TEST_F(Workspace, ARunsEndIsThatOfThePageThatBeganIt) {
     other.show();
     ASSERT_IN_TIME(comesTrue([&] { return other.ready(); }));
     open("short");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     QObject::connect(&controller, &gui::BenchController::changed, &other, [&] {
         // The earliest moment at which another run may begin: the end of this one is not told yet.
         if (controller.activity() == gui::Activity::Closed && !ended) other.runAsked();
@@ -381,7 +381,7 @@ TEST_F(Workspace, ARunsEndIsThatOfThePageThatBeganIt) {
 
 TEST_F(Workspace, AStepThatWasReachedCanBeGoneBackTo) {
     open("separability");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     EXPECT_FALSE(step("Result").isEnabled());
     EXPECT_THAT(step("Result").toolTip().toStdString(), HasSubstr("press Run"));
     EXPECT_EQ(step("Settings").state(), gui::StepList::State::UnderWay);
@@ -406,7 +406,7 @@ TEST_F(Workspace, AStepThatWasReachedCanBeGoneBackTo) {
 
 TEST_F(Workspace, WhatComesNextIsAButtonThatDoesIt) {
     open("separability");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     type("repeats", "2");
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends());
@@ -428,7 +428,7 @@ function run(p) { log(p.due + " " + p.table); }
 )js");
     open("");
     choose("kinds");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     auto& due = the<QLineEdit>("due");
     type("due", "2027-02-30");
     ASSERT_IN_TIME(comesTrue([this] { return says("trouble-due").contains("a day such as 2027-03-01"); }));
@@ -461,7 +461,7 @@ function run(p) {
 )js");
     open("");
     choose("shapes");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdict").toStdString(), HasSubstr("PASS"));

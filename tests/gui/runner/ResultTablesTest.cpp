@@ -48,7 +48,7 @@ TEST_P(Results, ShowNoKeyAndNeedNoScrollingSideways) {
     for (const auto& [field, text] : quick) {
         if (workspace->findChild<QLineEdit*>(field) != nullptr) workspace->set(field, text);
     }
-    ASSERT_TRUE(ready()) << says("runObstacle").toStdString();
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends(120'000));
     ASSERT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;

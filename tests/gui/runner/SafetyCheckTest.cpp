@@ -24,7 +24,7 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     open("load-safety", {1150, 600});
     type("area", "3");
     type("steps", "2");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     shot(*workspace, "safety_before");
     click(the<QPushButton>("runButton"));
     EXPECT_EQ(the<gui::LoadRows>("loadRows").rowCount(), 9);
@@ -92,7 +92,7 @@ TEST_F(SafetyCheck, AsksForTheElectrodeAreaFirst) {
     EXPECT_FALSE(workspace->running());
     EXPECT_TRUE(step("Settings").isChecked()) << "there it is asked";
     type("area", "4");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     EXPECT_EQ(says("runObstacle"), "");
 }
 
@@ -102,7 +102,7 @@ TEST_F(SafetyCheck, TheProfilesAreaIsAnAnswer) {
     profile.electrodeArea = SquareCentimetres(4);
     controller.setProfile(profile);
     open("load-safety");
-    EXPECT_TRUE(ready());
+    EXPECT_IN_TIME(ready());
 }
 
 TEST_F(SafetyCheck, AStoppedRunLeavesNoRowUndecided) {

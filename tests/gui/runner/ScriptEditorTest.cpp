@@ -36,7 +36,7 @@ protected:
 
 TEST_F(Editor, WritesANewProtocolFromTheTemplateAndOffersItToRun) {
     open("");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("New…"));
     shot(opened(), "editor");
     click(in<QPushButton>("Check"));
@@ -52,7 +52,7 @@ TEST_F(Editor, WritesANewProtocolFromTheTemplateAndOffersItToRun) {
     QTest::keyClick(&name, Qt::Key_Return);
     EXPECT_TRUE(std::filesystem::exists(userProtocolsFolder() / "bend.js"));
     EXPECT_EQ(the<QComboBox>("chooser").currentData().toString(), "bend");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     ASSERT_IN_TIME(comesTrue(
         [this] { return workspace->isActiveWindow() && workspace->isAncestorOf(QApplication::focusWidget()); }));
     QTest::keyClick(workspace.get(), Qt::Key_F5);
@@ -62,7 +62,7 @@ TEST_F(Editor, WritesANewProtocolFromTheTemplateAndOffersItToRun) {
 
 TEST_F(Editor, MarksTheLineOfAnErrorWhileSomebodyTypes) {
     open("");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("New…"));
     replaceText(opened(), "protocol({ title: 'T', purpose: 'P', needs: [], parameters: {} });\nfunction run(p) { (\n");
     ASSERT_IN_TIME(comesTrue([this] { return opened().code().marked() > 1; }));
@@ -74,7 +74,7 @@ TEST_F(Editor, MarksTheLineOfAnErrorWhileSomebodyTypes) {
 TEST_F(Editor, AShippedProtocolIsReadOnlyAndSavesAsACopy) {
     open("");
     choose("separability");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("Edit…"));
     const auto before = opened().code().toPlainText();
     QTest::keyClicks(&opened().code(), "zzz");
@@ -88,7 +88,7 @@ TEST_F(Editor, AShippedProtocolIsReadOnlyAndSavesAsACopy) {
 
 TEST_F(Editor, AsksBeforeItLosesAnything) {
     open("");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("New…"));
     QTest::keyClicks(&opened().code(), "// mine");
     QTest::keyClick(&opened(), Qt::Key_Escape);
@@ -102,7 +102,7 @@ TEST_F(Editor, AsksBeforeItLosesAnything) {
 
 TEST_F(Editor, FindsWordsRoundTheText) {
     open("");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     click(the<QPushButton>("New…"));
     ASSERT_IN_TIME(comesTrue([this] { return opened().isActiveWindow(); }));
     auto& code = opened().code();
@@ -134,7 +134,7 @@ TEST_F(Editor, FindsWordsRoundTheText) {
 
 TEST_F(Editor, SaysWhyItCouldNotSave) {
     open("");
-    ASSERT_TRUE(ready());
+    ASSERT_IN_TIME(ready());
     std::filesystem::create_directories(userProtocolsFolder().parent_path());
     std::ofstream(userProtocolsFolder()) << "a file where the folder belongs";
     click(the<QPushButton>("New…"));

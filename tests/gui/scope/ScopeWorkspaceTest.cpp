@@ -323,7 +323,7 @@ TEST_F(Scope, AMaskThatFailsSaysSoLoudlyKeepsTheFirstAndTouchesNoOutput) {
     shot(scope, "workspace-mask-failed");
     ASSERT_IN_TIME(comes([&] { return controller.telemetry().trainsDelivered > delivered + 3; }))
         << "a mask never controls the output";
-    EXPECT_EQ(controller.telemetry().state, InterlockState::Delivering);
+    EXPECT_IN_TIME(controller.telemetry().state == InterlockState::Delivering);
     const auto first = find<QPushButton>(scope, "Show the first outside");
     ASSERT_NE(first, nullptr);
     click(*first);

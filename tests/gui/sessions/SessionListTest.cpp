@@ -33,7 +33,7 @@ protected:
     void begin(const QSize& size = {1280, 700}) {
         workspace.resize(size);
         workspace.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&workspace));
+        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&workspace));
     }
     [[nodiscard]] QTableView& table() { return *workspace.findChild<QTableView*>("sessionsTable"); }
     [[nodiscard]] QString cell(int row, int column) { return table().model()->index(row, column).data().toString(); }

@@ -35,7 +35,7 @@ protected:
     explicit StudyInThePage(bool cheap = true) : cheap_(cheap) {
         page.resize(1100, 640);
         page.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&page));
+        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&page));
     }
     [[nodiscard]] static StudySettings settings() {
         StudySettings made;

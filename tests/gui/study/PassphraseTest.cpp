@@ -4,6 +4,7 @@
 
 #include "app/gui/study/PassphraseEdit.h"
 #include "tests/gui/study/OpenedStudy.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -18,7 +19,7 @@ TEST(PassphraseEdit, HoldsWhatIsTypedAndShowsDots) {
     RecordProperty("hazard", "H11");
     gui::PassphraseEdit edit;
     edit.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&edit));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&edit));
     QTest::keyClicks(&edit, "geheim 42");
     EXPECT_EQ(textOf(edit.typed()), "geheim 42");
     EXPECT_EQ(edit.text(), QString(9, u'●')) << "no copy of it is in the line";

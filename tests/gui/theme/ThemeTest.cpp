@@ -4,6 +4,7 @@
 
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -119,7 +120,7 @@ TEST(Mnemonics, AreUnderlinedOnlyWhileAltIsHeld) {
     gui::applyTheme(Theme::Light);
     QPushButton button("&Press");
     button.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&button));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&button));
     const auto plain = button.grab().toImage();
     QTest::keyPress(&button, Qt::Key_Alt);
     EXPECT_NE(button.grab().toImage(), plain);

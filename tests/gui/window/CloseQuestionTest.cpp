@@ -10,6 +10,7 @@
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -107,7 +108,7 @@ TEST_F(Closing, UnsavedScriptsAreAskedAboutWithTheOutputOff) {
     arm();
     deliver();
     auto* editor = writeScript();
-    ASSERT_EQ(state(), InterlockState::Delivering);
+    ASSERT_IN_TIME(state() == InterlockState::Delivering);
     window.close();
     EXPECT_NE(state(), InterlockState::Delivering);
     EXPECT_NE(state(), InterlockState::Armed);
@@ -175,7 +176,7 @@ TEST_F(Closing, EscThatStopsTheOutputLeavesTheSearchOfTheScriptOpen) {
     QTest::keyClick(&editor->code(), Qt::Key_F, Qt::ControlModifier);
     auto* words = editor->findChild<QLineEdit*>("findWords");
     ASSERT_TRUE(words->isVisible());
-    ASSERT_EQ(state(), InterlockState::Delivering);
+    ASSERT_IN_TIME(state() == InterlockState::Delivering);
     QTest::keyClick(words, Qt::Key_Escape);
     EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
     EXPECT_TRUE(words->isVisible());

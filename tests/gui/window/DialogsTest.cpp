@@ -11,6 +11,7 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/window/StopKeys.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -46,7 +47,7 @@ protected:
     Asking() {
         window.resize(600, 400);
         window.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
     }
     [[nodiscard]] QFileDialog* chooser() { return window.findChild<QFileDialog*>("fileChooser"); }
     [[nodiscard]] QString trouble() {

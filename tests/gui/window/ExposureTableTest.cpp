@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/ExposureTable.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -37,7 +38,7 @@ TEST(ExposureTable, ANewValueDrawsItsBarAgainAlsoWhereItStandsUnderTheQuantity) 
         gui::ExposureTable table;
         table.resize(width, 300);
         table.setVisible(true);
-        ASSERT_TRUE(QTest::qWaitForWindowExposed(&table));
+        ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&table));
         const std::vector<ExposureRow> before{peak(10)}, after{peak(30.7)};
         table.show(before, {});
         QTest::qWait(50);

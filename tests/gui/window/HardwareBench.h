@@ -52,7 +52,7 @@ protected:
     HardwareWindow() {
         window.resize(1440, 900);
         window.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
         window.activateWindow();
     }
     ~HardwareWindow() override { window.close(); }
@@ -74,7 +74,7 @@ protected:
     }
 
     [[nodiscard]] QTreeWidget& tree() { return *window.findChild<gui::DeviceDock*>()->findChild<QTreeWidget*>(); }
-    /// The dock's line for a URI, as soon as there is one. Throws after 10 s.
+    /// The dock's line for a URI, as soon as there is one. The test ends after 10 s.
     [[nodiscard]] QTreeWidgetItem& row(const QString& uri) {
         QTreeWidgetItem* found = nullptr;
         const bool came = comesTrue([&] {
@@ -84,7 +84,7 @@ protected:
             }
             return found != nullptr;
         });
-        if (!came) throw std::runtime_error("the dock shows no " + uri.toStdString());
+        [&] { ASSERT_IN_TIME(came) << "the dock shows no " << uri.toStdString(); }();
         return *found;
     }
     void choose(const QTreeWidgetItem& item) {

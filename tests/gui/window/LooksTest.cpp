@@ -59,15 +59,18 @@ protected:
             if (dock->isVisible() && !dock->folded()) open.push_back(dock);
         return open;
     }
-    /// No dock has room to spare while another is cut.
-    void expectFairDocks() {
+    /// Docks that have room to spare while another is cut.
+    [[nodiscard]] std::string unfairDocks() {
         const auto spare = [](const gui::FoldingDock* dock) { return dock->height() - dock->wantedHeight(); };
+        std::string all;
         for (const auto* one : openDocks()) {
-            for (const auto* other : openDocks())
-                EXPECT_FALSE(spare(one) > 2 && spare(other) < -2)
-                    << one->windowTitle().toStdString() << " has " << spare(one) << " px to spare, "
-                    << other->windowTitle().toStdString() << " lacks " << -spare(other);
+            for (const auto* other : openDocks()) {
+                if (spare(one) <= 2 || spare(other) >= -2) continue;
+                all += one->windowTitle().toStdString() + " has " + std::to_string(spare(one)) + " px to spare, " +
+                       other->windowTitle().toStdString() + " lacks " + std::to_string(-spare(other)) + "\n";
+            }
         }
+        return all;
     }
 };
 
@@ -101,7 +104,7 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
     const double width = model.viewport().width_s();
     EXPECT_NEAR(500e-6 / width, 1.0 / 3, 0.05) << "the first train is what one sees";
     window.activateWindow();  // the arming dialog had the keys
-    QTest::qWait(100);
+    ASSERT_IN_TIME(QTest::qWaitForWindowActive(&window));
     key(Qt::Key_T);
     ASSERT_TRUE(model.cursors().time_s());
     model.dragTimeCursor(0, 0, width / 50);
@@ -111,9 +114,11 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
         for (const auto size : {QSize(1280, 720), QSize(1920, 1080)}) {
             window.resize(size);
             QTest::qWait(200);
+            // Docks share the column anew in turns of the event loop, as many as their contents change.
+            static_cast<void>(comesTrue([&] { return faultsOf(window).empty() && unfairDocks().empty(); }));
             shot(window, QString("scope-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(size.width()));
             EXPECT_EQ(faultsOf(window), "");
-            expectFairDocks();
+            EXPECT_EQ(unfairDocks(), "");
         }
     }
     gui::applyTheme(gui::Theme::Light);
@@ -122,7 +127,7 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
     const auto* drive = window.findChild<QDockWidget*>("driveDock");
     EXPECT_TRUE(drive->isAncestorOf(QApplication::focusWidget())) << "the key leads to the drive";
     EXPECT_EQ(window.controller().telemetry().driving, before) << "and changes nothing there";
-    EXPECT_EQ(state(), InterlockState::Delivering);
+    EXPECT_IN_TIME(state() == InterlockState::Delivering);
 }
 
 TEST_F(Window, NothingIsRedButStop) {
@@ -233,7 +238,7 @@ TEST_F(Window, EscStopsWhileASessionIsExported) {
     const auto target = folder.path() / "csv";
     sessions->exportTo(QString::fromStdString(target.string()));
     EXPECT_FALSE(std::filesystem::exists(target)) << "it is at work";
-    ASSERT_EQ(state(), InterlockState::Delivering);
+    ASSERT_IN_TIME(state() == InterlockState::Delivering);
     key(Qt::Key_Escape);
     EXPECT_EQ(state(), InterlockState::Disarmed) << "before the key event returned";
     EXPECT_IN_TIME(comesTrue([&] { return std::filesystem::exists(target); })) << "the export goes on to its end";

@@ -42,7 +42,7 @@ TEST_F(Window, ArmingTakesTwoSteps) {
     QTest::qWait(200);
     EXPECT_EQ(state(), InterlockState::Disarmed);
     arm();
-    EXPECT_EQ(state(), InterlockState::Armed);
+    EXPECT_IN_TIME(state() == InterlockState::Armed);
 }
 
 TEST_F(Window, CheckingTheImpedanceTakesTwoStepsAndEndsDisarmed) {
@@ -160,7 +160,7 @@ TEST_F(Window, EscStopsFromInsideAModalDialog) {
     dialog.setModal(true);
     QLineEdit field(&dialog);
     dialog.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&dialog));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&dialog));
     field.setFocus();
     QTest::keyClick(dialog.windowHandle(), Qt::Key_Escape);
     EXPECT_EQ(state(), InterlockState::Disarmed) << "before the key event returned";

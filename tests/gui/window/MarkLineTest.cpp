@@ -15,6 +15,7 @@
 #include "core/session/SessionReader.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -122,7 +123,7 @@ TEST_F(Marks, ChangeNothingOfTheOutput) {
     const auto trains = window.controller().telemetry().trainsDelivered;
     const auto drive = window.controller().lastDrive();
     for (int i = 0; i < 50; ++i) ASSERT_TRUE(window.controller().markMoment(window.controller().telemetry().at, "now"));
-    EXPECT_EQ(state(), InterlockState::Delivering);
+    EXPECT_IN_TIME(state() == InterlockState::Delivering);
     EXPECT_EQ(window.controller().lastDrive().roughness, drive.roughness);
     EXPECT_IN_TIME(comesTrue([&] { return window.controller().telemetry().trainsDelivered > trains + 2; }))
         << "it goes on";

@@ -217,11 +217,11 @@ TEST_F(Bar, ADoubleClickOnPauseLeavesItPaused) {
             return now.state == state;
         });
     };
-    ASSERT_TRUE(is(InterlockState::Delivering));
+    ASSERT_IN_TIME(is(InterlockState::Delivering));
     auto* pause = find<QPushButton>(bar, "Pause");
     ASSERT_NE(pause, nullptr);
     QTest::mouseClick(pause, Qt::LeftButton);
-    ASSERT_TRUE(is(InterlockState::Paused));
+    ASSERT_IN_TIME(is(InterlockState::Paused));
     EXPECT_EQ(pause->text().remove('&'), "Resume");
     QTest::mouseDClick(pause, Qt::LeftButton);
     QTest::mouseClick(pause, Qt::LeftButton);
@@ -229,9 +229,9 @@ TEST_F(Bar, ADoubleClickOnPauseLeavesItPaused) {
     QTest::qWait(100);
     EXPECT_EQ(controller.telemetry().state, InterlockState::Paused);
     click(*pause);
-    EXPECT_TRUE(is(InterlockState::Delivering)) << "a press of its own resumes";
+    EXPECT_IN_TIME(is(InterlockState::Delivering)) << "a press of its own resumes";
     QTest::mouseClick(pause, Qt::LeftButton);
-    EXPECT_TRUE(is(InterlockState::Paused)) << "and pausing waits for nothing";
+    EXPECT_IN_TIME(is(InterlockState::Paused)) << "and pausing waits for nothing";
 }
 
 TEST_F(Bar, APressMeantForDisarmDoesNotResetTheFaultThatCameFirst) {

@@ -10,6 +10,7 @@
 
 #include "app/gui/window/StopKeys.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -23,7 +24,7 @@ protected:
             layout->addWidget(widget);
         QObject::connect(&button, &QPushButton::clicked, [this] { ++clicks; });
         window.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
     }
     ~Keys() override {
         for (QWidget* widget : std::initializer_list<QWidget*>{&button, &check, &line, &spin})
@@ -108,7 +109,7 @@ TEST_F(Keys, EscStopsFromAModalDialogAndClosesIt) {
     QLineEdit text(&dialog);
     dialog.setModal(true);
     dialog.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&dialog));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&dialog));
     press(Qt::Key_Escape, text);
     EXPECT_GE(stops, 1);
     EXPECT_FALSE(dialog.isVisible());

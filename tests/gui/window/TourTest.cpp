@@ -9,6 +9,7 @@
 #include "app/gui/window/TourFrame.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {

@@ -19,7 +19,7 @@ protected:
     Window() {
         window.resize(1440, 900);
         window.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
         window.activateWindow();
     }
     ~Window() override { window.close(); }
