@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/GivenOnce.h"
 #include "core/base/JsonFields.h"
 #include "core/base/Text.h"
 #include "core/session/Digest.h"
@@ -111,10 +112,9 @@ RecordFields<StudySettings> buildStudyFields() {
             if (std::ranges::find(kEncodings, encoding) == std::end(kEncodings))
                 return fail(ErrorCode::InvalidArgument, "\"encodings\" holds \"{}\"; {} are accepted", encoding,
                             fmt::join(kEncodings, " and "));
-            if (std::ranges::count(settings.encodings, encoding) > 1)
-                return fail(ErrorCode::InvalidArgument, "\"encodings\" holds \"{}\" twice; each is accepted once",
-                            encoding);
         }
+        if (const auto* second = secondIn(settings.encodings))
+            return fail(ErrorCode::InvalidArgument, "\"encodings\": {}", givenTwice("\"{}\"", *second));
         return {};
     });
     return all;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/analysis/sensor_calibration/RoughnessRepeatability.h"
+#include "core/base/GivenOnce.h"
 
 namespace tacto {
 
@@ -40,15 +41,9 @@ Result<void> check(const std::vector<SlidSurface>& surfaces) {
                     "sensor calibration: {} surfaces; a smooth and a rough reference at least are expected",
                     surfaces.size());
     }
+    if (const auto* second = secondIn(surfaces, &SlidSurface::name))
+        return fail(ErrorCode::InvalidArgument, "sensor calibration: {}", givenTwice("surface {}", second->name));
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            if (surfaces[i].name == surfaces[k].name) {
-                return fail(ErrorCode::InvalidArgument,
-                            "sensor calibration: {} appears twice; each surface once is "
-                            "expected",
-                            surfaces[i].name);
-            }
-        }
         const std::size_t least = i < 2 ? kFewestSlides : 1;
         if (surfaces[i].slides.size() < least) {
             return fail(ErrorCode::InvalidArgument, "sensor calibration: {} slides over {}; at least {} are expected",
