@@ -12,7 +12,6 @@ namespace tacto {
 namespace {
 
 constexpr Word<StudyKind> kStudyKinds[] = {{"study", StudyKind::Study}, {"rehearsal", StudyKind::Rehearsal}};
-constexpr Word<Modality> kModalities[] = {{"electrodes", Modality::Electrodes}, {"massager", Modality::Massager}};
 constexpr Word<ElectrodeSite> kElectrodeSites[] = {{"forearm", ElectrodeSite::Forearm},
                                                    {"residual limb's end", ElectrodeSite::ResidualLimbEnd},
                                                    {"upper arm", ElectrodeSite::UpperArm},
@@ -150,7 +149,6 @@ Result<nlohmann::json> asJson(const nlohmann::json& before, std::string_view key
 }  // namespace
 
 std::string_view nameOf(StudyKind kind) noexcept { return wordFor(kStudyKinds, kind); }
-std::string_view nameOf(Modality modality) noexcept { return wordFor(kModalities, modality); }
 std::string_view nameOf(ElectrodeSite site) noexcept { return wordFor(kElectrodeSites, site); }
 
 const RecordFields<StudySettings>& studyFields() {

@@ -18,13 +18,6 @@ std::string schemeOf(const std::string& uri) { return uri.substr(0, uri.find(':'
 
 }  // namespace
 
-std::optional<Role> roleNamed(const std::string& word) {
-    for (const auto role : {Role::Sensor, Role::Stimulator, Role::Oscilloscope, Role::Massager}) {
-        if (nameOf(role) == word) return role;
-    }
-    return std::nullopt;
-}
-
 bool isSame(const SessionDevice& open, const DeviceIdentity& present) {
     if (present.placeholder || open.role != nameOf(present.role)) return false;
     if (open.uri == present.uri) return true;

@@ -1,13 +1,13 @@
 #include "app/scripting/engine/ProtocolParameter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/DeclaredText.h"
 #include "core/base/JsonText.h"
 #include "core/base/Text.h"
+#include "core/base/Words.h"
 #include "core/calibration/CalibrationDate.h"
 
 namespace tacto {
@@ -16,9 +16,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array kTypes = {ParameterType::Number, ParameterType::Integer, ParameterType::Choice,
-                               ParameterType::Text,   ParameterType::Boolean, ParameterType::Date,
-                               ParameterType::File};
+constexpr Word<ParameterType> kTypes[] = {{"number", ParameterType::Number},   {"integer", ParameterType::Integer},
+                                          {"choice", ParameterType::Choice},   {"text", ParameterType::Text},
+                                          {"boolean", ParameterType::Boolean}, {"date", ParameterType::Date},
+                                          {"file", ParameterType::File}};
 constexpr std::string_view kReferenceStep = "reference";
 
 std::string rangeText(const ProtocolParameter& parameter) {
@@ -106,9 +107,8 @@ Result<ParameterType> typeOf(const Json& given, const std::string& name) {
         if (value != given.end() && value->is_string()) return ParameterType::Text;
         return ParameterType::Number;
     }
-    for (const auto type : kTypes) {
-        if (*at == nameOf(type)) return type;
-    }
+    const auto known = at->is_string() ? valueFor(kTypes, at->get_ref<const std::string&>()) : std::nullopt;
+    if (known) return *known;
     return fail(ErrorCode::InvalidArgument, "parameter {}: type is {}, one of {} is expected", name, shown(*at),
                 namesOf(kTypes));
 }
@@ -178,25 +178,7 @@ Result<void> saysWhatItVouchesFor(const ProtocolParameter& parameter) {
 
 }  // namespace
 
-std::string_view nameOf(ParameterType type) noexcept {
-    switch (type) {
-        case ParameterType::Number:
-            return "number";
-        case ParameterType::Integer:
-            return "integer";
-        case ParameterType::Choice:
-            return "choice";
-        case ParameterType::Text:
-            return "text";
-        case ParameterType::Boolean:
-            return "boolean";
-        case ParameterType::Date:
-            return "date";
-        case ParameterType::File:
-            return "file";
-    }
-    return "";
-}
+std::string_view nameOf(ParameterType type) noexcept { return wordFor(kTypes, type); }
 
 Result<ProtocolParameter> parseParameter(const std::string& name, const Json& given, const Json& choiceOrder) {
     if (const auto fits = noLongerThan("parameters", "a name", name, kMaxDeclaredTitle); !fits) return failure(fits);

@@ -5,6 +5,7 @@
 
 #include "core/analysis/sensor_calibration/RoughnessRepeatability.h"
 #include "core/base/GivenOnce.h"
+#include "core/base/Words.h"
 
 namespace tacto {
 
@@ -123,21 +124,14 @@ void rank(const std::vector<SlidSurface>& surfaces, SensorCalibration& found) {
     }
 }
 
+constexpr Word<SensorFeature> kFeatureKeys[] = {{"h", SensorFeature::H},
+                                                {"h_abs", SensorFeature::HAbs},
+                                                {"v_static", SensorFeature::VStatic},
+                                                {"v_dynamic", SensorFeature::VDynamic}};
+
 }  // namespace
 
-std::string_view keyOf(SensorFeature feature) noexcept {
-    switch (feature) {
-        case SensorFeature::H:
-            return "h";
-        case SensorFeature::HAbs:
-            return "h_abs";
-        case SensorFeature::VStatic:
-            return "v_static";
-        case SensorFeature::VDynamic:
-            break;
-    }
-    return "v_dynamic";
-}
+std::string_view keyOf(SensorFeature feature) noexcept { return wordFor(kFeatureKeys, feature); }
 
 double valueOf(const SlideReading& slide, SensorFeature feature) noexcept {
     switch (feature) {
