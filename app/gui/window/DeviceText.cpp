@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -68,10 +69,9 @@ QStringList rowsOf(const DeviceReport& report) {
     for (const auto& row : report.rows()) {
         const bool count = row.unit[0] == 0;
         if (!std::isfinite(row.value) || (count && row.value == 0)) continue;
-        const auto value = count ? QString::number(row.value, 'f', 0)
-                           : std::string_view(row.unit) == "s"
-                               ? settingText(row.value, "s")
-                               : QString("%1 %2").arg(row.value, 0, 'f', 1).arg(row.unit);
+        const auto value = count                               ? decimalText(row.value, 0)
+                           : std::string_view(row.unit) == "s" ? settingText(row.value, "s")
+                                                               : decimalText(row.value, 1, row.unit);
         lines << QString("%1: %2").arg(QString(row.name), value);
     }
     lines << (report.losses > 0 ? tr("⚠ Something was lost between it and this program.") : tr("Nothing was lost."));
