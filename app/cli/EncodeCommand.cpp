@@ -1,7 +1,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
-#include "app/cli/Profiles.h"
 #include "app/cli/TextTable.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
