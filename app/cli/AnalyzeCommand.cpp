@@ -51,14 +51,17 @@ int calibration(const std::string& file, bool asJson) {
     }
     table.print();
     const auto percent = [](double value) { return std::isnan(value) ? "not known" : fmt::format("{:.4g} %", value); };
-    say("\n  gain              {:.7g} ± {:.2g} (standard error{})\n", found->gain, found->gainStandardError,
-        found->weighted ? ", weighted fit" : "");
-    say("  offset            {:.5g} ± {:.2g}\n", found->offset, found->offsetStandardError);
-    say("  in % of the largest command, {:.6g}:\n", found->fullScale);
-    say("  largest residual  {}\n", percent(found->residualMax_pct));
-    say("  repeatability     {}\n", percent(found->repeatability_pct));
-    say("  hysteresis        {}\n", percent(found->hysteresis_pct));
-    for (const auto& warning : found->warnings) say("  note: {}\n", warning);
+    TextTable figures({"", ""});
+    figures.add({"gain", fmt::format("{:.7g} ± {:.2g} (standard error{})", found->gain, found->gainStandardError,
+                                     found->weighted ? ", weighted fit" : "")});
+    figures.add({"offset", fmt::format("{:.5g} ± {:.2g}", found->offset, found->offsetStandardError)});
+    figures.addLine(fmt::format("in % of the largest command, {:.6g}:", found->fullScale));
+    figures.add({"largest residual", percent(found->residualMax_pct)});
+    figures.add({"repeatability", percent(found->repeatability_pct)});
+    figures.add({"hysteresis", percent(found->hysteresis_pct)});
+    for (const auto& warning : found->warnings) figures.addLine(fmt::format("note: {}", warning));
+    say("\n");
+    figures.print();
     return kDone;
 }
 
@@ -80,19 +83,22 @@ void printFigures(const Identification& found, const std::string& name) {
     say("\n  {}\n", headline(name, found, {}));
     if (all.n == 0) return;
     say("  {}\n", precisionSentence(all.n, all.chance));
-    say("  by chance      p = {:.2g} (exact, one-sided)\n", all.pChance);
-    say("  information    {:.2f} bit, {:.2f} bit of it by chance, {:.2f} bit without\n", all.it_bits, all.itBias_bits,
-        all.itCorrected_bits);
+    TextTable table({"", ""});
+    table.add({"by chance", fmt::format("p = {:.2g} (exact, one-sided)", all.pChance)});
+    table.add({"information", fmt::format("{:.2f} bit, {:.2f} bit of it by chance, {:.2f} bit without", all.it_bits,
+                                          all.itBias_bits, all.itCorrected_bits)});
     for (const auto& [title, feature] : {std::pair{"texture", &found.texture}, {"pressure", &found.pressure}}) {
         if (!*feature) continue;
         const auto& figures = (*feature)->figures;
-        say("  {:<14} {} of {} (chance 50 %), {:.2f} bit without chance\n", title, figures.hits, figures.n,
-            figures.itCorrected_bits);
+        table.add({title, fmt::format("{} of {} (chance 50 %), {:.2f} bit without chance", figures.hits, figures.n,
+                                      figures.itCorrected_bits)});
     }
     if (found.catches.n > 0) {
-        say("  catch trials   {} of {} answered with a name\n", found.catches.falseAlarms, found.catches.n);
+        table.add(
+            {"catch trials", fmt::format("{} of {} answered with a name", found.catches.falseAlarms, found.catches.n)});
     }
-    if (found.noAnswer > 0) say("  no answer      {} trial(s)\n", found.noAnswer);
+    if (found.noAnswer > 0) table.add({"no answer", fmt::format("{} trial(s)", found.noAnswer)});
+    table.print();
 }
 
 /// The labels that each person's trials name are the answers offered. Nothing is judged, and several people are not

@@ -68,6 +68,10 @@ Result<double> numberOption(const QCommandLineParser& parser, const char* name) 
     return *number;
 }
 
+Result<Profile> profileOption(const QCommandLineParser& parser) {
+    return parser.isSet("profile") ? loadProfile(parser.value("profile").toStdString()) : shippedProfile();
+}
+
 void printJson(const nlohmann::json& value) {
     auto text = dumpJson(value, 2);
     // What a terminal would act on is written with JSON's own escapes, so that the value stays the same.

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "app/cli/Say.h"
+#include "app/run/Shipped.h"
 #include "core/base/Result.h"
 #include "core/devices/Driver.h"
 
@@ -54,6 +55,9 @@ struct Command {
 [[nodiscard]] Result<std::string> onlyArgument(const QCommandLineParser& parser, const char* what);
 /// A number option. Errors: InvalidArgument naming option and text; missing without a default.
 [[nodiscard]] Result<double> numberOption(const QCommandLineParser& parser, const char* name);
+
+/// The profile of --profile, else the shipped one. Errors: as loadProfile().
+[[nodiscard]] Result<Profile> profileOption(const QCommandLineParser& parser);
 
 /// Prints one JSON value on stdout.
 void printJson(const nlohmann::json& value);

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "app/cli/Command.h"
+#include "app/cli/TextTable.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/SignalStop.h"
 
@@ -18,10 +19,12 @@ void declareDevices(QCommandLineParser& parser) {
     parser.addOption({"watch", "Goes on until Ctrl+C: + what is plugged in, - what is unplugged."});
 }
 
-void print(const DeviceIdentity& device, const char* mark) {
-    say("{}{:<28} {:<13} {}{}\n", mark, device.uri, nameOf(device.role), device.name,
-        device.simulated ? "  (simulated)" : "");
-    if (!device.obstacle.empty()) say("    {}\n", device.obstacle);
+TextTable devicesTable() { return TextTable({"", "", ""}); }
+
+void add(TextTable& table, const DeviceIdentity& device, const char* mark) {
+    table.add(
+        {mark + device.uri, std::string(nameOf(device.role)), device.name + (device.simulated ? "  (simulated)" : "")});
+    if (!device.obstacle.empty()) table.addLine("    " + device.obstacle);
 }
 
 nlohmann::json toJson(const std::vector<DeviceIdentity>& found) {
@@ -40,16 +43,18 @@ nlohmann::json toJson(const std::vector<DeviceIdentity>& found) {
 
 /// A device whose permission changed is another one: it goes and comes.
 void watch(const Registry& registry, std::vector<DeviceIdentity> known, const SignalStop& interrupts) {
-    const auto missing = [](const auto& from, const auto& in, const char* mark) {
+    const auto addMissing = [](TextTable& table, const auto& from, const auto& in, const char* mark) {
         for (const auto& device : from) {
-            if (std::ranges::find(in, device) == in.end()) print(device, mark);
+            if (std::ranges::find(in, device) == in.end()) add(table, device, mark);
         }
     };
     while (!interrupts.signalled()) {
         std::this_thread::sleep_for(kPollInterval);
         auto now = registry.list();
-        missing(known, now, "- ");
-        missing(now, known, "+ ");
+        auto changes = devicesTable();
+        addMissing(changes, known, now, "- ");
+        addMissing(changes, now, known, "+ ");
+        changes.print();
         std::fflush(stdout);
         known = std::move(now);
     }
@@ -69,7 +74,9 @@ int runDevices(const QCommandLineParser& parser) {
         printJson(toJson(found));
         return kDone;
     }
-    for (const auto& device : found) print(device, parser.isSet("watch") ? "  " : "");
+    auto table = devicesTable();
+    for (const auto& device : found) add(table, device, parser.isSet("watch") ? "  " : "");
+    table.print();
     if (parser.isSet("watch")) {
         std::fflush(stdout);
         watch(registry, found, interrupts);

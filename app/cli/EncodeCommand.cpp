@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
-#include "app/cli/Profiles.h"
+#include "app/cli/TextTable.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
 #include "core/encoding/Encoder.h"
@@ -85,13 +85,13 @@ int runEncode(const QCommandLineParser& parser) {
                    {"approved", approved.has_value()},
                    {"refusal", approved ? nlohmann::json(nullptr) : nlohmann::json(approved.error().message)}});
     } else {
-        say("amplitude  {}  ({} into {})\ninterval   {}\n", scaledText(command->amplitude.value(), "V", 4),
-            scaledText(amplitude_ma * 1e-3, "A", 4), load->text(),
-            scaledText(command->interval.count(), "s", 4));
-        if (approved)
-            say("approved   yes, from 80 to 120 % of the declared load\n");
-        else
-            say("approved   no: {}\n", approved.error().message);
+        TextTable table({"", ""});
+        table.add({"amplitude", fmt::format("{}  ({} into {})", scaledText(command->amplitude.value(), "V", 4),
+                                            scaledText(amplitude_ma * 1e-3, "A", 4), load->text())});
+        table.add({"interval", scaledText(command->interval.count(), "s", 4)});
+        table.add({"approved", approved ? "yes, from 80 to 120 % of the declared load"
+                                        : fmt::format("no: {}", approved.error().message)});
+        table.print();
     }
     return approved ? kDone : kStopped;
 }

@@ -32,31 +32,32 @@ void printLoads(const json& loads) {
 
 void printDisclosed(const json& outputs) {
     if (outputs.empty()) return;
-    say("\n  to disclose\n");
+    TextTable table({"to disclose", "", ">", ""});
     for (const auto& output : outputs) {
         const auto bound = output.find("plus_minus_pct");
-        say("  {:<40} {:<9} {:>12}  {}\n", resultText(output, "output"), resultText(output, "load"),
-            resultQuantity(output, "value", resultText(output, "unit")),
-            output.contains("reason") && !resultText(output, "reason").empty() ? resultText(output, "reason")
-            : bound != output.end() && bound->is_number() ? fmt::format("± {:.2g} %", bound->get<double>())
-                                                          : std::string());
+        table.add({resultText(output, "output"), resultText(output, "load"),
+                   resultQuantity(output, "value", resultText(output, "unit")),
+                   output.contains("reason") && !resultText(output, "reason").empty() ? resultText(output, "reason")
+                   : bound != output.end() && bound->is_number() ? fmt::format("± {:.2g} %", bound->get<double>())
+                                                                 : std::string()});
     }
+    table.print();
 }
 
 /// Rows that passed are counted; any other is named.
 void printRows(const json& rows, const char* heading) {
     std::size_t passed = 0;
-    bool said = false;
+    TextTable table({"", "", "", ""});
     for (const auto& row : rows) {
         if (resultText(row, "verdict") == "pass") {
             ++passed;
             continue;
         }
-        if (!said) say("\n  {}\n", heading);
-        said = true;
-        say("  {:<20} {:<27} {:<34} {}\n", resultText(row, "verdict"), resultText(row, "load"),
-            resultText(row, "title"), resultQuantity(row, "value", resultText(row, "unit")));
+        table.add({resultText(row, "verdict"), resultText(row, "load"), resultText(row, "title"),
+                   resultQuantity(row, "value", resultText(row, "unit"))});
     }
+    if (passed < rows.size()) say("\n  {}\n", heading);
+    table.print();
     say("\n  {}: {} of {} rows passed\n", heading, passed, rows.size());
 }
 

@@ -145,16 +145,8 @@ int runMeasure(const QCommandLineParser& parser) {
     say("{}\n", reading->formatName);
     if (simulated.value_or(false)) say("SIMULATED: no number here was measured on hardware.\n");
     for (const auto& m : found.channels) {
-        say("{}: {} samples at {}, {} pulses\n", m.name, m.samples, scaledText(m.rate_hz, "S/s", 4),
-            m.measuredPulses);
-        printStatistic("amplitude", m.amplitude, m.unit);
-        printStatistic("width", m.width_s, "s");
-        printStatistic("interval", m.interval_s, "s");
-        printStatistic("rise", m.rise_s, "s");
-        printStatistic("fall", m.fall_s, "s");
-        printStatistic("gap", m.gap_s, "s");
-        if (m.imbalance.n > 0) say("  {:<11} {:>10.3g} %\n", "imbalance", 100 * m.imbalance.mean);
-        printTrust(m);
+        say("{}: {} samples at {}, {} pulses\n", m.name, m.samples, scaledText(m.rate_hz, "S/s", 4), m.measuredPulses);
+        printChannel(m);
     }
     if (load) printLoad(*load);
     if (!lacking.empty() && !found.channels.empty() && found.channels.front().measuredPulses > 0) {

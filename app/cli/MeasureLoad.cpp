@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/Say.h"
+#include "app/cli/TextTable.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
 
@@ -17,12 +18,46 @@ std::size_t countOf(const ChannelMeasurement& m, Flag flag) {
         std::count_if(m.pulses.begin(), m.pulses.end(), [&](const auto& p) { return flag(p.flags); }));
 }
 
+TextTable statisticsTable() { return TextTable({"", ">", ""}); }
+
+/// Nothing where nothing was measured.
+void addStatistic(TextTable& table, const char* name, const Statistics& s, std::string_view unit) {
+    if (s.n == 0) return;
+    table.add({name, scaledText(s.mean, unit, 4),
+               fmt::format("(sd {}, {} to {}, n = {})", scaledText(s.sd, unit, 2), scaledText(s.min, unit, 4),
+                           scaledText(s.max, unit, 4), s.n)});
+}
+
+std::string uncertaintiesOf(const ChannelMeasurement& m) {
+    const auto& u = m.uncertainty;
+    const auto text = [](double standard, std::string_view unit) {
+        return std::isfinite(standard) ? scaledText(kCoverage * standard, unit, 2) : std::string("not known");
+    };
+    auto line = fmt::format("uncertainty (k = {:.0f}): amplitude {}, width {}", kCoverage, text(u.amplitude, m.unit),
+                            text(u.width_s, "s"));
+    if (m.interval_s.n > 0) line += ", interval " + text(u.interval_s, "s");
+    if (m.gap_s.n > 0) line += ", gap " + text(u.gap_s, "s");
+    if (m.imbalance.n > 0 && std::isfinite(u.imbalance))
+        line += fmt::format(", imbalance {:.2g} %", 100 * kCoverage * u.imbalance);
+    return line;
+}
+
 }  // namespace
 
-void printStatistic(const char* name, const Statistics& s, std::string_view unit) {
-    if (s.n == 0) return;
-    say("  {:<13} {:>12}  (sd {}, {} to {}, n = {})\n", name, scaledText(s.mean, unit, 4),
-        scaledText(s.sd, unit, 2), scaledText(s.min, unit, 4), scaledText(s.max, unit, 4), s.n);
+void printChannel(const ChannelMeasurement& m) {
+    auto table = statisticsTable();
+    addStatistic(table, "amplitude", m.amplitude, m.unit);
+    addStatistic(table, "width", m.width_s, "s");
+    addStatistic(table, "interval", m.interval_s, "s");
+    addStatistic(table, "rise", m.rise_s, "s");
+    addStatistic(table, "fall", m.fall_s, "s");
+    addStatistic(table, "gap", m.gap_s, "s");
+    if (m.imbalance.n > 0) table.add({"imbalance", fmt::format("{:.3g} %", 100 * m.imbalance.mean)});
+    if (m.measuredPulses > 0) {
+        table.addLine(uncertaintiesOf(m));
+        if (std::isfinite(m.quality.snr_db)) table.add({"above noise", fmt::format("{:.1f} dB", m.quality.snr_db)});
+    }
+    table.print();
 }
 
 void addTrust(nlohmann::json& channel, const ChannelMeasurement& m) {
@@ -46,21 +81,6 @@ void addTrust(nlohmann::json& channel, const ChannelMeasurement& m) {
                           {"under_sampled", countOf(m, [](const auto& f) { return f.underSampled; })},
                           {"coarse", countOf(m, [](const auto& f) { return f.coarse && f.measured(); })},
                           {"flat_top", countOf(m, [](const auto& f) { return f.flatTop && f.measured(); })}};
-}
-
-void printTrust(const ChannelMeasurement& m) {
-    if (m.measuredPulses == 0) return;
-    const auto& u = m.uncertainty;
-    const auto text = [](double standard, std::string_view unit) {
-        return std::isfinite(standard) ? scaledText(kCoverage * standard, unit, 2) : std::string("not known");
-    };
-    say("  uncertainty (k = {:.0f}): amplitude {}, width {}", kCoverage, text(u.amplitude, m.unit),
-        text(u.width_s, "s"));
-    if (m.interval_s.n > 0) say(", interval {}", text(u.interval_s, "s"));
-    if (m.gap_s.n > 0) say(", gap {}", text(u.gap_s, "s"));
-    if (m.imbalance.n > 0 && std::isfinite(u.imbalance)) say(", imbalance {:.2g} %", 100 * kCoverage * u.imbalance);
-    say("\n");
-    if (std::isfinite(m.quality.snr_db)) say("  {:<11} {:>9.1f} dB\n", "above noise", m.quality.snr_db);
 }
 
 std::optional<LoadMeasurement> loadIn(const Capture& capture, const MeasureOptions& options) {
@@ -91,12 +111,14 @@ void printLoad(const LoadMeasurement& load) {
         kCoverage,
         std::isfinite(load.loadUncertainty_ohm) ? scaledText(kCoverage * load.loadUncertainty_ohm, "ohm", 2)
                                                 : "not known");
-    printStatistic("load", load.load_ohm, "ohm");
-    printStatistic("impedance", load.impedance_ohm, "ohm");
-    printStatistic("charge", load.charge_c, "C");
-    printStatistic("second charge", load.secondCharge_c, "C");
-    printStatistic("net charge", load.netCharge_c, "C");
-    printStatistic("energy", load.energy_j, "J");
+    auto table = statisticsTable();
+    addStatistic(table, "load", load.load_ohm, "ohm");
+    addStatistic(table, "impedance", load.impedance_ohm, "ohm");
+    addStatistic(table, "charge", load.charge_c, "C");
+    addStatistic(table, "second charge", load.secondCharge_c, "C");
+    addStatistic(table, "net charge", load.netCharge_c, "C");
+    addStatistic(table, "energy", load.energy_j, "J");
+    table.print();
 }
 
 }  // namespace tacto::cli

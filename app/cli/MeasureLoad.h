@@ -18,13 +18,10 @@
 
 namespace tacto::cli {
 
-/// A line of `measure`; nothing where nothing was measured.
-void printStatistic(const char* name, const Statistics& s, std::string_view unit);
-
 /// Adds the keys of one channel to what `measure` prints of it.
 void addTrust(nlohmann::json& channel, const ChannelMeasurement& m);
-/// One line of expanded uncertainties (k = 2) and one of the signal's quality; nothing without pulses.
-void printTrust(const ChannelMeasurement& m);
+/// What was measured, a line of expanded uncertainties (k = 2) and one of the signal's quality.
+void printChannel(const ChannelMeasurement& m);
 
 /// The load, where the capture has exactly one channel in V and one in A.
 [[nodiscard]] std::optional<LoadMeasurement> loadIn(const Capture& capture, const MeasureOptions& options);

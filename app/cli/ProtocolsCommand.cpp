@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
+#include "app/cli/TextTable.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "app/scripting/engine/ScriptRun.h"
 #include "core/base/JsonText.h"
@@ -60,14 +61,15 @@ int runProtocols(const QCommandLineParser& parser) {
     }
     for (const auto& protocol : all) {
         say("{}: {} ({})\n", textOf(protocol, "name"), textOf(protocol, "title"), textOf(protocol, "from"));
+        TextTable table({"", ""});
         for (const auto& parameter : protocol["parameters"]) {
             const auto range = rangeOf(parameter);
             const auto unit = textOf(parameter, "unit");
-            say("    --set {:<28} {}{}\n",
-                fmt::format("{}={}{}{}", textOf(parameter, "name"), textOf(parameter, "value"),
-                            unit.empty() ? "" : "   ", unit),
-                textOf(parameter, "label"), range.empty() ? "" : " (" + range + ")");
+            table.add({fmt::format("  --set {}={}{}{}", textOf(parameter, "name"), textOf(parameter, "value"),
+                                   unit.empty() ? "" : "   ", unit),
+                       textOf(parameter, "label") + (range.empty() ? "" : " (" + range + ")")});
         }
+        table.print();
     }
     return broken ? kCouldNotRun : kDone;
 }

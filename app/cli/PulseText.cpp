@@ -9,8 +9,10 @@
 
 #include "app/cli/Say.h"
 #include "app/cli/TextPlot.h"
+#include "app/cli/TextTable.h"
 #include "app/cli/Verdicts.h"
 #include "core/base/QuantityText.h"
+#include "core/base/Words.h"
 
 namespace tacto::cli {
 
@@ -27,19 +29,11 @@ const char* quantityOf(const SampledPulse& samples) noexcept {
     return samples.measurement == Measurement::Voltage ? "voltage magnitude" : "current magnitude";
 }
 
-const char* nameOf(ElectrodeState state) noexcept {
-    switch (state) {
-        case ElectrodeState::NotMeasured:
-            return "not measured";
-        case ElectrodeState::Ok:
-            return "ok";
-        case ElectrodeState::Open:
-            return "open";
-        case ElectrodeState::Short:
-            return "short";
-    }
-    return "not measured";
-}
+constexpr Word<ElectrodeState> kElectrodeStates[] = {{"not measured", ElectrodeState::NotMeasured},
+                                                     {"ok", ElectrodeState::Ok},
+                                                     {"open", ElectrodeState::Open},
+                                                     {"short", ElectrodeState::Short}};
+std::string_view nameOf(ElectrodeState state) noexcept { return wordFor(kElectrodeStates, state); }
 
 /// As the device sent them, in hundredths: 4.99, not what the nearest float is.
 std::vector<double> digitsOf(const SampledPulse& samples) {
@@ -128,12 +122,15 @@ void print(const BenchPulse& order, const PulseOutcome& outcome, const DeviceIde
         if (finding.impedance) plot.markText = fmt::format("|Z| {}", ohms(*finding.impedance));
         say("{}\n", lines(draw(plot, plotColumns())));
     }
-    say("  stimulator  {}\n  pulse       {}{}\n", device.serial, describe(order.order().pulse),
-        outcome.pulse ? "" : ": not sent");
-    say("  |Z|         {} at the end of the leading phase\n",
-        finding.impedance ? ohms(*finding.impedance) : "not measured");
-    say("  declared    {}: {} to {} is accepted\n", ohms(range.nominal), ohms(range.low), ohms(range.high));
-    if (!file.empty()) say("  file        {}\n", file);
+    TextTable table({"", ""});
+    table.add({"stimulator", device.serial});
+    table.add({"pulse", describe(order.order().pulse) + (outcome.pulse ? "" : ": not sent")});
+    table.add({"|Z|", fmt::format("{} at the end of the leading phase",
+                                  finding.impedance ? ohms(*finding.impedance) : "not measured")});
+    table.add(
+        {"declared", fmt::format("{}: {} to {} is accepted", ohms(range.nominal), ohms(range.low), ohms(range.high))});
+    if (!file.empty()) table.add({"file", file});
+    table.print();
     if (device.simulated) say("  SIMULATED: no number here was measured on hardware.\n");
     printVerdict(outcome.verdict, outcome.reasons);
 }

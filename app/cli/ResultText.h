@@ -29,11 +29,6 @@ namespace tacto::cli {
     return found != object.end() && found->is_array() ? *found : nlohmann::json::array();
 }
 
-/// "12.3"; "–" for what is not known.
-[[nodiscard]] inline std::string decimalText(double value, int decimals) {
-    return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
-}
-
 /// Empty where there is no text of that name.
 [[nodiscard]] inline std::string resultText(const nlohmann::json& object, const char* key) {
     const auto found = object.find(key);

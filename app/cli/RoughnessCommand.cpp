@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
-#include "app/cli/Profiles.h"
+#include "app/cli/TextTable.h"
 #include "core/acquisition/Recording.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/dsp/RoughnessAnalysis.h"
@@ -19,11 +19,14 @@ void declareRoughness(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
 }
 
-void printRow(const char* name, const Statistics& s) {
-    if (s.n == 0)
-        say("  {:<12} –\n", name);
-    else
-        say("  {:<12} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>7}\n", name, s.mean, s.sd, s.min, s.max, s.n);
+void addRow(TextTable& table, const char* name, const Statistics& s) {
+    std::vector<std::string> cells{name};
+    if (s.n == 0) cells.emplace_back("–");
+    for (const double value : {s.mean, s.sd, s.min, s.max}) {
+        if (s.n != 0) cells.push_back(fmt::format("{:.4g}", value));
+    }
+    if (s.n != 0) cells.push_back(fmt::format("{}", s.n));
+    table.add(std::move(cells));
 }
 
 /// Whether `out` is one of the files that the recording is made of.
@@ -79,16 +82,18 @@ int runRoughness(const QCommandLineParser& parser) {
         return kDone;
     }
     if (recording->simulated.value_or(false)) say("SIMULATED: no number here was measured on hardware.\n");
-    say("{}\n{} frames, {} in contact, at {:.6g} Hz\n\n", recording->title, summary.frames, summary.contactFrames,
+    say("{}\n{} frames, {} in contact, at {:.6g} Hz\n", recording->title, summary.frames, summary.contactFrames,
         summary.rate_hz);
-    say("  {:<12} {:>10} {:>10} {:>10} {:>10} {:>7}\n", "", "mean", "sd", "min", "max", "n");
-    printRow("h", summary.h);
-    printRow("v", summary.v);
-    printRow("R", summary.R);
-    if (std::isfinite(uncertainty))
-        say("  {:<12} {:>10.2g} (95 %, of the mean, as one slide)\n", "U of R", uncertainty);
-    printRow("pressure Pa", summary.pressure_pa);
-    printRow("P", summary.P);
+    TextTable table({"", ">mean", ">sd", ">min", ">max", ">n", ""});
+    addRow(table, "h", summary.h);
+    addRow(table, "v", summary.v);
+    addRow(table, "R", summary.R);
+    if (std::isfinite(uncertainty)) {
+        table.add({"U of R", fmt::format("{:.2g}", uncertainty), "", "", "", "", "95 %, of the mean, as one slide"});
+    }
+    addRow(table, "pressure Pa", summary.pressure_pa);
+    addRow(table, "P", summary.P);
+    table.print();
     if (!summary.flags.empty()) {
         say("\n");
         for (const auto& flag : summary.flags) say("{}\n", flagSentence(flag));

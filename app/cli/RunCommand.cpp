@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "app/cli/Command.h"
-#include "app/cli/Profiles.h"
 #include "app/cli/TerminalOperator.h"
 #include "app/cli/Verdicts.h"
 #include "app/report/Report.h"

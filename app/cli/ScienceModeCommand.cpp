@@ -4,6 +4,7 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/ScienceModePulse.h"
+#include "app/cli/TextTable.h"
 #include "app/run/AllDrivers.h"
 #include "core/base/Clock.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
@@ -42,9 +43,12 @@ int identifyIt(const QCommandLineParser& parser) {
                    {"simulated", seen->simulated()}});
         return kDone;
     }
-    say("identity   {}{}\n", who.id, seen->simulated() ? "  (simulated)" : "");
-    say("firmware   {}\nprotocol   ScienceMode {}\nplugged in {}\n", who.firmware.text(), who.protocol.text(),
-        seen->place);
+    TextTable table({"", ""});
+    table.add({"identity", who.id + (seen->simulated() ? "  (simulated)" : "")});
+    table.add({"firmware", who.firmware.text()});
+    table.add({"protocol", fmt::format("ScienceMode {}", who.protocol.text())});
+    table.add({"plugged in", seen->place});
+    table.print();
     return kDone;
 }
 
@@ -98,8 +102,12 @@ int statusOf(const QCommandLineParser& parser) {
                    {"high_voltage", highVoltageText(status.highVoltage)}});
         return kDone;
     }
-    say("stimulator    {} at {}{}\n", seen->identification.id, seen->place, seen->simulated() ? "  (simulated)" : "");
-    say("stimulation   {}\nhigh voltage  {}\n", words.sentence, highVoltageText(status.highVoltage));
+    TextTable table({"", ""});
+    table.add({"stimulator", fmt::format("{} at {}{}", seen->identification.id, seen->place,
+                                         seen->simulated() ? "  (simulated)" : "")});
+    table.add({"stimulation", words.sentence});
+    table.add({"high voltage", highVoltageText(status.highVoltage)});
+    table.print();
     return kDone;
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/SensorListening.h"
+#include "app/cli/TextTable.h"
 #include "app/run/AllDrivers.h"
 #include "drivers/sensor_board/BoardReport.h"
 #include "drivers/sensor_board/SensorBoardDriver.h"
@@ -93,26 +94,31 @@ std::string calibrationText(const sensorboard::StreamCalibration& calibration) {
 
 void printText(const SensorBoard& board, const Listened& heard) {
     const auto& who = board.identity();
-    say("sensor board  {} {}{}\nfirmware      {}\n", who.name, who.serial, who.simulated ? "  (simulated)" : "",
-        who.firmware);
+    TextTable table({"", ""});
+    table.add({"sensor board", fmt::format("{} {}{}", who.name, who.serial, who.simulated ? "  (simulated)" : "")});
+    table.add({"firmware", who.firmware});
     for (std::size_t i = 0; i < board.streams().size(); ++i) {
         const auto& info = board.streams()[i];
-        const auto& set = board.configuration(i);
-        say("{:<13} {} × {} in {}, {:g} Hz (measured: {:.2f} Hz); {}\n", tacto::nameOf(info.kind), info.channels,
-            nameOf(set.format), symbolOf(info.unit), info.rate_hz, heard.health[i].rate_hz,
-            calibrationText(board.calibrations()[i]));
+        table.add({std::string(tacto::nameOf(info.kind)),
+                   fmt::format("{} × {} in {}, {:g} Hz (measured: {:.2f} Hz); {}", info.channels,
+                               nameOf(board.configuration(i).format), symbolOf(info.unit), info.rate_hz,
+                               heard.health[i].rate_hz, calibrationText(board.calibrations()[i]))});
     }
     const auto& report = heard.report;
     const auto losses = sensorboard::lossesOf(report);
-    say("listened      {:.1f} s: {}\n", heard.seconds, losses == 0 ? "nothing lost" : "something was lost");
+    table.add(
+        {"listened", fmt::format("{:.1f} s: {}", heard.seconds, losses == 0 ? "nothing lost" : "something was lost")});
+    table.print();
+    TextTable counts({"", ""});
     const auto known = sensorboard::rowsOf(report);
     for (const auto& row : known.rows()) {
-        if (std::isfinite(row.value))
-            say("  {:<24} {:.6g}{}{}\n", row.name, row.value, *row.unit != '\0' ? " " : "", row.unit);
-        else
-            say("  {:<24} not known yet\n", row.name);
+        counts.add({row.name, std::isfinite(row.value)
+                                  ? fmt::format("{:.6g}{}{}", row.value, *row.unit != '\0' ? " " : "", row.unit)
+                                  : "not known yet"});
     }
-    if (report.board.faultyStreams != 0) say("  the board says that a sensor of it does not answer\n");
+    if (report.board.faultyStreams != 0) counts.addLine("the board says that a sensor of it does not answer");
+    say("\n");
+    counts.print();
 }
 
 int runSensor(const QCommandLineParser& parser) {

@@ -20,7 +20,8 @@ TextTable::TextTable(std::vector<std::string> headings) {
         toTheRight_.push_back(heading.starts_with('>'));
         if (toTheRight_.back()) heading.erase(0, 1);
     }
-    add(std::move(headings));
+    if (std::ranges::any_of(headings, [](const auto& heading) { return !heading.empty(); })) add(std::move(headings));
+    hasHeadings_ = !rows_.empty();
 }
 
 void TextTable::add(std::vector<std::string> cells) {
@@ -29,13 +30,20 @@ void TextTable::add(std::vector<std::string> cells) {
     rows_.push_back(std::move(cells));
 }
 
+void TextTable::addLine(std::string line) { rows_.push_back({printable(line)}); }
+
 void TextTable::print() const {
     std::vector<std::size_t> widths(toTheRight_.size());
     for (const auto& row : rows_) {
+        if (row.size() != widths.size()) continue;
         for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], lengthOf(row[c]));
     }
-    say("\n");
+    if (hasHeadings_) say("\n");
     for (const auto& row : rows_) {
+        if (row.size() != widths.size()) {
+            say("  {}\n", row.front());
+            continue;
+        }
         std::string line;
         for (std::size_t c = 0; c < row.size(); ++c) {
             const std::string blanks(widths[c] - lengthOf(row[c]), ' ');

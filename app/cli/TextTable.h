@@ -11,15 +11,19 @@ namespace tacto::cli {
 class TextTable {
 public:
     /// A heading that begins with '>' stands to the right with its column, as numbers do; the mark is not printed.
+    /// Headings that are all empty are not printed.
     explicit TextTable(std::vector<std::string> headings);
     /// As many cells as there are headings.
     void add(std::vector<std::string> cells);
-    /// After an empty line.
+    /// A line between two rows, as wide as it is.
+    void addLine(std::string line);
+    /// With headings, after an empty line.
     void print() const;
 
 private:
+    bool hasHeadings_ = false;
     std::vector<bool> toTheRight_;
-    std::vector<std::vector<std::string>> rows_;  ///< printable; the headings first
+    std::vector<std::vector<std::string>> rows_;  ///< printable; the headings first, a line as a row of one cell
 };
 
 }  // namespace tacto::cli

@@ -26,11 +26,13 @@ std::string range(const json& object, const char* key, const char* middle = "val
     return fmt::format("{} ({} to {})", number(middle), number("low"), number("high"));
 }
 
-void printAim(const char* aim, const json& alone, const json& pooled) {
+void addAim(TextTable& table, std::string aim, const json& alone, const json& pooled) {
     const bool reached = pooled.value("total", json()).is_number();
-    say("  {:<34} one participant {:>6}, pooled {}\n", aim, alone.is_number() ? dumpJson(alone) : "–",
-        reached ? fmt::format("{:>6} ({} each)", resultNumber(pooled, "total"), resultNumber(pooled, "per_participant"))
-                : fmt::format("not with so few: at least {} participants", resultNumber(pooled, "participants_least")));
+    table.add(
+        {std::move(aim), alone.is_number() ? dumpJson(alone) : "–",
+         reached
+             ? fmt::format("{} ({} each)", resultNumber(pooled, "total"), resultNumber(pooled, "per_participant"))
+             : fmt::format("not with so few: at least {} participants", resultNumber(pooled, "participants_least"))});
 }
 
 /// What is too strong decides more than anything else.
@@ -69,11 +71,13 @@ void printTrials(const json& results) {
     if (!needed.is_object()) return;
     const json& alone = needed.at("per_participant");
     const json& pooled = needed.at("pooled");
-    say("\n  trials of a pilot of {}, so that with {} % probability\n", resultNumber(pooled, "participants"),
-        resultNumber(needed, "assurance", 100));
-    printAim(fmt::format("the interval is {} % wide or less", resultNumber(needed, "width", 100)).c_str(),
-             alone.at("for_width"), pooled.at("for_width"));
-    printAim("its lower end lies above chance", alone.at("above_chance"), pooled.at("above_chance"));
+    TextTable table({fmt::format("trials of a pilot of {}, so that with {} % probability",
+                                 resultNumber(pooled, "participants"), resultNumber(needed, "assurance", 100)),
+                     ">one participant", "pooled"});
+    addAim(table, fmt::format("the interval is {} % wide or less", resultNumber(needed, "width", 100)),
+           alone.at("for_width"), pooled.at("for_width"));
+    addAim(table, "its lower end lies above chance", alone.at("above_chance"), pooled.at("above_chance"));
+    table.print();
 }
 
 }  // namespace

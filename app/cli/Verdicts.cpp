@@ -6,8 +6,8 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/ResultText.h"
-#include "core/base/JsonText.h"
 #include "app/cli/TextTable.h"
+#include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"
 
 namespace tacto::cli {
@@ -28,15 +28,19 @@ void printKnownLoad(const nlohmann::json& results) {
 }
 
 void printResults(const nlohmann::json& results) {
-    say("\n");
+    TextTable table({"", ""});
     for (const auto& [key, value] : results.items()) {
-        if (key != "verdict") say("  {:<18} {}\n", key, value.is_string() ? value.get<std::string>() : dumpJson(value));
+        if (key != "verdict") table.add({key, value.is_string() ? value.get<std::string>() : dumpJson(value)});
     }
+    say("\n");
+    table.print();
 }
 
 void printVerdict(std::string_view verdict, const std::vector<std::string>& reasons) {
-    say("  verdict  {}\n", verdict);
-    for (const auto& reason : reasons) say("           {}\n", reason);
+    TextTable table({"", ""});
+    table.add({"verdict", std::string(verdict)});
+    for (const auto& reason : reasons) table.add({"", reason});
+    table.print();
 }
 
 void printCalibration(const nlohmann::json& results) {

@@ -40,11 +40,7 @@ bool isMassager(const DeviceUri& uri) { return uri.scheme == "hid" || (isSimulat
 
 /// As the settings say; nothing where they leave it to the study.
 std::optional<Modality> wantedModality(const RunOrder& order) {
-    const auto wanted = textOf(order, "modality");
-    for (const auto modality : {Modality::Electrodes, Modality::Massager}) {
-        if (wanted == nameOf(modality)) return modality;
-    }
-    return std::nullopt;
+    return valueFor(kModalities, textOf(order, "modality"));
 }
 
 /// `sim:` is a current source with the P24's grid, unless it says otherwise.
@@ -116,9 +112,7 @@ bool wasTested(const Study& study, const StudySession& session) {
 
 }  // namespace
 
-bool isPilotProtocol(const std::string& name) noexcept {
-    return name == "pilot-thresholds" || name == kIdentification;
-}
+bool isPilotProtocol(const std::string& name) noexcept { return name == "pilot-thresholds" || name == kIdentification; }
 
 PilotRun::~PilotRun() {
     run_.reset();  // the script first: it calls the session

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/Csv.h"
+#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
 namespace tacto {
@@ -46,8 +47,7 @@ Result<std::size_t> findColumn(const std::vector<std::string>& names, const std:
                     joined(names));
     }
     if (std::find(found + 1, names.end(), wanted) != names.end()) {
-        return fail(ErrorCode::ParseError, "{}:{}: column \"{}\" is named twice in the header, once was expected", file,
-                    line, wanted);
+        return fail(ErrorCode::ParseError, "{}:{}: {}", file, line, givenTwice("column \"{}\"", wanted));
     }
     return static_cast<std::size_t>(found - names.begin());
 }

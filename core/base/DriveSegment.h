@@ -8,9 +8,14 @@
 #include <cstddef>
 #include <span>
 
+#include "core/base/Words.h"
+
 namespace tacto {
 
 enum class Drive { Voltage, Current, HighImpedance };
+inline constexpr Word<Drive> kDrives[] = {
+    {"voltage", Drive::Voltage}, {"current", Drive::Current}, {"high impedance", Drive::HighImpedance}};
+[[nodiscard]] constexpr std::string_view nameOf(Drive drive) noexcept { return wordFor(kDrives, drive); }
 
 /// The source's level goes from `start` to `end` in a straight line. SI units: volts or amperes by `drive`;
 /// levels carry the sign of the phase; ignored for HighImpedance (no current flows).

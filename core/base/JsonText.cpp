@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/GivenOnce.h"
+
 template class nlohmann::basic_json<>;  // Json.h
 
 namespace tacto {
@@ -38,8 +40,7 @@ public:
     bool end_object() { return close(); }
     bool end_array() { return close(); }
     bool key(std::string& name) {
-        if (within_.back()->contains(name))
-            return refuse(fmt::format("the key \"{}\" stands twice in one object", name));
+        if (within_.back()->contains(name)) return refuse(givenTwice("the key \"{}\" of one object", name));
         key_ = std::move(name);
         return true;
     }

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::array<std::string_view, 15> kScaled{"V",  "A", "s", "Ω", "Hz",    "C",     "J",  "Pa",
+constexpr std::array<std::string_view, 15> kScaled{"V", "A", "s", "Ω",     "Hz",    "C",   "J",  "Pa",
                                                    "N", "W", "F", "W/cm²", "A/cm²", "V/s", "S/s"};
 constexpr std::array<UnitPrefix, 8> kPrefixOf{
     {{-12, "p"}, {-9, "n"}, {-6, "µ"}, {-3, "m"}, {0, ""}, {3, "k"}, {6, "M"}, {9, "G"}}};
@@ -79,6 +79,10 @@ int decimalExponent(double value, int digits) {
     if (value == 0 || !std::isfinite(value)) return 0;
     const std::string rounded = fmt::format("{:.{}e}", std::abs(value), digits - 1);
     return std::stoi(rounded.substr(rounded.find('e') + 1));
+}
+
+std::string decimalText(double value, int decimals) {
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
 }
 
 std::string scaledText(double value, std::string_view unit, int digits) {

@@ -28,7 +28,10 @@ namespace tacto {
 /// finite or below 0 is unknown, and is said to be: "40.12 V (U unknown)".
 [[nodiscard]] std::string measuredText(double value, double expanded, std::string_view unit);
 
-/// What the two above are made of, for columns that share a prefix.
+/// With as many decimals as asked for: "0.98". "–" for what is not finite.
+[[nodiscard]] std::string decimalText(double value, int decimals);
+
+/// What the texts with units are made of, for columns that share a prefix.
 struct UnitParts {
     double factor = 1;  ///< from the unit given to its base
     std::string base;   ///< "A" of "mA"; empty for a unit that takes no prefix

@@ -20,13 +20,14 @@ struct Word {
 template <class Value>
 using Words = std::span<const Word<Value>>;
 
-/// "unknown" for a value that has no word.
+/// `otherwise` for a value that has no word.
 template <class Value>
-[[nodiscard]] constexpr std::string_view wordFor(std::type_identity_t<Words<Value>> words, Value value) noexcept {
+[[nodiscard]] constexpr std::string_view wordFor(std::type_identity_t<Words<Value>> words, Value value,
+                                                 std::string_view otherwise = "unknown") noexcept {
     for (const auto& word : words) {
         if (word.value == value) return word.text;
     }
-    return "unknown";
+    return otherwise;
 }
 
 /// Nothing for a text that is none of the words.

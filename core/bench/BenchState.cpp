@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/bench/BenchPerson.h"
-#include "core/bench/ReportRecord.h"
+#include "core/bench/LoopJournal.h"
 #include "core/devices/DeviceUri.h"
 
 namespace tacto {

@@ -1,9 +1,9 @@
 #include "core/bench/LoopJournal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "core/bench/ReportRecord.h"
 #include "core/session/SessionTypes.h"
 
 namespace tacto {
@@ -25,6 +25,15 @@ std::string_view shapeText(const PulseTrain& train) noexcept {
 }
 
 }  // namespace
+
+static_assert(DeviceReport::kMaxRows <= SessionRecorder::kMaxFields);
+
+void recordReport(SessionRecorder& recorder, Instant at, const DeviceReport& report, std::string_view text) noexcept {
+    std::array<RecordField, DeviceReport::kMaxRows> fields{};
+    std::size_t count = 0;
+    for (const auto& row : report.rows()) fields[count++] = {row.key, row.value};
+    recorder.event(at, "device report", std::span<const RecordField>(fields.data(), count), text);
+}
 
 void LoopJournal::event(Instant at, const char* kind, std::initializer_list<RecordField> fields,
                         std::string_view text) noexcept {

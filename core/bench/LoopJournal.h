@@ -17,6 +17,10 @@
 
 namespace tacto {
 
+/// A device's report on itself as an event of the session: "device report", its rows as fields. Thread-safety: as
+/// SessionRecorder::event(). Never allocates.
+void recordReport(SessionRecorder& recorder, Instant at, const DeviceReport& report, std::string_view text) noexcept;
+
 class LoopJournal {
 public:
     /// `recorder` may be null and outlives the journal. The streams are its own: roughness frames, and one for each

@@ -10,11 +10,16 @@
 
 #include "core/base/Result.h"
 #include "core/base/Units.h"
+#include "core/base/Words.h"
 
 namespace tacto {
 
 enum class Role { Sensor, Stimulator, Oscilloscope, Massager };
-[[nodiscard]] std::string_view nameOf(Role role) noexcept;  // "sensor", "stimulator", "oscilloscope", "massager"
+inline constexpr Word<Role> kRoles[] = {{"sensor", Role::Sensor},
+                                        {"stimulator", Role::Stimulator},
+                                        {"oscilloscope", Role::Oscilloscope},
+                                        {"massager", Role::Massager}};
+[[nodiscard]] constexpr std::string_view nameOf(Role role) noexcept { return wordFor(kRoles, role, "device"); }
 
 struct DeviceIdentity {
     std::string uri;  ///< opens this device again

@@ -6,20 +6,6 @@
 
 namespace tacto {
 
-std::string_view nameOf(Role role) noexcept {
-    switch (role) {
-        case Role::Sensor:
-            return "sensor";
-        case Role::Stimulator:
-            return "stimulator";
-        case Role::Oscilloscope:
-            return "oscilloscope";
-        case Role::Massager:
-            return "massager";
-    }
-    return "device";
-}
-
 bool DeviceSet::has(Role role) const noexcept {
     switch (role) {
         case Role::Sensor:

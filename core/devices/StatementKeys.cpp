@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
 namespace tacto {
@@ -54,14 +55,15 @@ Result<std::optional<InstrumentStatement>> takeStatement(DeviceUri& uri) {
             others.push_back(std::move(parameter));
             continue;
         }
-        const auto refuse = [&](std::string_view accepted) {
-            return fail(ErrorCode::InvalidArgument, "device \"{}:{}\": {} is \"{}\"; {} is accepted", uri.scheme,
-                        uri.path, known->name, parameter.second, accepted);
+        const auto refuse = [&](std::string_view why) {
+            return fail(ErrorCode::InvalidArgument, "device \"{}:{}\": {}", uri.scheme, uri.path, why);
         };
-        if (std::ranges::find(seen, known->name) != seen.end()) return refuse("one value");
         seen.push_back(known->name);
+        if (secondIn(seen)) return refuse(givenTwice("{}", known->name));
         const auto value = parseNumber(parameter.second);
-        if (!value || !(*value >= 0) || !(*value <= known->most)) return refuse(known->accepted);
+        if (!value || !(*value >= 0) || !(*value <= known->most)) {
+            return refuse(fmt::format("{} is \"{}\"; {} is accepted", known->name, parameter.second, known->accepted));
+        }
         put(out, known->name, *value * known->scale);
     }
     uri.parameters = std::move(others);

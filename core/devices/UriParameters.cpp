@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/ranges.h>
 
+#include "core/base/GivenOnce.h"
 #include "core/base/QuantityText.h"
 #include "core/base/Text.h"
 
@@ -20,7 +21,7 @@ std::vector<std::string_view> UriParameters::each(std::string_view key) {
 
 std::optional<std::string_view> UriParameters::take(std::string_view key) {
     const auto values = each(key);
-    if (values.size() > 1) refuse(fmt::format("{} is given twice", key));
+    if (values.size() > 1) refuse(givenTwice("{}", key));
     return values.empty() ? std::nullopt : std::optional(values.back());
 }
 

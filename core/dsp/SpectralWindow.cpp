@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/Words.h"
+
 namespace tacto {
 
 namespace {
@@ -26,21 +28,14 @@ constexpr Terms termsOf(SpectralWindow window) noexcept {
     return {1, 0, 0, 0, 0};
 }
 
+constexpr Word<SpectralWindow> kSpectralWindowWords[] = {{"rectangular", SpectralWindow::Rectangular},
+                                                         {"hann", SpectralWindow::Hann},
+                                                         {"blackman-harris", SpectralWindow::BlackmanHarris},
+                                                         {"flat-top", SpectralWindow::FlatTop}};
+
 }  // namespace
 
-std::string_view nameOf(SpectralWindow window) noexcept {
-    switch (window) {
-        case SpectralWindow::Rectangular:
-            return "rectangular";
-        case SpectralWindow::Hann:
-            return "hann";
-        case SpectralWindow::BlackmanHarris:
-            return "blackman-harris";
-        case SpectralWindow::FlatTop:
-            break;
-    }
-    return "flat-top";
-}
+std::string_view nameOf(SpectralWindow window) noexcept { return wordFor(kSpectralWindowWords, window); }
 
 std::vector<double> samplesOf(SpectralWindow window, std::size_t length) {
     const auto terms = termsOf(window);

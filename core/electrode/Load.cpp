@@ -130,20 +130,6 @@ Circuit circuitAt(const Load& load, double t_s, std::span<const DriveSegment> pu
     return circuit;
 }
 
-Ohms staticMagnitude(const Load& load) noexcept {
-    switch (load.kind) {
-        case LoadKind::Resistor:
-            return load.series;
-        case LoadKind::SkinEquivalent:
-            return load.series + load.parallel;
-        case LoadKind::Short:
-            return Ohms(kShortOhms);
-        case LoadKind::Open:
-            break;
-    }
-    return Ohms(std::numeric_limits<double>::infinity());
-}
-
 Ohms effectiveImpedance(const Load& load, const DriveSegment& leadingPhase, const SourceLimits& limits,
                         double t_s) noexcept {
     PulseResponse response(circuitAt(load, t_s, {&leadingPhase, 1}, limits), limits);

@@ -107,9 +107,6 @@ struct NamedLoad {
 [[nodiscard]] Circuit circuitAt(const Load& load, double t_s, std::span<const DriveSegment> pulse = {},
                                 const SourceLimits& limits = {}) noexcept;
 
-/// |Z| at zero frequency: R, R_s + R_p, infinite when open.
-[[nodiscard]] Ohms staticMagnitude(const Load& load) noexcept;
-
 /// Voltage over current at the end of `leadingPhase` from rest, which is what |Z| means here (science.md section 4):
 /// the RC load reads 10.2 kΩ from a voltage source and 3.50 kΩ from a current source at 200 µs. Infinite when open
 /// or when no current flows.

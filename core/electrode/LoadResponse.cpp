@@ -277,12 +277,6 @@ double ResponsePiece::currentSquared() const noexcept { return integralOfProduct
 double ResponsePiece::energy() const noexcept { return integralOfProduct(v, i, tau_s, duration_s); }
 double ResponsePiece::peakVoltage() const noexcept { return largestMagnitude(v, tau_s, duration_s); }
 double ResponsePiece::peakCurrent() const noexcept { return largestMagnitude(i, tau_s, duration_s); }
-double ResponsePiece::voltageIntegral(double from_s, double to_s) const noexcept {
-    return integralOf(v, tau_s, to_s) - integralOf(v, tau_s, from_s);
-}
-double ResponsePiece::currentIntegral(double from_s, double to_s) const noexcept {
-    return integralOf(i, tau_s, to_s) - integralOf(i, tau_s, from_s);
-}
 
 namespace {
 /// The piece that holds at `t_s`; the segment has at least one.

@@ -40,9 +40,6 @@ struct ResponsePiece {
     [[nodiscard]] double energy() const noexcept;  ///< ∫ v·i dt, J (what the source gives; negative when it takes back)
     [[nodiscard]] double peakVoltage() const noexcept;  ///< max |v|
     [[nodiscard]] double peakCurrent() const noexcept;  ///< max |i|
-    /// ∫ v dt and ∫ i dt from `from_s` to `to_s`, for samples that are means over their interval.
-    [[nodiscard]] double voltageIntegral(double from_s, double to_s) const noexcept;
-    [[nodiscard]] double currentIntegral(double from_s, double to_s) const noexcept;
 };
 
 /// The answer to one DriveSegment.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "core/base/GivenOnce.h"
 #include "core/base/RecordFields.h"
 
 namespace tacto {
@@ -39,12 +39,9 @@ Result<void> strongestTrainIsPossible(const EncodingProfile& p) {
 }
 
 Result<void> conditionsDiffer(const EncodingProfile& p) {
-    std::set<std::string_view> names;
-    for (const auto& condition : p.conditions) {
-        if (!names.insert(condition.name).second)
-            return fail(ErrorCode::InvalidArgument, "condition \"{}\" is there twice", condition.name);
-    }
-    return {};
+    const auto* second = secondIn(p.conditions, &Condition::name);
+    if (second == nullptr) return {};
+    return fail(ErrorCode::InvalidArgument, "{}", givenTwice("condition \"{}\"", second->name));
 }
 
 Result<void> stepsAreLimitedOrNot(const EncodingProfile& p) {

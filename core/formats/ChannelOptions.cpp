@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/ranges.h>
 
+#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
 namespace tacto {
@@ -143,10 +144,9 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
     for (const auto& name : options.columns) {
         const auto index = indexOf(channels, name);
         if (!index) return noChannel(channels, "the choice of columns", name, file);
-        if (std::ranges::find(kept, channels[*index].number, &ChannelPlan::number) != kept.end()) {
-            return fail(ErrorCode::InvalidArgument, "{}: column '{}' is chosen twice; once was expected", file, name);
-        }
         kept.push_back(channels[*index]);
+        if (secondIn(kept, &ChannelPlan::number))
+            return fail(ErrorCode::InvalidArgument, "{}: {}", file, givenTwice("column '{}'", name));
     }
     if (options.columns.empty()) kept = std::move(channels);
     return kept;

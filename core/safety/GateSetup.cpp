@@ -2,11 +2,16 @@
 
 #include <cmath>
 
+#include "core/base/Words.h"
 #include "core/encoding/Rounding.h"
 
 namespace tacto {
 
-std::string_view nameOf(OutputMode mode) noexcept { return mode == OutputMode::BenchLoad ? "bench load" : "person"; }
+namespace {
+constexpr Word<OutputMode> kOutputModes[] = {{"bench load", OutputMode::BenchLoad}, {"person", OutputMode::Person}};
+}  // namespace
+
+std::string_view nameOf(OutputMode mode) noexcept { return wordFor(kOutputModes, mode); }
 
 LoadRange LoadRange::around(const Load& nominal, double low, double high) {
     return {scaled(nominal, low), scaled(nominal, high), nominal};

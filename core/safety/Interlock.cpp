@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "core/base/Words.h"
 #include "core/safety/Rules.h"
 #include "core/safety/UnitRecord.h"
 
@@ -13,11 +14,20 @@ namespace tacto {
 using namespace gate;
 
 namespace {
-constexpr std::array<std::string_view, 7> kStates{"disconnected", "disarmed", "checking", "armed",
-                                                  "delivering",   "paused",   "faulted"};
-constexpr std::array<std::string_view, kFaultCauseCount> kCauses{
-    "device lost",    "device fault", "open electrode", "shorted electrode", "net charge",
-    "status missing", "loop silent",  "stale sensor",   "limit broken",      "internal error"};
+constexpr Word<InterlockState> kStates[] = {{"disconnected", InterlockState::Disconnected},
+                                            {"disarmed", InterlockState::Disarmed},
+                                            {"checking", InterlockState::Checking},
+                                            {"armed", InterlockState::Armed},
+                                            {"delivering", InterlockState::Delivering},
+                                            {"paused", InterlockState::Paused},
+                                            {"faulted", InterlockState::Faulted}};
+constexpr Word<FaultCause> kCauses[] = {
+    {"device lost", FaultCause::DeviceLost},       {"device fault", FaultCause::DeviceFault},
+    {"open electrode", FaultCause::OpenElectrode}, {"shorted electrode", FaultCause::ShortElectrode},
+    {"net charge", FaultCause::NetCharge},         {"status missing", FaultCause::StatusMissing},
+    {"loop silent", FaultCause::LoopSilent},       {"stale sensor", FaultCause::StaleSensor},
+    {"limit broken", FaultCause::LimitBroken},     {"internal error", FaultCause::Internal}};
+static_assert(std::size(kCauses) == kFaultCauseCount);
 
 constexpr std::uint32_t bitOf(FaultCause cause) noexcept { return 1U << static_cast<unsigned>(cause); }
 constexpr std::uint32_t kAllCauses = (1U << kFaultCauseCount) - 1;
@@ -137,8 +147,8 @@ constexpr Rule<Reset> kResetRules[] = {
 };
 }  // namespace
 
-std::string_view nameOf(InterlockState state) noexcept { return kStates[static_cast<std::size_t>(state)]; }
-std::string_view nameOf(FaultCause cause) noexcept { return kCauses[static_cast<std::size_t>(cause)]; }
+std::string_view nameOf(InterlockState state) noexcept { return wordFor(kStates, state); }
+std::string_view nameOf(FaultCause cause) noexcept { return wordFor(kCauses, cause); }
 
 FixedText<159> Interlock::reason() const noexcept {
     const std::lock_guard lock(mutex_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/Csv.h"
+#include "core/base/GivenOnce.h"
 #include "core/base/RecordFields.h"
 
 namespace tacto {
@@ -134,10 +135,11 @@ Result<std::vector<LimitSet>> loadLimitSets(const std::filesystem::path& folder)
     for (const auto& file : *files) {
         auto set = loadLimitSet(file);
         if (!set) return failure(set);
-        if (std::ranges::find(sets, set->id, &LimitSet::id) != sets.end())
-            return fail(ErrorCode::ParseError, "{}: a limit set with the id {} is loaded already",
-                        file.filename().string(), set->id);
         sets.push_back(std::move(*set));
+        if (const auto* second = secondIn(sets, &LimitSet::id)) {
+            return fail(ErrorCode::ParseError, "{}: {}", file.filename().string(),
+                        givenTwice("the limit set {}", second->id));
+        }
     }
     return sets;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "core/base/Words.h"
 #include "core/safety/Rules.h"
 
 namespace tacto {
@@ -68,43 +69,21 @@ constexpr FindingRule kStatusRules[] = {
     {TrainReadEarly, [](auto& t) noexcept { return t.early() && t.late(); }, TrainFinding::StatusMissing, kMissing},
     {TrainReadEarly, [](auto& t) noexcept { return t.early(); }, TrainFinding::Pending, {}},
 };
+
+constexpr Word<TrainFinding> kTrainFindings[] = {
+    {"pending", TrainFinding::Pending},      {"ok", TrainFinding::Ok},
+    {"open electrode", TrainFinding::Open},  {"shorted electrode", TrainFinding::Short},
+    {"net charge", TrainFinding::NetCharge}, {"status missing", TrainFinding::StatusMissing},
+    {"stuck on", TrainFinding::StuckOn},     {"garbage", TrainFinding::Garbage}};
+constexpr Word<ChargeBalance> kChargeBalances[] = {{"not evaluated", ChargeBalance::NotEvaluated},
+                                                   {"green", ChargeBalance::Green},
+                                                   {"amber", ChargeBalance::Amber},
+                                                   {"red", ChargeBalance::Red}};
 }  // namespace
 
-std::string_view nameOf(TrainFinding finding) noexcept {
-    switch (finding) {
-        case TrainFinding::Pending:
-            return "pending";
-        case TrainFinding::Ok:
-            return "ok";
-        case TrainFinding::Open:
-            return "open electrode";
-        case TrainFinding::Short:
-            return "shorted electrode";
-        case TrainFinding::NetCharge:
-            return "net charge";
-        case TrainFinding::StatusMissing:
-            return "status missing";
-        case TrainFinding::StuckOn:
-            return "stuck on";
-        case TrainFinding::Garbage:
-            return "garbage";
-    }
-    return "unknown";
-}
+std::string_view nameOf(TrainFinding finding) noexcept { return wordFor(kTrainFindings, finding); }
 
-std::string_view nameOf(ChargeBalance balance) noexcept {
-    switch (balance) {
-        case ChargeBalance::NotEvaluated:
-            return "not evaluated";
-        case ChargeBalance::Green:
-            return "green";
-        case ChargeBalance::Amber:
-            return "amber";
-        case ChargeBalance::Red:
-            return "red";
-    }
-    return "unknown";
-}
+std::string_view nameOf(ChargeBalance balance) noexcept { return wordFor(kChargeBalances, balance); }
 
 ChargeBalance chargeBalance(const std::optional<double>& imbalance, const std::optional<double>& uncertainty) noexcept {
     if (!imbalance || !uncertainty || !sane(imbalance) || !sane(uncertainty)) return ChargeBalance::NotEvaluated;

@@ -36,7 +36,7 @@ constexpr Rule<TrainForm> kFormRules[] = {
     {SourceKind, [](auto& f) { return f.current() != (f.source.drive == Drive::Current); },
      [](auto& f) {
          return fail(ErrorCode::InvalidArgument, "an amplitude in {} was asked of a {} source", f.unit(),
-                     f.source.drive == Drive::Current ? "current" : "voltage");
+                     nameOf(f.source.drive));
      }},
     {AmplitudeMax, [](auto& f) { return !(f.amplitude() <= f.source.amplitudeMax * (1 + kRounding)); },
      [](auto& f) {

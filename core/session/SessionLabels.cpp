@@ -1,12 +1,12 @@
 #include "core/session/SessionLabels.h"
 
-#include <algorithm>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/base/Clock.h"
+#include "core/base/GivenOnce.h"
 #include "core/base/JsonFields.h"
 #include "core/base/Printable.h"
 #include "core/session/Durable.h"
@@ -101,15 +101,14 @@ Result<void> checkLabels(const SessionLabels& labels) {
     if (tags.size() > kMaxTags) {
         return fail(ErrorCode::InvalidArgument, "there are {} tags; at most {} are accepted", tags.size(), kMaxTags);
     }
-    for (auto tag = tags.begin(); tag != tags.end(); ++tag) {
-        if (auto checked = checkText("tag", *tag, kTagLimit); !checked) return checked;
-        if (tag->empty() || tag->find(',') != std::string::npos) {
-            return fail(ErrorCode::InvalidArgument, "a tag is \"{}\"; a text without a comma is expected", *tag);
-        }
-        if (std::find(tags.begin(), tag, *tag) != tag) {
-            return fail(ErrorCode::InvalidArgument, "the tag \"{}\" stands twice; each is expected once", *tag);
+    for (const auto& tag : tags) {
+        if (auto checked = checkText("tag", tag, kTagLimit); !checked) return checked;
+        if (tag.empty() || tag.find(',') != std::string::npos) {
+            return fail(ErrorCode::InvalidArgument, "a tag is \"{}\"; a text without a comma is expected", tag);
         }
     }
+    if (const auto* second = secondIn(tags))
+        return fail(ErrorCode::InvalidArgument, "{}", givenTwice("the tag \"{}\"", *second));
     return {};
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <fstream>
 #include <numeric>
-#include <set>
 
+#include "core/base/GivenOnce.h"
 #include "core/base/JsonText.h"
 #include "core/base/Random.h"
 #include "core/base/Text.h"
@@ -118,8 +118,8 @@ std::vector<BidsColumn> feltColumns(bool massager) {
 std::vector<BidsCell> feltCells(const BidsStudy& study, const BidsSession& session) {
     if (study.massager)
         return {"massager", session.lowIntensity, session.highIntensity, session.detection, session.tooStrong};
-    return {study.electrodeArea_cm2, session.impedance, session.low,
-            session.high,            session.detection, session.tooStrong};
+    return {study.electrodeArea_cm2, session.impedance, session.low, session.high,
+            session.detection,       session.tooStrong};
 }
 
 BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participant) {
@@ -205,20 +205,19 @@ Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& 
         const auto label = bidsLabel(study, participant.enrolled);
         if (!label) return failure(label);
         labelled.emplace_back(*label, &participant);
-        std::set<std::size_t> numbers;
         for (const auto& session : participant.sessions) {
-            if (session.number >= 1 && numbers.insert(session.number).second) continue;
-            return fail(ErrorCode::InvalidArgument, "session {} of participant {}; each number from 1 once is accepted",
+            if (session.number >= 1) continue;
+            return fail(ErrorCode::InvalidArgument, "session {} of participant {}; a number from 1 is expected",
                         session.number, participant.enrolled);
+        }
+        if (const auto* second = secondIn(participant.sessions, &BidsSession::number)) {
+            return fail(ErrorCode::InvalidArgument, "{}",
+                        givenTwice("session {} of participant {}", second->number, participant.enrolled));
         }
     }
     std::ranges::sort(labelled);
-    for (std::size_t i = 1; i < labelled.size(); ++i) {
-        if (labelled[i].first == labelled[i - 1].first) {
-            return fail(ErrorCode::InvalidArgument, "participant {} stands in the study twice; once was expected",
-                        labelled[i].second->enrolled);
-        }
-    }
+    if (const auto* second = secondIn(labelled, &decltype(labelled)::value_type::first))
+        return fail(ErrorCode::InvalidArgument, "{}", givenTwice("participant {}", second->second->enrolled));
     std::vector<BidsFile> files = {description(study, version), readme(study)};
     addTable(files, "participants", participantsTable(with, labelled));
     for (const auto& [label, participant] : labelled) {

@@ -226,22 +226,6 @@ Result<Participant> Study::enrol(Participant participant) {
     return state_->known.participants.back();
 }
 
-Result<Participant> Study::admitVirtual(std::uint64_t seed) {
-    if (!isRehearsal())
-        return fail(ErrorCode::Unsupported, "only in a rehearsal does a virtual participant enrol by itself");
-    const auto code = fmt::format("{}{}", kVirtualPrefix, seed);
-    auto found = state_->find(code);
-    if (!found) {
-        Participant participant;
-        participant.virtualSeed = seed;
-        found = enrol(std::move(participant));
-        if (!found) return found;
-    }
-    if (consentGate(settings(), *found, today())) return found;
-    if (auto given = consent(code, {settings().consentVersion, today(), "rehearsal"}); !given) return failure(given);
-    return state_->find(code);
-}
-
 Result<void> Study::consent(std::string_view code, const Consent& consent) {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(code);

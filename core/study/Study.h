@@ -165,9 +165,6 @@ public:
     /// Errors: kGateRefused when the approval's participants are all enrolled; InvalidArgument for a code that is
     /// taken.
     [[nodiscard]] Result<Participant> enrol(Participant participant);
-    /// In a rehearsal: the virtual participant of that seed, enrolled and consented by itself where it is not there
-    /// yet.
-    [[nodiscard]] Result<Participant> admitVirtual(std::uint64_t seed);
     [[nodiscard]] Result<void> consent(std::string_view code, const Consent& consent);
     /// The participant takes part no more; the data stay.
     [[nodiscard]] Result<void> leave(std::string_view code);

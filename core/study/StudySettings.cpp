@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/GivenOnce.h"
 #include "core/base/JsonFields.h"
 #include "core/base/Text.h"
 #include "core/session/Digest.h"
@@ -11,7 +12,6 @@ namespace tacto {
 namespace {
 
 constexpr Word<StudyKind> kStudyKinds[] = {{"study", StudyKind::Study}, {"rehearsal", StudyKind::Rehearsal}};
-constexpr Word<Modality> kModalities[] = {{"electrodes", Modality::Electrodes}, {"massager", Modality::Massager}};
 constexpr Word<ElectrodeSite> kElectrodeSites[] = {{"forearm", ElectrodeSite::Forearm},
                                                    {"residual limb's end", ElectrodeSite::ResidualLimbEnd},
                                                    {"upper arm", ElectrodeSite::UpperArm},
@@ -111,10 +111,9 @@ RecordFields<StudySettings> buildStudyFields() {
             if (std::ranges::find(kEncodings, encoding) == std::end(kEncodings))
                 return fail(ErrorCode::InvalidArgument, "\"encodings\" holds \"{}\"; {} are accepted", encoding,
                             fmt::join(kEncodings, " and "));
-            if (std::ranges::count(settings.encodings, encoding) > 1)
-                return fail(ErrorCode::InvalidArgument, "\"encodings\" holds \"{}\" twice; each is accepted once",
-                            encoding);
         }
+        if (const auto* second = secondIn(settings.encodings))
+            return fail(ErrorCode::InvalidArgument, "\"encodings\": {}", givenTwice("\"{}\"", *second));
         return {};
     });
     return all;
@@ -150,7 +149,6 @@ Result<nlohmann::json> asJson(const nlohmann::json& before, std::string_view key
 }  // namespace
 
 std::string_view nameOf(StudyKind kind) noexcept { return wordFor(kStudyKinds, kind); }
-std::string_view nameOf(Modality modality) noexcept { return wordFor(kModalities, modality); }
 std::string_view nameOf(ElectrodeSite site) noexcept { return wordFor(kElectrodeSites, site); }
 
 const RecordFields<StudySettings>& studyFields() {

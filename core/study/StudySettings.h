@@ -12,6 +12,7 @@
 
 #include "core/base/RecordFields.h"
 #include "core/base/Units.h"
+#include "core/base/Words.h"
 #include "core/calibration/CalibrationDate.h"
 #include "core/calibration/LoadSafetyStore.h"
 
@@ -19,6 +20,8 @@ namespace tacto {
 
 enum class StudyKind { Study, Rehearsal };
 enum class Modality { Electrodes, Massager };
+inline constexpr Word<Modality> kModalities[] = {{"electrodes", Modality::Electrodes},
+                                                 {"massager", Modality::Massager}};
 /// Where electrodes may be put. A closed list: chest, neck and head cannot be chosen.
 enum class ElectrodeSite { Forearm, ResidualLimbEnd, UpperArm, Hand };
 enum class Nerve { Radial, Median, Ulnar };
@@ -27,7 +30,7 @@ enum class Limb { Left, Right };
 enum class DataOnRequest { Destroy, Keep };
 
 [[nodiscard]] std::string_view nameOf(StudyKind kind) noexcept;
-[[nodiscard]] std::string_view nameOf(Modality modality) noexcept;
+[[nodiscard]] constexpr std::string_view nameOf(Modality modality) noexcept { return wordFor(kModalities, modality); }
 [[nodiscard]] std::string_view nameOf(ElectrodeSite site) noexcept;
 
 /// A committee's approval. Days are local dates; both ends count.
@@ -91,7 +94,7 @@ struct StudySettings {
     int catchTrials = 2;  ///< per block
     bool blind = true;
     DataOnRequest dataOnRequest = DataOnRequest::Destroy;
-    std::string license;  ///< under which exports may be used: "CC-BY-4.0"; empty: not decided
+    std::string license;              ///< under which exports may be used: "CC-BY-4.0"; empty: not decided
     std::vector<ScriptHash> scripts;  ///< approved; a session's script must be one of them
     bool operator==(const StudySettings&) const = default;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/Words.h"
+
 namespace tacto::hid {
 
 namespace {
@@ -237,19 +239,12 @@ private:
     bool unnumbered_ = false;
 };
 
+constexpr Word<ReportKind> kReportKinds[] = {
+    {"input", ReportKind::Input}, {"output", ReportKind::Output}, {"feature", ReportKind::Feature}};
+
 }  // namespace
 
-const char* nameOf(ReportKind kind) noexcept {
-    switch (kind) {
-        case ReportKind::Input:
-            return "input";
-        case ReportKind::Output:
-            return "output";
-        case ReportKind::Feature:
-            break;
-    }
-    return "feature";
-}
+std::string_view nameOf(ReportKind kind) noexcept { return wordFor(kReportKinds, kind); }
 
 std::optional<std::size_t> HidDescriptor::lengthOf(ReportKind kind, std::uint8_t number) const noexcept {
     for (const auto& report : reports) {

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/base/Result.h"
@@ -27,7 +28,7 @@ using Usage = std::uint32_t;
 [[nodiscard]] constexpr std::uint16_t idOf(Usage usage) noexcept { return static_cast<std::uint16_t>(usage); }
 
 enum class ReportKind { Input, Output, Feature };
-[[nodiscard]] const char* nameOf(ReportKind kind) noexcept;  // "input", "output", "feature"
+[[nodiscard]] std::string_view nameOf(ReportKind kind) noexcept;  // "input", "output", "feature"
 
 inline constexpr std::uint16_t kNoCollection = 0xFFFF;
 

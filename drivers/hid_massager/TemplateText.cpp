@@ -81,13 +81,10 @@ ValueKind<Usage> usageKind() {
 }
 
 ValueKind<ReportField> fieldKind() {
-    static const Word<VibrationRole> roles[] = {{nameOf(VibrationRole::Intensity), VibrationRole::Intensity},
-                                                {nameOf(VibrationRole::Weak), VibrationRole::Weak},
-                                                {nameOf(VibrationRole::Strong), VibrationRole::Strong}};
     constexpr double kMaxFieldValue = 4294967296;  // 2^32
     using F = StoredField;
     RecordFields<F> stored;
-    stored.word("role", &F::role, roles).required = true;
+    stored.word("role", &F::role, kVibrationRoles).required = true;
     stored.number("byte", &F::byte, {.low = 1, .high = kMaxReport}).required = true;
     stored.number("bit", &F::bit, {.low = 0, .high = 7});
     stored.number("bits", &F::bits, {.low = 1, .high = 32});

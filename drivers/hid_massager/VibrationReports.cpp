@@ -46,18 +46,6 @@ Result<void> check(const ReportField& field, std::size_t index, std::size_t leng
 
 }  // namespace
 
-const char* nameOf(VibrationRole role) noexcept {
-    switch (role) {
-        case VibrationRole::Intensity:
-            return "intensity";
-        case VibrationRole::Weak:
-            return "weak";
-        case VibrationRole::Strong:
-            break;
-    }
-    return "strong";
-}
-
 Result<void> validate(const VibrationReports& reports) {
     const std::size_t length = reports.start.size();
     if (length < 2 || length > kMaxReport) {

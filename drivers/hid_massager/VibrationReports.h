@@ -16,13 +16,16 @@
 
 #include "core/base/Result.h"
 #include "core/base/Units.h"
+#include "core/base/Words.h"
 
 namespace tacto::hid {
 
 /// What a value in a report drives. Intensity is all of a device's vibration; weak and strong are a gamepad's small,
 /// fast motor and its large, slow one. Each follows the burst's intensity over its own range.
 enum class VibrationRole { Intensity, Weak, Strong };
-[[nodiscard]] const char* nameOf(VibrationRole role) noexcept;  // "intensity", "weak", "strong"
+inline constexpr Word<VibrationRole> kVibrationRoles[] = {
+    {"intensity", VibrationRole::Intensity}, {"weak", VibrationRole::Weak}, {"strong", VibrationRole::Strong}};
+[[nodiscard]] constexpr std::string_view nameOf(VibrationRole role) noexcept { return wordFor(kVibrationRoles, role); }
 
 enum class ByteOrder { Little, Big };
 

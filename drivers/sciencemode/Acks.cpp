@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/Words.h"
+
 namespace tacto::sciencemode {
 namespace {
 
@@ -20,36 +22,25 @@ std::uint16_t wordAt(std::span<const std::uint8_t> bytes, std::size_t at) noexce
     return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
 
+constexpr Word<ResultCode> kMeanings[] = {
+    {"no error", ResultCode::Ok},
+    {"the transfer was garbled", ResultCode::Transfer},
+    {"a parameter is out of its range", ResultCode::Parameter},
+    {"the message does not follow the protocol", ResultCode::Protocol},
+    {"its stimulation unit does not answer its controller", ResultCode::StimulatorTimeout},
+    {"its stimulation is not initialised", ResultCode::NotInitialised},
+    {"its high voltage is faulty", ResultCode::HighVoltage},
+    {"an electrode is off", ResultCode::Electrode},
+    {"it does not know the command", ResultCode::InvalidCommand},
+    {"a pulse did not end in time", ResultCode::PulseTimeout},
+    {"it is busy", ResultCode::Busy},
+    {"the pulse did not reach its current: the impedance is too high, or an electrode is lifting",
+     ResultCode::LowCurrent}};
+
 }  // namespace
 
 std::string_view meaningOf(ResultCode code) noexcept {
-    switch (code) {
-        case ResultCode::Ok:
-            return "no error";
-        case ResultCode::Transfer:
-            return "the transfer was garbled";
-        case ResultCode::Parameter:
-            return "a parameter is out of its range";
-        case ResultCode::Protocol:
-            return "the message does not follow the protocol";
-        case ResultCode::StimulatorTimeout:
-            return "its stimulation unit does not answer its controller";
-        case ResultCode::NotInitialised:
-            return "its stimulation is not initialised";
-        case ResultCode::HighVoltage:
-            return "its high voltage is faulty";
-        case ResultCode::Electrode:
-            return "an electrode is off";
-        case ResultCode::InvalidCommand:
-            return "it does not know the command";
-        case ResultCode::PulseTimeout:
-            return "a pulse did not end in time";
-        case ResultCode::Busy:
-            return "it is busy";
-        case ResultCode::LowCurrent:
-            return "the pulse did not reach its current: the impedance is too high, or an electrode is lifting";
-    }
-    return "of an error that has no name";
+    return wordFor(kMeanings, code, "of an error that has no name");
 }
 
 tl::unexpected<Error> refusal(Command command, ResultCode code) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/Words.h"
+
 namespace tacto::sciencemode {
 namespace {
 
@@ -46,33 +48,16 @@ Result<void> checkCount(const Points& points) {
     return fail(ErrorCode::InvalidArgument, "a ScienceMode pulse has {} points: 1 to {} fit", points.count, kMaxPoints);
 }
 
+constexpr Word<Command> kCommandWords[] = {
+    {"LL_INIT", Command::LowLevelInit},           {"LL_CHANNEL_CONFIG", Command::ChannelConfig},
+    {"LL_STOP", Command::LowLevelStop},           {"ML_STOP", Command::MidLevelStop},
+    {"GET_DEVICE_ID", Command::DeviceId},         {"RESET", Command::Reset},
+    {"GET_STIM_STATUS", Command::StimStatus},     {"GENERAL_ERROR", Command::GeneralError},
+    {"UNKNOWN_COMMAND", Command::UnknownCommand}, {"GET_EXTENDED_VERSION", Command::ExtendedVersion}};
+
 }  // namespace
 
-std::string_view nameOf(Command command) noexcept {
-    switch (command) {
-        case Command::LowLevelInit:
-            return "LL_INIT";
-        case Command::ChannelConfig:
-            return "LL_CHANNEL_CONFIG";
-        case Command::LowLevelStop:
-            return "LL_STOP";
-        case Command::MidLevelStop:
-            return "ML_STOP";
-        case Command::DeviceId:
-            return "GET_DEVICE_ID";
-        case Command::Reset:
-            return "RESET";
-        case Command::StimStatus:
-            return "GET_STIM_STATUS";
-        case Command::GeneralError:
-            return "GENERAL_ERROR";
-        case Command::UnknownCommand:
-            return "UNKNOWN_COMMAND";
-        case Command::ExtendedVersion:
-            return "GET_EXTENDED_VERSION";
-    }
-    return "an unknown command";
-}
+std::string_view nameOf(Command command) noexcept { return wordFor(kCommandWords, command, "an unknown command"); }
 
 Micros Points::duration() const noexcept {
     Micros sum{0};

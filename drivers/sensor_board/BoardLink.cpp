@@ -3,32 +3,23 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/Words.h"
+
 namespace tacto::sensorboard {
 
 namespace {
 constexpr Seconds kWriteTime{0.5};
 constexpr unsigned kTokens = 250;  // those above are stopUnheard()'s
+constexpr Word<Command> kCommandWords[] = {{"HELLO", Command::Hello},
+                                           {"GET_CONFIGURATION", Command::GetConfiguration},
+                                           {"SET_CONFIGURATION", Command::SetConfiguration},
+                                           {"GET_CALIBRATION", Command::GetCalibration},
+                                           {"START", Command::Start},
+                                           {"STOP", Command::Stop},
+                                           {"GET_STATUS", Command::GetStatus}};
 }  // namespace
 
-std::string_view nameOf(Command command) noexcept {
-    switch (command) {
-        case Command::Hello:
-            return "HELLO";
-        case Command::GetConfiguration:
-            return "GET_CONFIGURATION";
-        case Command::SetConfiguration:
-            return "SET_CONFIGURATION";
-        case Command::GetCalibration:
-            return "GET_CALIBRATION";
-        case Command::Start:
-            return "START";
-        case Command::Stop:
-            return "STOP";
-        case Command::GetStatus:
-            return "GET_STATUS";
-    }
-    return "a command";
-}
+std::string_view nameOf(Command command) noexcept { return wordFor(kCommandWords, command, "a command"); }
 
 BoardLink::~BoardLink() {
     ending_.store(true, std::memory_order_release);

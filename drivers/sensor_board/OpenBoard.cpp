@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/Words.h"
 #include "drivers/sensor_board/SensorBoard.h"
 
 namespace tacto {
@@ -13,17 +14,9 @@ namespace {
 
 constexpr int kPings = 16;
 
-const char* nameOfPart(StreamKind kind) noexcept {
-    switch (kind) {
-        case StreamKind::Acceleration:
-            return "fingertip accelerometer";
-        case StreamKind::Force:
-            return "fingertip force";
-        case StreamKind::Taxels:
-            return "taxel array";
-    }
-    return "stream";
-}
+constexpr Word<StreamKind> kParts[] = {{"fingertip accelerometer", StreamKind::Acceleration},
+                                       {"fingertip force", StreamKind::Force},
+                                       {"taxel array", StreamKind::Taxels}};
 
 }  // namespace
 
@@ -100,7 +93,8 @@ Result<void> SensorBoard::configure(const SensorBoardSettings& settings, std::si
                         known->uncertainty.size(), known->stream, now->columns.size(), i);
         }
         trackOf_[i] = static_cast<int>(tracks_.size());
-        infos_.push_back({now->kind, now->unit, now->columns.size(), now->rate_hz(), nameOfPart(now->kind)});
+        infos_.push_back({now->kind, now->unit, now->columns.size(), now->rate_hz(),
+                          std::string(wordFor(kParts, now->kind, "stream"))});
         calibrations_.push_back(std::move(*known));
         tracks_.emplace_back(std::move(*now));
     }

@@ -1,25 +1,17 @@
 #include "drivers/simulated/FaultSchedule.h"
 
-#include <array>
 #include <string>
-#include <utility>
 
 #include "core/base/Text.h"
+#include "core/base/Words.h"
 
 namespace tacto::sim {
 
 namespace {
-constexpr std::array<std::pair<Fault, std::string_view>, 11> kNames{{{Fault::Unplug, "unplug"},
-                                                                     {Fault::Stale, "stale"},
-                                                                     {Fault::Dropout, "dropout"},
-                                                                     {Fault::Nan, "nan"},
-                                                                     {Fault::Garbage, "garbage"},
-                                                                     {Fault::Drift, "drift"},
-                                                                     {Fault::Stuck, "stuck"},
-                                                                     {Fault::StuckOn, "stuck-on"},
-                                                                     {Fault::Open, "open"},
-                                                                     {Fault::Short, "short"},
-                                                                     {Fault::Late, "late"}}};
+constexpr Word<Fault> kFaults[] = {{"unplug", Fault::Unplug}, {"stale", Fault::Stale},      {"dropout", Fault::Dropout},
+                                   {"nan", Fault::Nan},       {"garbage", Fault::Garbage},  {"drift", Fault::Drift},
+                                   {"stuck", Fault::Stuck},   {"stuck-on", Fault::StuckOn}, {"open", Fault::Open},
+                                   {"short", Fault::Short},   {"late", Fault::Late}};
 constexpr double kLongest_s = 1e6;
 
 std::optional<Instant> momentOf(std::string_view text) {
@@ -29,12 +21,7 @@ std::optional<Instant> momentOf(std::string_view text) {
 }
 }  // namespace
 
-std::string_view nameOf(Fault fault) noexcept {
-    for (const auto& [known, name] : kNames) {
-        if (known == fault) return name;
-    }
-    return "fault";
-}
+std::string_view nameOf(Fault fault) noexcept { return wordFor(kFaults, fault, "fault"); }
 
 Result<void> FaultSchedule::add(std::string_view text, std::initializer_list<Fault> accepted) {
     const auto at = text.find('@');

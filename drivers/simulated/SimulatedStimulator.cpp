@@ -63,7 +63,7 @@ Result<void> SimulatedStimulator::accepts(const PulseTrain& train) const {
     const auto& traits = settings_.traits;
     if (isCurrent(train.amplitude) != (traits.drive == Drive::Current)) {
         return fail(ErrorCode::Device, "the simulated stimulator is a {} source and refused a train in {}",
-                    traits.drive == Drive::Current ? "current" : "voltage", isCurrent(train.amplitude) ? "mA" : "V");
+                    nameOf(traits.drive), isCurrent(train.amplitude) ? "mA" : "V");
     }
     const double asked = siValue(train.amplitude) * (traits.drive == Drive::Current ? 1e3 : 1);
     if (!(asked <= traits.amplitudeMax)) {

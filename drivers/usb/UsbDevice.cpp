@@ -83,7 +83,11 @@ tl::unexpected<Error> UsbDevice::inUse(const std::string& what, const std::files
                 textOf(holders));
 }
 
-Result<std::size_t> UsbDevice::control(const UsbRequest& request, std::span<std::uint8_t> data, Seconds timeout) {
+Result<void> UsbDevice::controlOut(const UsbRequest& request, std::span<const std::uint8_t> data, Seconds timeout) {
+    if ((request.type & LIBUSB_ENDPOINT_IN) != 0) {
+        return fail(ErrorCode::InvalidArgument, "{}: request type {:#04x} is for input; bit 7 clear was expected",
+                    label_, request.type);
+    }
     const auto what = fmt::format("request {:#04x}", request.request);
     const auto deadline = deadlineAfter(timeout);
     if (!deadline) {
@@ -115,34 +119,12 @@ Result<std::size_t> UsbDevice::control(const UsbRequest& request, std::span<std:
     if (transfer->status != LIBUSB_TRANSFER_COMPLETED) {
         return tl::unexpected(usbTransferError(transfer->status, label_, what));
     }
-    const std::size_t moved = std::min(data.size(), static_cast<std::size_t>(std::max(transfer->actual_length, 0)));
-    if ((request.type & LIBUSB_ENDPOINT_IN) != 0) {
-        std::copy_n(bytes.begin() + LIBUSB_CONTROL_SETUP_SIZE, moved, data.begin());
-    }
-    return moved;
-}
-
-Result<void> UsbDevice::controlOut(const UsbRequest& request, std::span<const std::uint8_t> data, Seconds timeout) {
-    if ((request.type & LIBUSB_ENDPOINT_IN) != 0) {
-        return fail(ErrorCode::InvalidArgument, "{}: request type {:#04x} is for input; bit 7 clear was expected",
-                    label_, request.type);
-    }
-    std::vector<std::uint8_t> copy(data.begin(), data.end());
-    auto taken = control(request, copy, timeout);
-    if (!taken) return failure(taken);
-    if (*taken != data.size()) {
-        return fail(ErrorCode::Device, "{}: it took {} bytes of request {:#04x}; {} were expected", label_, *taken,
+    const auto taken = static_cast<std::size_t>(std::max(transfer->actual_length, 0));
+    if (taken != data.size()) {
+        return fail(ErrorCode::Device, "{}: it took {} bytes of request {:#04x}; {} were expected", label_, taken,
                     request.request, data.size());
     }
     return {};
-}
-
-Result<std::size_t> UsbDevice::controlIn(const UsbRequest& request, std::span<std::uint8_t> into, Seconds timeout) {
-    if ((request.type & LIBUSB_ENDPOINT_IN) == 0) {
-        return fail(ErrorCode::InvalidArgument, "{}: request type {:#04x} is for output; bit 7 set was expected",
-                    label_, request.type);
-    }
-    return control(request, into, timeout);
 }
 
 Result<void> UsbDevice::clearHalt(std::uint8_t endpoint) {

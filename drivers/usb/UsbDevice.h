@@ -49,9 +49,6 @@ public:
     /// Sends `data` with a request, and waits. Errors: Timeout; Device (gone, refused, took fewer bytes).
     [[nodiscard]] Result<void> controlOut(const UsbRequest& request, std::span<const std::uint8_t> data,
                                           Seconds timeout);
-    /// Fetches what a request is answered with: the bytes that came, at most those of `into`. Errors: as above.
-    [[nodiscard]] Result<std::size_t> controlIn(const UsbRequest& request, std::span<std::uint8_t> into,
-                                                Seconds timeout);
     /// Makes a stalled endpoint work again. Errors: Device (gone, refused).
     [[nodiscard]] Result<void> clearHalt(std::uint8_t endpoint);
 
@@ -62,7 +59,6 @@ private:
         : context_(std::move(context)), info_(std::move(info)), label_(info_.label()), handle_(handle) {}
     [[nodiscard]] tl::unexpected<Error> inUse(const std::string& what, const std::filesystem::path& node,
                                               const std::vector<FileHolder>& holders) const;
-    [[nodiscard]] Result<std::size_t> control(const UsbRequest& request, std::span<std::uint8_t> data, Seconds timeout);
 
     const std::shared_ptr<UsbContext> context_;  // outlives the handle
     const UsbDeviceInfo info_;

@@ -5,6 +5,8 @@
 #include <libusb.h>
 #include <span>
 
+#include "core/base/GivenOnce.h"
+
 namespace tacto {
 
 namespace {
@@ -82,9 +84,8 @@ Result<bool> takeEndpoints(const libusb_interface_descriptor& interface, std::st
         }
         const bool input = (endpoint.bEndpointAddress & LIBUSB_ENDPOINT_IN) != 0;
         auto& address = input ? pair.in : pair.out;
-        if (address == endpoint.bEndpointAddress) {
-            return fail(ErrorCode::Device, "{}: endpoint {:#04x} is there twice; once was expected", device, address);
-        }
+        if (address == endpoint.bEndpointAddress)
+            return fail(ErrorCode::Device, "{}: {}", device, givenTwice("endpoint {:#04x}", address));
         if (address != 0) continue;  // the first of each direction
         address = endpoint.bEndpointAddress;
         (input ? pair.inPacket : pair.outPacket) = packet;

@@ -82,7 +82,7 @@ TEST(RecordingRefusal, TimeThatStandsStill) {
 TEST(RecordingRefusal, ColumnsThatAreNotThere) {
     EXPECT_THAT(complaintAbout("t,force\n0,1\n1,2\n"), HasSubstr("f.csv:1: no column \"time\" in the header"));
     EXPECT_THAT(complaintAbout("time,power\n0,1\n1,2\n"), HasSubstr("which names time, power"));
-    EXPECT_THAT(complaintAbout("time,force,force\n0,1,1\n1,2,2\n"), HasSubstr("named twice"));
+    EXPECT_THAT(complaintAbout("time,force,force\n0,1,1\n1,2,2\n"), HasSubstr("\"force\" is given twice"));
 }
 
 TEST(RecordingRefusal, UnitsKindsAndTimes) {

@@ -28,10 +28,10 @@ TEST(JsonText, ReadsWhatTheLibraryReads) {
 TEST(JsonText, RefusesAKeyThatStandsTwice) {
     RecordProperty("hazard", "H10");
     EXPECT_EQ(refusal(R"({"a": 1, "b": {"max": 1, "x": {"max": 2}, "max": 3}})"),
-              "lab.json: the key \"max\" stands twice in one object");
+              "lab.json: the key \"max\" of one object is given twice; once is expected");
     EXPECT_THAT(refusal(R"([{"max": 1}, {"max": 2}])"), HasSubstr("accepted"));
     // An escape does not make another key of it.
-    EXPECT_THAT(refusal(R"({"max": 1, "m\u0061x": 2})"), HasSubstr("stands twice"));
+    EXPECT_THAT(refusal(R"({"max": 1, "m\u0061x": 2})"), HasSubstr("is given twice"));
 }
 
 TEST(JsonText, RefusesWhatNestsTooDeep) {

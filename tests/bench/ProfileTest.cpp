@@ -94,7 +94,7 @@ TEST(Profile, WithAKeyThatStandsTwiceIsRefusedAndKeepsNoCeilingOfEither) {
     const auto parsed = parseProfile(
         R"({"safety": {"ceilings": {"peak_current": 20}, "electrode_area_cm2": 3, "ceilings": {}}})", "lab.json");
     ASSERT_FALSE(parsed);
-    EXPECT_EQ(parsed.error().message, "lab.json: the key \"ceilings\" stands twice in one object");
+    EXPECT_EQ(parsed.error().message, "lab.json: the key \"ceilings\" of one object is given twice; once is expected");
 }
 
 TEST(Profile, ThatNestsWithoutEndIsRefusedUnderEveryKey) {

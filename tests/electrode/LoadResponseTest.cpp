@@ -219,13 +219,5 @@ TEST(Respond, KeepsItsIntegralsExactForVeryShortStretches) {
                 1e-15);  // the capacitor moves by 80 µV
 }
 
-TEST(ResponsePiece, IntegratesBetweenAnyTwoMoments) {
-    const auto response = respond(kRc, {Drive::Voltage, 40, 40, 200e-6}, 0, {});
-    const auto& piece = response.items[0];
-    const double split = piece.currentIntegral(0, 13e-6) + piece.currentIntegral(13e-6, 200e-6);
-    EXPECT_NEAR(split, piece.charge(), 1e-15);
-    EXPECT_NEAR(piece.voltageIntegral(50e-6, 60e-6), 40 * 10e-6, 1e-12);
-}
-
 }  // namespace
 }  // namespace tacto

@@ -92,7 +92,7 @@ TEST(CaptureFile, RefusalsNameFileLineAndWhatWasExpected) {
               "c.csv:1: columns 'a,b'; a time column and channels were expected, as in time_s,voltage_v,current_a");
     EXPECT_EQ(refusal("time_s,force (lbf)\n0,1\n"),
               "c.csv:1: the unit of column 'force (lbf)' is unknown; s, V or A with m, u, n or k were expected");
-    EXPECT_EQ(refusal("time_s,v,v\n0,1,1\n"), "c.csv:1: column 'v' appears twice; names must differ");
+    EXPECT_EQ(refusal("time_s,v,v\n0,1,1\n"), "c.csv:1: column 'v' is given twice; once is expected");
     EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n"), "c.csv:2: 1 row(s) with values; at least 2 were expected");
     EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n,1\n2,1\n"), "c.csv:3: the time is missing; every row needs one");
     EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n1,1\n2,1\n7,1\n8,1\n9,1\n"),

@@ -106,7 +106,7 @@ TEST(LimitSet, RefusesWhatItCannotMeanWithOneSentence) {
     expectRefused(with("\"high\"", "\"sure\""), "high, medium, medium-low or low");
     expectRefused(with("\"source\": \"lab rule 3\", ", ""), "\"source\" is missing; a text");
     expectRefused(with("\"max\": 20", "\"maxx\": 1, \"max\": 20"), "\"maxx\" is not a known key");
-    expectRefused(with("\"max\": 20", "\"max\": 20, \"max\": 2000"), "stands twice");
+    expectRefused(with("\"max\": 20", "\"max\": 20, \"max\": 2000"), "\"max\" of one object is given twice");
     expectRefused(with("\"max\": 20", "\"max\": 20, \"window_s\": 2"), "\"window_s\" is 2");
     expectRefused(with("\"max\": 20", "\"max\": 20, \"above_hz\": 9, \"up_to_hz\": 9"), "is empty");
     expectRefused(with("\"lab\"", "\"profile\""), "not accepted");

@@ -95,7 +95,7 @@ TEST(ProtocolDeclaration, NamesFileLineAndWhatIsWrong) {
 
 TEST(ProtocolDeclaration, RefusesParametersThatContradictThemselves) {
     EXPECT_EQ(parameterError("{ value: 5, min: 10 }"),
-              "/lab/probe.js:2: the default of load is 5, a number of at least 10 is expected");
+              "/lab/probe.js:2: the default of load is 5, a number of 10 or more is expected");
     EXPECT_EQ(parameterError("{ value: 5, min: 10, max: 1 }"),
               "/lab/probe.js:2: parameter load: min 10 is above max 1");
     EXPECT_EQ(parameterError("{ min: 1 }"), "/lab/probe.js:2: parameter load has no value, its default");
@@ -233,10 +233,10 @@ TEST(ProtocolSettings, AreRefusedInOneSentenceWithKeyValueAndRange) {
     };
     EXPECT_EQ(error("zeta", "4"), "zeta is 4, a whole number from 5 to 500 is expected");
     EXPECT_EQ(error("zeta", "5.5"), "zeta is 5.5, a whole number from 5 to 500 is expected");
-    EXPECT_EQ(error("load", "heavy"), "load is heavy, a number from 100 to 100000 (in ohm) is expected");
-    EXPECT_EQ(error("load", "nan"), "load is NaN, a number from 100 to 100000 (in ohm) is expected");
-    EXPECT_EQ(error("load", "inf"), "load is Infinity, a number from 100 to 100000 (in ohm) is expected");
-    EXPECT_EQ(error("load", ""), "load is , a number from 100 to 100000 (in ohm) is expected");
+    EXPECT_EQ(error("load", "heavy"), "load is heavy, a number from 100 to 100000 ohm is expected");
+    EXPECT_EQ(error("load", "nan"), "load is NaN, a number from 100 to 100000 ohm is expected");
+    EXPECT_EQ(error("load", "inf"), "load is Infinity, a number from 100 to 100000 ohm is expected");
+    EXPECT_EQ(error("load", ""), "load is , a number from 100 to 100000 ohm is expected");
     EXPECT_EQ(error("source", "toe"), "source is toe, one of ruler, finger is expected");
     EXPECT_EQ(error("quick", "perhaps"), "quick is perhaps, true or false is expected");
     EXPECT_EQ(

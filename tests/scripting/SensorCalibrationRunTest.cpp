@@ -242,7 +242,7 @@ TEST(SensorCalibrationRun, RefusesTypingErrorsBeforeAnythingMoves) {
         {{{"rough_ra_um", "1"}, {"rough_rz_um", "5"}}, "Ra of the rough reference is 1 um"},
         {{{"rough_rz_um", "5"}}, "Rz of P120 is 5 um"},
         {{{"more", "paper"}}, "more has \"paper\""},
-        {{{"more", "paper 3 21; paper 4 21"}}, "paper is named twice"},
+        {{{"more", "paper 3 21; paper 4 21"}}, "surface paper is given twice"},
         {{{"more", "paper x3"}}, "is no file that can be read"},
         {{{"weights_g", "20; 20"}}, "two or more different weights"},
         {{{"weights_g", "20; heavy"}}, "heavy; a number above 0"}};

@@ -152,7 +152,7 @@ TEST_F(Labels, ThatAreNotAcceptedAreNamedWithTheirValue) {
     EXPECT_THAT(refusal({"", "", "two\nlines", {}}), HasSubstr("the note is \"two\\x0alines\""));
     EXPECT_THAT(refusal({std::string(201, 'x'), "", "", {}}),
                 HasSubstr("the operator has 201 characters; at most 200"));
-    EXPECT_THAT(refusal({"", "", "", {"a", "a"}}), HasSubstr("the tag \"a\" stands twice"));
+    EXPECT_THAT(refusal({"", "", "", {"a", "a"}}), HasSubstr("the tag \"a\" is given twice"));
     EXPECT_THAT(refusal({"", "", "", {"a,b"}}), HasSubstr("a text without a comma"));
     EXPECT_TRUE(checkLabels({"", "", "µ Ω", {"µ"}}));
 }

@@ -244,11 +244,10 @@ TEST(BidsFiles, RefusesWhatCannotBeNumbered) {
     EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "participant 1 of a study of 0; both from 1 are accepted");
     study = studyOfThree();
     study.participants[1].enrolled = 1;
-    EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "participant 1 stands in the study twice; once was expected");
+    EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "participant 1 is given twice; once is expected");
     study = studyOfThree();
     study.participants[1].sessions[1].number = 1;
-    EXPECT_EQ(bidsFiles(study, {}, "1").error().message,
-              "session 1 of participant 2; each number from 1 once is accepted");
+    EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "session 1 of participant 2 is given twice; once is expected");
     EXPECT_EQ(bidsWithFrom("age,name").error().message, "\"name\" cannot be exported; age, sex and handedness can");
     EXPECT_TRUE(bidsWithFrom("sex, handedness")->handedness);
 }

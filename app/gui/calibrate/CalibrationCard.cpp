@@ -35,8 +35,8 @@ QString factsOf(const StoredCalibration& c) {
     QStringList facts;
     const auto within = [](const StoredLine& line) { return quantityText(line.uncertainty_pct, "%", 2); };
     facts << QObject::tr("Delivers %1 times the command%2, ± %3 (95 %), from %4 to %5")
-                 .arg(c.amplitude.gain, 0, 'f', 4)
-                 .arg(c.amplitude.offset < 0 ? QObject::tr(" less %1").arg(quantityText(-c.amplitude.offset, unit, 2))
+                 .arg(decimalText(c.amplitude.gain, 4),
+                      c.amplitude.offset < 0 ? QObject::tr(" less %1").arg(quantityText(-c.amplitude.offset, unit, 2))
                                              : QObject::tr(" plus %1").arg(quantityText(c.amplitude.offset, unit, 2)),
                       within(c.amplitude), settingText(c.amplitude.lowest, unit),
                       settingText(c.amplitude.highest, unit));

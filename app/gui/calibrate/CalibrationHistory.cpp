@@ -32,10 +32,8 @@ QString timesText(const StoredCalibration& c) {
         const auto& line = c.*time.line;
         if (!line) continue;
         all << QString("%1 × %2 %3 %4, ± %5")
-                   .arg(titled(qtext(time.title)))
-                   .arg(line->gain, 0, 'f', 4)
-                   .arg(line->offset < 0 ? "−" : "+", quantityText(std::abs(line->offset), "s", 2),
-                        quantityText(line->uncertainty_pct, "%", 2));
+                   .arg(titled(qtext(time.title)), decimalText(line->gain, 4), line->offset < 0 ? "−" : "+",
+                        quantityText(std::abs(line->offset), "s", 2), quantityText(line->uncertainty_pct, "%", 2));
     }
     return all.join("\n");
 }
@@ -99,7 +97,7 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
             state,
             qtext(dateText(c.made)),
             qtext(dateText(c.validUntil)),
-            QString::number(c.amplitude.gain, 'f', 4),
+            decimalText(c.amplitude.gain, 4),
             quantityText(c.amplitude.offset, unit, 2),
             quantityText(c.amplitude.uncertainty_pct, "%", 2),
             tr("%1 to %2").arg(settingText(c.amplitude.lowest, unit), settingText(c.amplitude.highest, unit)),

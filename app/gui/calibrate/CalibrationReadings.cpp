@@ -30,9 +30,7 @@ const char* keyOf(const std::string& quantity) {
 }
 
 SweepDirection directionOf(const std::string& word) {
-    return word == nameOf(SweepDirection::Up)     ? SweepDirection::Up
-           : word == nameOf(SweepDirection::Down) ? SweepDirection::Down
-                                                  : SweepDirection::None;
+    return valueFor(kSweepDirections, word).value_or(SweepDirection::None);
 }
 
 }  // namespace

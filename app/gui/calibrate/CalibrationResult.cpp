@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/gui/calibrate/CalibrationReadings.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
@@ -17,10 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-QString countIn(const json& in, const char* key) {
-    const double count = numberOr(in, key);
-    return std::isnan(count) ? QString("–") : QString::number(count);
-}
+QString countIn(const json& in, const char* key) { return decimalText(numberOr(in, key), 0); }
 
 QString words(const json& in, const char* key) { return QString::fromStdString(textOr(in, key)); }
 
@@ -133,7 +131,7 @@ void CalibrationResult::addBudget(const json& budget) {
     rows.push_back(
         {{"name", tr("combined").toStdString()},
          {"distribution",
-          (std::isfinite(factor) ? tr("%1, k = %2").arg(method).arg(factor, 0, 'f', 2) : method).toStdString()},
+          (std::isfinite(factor) ? tr("%1, k = %2").arg(method, decimalText(factor, 2)) : method).toStdString()},
          {"contribution", budget.value("combined", json())}});
     addTable(tr("Uncertainty at the largest command"), "calibrationBudget",
              tr("Each contribution is its value over the divisor of its distribution, times its sensitivity. "

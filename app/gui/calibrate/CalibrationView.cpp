@@ -5,6 +5,7 @@
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/ToleranceCard.h"
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -143,7 +144,7 @@ void CalibrationView::say() {
                                       [](const CalibrationReading& reading) { return reading.outlier; });
     QStringList said{tr("n = %1").arg(shown.readings.size())};
     if (shown.fit) {
-        said << tr("gain %1").arg(shown.fit->gain, 0, 'f', 4);
+        said << tr("gain %1").arg(decimalText(shown.fit->gain, 4));
         said << tr("offset %1").arg(quantityText(shown.fit->offset, shown.unit, 3));
     }
     said << (marked == 0 ? tr("no outliers") : tr("outliers, marked and kept: %1").arg(marked));

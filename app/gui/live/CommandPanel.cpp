@@ -3,6 +3,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/acquisition/StreamHealth.h"
 
@@ -14,8 +15,6 @@ QString part(double value, const QString& low, const QString& middle, const QStr
     if (!std::isfinite(value)) return absent;
     return value < 1.0 / 3 ? low : value > 2.0 / 3 ? high : middle;
 }
-
-QString number(double value) { return std::isfinite(value) ? QString::number(value, 'f', 2) : QString("–"); }
 
 }  // namespace
 
@@ -54,7 +53,7 @@ void CommandPanel::show(const Telemetry& t, bool stale) {
     const bool felt = std::isfinite(t.roughness) || std::isfinite(t.pressure);
     const bool known = (!stale || byHand) && felt;
     words_->setText(known ? feel : stale && !byHand ? tr("Not known: the samples are old") : tr("Nothing is felt"));
-    near_->setText(known ? tr("R %1, P %2").arg(number(t.roughness), number(t.pressure)) : QString());
+    near_->setText(known ? tr("R %1, P %2").arg(decimalText(t.roughness, 2), decimalText(t.pressure, 2)) : QString());
     trains_->setText(
         tr("%1 delivered, %2 refused, %3 skipped").arg(t.trainsDelivered).arg(t.trainsRefused).arg(t.trainsSkipped));
     refusal_->setVisible(t.trainsRefused > 0);

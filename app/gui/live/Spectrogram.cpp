@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/Text.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -119,9 +121,7 @@ double Spectrogram::densityAt_db(double t_s, double hz) const noexcept {
 QString Spectrogram::scaleText() const {
     const auto range = map_->dataRange();
     return QObject::tr("%1 to %2 dB re 1 %3")
-        .arg(QString::number(range.lower, 'f', 0).replace('-', QChar(0x2212)))
-        .arg(QString::number(range.upper, 'f', 0).replace('-', QChar(0x2212)))
-        .arg(absolute_ ? "(m/s²)²/Hz" : "count²/Hz");
+        .arg(decimalText(range.lower, 0), decimalText(range.upper, 0), QString(absolute_ ? "(m/s²)²/Hz" : "count²/Hz"));
 }
 
 void Spectrogram::update(const Series& series, const QCPRange& window, int columns) {

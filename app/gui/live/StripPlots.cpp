@@ -43,7 +43,7 @@ QColor axisColour(std::size_t axis) {
     return all[axis % 3];
 }
 
-QString indexText(float value) { return std::isfinite(value) ? QString::number(double(value), 'f', 2) : QString("–"); }
+QString indexText(float value) { return decimalText(double(value), 2); }
 
 }  // namespace
 

@@ -25,9 +25,7 @@ QString textIn(const nlohmann::json& record, const std::string& path) {
     return at.is_string() ? qtext(at.get_ref<const std::string&>()) : QString();
 }
 
-QString percent(double share) { return QString::number(std::lround(share * 100)); }
-
-QString decimals(double value, int digits) { return QString::number(value, 'f', digits); }
+QString percent(double share) { return decimalText(share * 100, 0); }
 
 /// Of a result with a massager, whose levels are strengths.
 bool isMassager(const nlohmann::json& results) { return textIn(results, "modality") == "massager"; }
@@ -35,15 +33,15 @@ bool isMassager(const nlohmann::json& results) { return textIn(results, "modalit
 QString rangeWords(const nlohmann::json& range) {
     const double low = numberIn(range, "min_intensity"), high = numberIn(range, "max_intensity");
     if (std::isfinite(low) && std::isfinite(high))
-        return QObject::tr(" between strengths of %1 and %2").arg(decimals(low, 2), decimals(high, 2));
+        return QObject::tr(" between strengths of %1 and %2").arg(decimalText(low, 2), decimalText(high, 2));
     const double low_ma = numberIn(range, "min_ma"), high_ma = numberIn(range, "max_ma");
     if (!std::isfinite(low_ma) || !std::isfinite(high_ma)) return {};
-    auto words = QObject::tr(" between %1 and %2 mA").arg(decimals(low_ma, 1), decimals(high_ma, 1));
+    auto words = QObject::tr(" between %1 and %2 mA").arg(decimalText(low_ma, 1), decimalText(high_ma, 1));
     const double low_v = numberIn(range, "min_v"), high_v = numberIn(range, "max_v");
     const double ohm = numberIn(range, "impedance_ohm");
     if (std::isfinite(low_v) && std::isfinite(high_v) && std::isfinite(ohm))
-        words +=
-            QObject::tr(", %1 to %2 V at %3").arg(decimals(low_v, 0), decimals(high_v, 0), quantityText(ohm, "ohm", 3));
+        words += QObject::tr(", %1 to %2 V at %3")
+                     .arg(decimalText(low_v, 0), decimalText(high_v, 0), quantityText(ohm, "ohm", 3));
     return words;
 }
 
@@ -57,11 +55,11 @@ QString thresholdSentence(const nlohmann::json& results) {
     if (!std::isfinite(value)) return QObject::tr("%1 has no detection threshold up to the highest level.").arg(who);
     auto said = (massager ? QObject::tr("%1 feels a strength of %2 in 4 of 5 trials")
                           : QObject::tr("%1 feels %2 mA in 4 of 5 trials"))
-                    .arg(who, decimals(value, 2));
+                    .arg(who, decimalText(value, 2));
     const double low = numberIn(estimate, "low"), high = numberIn(estimate, "high");
     if (std::isfinite(low) && std::isfinite(high))
         said += (massager ? QObject::tr(" (95 % interval %1 to %2)") : QObject::tr(" (95 % interval %1 to %2 mA)"))
-                    .arg(decimals(low, 2), decimals(high, 2));
+                    .arg(decimalText(low, 2), decimalText(high, 2));
     const auto range = rangeWords(memberAt(results, "range"));
     return said + (range.isEmpty() ? QObject::tr("; there is no usable range.")
                                    : QObject::tr("; conditions lie") + range + '.');
@@ -173,17 +171,17 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
     QStringList more;
     if (const double p = numberIn(results, "p_chance"); std::isfinite(p))
         more << (p < 0.001 ? tr("Guessing would reach that in fewer than 1 of 1000 sessions (p < 0.001).")
-                           : tr("Guessing would reach that with p = %1.").arg(decimals(p, 3)));
+                           : tr("Guessing would reach that with p = %1.").arg(decimalText(p, 3)));
     if (const double bits = numberIn(results, "it_corrected_bits"); std::isfinite(bits))
         more << tr("Information: %1 bit of 2, corrected by %2.")
-                    .arg(decimals(bits, 2), decimals(numberIn(results, "it_bias_bits"), 2));
+                    .arg(decimalText(bits, 2), decimalText(numberIn(results, "it_bias_bits"), 2));
     if (const double empty = numberIn(results, "catch.n"); std::isfinite(empty) && empty > 0)
         more << tr("Empty trials with a name for an answer: %1 of %2.")
                     .arg(numberIn(results, "catch.false_alarms"))
                     .arg(empty);
     if (const double p = numberIn(results, "fit.p"); std::isfinite(p))
         more << tr("Predicted against answered: G = %1, p = %2.")
-                    .arg(decimals(numberIn(results, "fit.g"), 1), decimals(p, 2));
+                    .arg(decimalText(numberIn(results, "fit.g"), 1), decimalText(p, 2));
     const auto& motor = memberAt(results, "vibration.reasons");
     if (motor.is_array() && !motor.empty() && motor.front().is_string())
         more << tr("What the massager did: %1").arg(qtext(motor.front().get<std::string>()));

@@ -32,8 +32,7 @@ SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, 
 }
 
 SessionConduct::~SessionConduct() {
-    desk_.end();
-    if (asker_.joinable()) asker_.join();
+    desk_.end();  // answers what asker_ waits for
 }
 
 void SessionConduct::connectPage() {
@@ -66,8 +65,8 @@ Result<RunOrder> SessionConduct::order() const {
     if (!source) return failure(source);
     auto declaration = readDeclaration(*source);
     if (!declaration) return failure(declaration);
-    std::map<std::string, std::string> given{{"participant", start_.participant}, {"method", start_.method},
-                                             {"modality", start_.modality}};
+    std::map<std::string, std::string> given{
+        {"participant", start_.participant}, {"method", start_.method}, {"modality", start_.modality}};
     if (!start_.unfinished.empty()) given["unfinished"] = start_.unfinished;
     if (start_.blocks) given["blocks"] = std::to_string(*start_.blocks);
     auto settings = applySettings(*declaration, given);
@@ -142,17 +141,12 @@ void SessionConduct::confirmCode() {
     screen.operatorMayKnow = true;
     desk_.show(screen);
     const auto prompt = yesNoPrompt("code", fmt::format("Is {} your code?", start_.participant));
-    asker_ = std::thread([this, prompt] {
-        const auto said = desk_.ask(prompt);
-        const bool theirs = said && said->key() == "yes";
-        QMetaObject::invokeMethod(
-            this, [this, answered = said.has_value(), theirs] { codeAnswered(answered, theirs); },
-            Qt::QueuedConnection);
-    });
+    asker_.start(
+        this, [this, prompt] { return desk_.ask(prompt); },
+        [this](const auto& said) { codeAnswered(said.has_value(), said && said->key() == "yes"); });
 }
 
 void SessionConduct::codeAnswered(bool answered, bool theirs) {
-    asker_.join();
     confirming_ = false;
     if (theirs) {
         codeConfirmed_ = true;

@@ -11,9 +11,9 @@
 #include <QElapsedTimer>
 #include <QObject>
 #include <memory>
-#include <thread>
 
 #include "app/gui/controller/BenchController.h"
+#include "app/gui/controller/SideWork.h"
 #include "app/gui/pilot/ParticipantDesk.h"
 #include "app/gui/pilot/PilotStart.h"
 
@@ -57,8 +57,8 @@ signals:
     void begun();
     void screenChanged(const tacto::PilotScreen& screen);
     void asked(const tacto::PilotPrompt& prompt);
-    void changed();          ///< stops, faults, what the participant's window shows
-    void attentionWanted();  ///< the operator is asked something
+    void changed();                                             ///< stops, faults, what the participant's window shows
+    void attentionWanted();                                     ///< the operator is asked something
     void progressed(const QString& what, int done, int total);  ///< of a virtual participant
     void refused(const QString& why);                           ///< nothing was begun
     void ended(std::shared_ptr<const tacto::gui::FinishedRun> run);
@@ -92,7 +92,7 @@ private:
     PilotStart start_;
     RunOrder order_;
     StopMark mark_{};
-    std::thread asker_;  ///< waits for the answer to the code
+    SideWork asker_;  ///< waits for the answer to the code
     bool confirming_ = false;
     bool codeConfirmed_ = false;
     bool running_ = false;

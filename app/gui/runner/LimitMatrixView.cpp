@@ -36,7 +36,7 @@ QString wordsOf(const json& value) {
 QString shareText(double used_pct) {
     if (!std::isfinite(used_pct)) return "–";
     if (used_pct > 0 && used_pct < 0.1) return QObject::tr("< 0.1 %");
-    return QString::number(used_pct, 'f', used_pct < 1 && used_pct > 0 ? 1 : 0) + " %";
+    return decimalText(used_pct, used_pct < 1 && used_pct > 0 ? 1 : 0) + " %";
 }
 
 /// The limit's title, below it the limit, whose it is and its verdict.

@@ -30,12 +30,9 @@ QRectF onPaper(const QSizeF& page, const QRectF& paper) {
 
 }  // namespace
 
-ReportPrinter::ReportPrinter(QObject* parent) : QObject(parent) { thread_.setMaxThreadCount(1); }
+ReportPrinter::ReportPrinter(QObject* parent) : QObject(parent) {}
 
-ReportPrinter::~ReportPrinter() {
-    givenUp_->store(true);
-    thread_.waitForDone();
-}
+ReportPrinter::~ReportPrinter() { givenUp_->store(true); }
 
 void ReportPrinter::offer(QMenu& menu, const QString& pdf) {
     menu.clear();
@@ -52,7 +49,8 @@ void ReportPrinter::offer(QMenu& menu, const QString& pdf) {
 
 void ReportPrinter::print(const QString& pdf, std::shared_ptr<QPrinter> printer) {
     const auto tell = [this](const QString& what) {
-        QMetaObject::invokeMethod(this, [this, what] { emit said(what); }, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(
+            this, [this, what] { emit said(what); }, Qt::QueuedConnection);
     };
     const auto draw = [pdf, printer, tell, givenUp = givenUp_] {
         QPdfDocument document;  // of this thread
@@ -87,10 +85,7 @@ void ReportPrinter::print(const QString& pdf, std::shared_ptr<QPrinter> printer)
         tell(pages == 1 ? tr("One page went to the printer.") : tr("%1 pages went to the printer.").arg(pages));
         return pages;
     };
-    thread_.start([this, draw] {
-        const int pages = draw();
-        QMetaObject::invokeMethod(this, [this, pages] { emit ended(pages); }, Qt::QueuedConnection);
-    });
+    prints_.start(this, draw, [this](int pages) { emit ended(pages); });
 }
 
 }  // namespace tacto::gui

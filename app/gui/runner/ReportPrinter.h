@@ -7,9 +7,10 @@
 
 #include <QMenu>
 #include <QPrinter>
-#include <QThreadPool>
 #include <atomic>
 #include <memory>
+
+#include "app/gui/controller/SideWork.h"
 
 namespace tacto::gui {
 
@@ -31,7 +32,7 @@ signals:
 
 private:
     std::shared_ptr<std::atomic<bool>> givenUp_ = std::make_shared<std::atomic<bool>>(false);
-    QThreadPool thread_;  // one: reports come one after the other
+    SideWork prints_;
 };
 
 }  // namespace tacto::gui

@@ -4,30 +4,22 @@
 
 namespace tacto::gui {
 
-ScriptReading::~ScriptReading() {
-    if (thread_.joinable()) thread_.join();
-}
-
 void ScriptReading::read(const ProtocolSource& source) {
-    if (busy())
+    if (busy_)
         next_ = source;
     else
         begin(source);
 }
 
 void ScriptReading::begin(const ProtocolSource& source) {
-    thread_ = std::thread([this, source] {
-        auto declaration = readDeclaration(source);
-        // Posted to this object: forgotten, should it be gone by then.
-        QMetaObject::invokeMethod(
-            this,
-            [this, source, declaration = std::move(declaration)] {
-                thread_.join();
-                if (!next_) return done_(source, declaration);
-                begin(*std::exchange(next_, std::nullopt));
-            },
-            Qt::QueuedConnection);
-    });
+    busy_ = true;
+    reading_.start(
+        this, [source] { return readDeclaration(source); },
+        [this, source](const Result<ProtocolDeclaration>& declaration) {
+            busy_ = false;
+            if (!next_) return done_(source, declaration);
+            begin(*std::exchange(next_, std::nullopt));
+        });
 }
 
 int lineOf(const QString& error) {

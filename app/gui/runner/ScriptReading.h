@@ -6,8 +6,9 @@
 #include <QObject>
 #include <functional>
 #include <optional>
-#include <thread>
+#include <utility>
 
+#include "app/gui/controller/SideWork.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
 namespace tacto::gui {
@@ -17,16 +18,15 @@ public:
     using Done = std::function<void(const ProtocolSource&, const Result<ProtocolDeclaration>&)>;
     /// `done` is called with every answer.
     explicit ScriptReading(Done done) : done_(std::move(done)) {}
-    ~ScriptReading() override;
     /// A source given while another is being read waits; only the newest waits, and only its answer comes.
     void read(const ProtocolSource& source);
-    [[nodiscard]] bool busy() const { return thread_.joinable(); }
 
 private:
     void begin(const ProtocolSource& source);
     const Done done_;
-    std::thread thread_;
+    bool busy_ = false;
     std::optional<ProtocolSource> next_;
+    SideWork reading_;
 };
 
 /// The line that a script's error names ("file:line: reason"), 0 for none.

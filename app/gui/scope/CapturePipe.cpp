@@ -13,25 +13,29 @@ namespace {
 
 constexpr int kMaxPending = 8;
 
+struct Opened {
+    ShownPtr shown;
+    QString why;  ///< it could not be
+};
+
 }  // namespace
 
-CapturePipe::CapturePipe(QObject* parent) : QObject(parent) { thread_.setMaxThreadCount(1); }
+CapturePipe::CapturePipe(QObject* parent) : QObject(parent) {}
 
 CapturePipe::~CapturePipe() {
     wantedOpen_ = 0;
     reading_.request_stop();
-    thread_.clear();
-    thread_.waitForDone();
+    work_.drop();
 }
 
 void CapturePipe::setAverage(std::size_t captures) {
-    thread_.start([this, captures] { average_.setCaptures(captures); });
+    work_.start([this, captures] { average_.setCaptures(captures); });
 }
 
 void CapturePipe::beginAnew() {
     gap_ = true;
     ++epoch_;
-    thread_.start([this] { average_.clear(); });
+    work_.start([this] { average_.clear(); });
 }
 
 void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& source) {
@@ -44,8 +48,8 @@ void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& so
     ++pending_;
     const bool follows = !std::exchange(gap_, false);
     const bool ours = source.isEmpty();
-    thread_.start([this, capture = std::move(capture), source, math = mathOptions_, follows, ours, epoch = epoch_,
-                   mask = ours ? mask_ : nullptr]() mutable {
+    auto prepare = [this, capture = std::move(capture), source, math = mathOptions_, follows, ours,
+                    mask = ours ? mask_ : nullptr]() mutable -> ShownPtr {
         std::optional<MaskCheck> judged;
         if (mask && !capture->untriggered) judged = mask->check(*capture);
         const bool averages = ours && average_.captures() > 1 && std::isfinite(capture->trigger_s);
@@ -56,13 +60,11 @@ void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& so
         shown->judgedBy = mask;
         shown->follows = follows;
         shown->averaged = averages ? average_.count() : 0;
-        QMetaObject::invokeMethod(
-            this,
-            [this, shown, of = ours ? epoch : 0] {
-                --pending_;
-                if (of == 0 || of == epoch_) emit prepared(shown);
-            },
-            Qt::QueuedConnection);
+        return shown;
+    };
+    work_.start(this, std::move(prepare), [this, of = ours ? epoch_ : 0](const ShownPtr& shown) {
+        --pending_;
+        if (of == 0 || of == epoch_) emit prepared(shown);
     });
 }
 
@@ -74,7 +76,7 @@ void CapturePipe::open(const QString& path) {
     reading_.request_stop();
     reading_ = std::stop_source();
     emit openingChanged();
-    thread_.start([this, number, path, math = mathOptions_, stop = reading_.get_token()] {
+    const auto work = [this, number, path, math = mathOptions_, stop = reading_.get_token()]() -> Opened {
         auto read = captureFormats()->read(path.toStdString(), {}, {[this](double part) { tellRead(part); }, stop});
         ShownPtr shown;
         if (read && wantedOpen_ == number) {
@@ -86,20 +88,17 @@ void CapturePipe::open(const QString& path) {
             its->warnings.insert(its->warnings.begin(), read->warnings.begin(), read->warnings.end());
             shown = its;
         }
-        const auto why = read ? QString() : QString::fromStdString(read.error().message);
-        QMetaObject::invokeMethod(
-            this,
-            [this, number, shown, why] {
-                if (wantedOpen_ != number) return;
-                opening_ = false;
-                emit openingChanged();
-                if (shown) {
-                    emit prepared(shown);
-                } else {
-                    emit failed(tr("The capture could not be opened: %1. The picture stays.").arg(why));
-                }
-            },
-            Qt::QueuedConnection);
+        return {shown, read ? QString() : QString::fromStdString(read.error().message)};
+    };
+    work_.start(this, work, [this, number](const Opened& opened) {
+        if (wantedOpen_ != number) return;
+        opening_ = false;
+        emit openingChanged();
+        if (opened.shown) {
+            emit prepared(opened.shown);
+        } else {
+            emit failed(tr("The capture could not be opened: %1. The picture stays.").arg(opened.why));
+        }
     });
 }
 
@@ -124,28 +123,22 @@ void CapturePipe::tellRead(double part) {
 
 void CapturePipe::recalculate(const ShownPtr& shown) {
     if (!shown) return;
-    thread_.start([this, shown, math = mathOptions_] {
-        const auto again = withMath(*shown, math);
-        QMetaObject::invokeMethod(
-            this, [this, again] { emit recalculated(again); }, Qt::QueuedConnection);
-    });
+    work_.start(
+        this, [shown, math = mathOptions_] { return withMath(*shown, math); },
+        [this](const ShownPtr& again) { emit recalculated(again); });
 }
 
 void CapturePipe::save(const ShownPtr& shown, double from_s, double to_s, const QString& path) {
     if (!shown) return;
-    thread_.start([this, shown, from_s, to_s, path] {
-        const auto wrong = saveData(*shown, from_s, to_s, path);
-        QMetaObject::invokeMethod(
-            this,
-            [this, wrong, path] {
-                if (wrong) {
-                    emit failed(*wrong);
-                } else {
-                    emit saved(path);
-                }
-            },
-            Qt::QueuedConnection);
-    });
+    work_.start(
+        this, [shown, from_s, to_s, path] { return saveData(*shown, from_s, to_s, path); },
+        [this, path](const std::optional<QString>& wrong) {
+            if (wrong) {
+                emit failed(*wrong);
+            } else {
+                emit saved(path);
+            }
+        });
 }
 
 }  // namespace tacto::gui

@@ -9,11 +9,11 @@
 
 #include <QObject>
 #include <QString>
-#include <QThreadPool>
 #include <atomic>
 #include <cstdint>
 #include <stop_token>
 
+#include "app/gui/controller/SideWork.h"
 #include "app/gui/scope/Trace.h"
 #include "core/measure/CaptureAverage.h"
 
@@ -60,7 +60,6 @@ signals:
 private:
     void tellRead(double part);  // on the thread that reads
 
-    QThreadPool thread_;  // one, so that results come in order
     MathOptions mathOptions_;
     std::shared_ptr<const CaptureMask> mask_;
     CaptureAverage average_;   // the thread's
@@ -73,6 +72,7 @@ private:
     std::stop_source reading_;
     std::atomic<int> percentRead_{0};
     std::atomic<std::uint64_t> wantedOpen_{0};  // read by the thread: a reading given up is not measured
+    SideWork work_;                             // last: it uses the others
 };
 
 }  // namespace tacto::gui

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/gui/scope/Steps.h"
+#include "app/gui/theme/Text.h"
 
 namespace tacto::gui {
 
@@ -25,7 +26,7 @@ QString RoundTicker::written(double quantity, double step) const {
     const auto isWhole = [&](double x) { return std::abs(std::round(x) - x) < 1e-6; };
     while (decimals < kMaxDecimals && !isWhole(shownStep * std::pow(10.0, decimals))) ++decimals;
     const double value = std::abs(quantity) < step / 2 ? 0.0 : quantity * factor_;
-    return QString::number(value, 'f', decimals).replace('-', QChar(0x2212));
+    return decimalText(value, decimals);
 }
 
 QString RoundTicker::widestIn(const QCPRange& range) const {

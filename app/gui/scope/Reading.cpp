@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/Text.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -63,7 +64,7 @@ std::optional<double> ofWaveform(Reading reading, const WaveformMeasurement& wav
 QString percentText(double value) {
     const double size = std::abs(value);
     const int decimals = size >= 10 ? 1 : size >= 1 ? 2 : 3;
-    return QString::number(value, 'f', decimals).replace('-', QChar(0x2212)) + QChar(0x202f) + "%";
+    return decimalText(value, decimals, "%");
 }
 
 bool isCharge(Reading reading) {

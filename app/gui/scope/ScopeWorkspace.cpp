@@ -6,7 +6,6 @@
 #include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -22,12 +21,14 @@
 #include "app/gui/scope/SpectrumPanel.h"
 #include "app/gui/theme/Theme.h"
 #include "app/run/CaptureFormatsList.h"
+#include "core/base/Words.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr std::array<const char*, 4> kModes{"auto", "normal", "single", "roll"};  // in ScopeMode's order
+constexpr Word<ScopeMode> kModes[] = {
+    {"auto", ScopeMode::Auto}, {"normal", ScopeMode::Normal}, {"single", ScopeMode::Single}, {"roll", ScopeMode::Roll}};
 
 }  // namespace
 
@@ -206,7 +207,7 @@ void ScopeWorkspace::dropEvent(QDropEvent* event) { openCaptureFile(event->mimeD
 void ScopeWorkspace::save() const {
     QSettings settings;
     settings.beginGroup("scope");
-    settings.setValue("mode", kModes[static_cast<std::size_t>(mode())]);
+    settings.setValue("mode", QString::fromUtf8(wordFor(kModes, mode())));
     controls_->save(settings);
     readings_.save(settings);
     spectrum_->save(settings);
@@ -222,8 +223,7 @@ void ScopeWorkspace::restore() {
     spectrum_->restore(settings);
     model_.setChosenView(restoredView(settings));
     columns_->restore(settings);
-    const auto known = std::find(kModes.begin(), kModes.end(), settings.value("mode").toString());
-    applyMode(known == kModes.end() ? mode() : static_cast<ScopeMode>(known - kModes.begin()));
+    applyMode(valueFor(kModes, settings.value("mode").toString().toStdString()).value_or(mode()));
 }
 
 void ScopeWorkspace::benchChanged() {

@@ -199,12 +199,12 @@ void SpectrumPanel::findPeaks(const QString& unit) {
         spectrum_.peaks.push_back({(peak.bin + 1) * width, peak.level});  // the first line is bin 1
     }
     const auto top = std::max_element(spectrum_.rms.begin(), spectrum_.rms.end()) - spectrum_.rms.begin();
-    spectrum_.note = tr("Highest %1 at %2 · %3 samples, a line every %4, %5 wide (%6 lines)")
-                         .arg(quantityText(spectrum_.rms[static_cast<std::size_t>(top)], unit),
-                              quantityText(spectrum_.hz[static_cast<std::size_t>(top)], "Hz"))
-                         .arg(spectrum_.samples)
-                         .arg(quantityText(width, "Hz", 3), quantityText(spectrum_.bandwidth_hz, "Hz", 3))
-                         .arg(bins_, 0, 'f', 2);
+    spectrum_.note =
+        tr("Highest %1 at %2 · %3 samples, a line every %4, %5 wide (%6 lines)")
+            .arg(quantityText(spectrum_.rms[static_cast<std::size_t>(top)], unit),
+                 quantityText(spectrum_.hz[static_cast<std::size_t>(top)], "Hz"))
+            .arg(spectrum_.samples)
+            .arg(quantityText(width, "Hz", 3), quantityText(spectrum_.bandwidth_hz, "Hz", 3), decimalText(bins_, 2));
 }
 
 void SpectrumPanel::setFrequencyAxis() {

@@ -5,10 +5,10 @@
 #pragma once
 
 #include <QObject>
-#include <QThreadPool>
 #include <filesystem>
 #include <functional>
 
+#include "app/gui/controller/SideWork.h"
 #include "core/session/SessionLabels.h"
 
 namespace tacto::gui {
@@ -18,13 +18,12 @@ class LabelSaves final : public QObject {
 public:
     using Then = std::function<void(const Result<SessionLabels>&)>;
     explicit LabelSaves(QObject* parent = nullptr);
-    ~LabelSaves() override;  ///< waits: what was typed is kept
 
     /// As saveLabels(); `then` gets what it returns, on the GUI thread.
     void save(const std::filesystem::path& session, const SessionLabels& shown, const SessionLabels& edited, Then then);
 
 private:
-    QThreadPool thread_;  // one: edits of one session follow each other
+    SideWork saves_;  // edits of one session follow each other; its end waits: what was typed is kept
 };
 
 }  // namespace tacto::gui

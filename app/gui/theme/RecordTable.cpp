@@ -3,6 +3,7 @@
 #include <QHeaderView>
 #include <cmath>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
@@ -82,7 +83,7 @@ ColumnText sharesText(const RecordColumn& column, const json& records) {
     for (const auto& record : records) {
         auto known = knownOf(column, record);
         scale(known, 100);
-        const auto tenth = [](double value) { return QString::number(value, 'f', 1); };
+        const auto tenth = [](double value) { return decimalText(value, 1); };
         out.cells << (std::isfinite(known.low) && std::isfinite(known.high)
                           ? QObject::tr("%1 (%2 to %3)").arg(tenth(known.value), tenth(known.low), tenth(known.high))
                           : numberText(known, {}, true));

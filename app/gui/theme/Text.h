@@ -7,6 +7,7 @@
 #include <QString>
 #include <string_view>
 
+#include "core/base/QuantityText.h"
 #include "core/base/Result.h"
 
 namespace tacto::gui {
@@ -19,6 +20,12 @@ namespace tacto::gui {
 [[nodiscard]] inline QString titled(QString name) {
     if (!name.isEmpty()) name[0] = name[0].toUpper();
     return name;
+}
+
+/// As decimalText() of the core, with a true minus and a narrow space before `unit`: "−0.98 %".
+[[nodiscard]] inline QString decimalText(double value, int decimals, const QString& unit = {}) {
+    const auto number = qtext(tacto::decimalText(value, decimals)).replace('-', QChar(0x2212));
+    return unit.isEmpty() ? number : number + QChar(0x202f) + unit;
 }
 
 /// "the load of 2 kΩ" of "the load of 2 kohm".

@@ -179,7 +179,7 @@ void DeviceDock::describe() {
             if (const auto stimulator = calibrations_.connected(); stimulator && device.role == "stimulator")
                 lines << sentence(standingText(calibrations_.standing(*stimulator)));
             if (device.role == nameOf(Role::Oscilloscope) && !certificate_.isEmpty()) lines << certificate_;
-            if (const auto role = roleNamed(device.role)) {
+            if (const auto role = valueFor(kRoles, device.role)) {
                 if (const auto report = controller_.deviceReport(*role)) lines << rowsOf(*report);
             }
         }

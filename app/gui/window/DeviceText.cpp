@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -17,13 +18,6 @@ QString orDash(const std::string& text) { return text.empty() ? "–" : QString:
 std::string schemeOf(const std::string& uri) { return uri.substr(0, uri.find(':')); }
 
 }  // namespace
-
-std::optional<Role> roleNamed(const std::string& word) {
-    for (const auto role : {Role::Sensor, Role::Stimulator, Role::Oscilloscope, Role::Massager}) {
-        if (nameOf(role) == word) return role;
-    }
-    return std::nullopt;
-}
 
 bool isSame(const SessionDevice& open, const DeviceIdentity& present) {
     if (present.placeholder || open.role != nameOf(present.role)) return false;
@@ -75,10 +69,9 @@ QStringList rowsOf(const DeviceReport& report) {
     for (const auto& row : report.rows()) {
         const bool count = row.unit[0] == 0;
         if (!std::isfinite(row.value) || (count && row.value == 0)) continue;
-        const auto value = count ? QString::number(row.value, 'f', 0)
-                           : std::string_view(row.unit) == "s"
-                               ? settingText(row.value, "s")
-                               : QString("%1 %2").arg(row.value, 0, 'f', 1).arg(row.unit);
+        const auto value = count                               ? decimalText(row.value, 0)
+                           : std::string_view(row.unit) == "s" ? settingText(row.value, "s")
+                                                               : decimalText(row.value, 1, row.unit);
         lines << QString("%1: %2").arg(QString(row.name), value);
     }
     lines << (report.losses > 0 ? tr("⚠ Something was lost between it and this program.") : tr("Nothing was lost."));

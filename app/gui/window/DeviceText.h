@@ -5,7 +5,6 @@
 #pragma once
 
 #include <QStringList>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,9 +12,6 @@
 #include "app/gui/controller/BenchController.h"
 
 namespace tacto::gui {
-
-/// Nothing for a word that is none of nameOf(Role).
-[[nodiscard]] std::optional<Role> roleNamed(const std::string& word);
 
 /// Whether `present` is the device that was opened as `open`: by its URI, by its serial number, or as the one that a
 /// URI without a name ("sensor:") stands for.

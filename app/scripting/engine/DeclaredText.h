@@ -27,10 +27,10 @@ inline constexpr std::size_t kMaxDeclaredText = 2000;
                                                bool required, std::size_t most = kMaxDeclaredText);
 
 /// "sensor, stimulator": the words of an enum, as an error lists them.
-template <class Values>
-[[nodiscard]] std::string namesOf(const Values& all) {
+template <class Table>
+[[nodiscard]] std::string namesOf(const Table& words) {
     std::vector<std::string_view> names;
-    for (const auto one : all) names.push_back(nameOf(one));
+    for (const auto& word : words) names.push_back(word.text);
     return fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -30,17 +30,6 @@ bool isOfType(const nlohmann::json& value, ValueType type) {
     return false;
 }
 
-std::string rangeWords(const HostParameter& parameter, std::string_view kind) {
-    const bool low = parameter.min > std::numeric_limits<double>::lowest();
-    const bool high = parameter.max < std::numeric_limits<double>::max();
-    if (parameter.minOpen && high) return fmt::format("{} above {}, at most {}", kind, parameter.min, parameter.max);
-    if (parameter.minOpen) return fmt::format("{} above {}", kind, parameter.min);
-    if (low && high) return fmt::format("{} from {} to {}", kind, parameter.min, parameter.max);
-    if (low) return fmt::format("{} of at least {}", kind, parameter.min);
-    if (high) return fmt::format("{} of at most {}", kind, parameter.max);
-    return std::string(kind);
-}
-
 std::string oneOfWords(const std::vector<std::string_view>& words) {
     std::string out;
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -53,9 +42,8 @@ std::string oneOfWords(const std::vector<std::string_view>& words) {
 std::string typeWords(const HostParameter& parameter) {
     switch (parameter.type) {
         case ValueType::Number:
-            return rangeWords(parameter, "a number");
         case ValueType::Whole:
-            return rangeWords(parameter, "a whole number");
+            return parameter.numbers.text();
         case ValueType::Text:
             return parameter.words.empty() ? "a text" : oneOfWords(parameter.words);
         case ValueType::Flag:
@@ -83,10 +71,8 @@ bool HostParameter::accepts(const nlohmann::json& value) const {
     if (!isOfType(value, type)) return false;
     switch (type) {
         case ValueType::Number:
-        case ValueType::Whole: {
-            const double x = value.get<double>();
-            return x <= max && (minOpen ? x > min : x >= min);
-        }
+        case ValueType::Whole:
+            return numbers.contain(value.get<double>());
         case ValueType::Text:
             if (!words.empty()) return std::find(words.begin(), words.end(), value.get<std::string>()) != words.end();
             return mayBeEmpty || mayBeLeftOut || !value.get_ref<const std::string&>().empty();
@@ -108,20 +94,20 @@ std::string HostParameter::defaultText() const {
 
 HostParameter HostParameter::range(double from, double to) const {
     auto out = *this;
-    out.min = from;
-    out.max = to;
+    out.numbers.low = from;
+    out.numbers.high = to;
     return out;
 }
 
 HostParameter HostParameter::atLeast(double from) const {
     auto out = *this;
-    out.min = from;
+    out.numbers.low = from;
     return out;
 }
 
 HostParameter HostParameter::above(double from) const {
     auto out = atLeast(from);
-    out.minOpen = true;
+    out.numbers.openLow = true;
     return out;
 }
 
@@ -168,7 +154,7 @@ HostParameter number(std::string_view name, std::string_view unit, std::string_v
     return {.name = name, .type = ValueType::Number, .unit = unit, .about = about};
 }
 HostParameter whole(std::string_view name, std::string_view about) {
-    return {.name = name, .type = ValueType::Whole, .about = about};
+    return {.name = name, .type = ValueType::Whole, .about = about, .numbers = {.whole = true}};
 }
 HostParameter text(std::string_view name, std::string_view about) {
     return {.name = name, .type = ValueType::Text, .about = about};

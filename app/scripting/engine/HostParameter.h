@@ -4,11 +4,12 @@
 // Thread-safety: values.
 #pragma once
 
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/base/ValueKind.h"
 
 namespace tacto {
 
@@ -28,11 +29,9 @@ struct HostParameter {
     /// than those that are listed; "from.roughness" for a member of another argument.
     std::string_view name;
     ValueType type = ValueType::Any;
-    std::string_view unit = {};   ///< "s", "ohm"; empty for a number without one and for what is no number
-    std::string_view about = {};  ///< what it is
-    double min = std::numeric_limits<double>::lowest();
-    double max = std::numeric_limits<double>::max();
-    bool minOpen = false;                      ///< the value must be above `min`
+    std::string_view unit = {};                ///< "s", "ohm"; empty for a number without one and for what is no number
+    std::string_view about = {};               ///< what it is
+    AcceptedNumbers numbers = {};              ///< Number and Whole
     ValueType items = ValueType::Any;          ///< type of a list's elements
     std::vector<std::string_view> words = {};  ///< the texts that are accepted; empty for any
     bool mayBeLeftOut = false;

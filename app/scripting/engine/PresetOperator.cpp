@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cmath>
 
 #include "app/scripting/engine/Operator.h"
 #include "core/base/Text.h"
+#include "core/base/ValueKind.h"
 
 namespace tacto {
 
@@ -44,16 +44,12 @@ Result<nlohmann::json> choose(const OperatorQuestion& question, const std::strin
 Result<nlohmann::json> enter(const OperatorQuestion& question, const std::string& answer) {
     if (!question.number) return nlohmann::json(answer);
     const auto value = parseNumber(answer);
-    if (value && std::isfinite(*value) && !(question.min && !(*value >= *question.min)) &&
-        !(question.max && !(*value <= *question.max))) {
-        return nlohmann::json(*value);
-    }
-    std::string range = "a number";
-    if (question.min) range += fmt::format(", at least {}", *question.min);
-    if (question.max) range += fmt::format(", at most {}", *question.max);
-    if (!question.unit.empty()) range += fmt::format(", in {}", question.unit);
+    const AcceptedNumbers numbers{.low = question.min.value_or(AcceptedNumbers{}.low),
+                                  .high = question.max.value_or(AcceptedNumbers{}.high),
+                                  .unit = question.unit};
+    if (value && numbers.contain(*value)) return nlohmann::json(*value);
     return fail(ErrorCode::InvalidArgument, "{}={} does not answer \"{}\"; {} is expected", question.name, answer,
-                question.text, range);
+                question.text, numbers.text());
 }
 
 }  // namespace

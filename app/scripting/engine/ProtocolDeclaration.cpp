@@ -1,7 +1,6 @@
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
 #include <algorithm>
-#include <array>
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/DeclaredText.h"
@@ -13,8 +12,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array kRoles = {Role::Sensor, Role::Stimulator, Role::Oscilloscope, Role::Massager};
-
 Result<std::set<Role>> readNeeds(const Json& given) {
     std::set<Role> needs;
     const Json list = given.value("needs", Json::array());
@@ -22,8 +19,8 @@ Result<std::set<Role>> readNeeds(const Json& given) {
         return fail(ErrorCode::InvalidArgument, "needs is {}, a list of {} is expected", shown(list), namesOf(kRoles));
     }
     for (const auto& name : list) {
-        const auto role = std::find_if(kRoles.begin(), kRoles.end(), [&](Role r) { return name == nameOf(r); });
-        if (role == kRoles.end()) {
+        const auto role = name.is_string() ? valueFor(kRoles, name.get_ref<const std::string&>()) : std::nullopt;
+        if (!role) {
             return fail(ErrorCode::InvalidArgument, "needs names {}, only {} can be needed", shown(name),
                         namesOf(kRoles));
         }

@@ -1,13 +1,15 @@
 #include "app/scripting/engine/ProtocolParameter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/DeclaredText.h"
 #include "core/base/JsonText.h"
 #include "core/base/Text.h"
+#include "core/base/ValueKind.h"
+#include "core/base/Words.h"
 #include "core/calibration/CalibrationDate.h"
 
 namespace tacto {
@@ -16,21 +18,21 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array kTypes = {ParameterType::Number, ParameterType::Integer, ParameterType::Choice,
-                               ParameterType::Text,   ParameterType::Boolean, ParameterType::Date,
-                               ParameterType::File};
+constexpr Word<ParameterType> kTypes[] = {{"number", ParameterType::Number},   {"integer", ParameterType::Integer},
+                                          {"choice", ParameterType::Choice},   {"text", ParameterType::Text},
+                                          {"boolean", ParameterType::Boolean}, {"date", ParameterType::Date},
+                                          {"file", ParameterType::File}};
 constexpr std::string_view kReferenceStep = "reference";
 
-std::string rangeText(const ProtocolParameter& parameter) {
-    std::string out = parameter.type == ParameterType::Integer ? "a whole number" : "a number";
-    if (parameter.min && parameter.max) {
-        out += fmt::format(" from {} to {}", *parameter.min, *parameter.max);
-    } else if (parameter.min) {
-        out += fmt::format(" of at least {}", *parameter.min);
-    } else if (parameter.max) {
-        out += fmt::format(" of at most {}", *parameter.max);
-    }
-    return parameter.unit.empty() ? out : out + fmt::format(" (in {})", parameter.unit);
+/// A double holds every whole number up to here, and not every one beyond.
+constexpr double kMaxWholeNumber = 9007199254740992;  // 2^53
+
+/// No wider than from -`widest` to `widest`.
+AcceptedNumbers rangeOf(const ProtocolParameter& parameter, double widest = std::numeric_limits<double>::max()) {
+    return {.low = std::max(parameter.min.value_or(-widest), -widest),
+            .high = std::min(parameter.max.value_or(widest), widest),
+            .whole = parameter.type == ParameterType::Integer,
+            .unit = parameter.unit};
 }
 
 std::string choicesText(const ProtocolParameter& parameter) {
@@ -44,16 +46,6 @@ bool hasChoice(const ProtocolParameter& parameter, const std::string& key) {
                        [&](const auto& choice) { return choice.first == key; });
 }
 
-/// A double holds every whole number up to here, and not every one beyond.
-constexpr double kMaxWholeNumber = 9007199254740992;  // 2^53
-
-/// The range of `parameter`, no wider than what a whole number can be exact in.
-ProtocolParameter exactly(ProtocolParameter parameter) {
-    parameter.min = std::max(parameter.min.value_or(-kMaxWholeNumber), -kMaxWholeNumber);
-    parameter.max = std::min(parameter.max.value_or(kMaxWholeNumber), kMaxWholeNumber);
-    return parameter;
-}
-
 /// The value as the script takes it, or what would be accepted.
 Result<Json> accepted(const ProtocolParameter& parameter, const Json& value) {
     const auto refuse = [&](const std::string& wanted) -> tl::unexpected<Error> {
@@ -64,13 +56,9 @@ Result<Json> accepted(const ProtocolParameter& parameter, const Json& value) {
         case ParameterType::Number:
         case ParameterType::Integer: {
             const double x = value.is_number() ? value.get<double>() : std::nan("");
-            const bool whole = parameter.type == ParameterType::Number || x == std::floor(x);
-            if (!std::isfinite(x) || !whole || (parameter.min && !(x >= *parameter.min)) ||
-                (parameter.max && !(x <= *parameter.max))) {
-                return refuse(rangeText(parameter));
-            }
+            if (!rangeOf(parameter).contain(x)) return refuse(rangeOf(parameter).text());
             if (parameter.type == ParameterType::Number) return value;
-            if (!(std::abs(x) <= kMaxWholeNumber)) return refuse(rangeText(exactly(parameter)));
+            if (!(std::abs(x) <= kMaxWholeNumber)) return refuse(rangeOf(parameter, kMaxWholeNumber).text());
             return Json(static_cast<std::int64_t>(x));
         }
         case ParameterType::Choice:
@@ -106,9 +94,8 @@ Result<ParameterType> typeOf(const Json& given, const std::string& name) {
         if (value != given.end() && value->is_string()) return ParameterType::Text;
         return ParameterType::Number;
     }
-    for (const auto type : kTypes) {
-        if (*at == nameOf(type)) return type;
-    }
+    const auto known = at->is_string() ? valueFor(kTypes, at->get_ref<const std::string&>()) : std::nullopt;
+    if (known) return *known;
     return fail(ErrorCode::InvalidArgument, "parameter {}: type is {}, one of {} is expected", name, shown(*at),
                 namesOf(kTypes));
 }
@@ -178,25 +165,7 @@ Result<void> saysWhatItVouchesFor(const ProtocolParameter& parameter) {
 
 }  // namespace
 
-std::string_view nameOf(ParameterType type) noexcept {
-    switch (type) {
-        case ParameterType::Number:
-            return "number";
-        case ParameterType::Integer:
-            return "integer";
-        case ParameterType::Choice:
-            return "choice";
-        case ParameterType::Text:
-            return "text";
-        case ParameterType::Boolean:
-            return "boolean";
-        case ParameterType::Date:
-            return "date";
-        case ParameterType::File:
-            return "file";
-    }
-    return "";
-}
+std::string_view nameOf(ParameterType type) noexcept { return wordFor(kTypes, type); }
 
 Result<ProtocolParameter> parseParameter(const std::string& name, const Json& given, const Json& choiceOrder) {
     if (const auto fits = noLongerThan("parameters", "a name", name, kMaxDeclaredTitle); !fits) return failure(fits);

@@ -22,25 +22,6 @@ namespace tacto {
 namespace {
 /// A host call wakes within milliseconds of a stop. One that does not leaves the bench in two hands.
 constexpr std::chrono::seconds kHostCallLimit{5};
-}  // namespace
-
-std::string_view nameOf(ScriptVerdict verdict) noexcept {
-    switch (verdict) {
-        case ScriptVerdict::None:
-            return "";
-        case ScriptVerdict::Pass:
-            return "pass";
-        case ScriptVerdict::Fail:
-            return "fail";
-        case ScriptVerdict::Indeterminate:
-            return "indeterminate";
-        case ScriptVerdict::Stopped:
-            return "stopped";
-    }
-    return "";
-}
-
-namespace {
 
 /// Without the C library's streams: the thread that stands still may hold them, and stderr may take nothing.
 [[noreturn]] void endProgram(const std::string& why) {

@@ -25,6 +25,7 @@
 #include "app/scripting/engine/Operator.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 #include "core/base/Result.h"
+#include "core/base/Words.h"
 #include "core/measure/Capture.h"
 #include "core/safety/StopCounter.h"
 
@@ -69,8 +70,15 @@ struct RunRequest {
 };
 
 enum class ScriptVerdict { None, Pass, Fail, Indeterminate, Stopped };
-/// "pass", "fail", "indeterminate", "stopped"; empty for None, which is null in JSON.
-[[nodiscard]] std::string_view nameOf(ScriptVerdict verdict) noexcept;
+/// None has no word: it is null in JSON.
+inline constexpr Word<ScriptVerdict> kScriptVerdicts[] = {{"pass", ScriptVerdict::Pass},
+                                                          {"fail", ScriptVerdict::Fail},
+                                                          {"indeterminate", ScriptVerdict::Indeterminate},
+                                                          {"stopped", ScriptVerdict::Stopped}};
+/// Empty for None.
+[[nodiscard]] constexpr std::string_view nameOf(ScriptVerdict verdict) noexcept {
+    return wordFor(kScriptVerdicts, verdict, "");
+}
 
 struct ScriptOutcome {
     ScriptVerdict verdict = ScriptVerdict::None;

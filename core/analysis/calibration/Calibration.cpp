@@ -229,11 +229,7 @@ void warnOfGaps(Calibration& found, const std::vector<Group>& groups) {
     }
 }
 
-constexpr Word<SweepDirection> kSweepDirectionWords[] = {
-    {"", SweepDirection::None}, {"up", SweepDirection::Up}, {"down", SweepDirection::Down}};
 }  // namespace
-
-std::string_view nameOf(SweepDirection direction) noexcept { return wordFor(kSweepDirectionWords, direction); }
 
 Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings, const CalibrationOptions& options) {
     if (!(options.sameLevel >= 0) || !(options.sameLevel < 1)) {

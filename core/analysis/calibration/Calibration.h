@@ -22,12 +22,17 @@
 #include <vector>
 
 #include "core/base/Result.h"
+#include "core/base/Words.h"
 
 namespace tacto {
 
 /// Which way the sweep was going when a reading was taken.
 enum class SweepDirection { None, Up, Down };
-[[nodiscard]] std::string_view nameOf(SweepDirection direction) noexcept;  // "", "up", "down"
+inline constexpr Word<SweepDirection> kSweepDirections[] = {
+    {"", SweepDirection::None}, {"up", SweepDirection::Up}, {"down", SweepDirection::Down}};
+[[nodiscard]] constexpr std::string_view nameOf(SweepDirection direction) noexcept {
+    return wordFor(kSweepDirections, direction);
+}
 
 inline constexpr double kOutlierDistance = 5;  ///< robust standard deviations
 inline constexpr std::size_t kWantedLevels = 11;

@@ -23,9 +23,7 @@ Result<double> numberIn(const NamedRows& rows, std::size_t index, std::string_vi
 
 Result<SweepDirection> directionIn(const NamedRows& rows, std::size_t index) {
     const auto field = rows[index];
-    for (const auto direction : {SweepDirection::None, SweepDirection::Up, SweepDirection::Down}) {
-        if (field == nameOf(direction)) return direction;
-    }
+    if (const auto known = valueFor(kSweepDirections, field)) return *known;
     return rows.refuse("direction '{}'; up, down or nothing was expected", field.substr(0, 40));
 }
 

@@ -10,6 +10,7 @@
 #include "core/analysis/statistics/Binomial.h"
 #include "core/analysis/statistics/InformationTransfer.h"
 #include "core/analysis/statistics/UncertaintyBudget.h"
+#include "core/base/GivenOnce.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {
@@ -44,17 +45,14 @@ Result<void> checkLabels(const std::vector<std::string>& labels) {
         return fail(ErrorCode::InvalidArgument, "{} condition(s); at least two are needed to tell apart",
                     labels.size());
     }
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (labels[i].empty() || isReserved(labels[i])) {
+    for (const auto& label : labels) {
+        if (label.empty() || isReserved(label)) {
             return fail(ErrorCode::InvalidArgument,
-                        "a condition is named \"{}\"; a name other than catch, none and not-sure is accepted",
-                        labels[i]);
-        }
-        if (*indexOf(labels, labels[i]) != i) {
-            return fail(ErrorCode::InvalidArgument, "the condition \"{}\" is named twice; each once was expected",
-                        labels[i]);
+                        "a condition is named \"{}\"; a name other than catch, none and not-sure is accepted", label);
         }
     }
+    if (const auto* second = secondIn(labels))
+        return fail(ErrorCode::InvalidArgument, "{}", givenTwice("the condition \"{}\"", *second));
     return {};
 }
 
@@ -73,10 +71,8 @@ Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std:
             return fail(ErrorCode::InvalidArgument, "trial {} was answered \"{}\"; {} was expected", trial.number,
                         trial.response, fmt::join(columns, ", "));
         }
-        if (!answered.insert(trial.number).second) {
-            return fail(ErrorCode::InvalidArgument, "trial {} was answered twice; one answer was expected",
-                        trial.number);
-        }
+        if (!answered.insert(trial.number).second)
+            return fail(ErrorCode::InvalidArgument, "{}", givenTwice("the answer of trial {}", trial.number));
     }
     return {};
 }

@@ -215,10 +215,6 @@ json toJson(const LoadSafety& found) {
             {"reasons", found.reasons}};
 }
 
-Result<LoadReading> loadReadingFrom(const json& from) {
-    return readingFields().read(from, {.path = "reading"}).map_error(asInvalidArgument);
-}
-
 Result<LoadStep> loadStepFrom(const json& from) {
     static const auto fields = loadStepFields();
     return fields.read(from, {.path = "step"}).map_error(asInvalidArgument);

@@ -17,15 +17,14 @@ namespace tacto {
 /// cli.md: loads, worst_case; and rows, disclosed, verdict, reasons.
 [[nodiscard]] nlohmann::json toJson(const LoadSafety& found);
 
-/// Errors: InvalidArgument naming the member and what is expected there. Null is not measured.
-[[nodiscard]] Result<LoadReading> loadReadingFrom(const nlohmann::json& json);
-/// {"command_v", "interval_s", "reading"}. Errors: as loadReadingFrom().
+/// {"command_v", "interval_s", "reading"}. Errors: InvalidArgument naming the member and what is expected there. Null
+/// is not measured.
 [[nodiscard]] Result<LoadStep> loadStepFrom(const nlohmann::json& json);
 /// {"name", "dmm_ohm", "dmm_u_ohm", "serial", "steps": [{"command_v",
 /// "interval_s", "reading"}],
 ///  "refusals": [{"command_v", "interval_s", "forbidden", "refused", "predicted", "reason", "what"}],
 ///  "undriven": [{"command_v", "interval_s", "reason"}], "not_applicable", "problem"}; all but the name may be left
-///  out. Errors: as loadReadingFrom(); as parseLoad().
+///  out. Errors: as loadStepFrom(); as parseLoad().
 [[nodiscard]] Result<LoadRecord> loadRecordFrom(const nlohmann::json& json);
 /// {"reference_v", "deviation_pct", "expanded_uncertainty_pct", "allowed_pct"}, judged anew.
 [[nodiscard]] Result<SafetyRow> absoluteRowFrom(const nlohmann::json& json);

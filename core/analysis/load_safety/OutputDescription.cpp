@@ -6,6 +6,7 @@
 
 #include "core/analysis/load_safety/LoadSafetyRows.h"
 #include "core/base/QuantityText.h"
+#include "core/base/Words.h"
 #include "core/encoding/PulseTrain.h"
 
 namespace tacto {
@@ -27,17 +28,10 @@ std::string textOf(const Reading& reading, const char* unit, double factor = 1) 
     return measuredText(factor * reading.value, factor * reading.expanded, unit);
 }
 
-const char* waveformOf(PulseShape shape) {
-    switch (shape) {
-        case PulseShape::SymmetricBiphasic:
-            return "trains of biphasic pulses, phases alike";
-        case PulseShape::AsymmetricBiphasic:
-            return "trains of biphasic pulses, recharge phase longer and lower";
-        case PulseShape::Monophasic:
-            return "trains of monophasic pulses";
-    }
-    return "";
-}
+constexpr Word<PulseShape> kWaveforms[] = {
+    {"trains of biphasic pulses, phases alike", PulseShape::SymmetricBiphasic},
+    {"trains of biphasic pulses, recharge phase longer and lower", PulseShape::AsymmetricBiphasic},
+    {"trains of monophasic pulses", PulseShape::Monophasic}};
 
 std::string symmetryOf(const PulseTrain& train) {
     if (train.shape == PulseShape::Monophasic) return "one phase only";
@@ -64,10 +58,9 @@ std::vector<DescribedOutput> describeOutput(const LoadSafetyInput& input) {
     const double output = train.outputDuration().count();
     const double driving = train.pulses * (train.pulseDuration() - Seconds(train.interPhaseGap)).count();
     std::vector<DescribedOutput> out{
-        {"waveform", waveformOf(train.shape), {}},
+        {"waveform", std::string(wordFor(kWaveforms, train.shape)), {}},
         {"shape",
-         fmt::format("rectangular, {} source, leading phase {}",
-                     input.source.drive == Drive::Current ? "current" : "voltage",
+         fmt::format("rectangular, {} source, leading phase {}", nameOf(input.source.drive),
                      train.polarity == Polarity::Positive ? "positive" : "negative"),
          {}},
         {"phase width", scaledText(Seconds(train.phaseWidth).count(), "s", 3), textOf(most.width_s, "s")},

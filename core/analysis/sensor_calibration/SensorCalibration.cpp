@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/analysis/sensor_calibration/RoughnessRepeatability.h"
+#include "core/base/GivenOnce.h"
+#include "core/base/Words.h"
 
 namespace tacto {
 
@@ -40,15 +42,9 @@ Result<void> check(const std::vector<SlidSurface>& surfaces) {
                     "sensor calibration: {} surfaces; a smooth and a rough reference at least are expected",
                     surfaces.size());
     }
+    if (const auto* second = secondIn(surfaces, &SlidSurface::name))
+        return fail(ErrorCode::InvalidArgument, "sensor calibration: {}", givenTwice("surface {}", second->name));
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            if (surfaces[i].name == surfaces[k].name) {
-                return fail(ErrorCode::InvalidArgument,
-                            "sensor calibration: {} appears twice; each surface once is "
-                            "expected",
-                            surfaces[i].name);
-            }
-        }
         const std::size_t least = i < 2 ? kFewestSlides : 1;
         if (surfaces[i].slides.size() < least) {
             return fail(ErrorCode::InvalidArgument, "sensor calibration: {} slides over {}; at least {} are expected",
@@ -128,21 +124,14 @@ void rank(const std::vector<SlidSurface>& surfaces, SensorCalibration& found) {
     }
 }
 
+constexpr Word<SensorFeature> kFeatureKeys[] = {{"h", SensorFeature::H},
+                                                {"h_abs", SensorFeature::HAbs},
+                                                {"v_static", SensorFeature::VStatic},
+                                                {"v_dynamic", SensorFeature::VDynamic}};
+
 }  // namespace
 
-std::string_view keyOf(SensorFeature feature) noexcept {
-    switch (feature) {
-        case SensorFeature::H:
-            return "h";
-        case SensorFeature::HAbs:
-            return "h_abs";
-        case SensorFeature::VStatic:
-            return "v_static";
-        case SensorFeature::VDynamic:
-            break;
-    }
-    return "v_dynamic";
-}
+std::string_view keyOf(SensorFeature feature) noexcept { return wordFor(kFeatureKeys, feature); }
 
 double valueOf(const SlideReading& slide, SensorFeature feature) noexcept {
     switch (feature) {

@@ -78,13 +78,13 @@ namespace {
 constexpr Word<Distribution> kDistributionWords[] = {{"normal", Distribution::Normal},
                                                      {"Student's t", Distribution::Student},
                                                      {"rectangular", Distribution::Rectangular}};
+constexpr Word<CoverageMethod> kCoverageMethods[] = {{"Welch-Satterthwaite", CoverageMethod::WelchSatterthwaite},
+                                                     {"Monte Carlo", CoverageMethod::MonteCarlo}};
 }  // namespace
 
 std::string_view nameOf(Distribution distribution) noexcept { return wordFor(kDistributionWords, distribution); }
 
-std::string_view nameOf(CoverageMethod method) noexcept {
-    return method == CoverageMethod::MonteCarlo ? "Monte Carlo" : "Welch-Satterthwaite";
-}
+std::string_view nameOf(CoverageMethod method) noexcept { return wordFor(kCoverageMethods, method); }
 
 Result<UncertaintyBudget> combine(std::vector<Contribution> rows, const BudgetOptions& options) {
     if (rows.empty()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 #include "core/formats/csv/CsvNumber.h"
 
@@ -163,12 +164,9 @@ Result<std::vector<std::string>> namesIn(const CsvLine& line, std::string_view f
                         "{}:{}: column {} has no name; a header line naming every column was expected", file,
                         line.number, i + 1);
         }
-        const auto before = names.begin() + static_cast<std::ptrdiff_t>(i);
-        if (std::find(names.begin(), before, names[i]) != before) {
-            return fail(ErrorCode::ParseError, "{}:{}: column '{}' appears twice; names must differ", file, line.number,
-                        names[i]);
-        }
     }
+    if (const auto* second = secondIn(names))
+        return fail(ErrorCode::ParseError, "{}:{}: {}", file, line.number, givenTwice("column '{}'", *second));
     return names;
 }
 

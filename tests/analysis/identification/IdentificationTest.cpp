@@ -178,9 +178,9 @@ TEST(Identification, RefusesWhatIsNoAnswer) {
     EXPECT_EQ(refusal({trialOf(3, "hard", "rough-high")}),
               "trial 3 presents \"hard\"; smooth-low, smooth-high, rough-low, rough-high or catch was expected");
     EXPECT_EQ(refusal({trialOf(3, "rough-high", "none"), trialOf(3, "rough-high", "rough-high")}),
-              "trial 3 was answered twice; one answer was expected");
+              "the answer of trial 3 is given twice; once is expected");
     EXPECT_EQ(refusal({}, {"a"}), "1 condition(s); at least two are needed to tell apart");
-    EXPECT_EQ(refusal({}, {"a", "b", "a"}), "the condition \"a\" is named twice; each once was expected");
+    EXPECT_EQ(refusal({}, {"a", "b", "a"}), "the condition \"a\" is given twice; once is expected");
     EXPECT_EQ(refusal({}, {"a", "none"}),
               "a condition is named \"none\"; a name other than catch, none and not-sure is accepted");
 }

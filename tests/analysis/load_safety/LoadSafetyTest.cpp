@@ -284,11 +284,14 @@ TEST(JudgeUpper, HasAGuardBandOnEitherSide) {
 }
 
 TEST(LoadSafetyJson, ReadsBackWhatAScriptCarries) {
-    const auto reading = readLoad(loadCaptures({}), ExpectedTrain{}).value();
-    const auto back = loadReadingFrom(toJson(reading)).value();
-    EXPECT_EQ(toJson(back)["rms_5s_ma"], toJson(reading)["rms_5s_ma"]);
-    EXPECT_EQ(toJson(back)["imbalance_u"], toJson(reading)["imbalance_u"]);
-    EXPECT_FALSE(loadReadingFrom({{"peak_v", "much"}}));
+    const auto reading = toJson(readLoad(loadCaptures({}), ExpectedTrain{}).value());
+    const auto stepWith = [](nlohmann::json of) {
+        return nlohmann::json{{"command_v", 10}, {"interval_s", 0.5}, {"reading", of}};
+    };
+    const auto back = toJson(loadStepFrom(stepWith(reading)).value().reading);
+    EXPECT_EQ(back["rms_5s_ma"], reading["rms_5s_ma"]);
+    EXPECT_EQ(back["imbalance_u"], reading["imbalance_u"]);
+    EXPECT_FALSE(loadStepFrom(stepWith({{"peak_v", "much"}})));
     EXPECT_FALSE(loadRecordFrom({{"name", "a banana"}}));
     EXPECT_FALSE(loadRecordFrom({{"name", "1 kohm"}, {"steps", 3}}));
     EXPECT_FALSE(tripTrialFrom({{"name", "open"}, {"tripped", "yes"}}));

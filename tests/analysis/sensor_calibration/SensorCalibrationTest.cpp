@@ -152,7 +152,7 @@ TEST(SensorCalibration, RefusesReferencesThatAreNone) {
                                                                       {{a, few}, "2 slides over few"},
                                                                       {{b, a}, "Ra of the rough reference a is 1.6"},
                                                                       {{a, unknown}, "nan"},
-                                                                      {{a, b, a}, "a appears twice"}};
+                                                                      {{a, b, a}, "surface a is given twice"}};
     for (const auto& [surfaces, message] : wrong) {
         const auto found = calibrateSensor(surfaces, {}, restOf(1e-4));
         ASSERT_FALSE(found) << message;

@@ -40,7 +40,7 @@ TEST(ScienceModeReadBack, ImpedanceIsThatAtTheEndOfTheLeadingPhase) {
     for (const double width : {50.0, 200.0, 333.0, 1000.0, 4095.0}) {
         for (const auto& [name, load] : benchLoads()) {
             if (load.kind == LoadKind::Open || load.kind == LoadKind::Short) continue;
-            const double mA = staticMagnitude(load).value() > 20e3 ? 0.5 : 4;
+            const double mA = (load.series + load.parallel).value() > 20e3 ? 0.5 : 4;
             const DriveSegment leading{Drive::Current, mA * 1e-3, mA * 1e-3, width * 1e-6};
             const double wanted = effectiveImpedance(load, leading).value();
             const auto read = reading(mA, load, Measurement::Voltage, width);

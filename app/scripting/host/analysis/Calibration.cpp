@@ -131,13 +131,10 @@ Result<std::vector<CalibrationReading>> readingsFrom(const Arguments& arguments,
         const Json measured = row.value("measured", Json());
         if (measured.is_number()) reading.measured = measured.get<double>();
         const Json direction = row.value("direction", Json(""));
-        bool known = false;
-        for (const auto one : {SweepDirection::None, SweepDirection::Up, SweepDirection::Down}) {
-            if (direction != nameOf(one)) continue;
-            reading.direction = one;
-            known = true;
-        }
+        const auto known =
+            direction.is_string() ? valueFor(kSweepDirections, direction.get_ref<const std::string&>()) : std::nullopt;
         if (!known) return arguments.wrong("direction", direction, "\"up\", \"down\" or \"\"");
+        reading.direction = *known;
         readings.push_back(reading);
     }
     return readings;

@@ -7,6 +7,7 @@
 #include "app/scripting/host/bench/BenchObject.h"
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
 namespace tacto::host::bench {
@@ -86,10 +87,9 @@ Result<void> checkSurfaces(const std::vector<GivenSurface>& surfaces) {
             return fail(ErrorCode::InvalidArgument, "Rz of {} is {} um; at least its Ra, {} um, is expected",
                         surface.name, surface.rz_um, surface.ra_um);
         }
-        if (std::ranges::count(surfaces, surface.name, &GivenSurface::name) > 1) {
-            return fail(ErrorCode::InvalidArgument, "{} is named twice; each surface once is expected", surface.name);
-        }
     }
+    if (const auto* second = secondIn(surfaces, &GivenSurface::name))
+        return fail(ErrorCode::InvalidArgument, "{}", givenTwice("surface {}", second->name));
     if (!(surfaces[1].ra_um > surfaces[0].ra_um)) {
         return fail(ErrorCode::InvalidArgument,
                     "Ra of the rough reference is {} um; more than the smooth one's, {} um, is expected",

@@ -1,9 +1,0 @@
-#include "app/cli/Profiles.h"
-
-namespace tacto::cli {
-
-Result<Profile> profileOption(const QCommandLineParser& parser) {
-    return parser.isSet("profile") ? loadProfile(parser.value("profile").toStdString()) : shippedProfile();
-}
-
-}  // namespace tacto::cli
