@@ -21,7 +21,7 @@ void declareDevices(QCommandLineParser& parser) {
 
 TextTable devicesTable() { return TextTable({"", "", ""}); }
 
-void add(TextTable& table, const DeviceIdentity& device, const char* mark) {
+void addDevice(TextTable& table, const DeviceIdentity& device, const char* mark) {
     table.add(
         {mark + device.uri, std::string(nameOf(device.role)), device.name + (device.simulated ? "  (simulated)" : "")});
     if (!device.obstacle.empty()) table.addLine("    " + device.obstacle);
@@ -45,7 +45,7 @@ nlohmann::json toJson(const std::vector<DeviceIdentity>& found) {
 void watch(const Registry& registry, std::vector<DeviceIdentity> known, const SignalStop& interrupts) {
     const auto addMissing = [](TextTable& table, const auto& from, const auto& in, const char* mark) {
         for (const auto& device : from) {
-            if (std::ranges::find(in, device) == in.end()) add(table, device, mark);
+            if (std::ranges::find(in, device) == in.end()) addDevice(table, device, mark);
         }
     };
     while (!interrupts.signalled()) {
@@ -75,7 +75,7 @@ int runDevices(const QCommandLineParser& parser) {
         return kDone;
     }
     auto table = devicesTable();
-    for (const auto& device : found) add(table, device, parser.isSet("watch") ? "  " : "");
+    for (const auto& device : found) addDevice(table, device, parser.isSet("watch") ? "  " : "");
     table.print();
     if (parser.isSet("watch")) {
         std::fflush(stdout);

@@ -6,6 +6,7 @@
 #include "app/scripting/ShippedResources.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/Csv.h"
+#include "core/base/JsonText.h"
 #include "core/session/Digest.h"
 
 namespace tacto {
@@ -68,7 +69,7 @@ Result<ShippedLimits> shippedLimits() {
     const auto files = limitFiles();
     if (!files) return failure(files);
     for (const auto& file : *files) {
-        const auto text = readTextFile(file);
+        const auto text = readTextFile(file, JsonLimits{}.bytes);
         if (!text) return failure(text);
         const auto digest = sha256Hex(*text);
         if (std::ranges::find(digests, digest) != digests.end()) continue;

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include "tests/cli/Shape.h"
 
@@ -34,6 +37,14 @@ TEST(Devices, AreListedAsTextToo) {
     EXPECT_THAT(ran.out, HasSubstr("sim:stimulator"));
     EXPECT_THAT(ran.out, HasSubstr("recording:"));
     EXPECT_THAT(ran.out, HasSubstr("capture:"));
+    std::istringstream lines(ran.out);
+    std::set<std::ptrdiff_t> columns;
+    const std::regex device(R"(^  \S+ +(sensor|stimulator|oscilloscope|massager) )");
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch found;
+        if (std::regex_search(line, found, device)) columns.insert(found.position(1));
+    }
+    EXPECT_EQ(columns.size(), 1U) << ran.out;
 }
 
 Json protocolNamed(const Json& all, const std::string& name) {

@@ -19,7 +19,9 @@ Json sampleOf(const HostParameter& parameter) {
     switch (parameter.type) {
         case ValueType::Number:
         case ValueType::Whole:
-            return parameter.max < 1e300 ? parameter.max : parameter.min > -1e300 ? parameter.min + 1 : 1;
+            return parameter.numbers.high < 1e300   ? parameter.numbers.high
+                   : parameter.numbers.low > -1e300 ? parameter.numbers.low + 1
+                                                    : 1;
         case ValueType::Text:
             return parameter.words.empty() ? "a" : std::string(parameter.words.front());
         case ValueType::Flag:
@@ -91,10 +93,12 @@ TEST(Arguments, AreRefusedForWrongTypeNanInfinityAndRangeInOneSentence) {
                 case ValueType::Whole:
                     bad = {infinity, -infinity, "x", Json::object(), true};
                     if (!parameter.mayBeNull) bad.push_back(nan);
-                    if (parameter.max < 1e300) bad.push_back(parameter.max + std::max(1.0, std::abs(parameter.max)));
-                    if (parameter.max < 1e300) bad.push_back(1e300);
-                    if (parameter.min > -1e300) bad.push_back(parameter.min - std::max(1.0, std::abs(parameter.min)));
-                    if (parameter.type == ValueType::Whole) bad.push_back(parameter.min + 0.5);
+                    if (parameter.numbers.high < 1e300)
+                        bad.push_back(parameter.numbers.high + std::max(1.0, std::abs(parameter.numbers.high)));
+                    if (parameter.numbers.high < 1e300) bad.push_back(1e300);
+                    if (parameter.numbers.low > -1e300)
+                        bad.push_back(parameter.numbers.low - std::max(1.0, std::abs(parameter.numbers.low)));
+                    if (parameter.type == ValueType::Whole) bad.push_back(parameter.numbers.low + 0.5);
                     break;
                 case ValueType::Text:
                     bad = {1, true, Json::array()};
@@ -157,8 +161,8 @@ TEST(Arguments, WholeNumbersFitAnInt) {
     for (const auto& function : hostFunctions()) {
         for (const auto& parameter : passedTo(function)) {
             if (parameter.type != ValueType::Whole) continue;
-            EXPECT_GE(parameter.min, std::numeric_limits<int>::lowest()) << function.fullName();
-            EXPECT_LE(parameter.max, std::numeric_limits<int>::max()) << function.fullName();
+            EXPECT_GE(parameter.numbers.low, std::numeric_limits<int>::lowest()) << function.fullName();
+            EXPECT_LE(parameter.numbers.high, std::numeric_limits<int>::max()) << function.fullName();
         }
     }
 }

@@ -78,6 +78,13 @@ TEST_F(Shipped, AnotherFileCannotTakeTheirPlace) {
     EXPECT_THAT(refusal(), HasSubstr("cannot replace it")) << "another file name is no other id";
 }
 
+TEST_F(Shipped, AFileOfLimitsIsNotReadBeyondWhatASetHas) {
+    RecordProperty("hazard", "H10");
+    const auto huge = folder_.write("limits/huge.json", "{}");
+    std::filesystem::resize_file(huge, std::uintmax_t{1} << 40);  // it holds no more than before
+    EXPECT_THAT(refusal(), HasSubstr("huge.json is too large; at most 1000000 bytes"));
+}
+
 TEST_F(Shipped, AnotherSetCanOnlyTightenAndIsNamed) {
     RecordProperty("hazard", "H1");
     addSet("lab", 141);
