@@ -33,7 +33,10 @@ ControlLoop::ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::
       judge_(parts_.mode, parts_.gate, parts_.interlock, load_, sourceOf(parts_.stimulator)),
       journal_(parts_.recorder, parts_.frameStream, parts_.sensorStreams),
       taps_(parts_.tap),
-      finger_(std::move(finger), parts_.sensorReport, journal_, taps_) {}
+      finger_(std::move(finger), parts_.sensorReport, journal_, taps_),
+      reading_(parts_.stimulator, load_, judge_),
+      dispatch_({parts_.gate, parts_.interlock, order_, arming_, load_, judge_, journal_, exposure_, parts_.stimulator,
+                 parts_.massager}) {}
 
 void ControlLoop::arm(ArmCommand command) {
     arming_.expect();
@@ -42,7 +45,7 @@ void ControlLoop::arm(ArmCommand command) {
 
 void ControlLoop::present(Presentation presentation) {
     presentation_.expect();
-    pausedSince_.store(paused_.load(std::memory_order_acquire), std::memory_order_release);
+    pausedSince_.store(dispatch_.paused(), std::memory_order_release);
     inbox_.present(std::move(presentation));
 }
 
@@ -65,7 +68,7 @@ void ControlLoop::wakeFromSilence(Instant now) noexcept {
     if (mayPutOut(parts_.interlock.state()))
         return trip(FaultCause::LoopSilent, "the control loop was silent for more than 100 ms", now);
     parts_.gate.latchStop();
-    outputsOff();
+    dispatch_.forceOff();
 }
 
 void ControlLoop::wakeFromSleep(Instant now, Instant slept) noexcept {
@@ -88,7 +91,7 @@ void ControlLoop::endOrder(Instant now, const char* kind, std::string_view why) 
     order_.end(why);
     parts_.interlock.disarm(FixedText<159>(why).c_str());
     parts_.gate.latchStop();
-    outputsOff();
+    dispatch_.forceOff();
     drive_ = {};
     journal_.orderEnded(now, kind, why);
 }
@@ -109,15 +112,14 @@ void ControlLoop::step(Instant now) noexcept {
     judgeReports();
     if (arming_.checkDue()) postCheckOfArming(now);
     arming_.armOnCapture(now);
-    watchForSilence(now);
+    trip(reading_.silence(now), now);
     updateCommand(now);
     levels_.serve(parts_.gate);
     if (presentation_.active())
         goOnPresenting(now);
-    else if (parts_.massager != nullptr)
-        sendBurst(now);
     else
-        sendTrain(now);
+        sendDue(now);
+    if (dispatch_.takeBegan()) seenState_ = InterlockState::Delivering;
     publish(now);
 }
 
@@ -138,7 +140,8 @@ void ControlLoop::takeCommands(Instant now) noexcept {
     }
     if (taken->presentation) presentation_.begin(std::move(*taken->presentation), *planner_);
     if (taken->confirmed) arming_.confirm(std::move(*taken->confirmed));
-    if (taken->load && parts_.stimulator != nullptr) trip(judge_.load(*taken->load, mayPost(false), now), now);
+    if (taken->load && parts_.stimulator != nullptr)
+        trip(judge_.load(*taken->load, dispatch_.mayPost(false), now), now);
     if (taken->amplitude && parts_.stimulator != nullptr) trip(judge_.amplitude(*taken->amplitude), now);
 }
 
@@ -171,19 +174,8 @@ void ControlLoop::postCheckOfArming(Instant now) noexcept {
     if (parts_.stimulator != nullptr && !parts_.stimulator->idle()) return;  // an earlier train is still being read
     auto check = arming_.checkPulse(now, parts_.stimulator != nullptr);
     if (!check) return;
-    if (!mayPost(true)) return arming_.stop();
-    postCheck(std::move(*check), now);
-}
-
-/// Asked after an approval was granted and before it is posted. A stop raises its counter and disarms before it voids
-/// approvals, so an approval made after the voiding is held back here, and one made before it is void. The counter
-/// counts where the stop came before the interlock had anything to disarm.
-bool ControlLoop::mayPost(bool isCheck) const noexcept {
-    if (order_.stopped()) return false;
-    const auto state = parts_.interlock.state();
-    if (isCheck && arming_.active()) return state == InterlockState::Checking;
-    return (state == InterlockState::Armed || state == InterlockState::Delivering) &&
-           !paused_.load(std::memory_order_acquire);
+    if (!dispatch_.mayPost(true)) return arming_.stop();
+    dispatch_.postCheck(std::move(*check), now, shown_);
 }
 
 void ControlLoop::judgeReports() noexcept {
@@ -199,7 +191,7 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
     taps_.push(report);
     presentation_.read(report);
     if (report.outcome == TrainOutcome::LoopSilent) {
-        if (mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
+        if (dispatch_.mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
         return;
     }
     if (report.outcome == TrainOutcome::Voided) {
@@ -221,7 +213,7 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
     }
     shown_.imbalance = report.imbalance;
     shown_.imbalanceUncertainty = report.imbalanceUncertainty;
-    trip(judge_.delivered(report, mayPost(report.isCheck)), now);
+    trip(judge_.delivered(report, dispatch_.mayPost(report.isCheck)), now);
 }
 
 void ControlLoop::judgeCheck(const TrainReport& report) noexcept {
@@ -239,7 +231,7 @@ void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
     taps_.push(report);
     presentation_.read(report);
     if (report.outcome == TrainOutcome::LoopSilent) {
-        if (mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
+        if (dispatch_.mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
         return;
     }
     const bool delivered = report.outcome == TrainOutcome::Delivered;
@@ -250,15 +242,10 @@ void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
     shown_.intensity = report.amplitude;
 }
 
-void ControlLoop::watchForSilence(Instant now) noexcept {
-    if (parts_.stimulator == nullptr || parts_.stimulator->idle()) return;
-    trip(judge_.silence(parts_.stimulator->trainEnd(), now), now);
-}
-
 void ControlLoop::updateCommand(Instant now) noexcept {
     const auto state = parts_.interlock.state();
     const bool permitted = state == InterlockState::Armed || state == InterlockState::Delivering;
-    if (!permitted || paused_.load(std::memory_order_acquire) || drive_.source == DriveSource::Off) {
+    if (!permitted || dispatch_.paused() || drive_.source == DriveSource::Off) {
         planner_->wantNothing();
         return;
     }
@@ -298,90 +285,31 @@ RoughnessFlags ControlLoop::flags() noexcept {
     return finger_.flags();
 }
 
-void ControlLoop::sendTrain(Instant now) noexcept {
-    if (parts_.stimulator == nullptr || !parts_.stimulator->idle()) return;
-    const auto due = planner_->due();
-    if (!due || *due >= now + kPeriod || !mayPost(false)) return;
-    if (const auto until = readingUntil(); until && now > *until) return renewReading(now);
-    planner_->armedOn(load_.reference);
-    auto planned = planner_->plan(now, load_.impedance);
-    if (!planned) return refused(now, planned.error().message);
-    if (!beginDelivery()) return;
-    journal_.planned(*planned, shown_.roughness, shown_.pressure);
-    judge_.expect(planned->expected);
-    post(std::move(planned->approved), planned->onset, planned->expected);
-}
-
-void ControlLoop::sendBurst(Instant now) noexcept {
-    if (!parts_.massager->idle()) return;
-    const auto due = planner_->due();
-    if (!due || *due >= now + kPeriod || !mayPost(false)) return;
-    auto planned = planner_->planBurst(now);
-    if (!planned) return refused(now, planned.error().message);
-    if (!beginDelivery()) return;
-    journal_.planned(*planned, shown_.roughness, shown_.pressure);
-    parts_.massager->post(std::move(planned->approved), planned->onset, planned->command.interval);
-}
-
-/// When the reading of |Z| grows old; nothing where none is taken.
-std::optional<Instant> ControlLoop::readingUntil() const noexcept {
-    if (parts_.stimulator == nullptr || !parts_.stimulator->device().traits().readsBack) return std::nullopt;
-    return load_.impedanceAt + Interlock::kImpedanceAge;
+void ControlLoop::sendDue(Instant now) noexcept {
+    if (!dispatch_.isDue(*planner_, now, kPeriod)) return;
+    if (parts_.massager == nullptr && reading_.isOld(now)) return renewReading(now);
+    const auto sent = parts_.massager != nullptr ? dispatch_.sendBurst(*planner_, now, shown_)
+                                                 : dispatch_.sendTrain(*planner_, now, shown_);
+    if (!sent) refused(now, sent.error().message);
 }
 
 /// One check pulse; the train follows when it was judged.
 void ControlLoop::renewReading(Instant now) noexcept {
-    auto check = parts_.gate.approveCheck(now);
-    if (!check) return trip(FaultCause::LimitBroken, check.error().message, now);
-    if (!mayPost(true)) return;
-    postCheck(std::move(*check), now);
-}
-
-bool ControlLoop::outputIdle() const noexcept {
-    return (parts_.stimulator == nullptr || parts_.stimulator->idle()) &&
-           (parts_.massager == nullptr || parts_.massager->idle());
+    if (const auto sent = dispatch_.sendCheck(now, shown_); !sent)
+        trip(FaultCause::LimitBroken, sent.error().message, now);
 }
 
 void ControlLoop::goOnPresenting(Instant now) noexcept {
     const auto reason = parts_.interlock.reason();
-    const bool paused = pausedSince_.load(std::memory_order_acquire) || paused_.load(std::memory_order_acquire);
+    const bool paused = pausedSince_.load(std::memory_order_acquire) || dispatch_.paused();
     const auto due = presentation_.next(
-        {now, parts_.interlock.state(), reason.view(), order_.stopped(), paused, outputIdle(), readingUntil()});
+        {now, parts_.interlock.state(), reason.view(), order_.stopped(), paused, dispatch_.idle(), reading_.until()});
     if (due == PresentationRun::Due::Check) return renewReading(now);
     // Also before an empty one: what the bench shows does not tell them apart.
-    if (!presentation_.begun() || !beginDelivery()) return;  // the next turn finds out why
-    if (due == PresentationRun::Due::Train) sendPresented(now);
-}
-
-void ControlLoop::sendPresented(Instant now) noexcept {
-    auto planned = presentation_.plan(*planner_, parts_.gate, now);
-    if (!planned) return refused(now, planned.error().message);
-    if (!mayPost(false)) return;
-    presentation_.posted();
-    if (auto* burst = std::get_if<PlannedVibration>(&*planned))
-        return parts_.massager->post(std::move(burst->approved), burst->onset, burst->interval);
-    auto& train = std::get<PlannedLevel>(*planned);
-    journal_.planned(train);
-    judge_.expect(train.expected);
-    post(std::move(train.approved), train.onset, train.expected);
-}
-
-/// False when a stop came in between.
-bool ControlLoop::beginDelivery() noexcept {
-    if (parts_.interlock.state() == InterlockState::Armed) {
-        if (const auto begun = parts_.interlock.beginDelivery(); !begun) return false;
-        seenState_ = InterlockState::Delivering;
-    }
-    return mayPost(false);
-}
-
-void ControlLoop::post(ApprovedTrain&& train, Instant onset, std::optional<double> expected) noexcept {
-    const auto& amplitude = train.train().amplitude;
-    const double programmed = siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1);
-    // Check pulses too: a capture of one belongs to no train that was delivered shortly before.
-    shown_.programmed[posted_++ % shown_.programmed.size()] = {onset, programmed, expected.value_or(programmed)};
-    parts_.stimulator->post(std::move(train), onset, !expected);
-    exposure_.lookNext();
+    if (!presentation_.begun() || !dispatch_.beginDelivery()) return;  // the next turn finds out why
+    if (due != PresentationRun::Due::Train) return;
+    if (const auto sent = dispatch_.sendPresented(presentation_, *planner_, now, shown_); !sent)
+        refused(now, sent.error().message);
 }
 
 void ControlLoop::refused(Instant now, std::string_view why) noexcept {
@@ -392,14 +320,9 @@ void ControlLoop::refused(Instant now, std::string_view why) noexcept {
     journal_.refused(now, why);
 }
 
-void ControlLoop::outputsOff() noexcept {
-    if (parts_.stimulator != nullptr) parts_.stimulator->forceOff();
-    if (parts_.massager != nullptr) parts_.massager->forceOff();
-}
-
 void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now) noexcept {
     parts_.gate.latchStop();
-    outputsOff();
+    dispatch_.forceOff();
     parts_.interlock.fault(cause, reason);  // keeps it in a file, whose disk may be slow
     faults_.fetch_add(1, std::memory_order_acq_rel);
     journal_.fault(now, reason);
@@ -409,7 +332,7 @@ void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now) n
 void ControlLoop::publish(Instant now) noexcept {
     shown_.at = now;
     shown_.state = parts_.interlock.state();
-    shown_.paused = paused_.load(std::memory_order_relaxed);
+    shown_.paused = dispatch_.paused();
     shown_.driving = drive_.source;
     const auto& command = planner_->command();
     shown_.amplitude_v = command ? command->amplitude.value() : NAN;

@@ -3,8 +3,8 @@
 //
 // It is the gate's only caller, and the only one to move the interlock forward; any thread may stop it. Its parts: the
 // inbox of what other threads set, the participant's word on levels, the order and the presentation that it carries
-// out, the finger, the arming sequence, the judge of what was delivered, the exposure, the journal, and the taps of
-// displays.
+// out, the finger, the arming sequence, the judge of what was delivered, the reading of |Z| and its age, the dispatch
+// of trains, the exposure, the journal, and the taps of displays.
 //
 // Thread-safety: step() has one caller. arm(), armed(), drive(), replaceFinger() and replacePlanner() may be called
 // from another thread; the newest setting wins and takes effect in the next step. telemetry() any thread.
@@ -26,8 +26,10 @@
 #include "core/bench/MassagerSession.h"
 #include "core/bench/OwnerWatchdog.h"
 #include "core/bench/PresentationRun.h"
+#include "core/bench/ReadingWatch.h"
 #include "core/bench/SampleTaps.h"
 #include "core/bench/StimulatorSession.h"
+#include "core/bench/TrainDispatch.h"
 
 namespace tacto {
 
@@ -71,7 +73,7 @@ public:
     /// Where the participant's word on levels is handed in.
     [[nodiscard]] LevelRequests& levels() noexcept { return levels_; }
     void pauseOutput(bool paused) noexcept {
-        paused_.store(paused, std::memory_order_release);
+        dispatch_.pause(paused);
         if (paused) pausedSince_.store(true, std::memory_order_release);
     }
     /// The flags of the one before stay, but for those of calibration where R was not shown and drove nothing.
@@ -119,27 +121,16 @@ private:
     void wakeFromSleep(Instant now, Instant slept) noexcept;
     void watchOwner(Instant now) noexcept;
     void endOrder(Instant now, const char* kind, std::string_view why) noexcept;
-    void outputsOff() noexcept;
     void takeCommands(Instant now) noexcept;
     void postCheckOfArming(Instant now) noexcept;
     void judgeReports() noexcept;
     void judge(const TrainReport& report) noexcept;
     void judgeBurst(const TrainReport& report) noexcept;
-    [[nodiscard]] bool mayPost(bool isCheck) const noexcept;
     void judgeCheck(const TrainReport& report) noexcept;
-    void watchForSilence(Instant now) noexcept;
     void updateCommand(Instant now) noexcept;
-    void sendTrain(Instant now) noexcept;
-    void sendBurst(Instant now) noexcept;
+    void sendDue(Instant now) noexcept;
     void goOnPresenting(Instant now) noexcept;
-    void sendPresented(Instant now) noexcept;
-    [[nodiscard]] bool outputIdle() const noexcept;
-    [[nodiscard]] std::optional<Instant> readingUntil() const noexcept;
     void renewReading(Instant now) noexcept;
-    [[nodiscard]] bool beginDelivery() noexcept;
-    /// `expected` is the amplitude that should come out, in V or mA; nothing for a check pulse: what is programmed.
-    void post(ApprovedTrain&& train, Instant onset, std::optional<double> expected) noexcept;
-    void postCheck(ApprovedTrain&& check, Instant onset) noexcept { post(std::move(check), onset, std::nullopt); }
     void refused(Instant now, std::string_view why) noexcept;
     void trip(FaultCause cause, std::string_view reason, Instant now) noexcept;
     void trip(const std::optional<LoopFault>& fault, Instant now) noexcept {
@@ -148,7 +139,6 @@ private:
     void publish(Instant now) noexcept;
 
     Parts parts_;
-    std::atomic<bool> paused_{false};
     std::atomic<bool> pausedSince_{false};  // the presentation was asked for
     std::atomic<std::uint64_t> refusals_{0};
     std::atomic<std::uint64_t> faults_{0};
@@ -166,8 +156,9 @@ private:
     LoopJournal journal_;
     SampleTaps taps_;
     FingerWatch finger_;
-    Instant asleepSeen_{0};   // of the clock, when it was looked at last after a silence
-    std::size_t posted_ = 0;  // trains, for the ring of shown_
+    ReadingWatch reading_;
+    TrainDispatch dispatch_;
+    Instant asleepSeen_{0};  // of the clock, when it was looked at last after a silence
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;

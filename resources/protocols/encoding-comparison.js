@@ -6,13 +6,14 @@
 //
 // Results: { default, encodings: [{ name, assignment, curve, conditions, pairs, smallest_amplitude_jnd,
 // smallest_interval_jnd, smallest_pair_jnd, mahalanobis_min, amplitude_variation_max, interval_variation_max, accuracy,
-// separable, neighbours, levels, gradual_jnd, abrupt_jnd }], differences, asymmetry_jnd, conclusion, reference }; verdict null: a
-// comparison has none unless something was not measured (indeterminate).
+// separable, neighbours, levels, gradual_jnd, abrupt_jnd }], differences, asymmetry_jnd, conclusion, reference };
+// verdict null: a comparison has none unless something was not measured (indeterminate).
 protocol({
   title: "Encoding comparison",
   purpose: "Both assignments and the three curves side by side, in just-noticeable differences",
   kind: "encoding-comparison",
   needs: ["stimulator", "oscilloscope"],
+  view: "trials",
   parameters: {
     repeats: { label: "Repeats per condition", type: "integer", min: 2, max: 200, value: 20 },
     level_repeats: { label: "Repeats per level in between", type: "integer", min: 2, max: 100, value: 3 },
@@ -83,7 +84,8 @@ function measureAll(trials, encoding) {
 // What was not measured has no largest: Math.max takes null for 0.
 const largest = (values) => (values.some((x) => x === null || !isFinite(x)) ? null : Math.max.apply(null, values));
 const best = (pair) => largest([pair.amplitude_jnd, pair.interval_jnd]);
-const smallest = (values) => (values.length === 0 || values.some((x) => x === null || !isFinite(x)) ? null : Math.min.apply(null, values));
+const smallest = (values) => (values.length === 0 || values.some((x) => x === null || !isFinite(x)) ? null
+  : Math.min.apply(null, values));
 // Of one axis: pairs that share its level are none of its business.
 const smallestApart = (pairs, key) => smallest(pairs.map((pair) => pair[key]).filter((x) => x === null || x > 1));
 const mean = (values) => (smallest(values) === null ? null : values.reduce((sum, x) => sum + x, 0) / values.length);
@@ -110,7 +112,8 @@ function compare(p, encoding, trials, between) {
   const sweep = analysis.transitions({ traverse_s: p.traverse_s });
   bench.arm({ load: p.load });
   const found = analysis.separability(measureAll(trials, encoding), { conditions: NAMES });
-  const inBetween = analysis.separability(measureAll(between, encoding), { conditions: levels().map((each) => each.name) });
+  const inBetween = analysis.separability(measureAll(between, encoding),
+    { conditions: levels().map((each) => each.name) });
   bench.disarm();
   return {
     name: encoding.name,
@@ -137,7 +140,8 @@ function compare(p, encoding, trials, between) {
 const shown = (x) => (x === null || !isFinite(x) ? null : Math.round(1000 * x) / 1000);
 const inPercent = (x) => (x === null ? null : 100 * x);
 
-// The distances that a curve gives, of one assignment: by what is felt as amplitude and as interval, not by what set it.
+// The distances that a curve gives, of one assignment: by what is felt as amplitude and as interval, not by what sets
+// it.
 function distancesOf(each) {
   const n = each.neighbours, swapped = each.assignment === "swapped";
   return {
@@ -164,7 +168,8 @@ function conditionRow(each) {
   const row = { curve: each.curve };
   for (const condition of each.conditions) {
     const known = condition.amplitude_v.mean !== null && condition.interval_s.mean !== null;
-    row[condition.name] = known ? condition.amplitude_v.mean.toFixed(2) + " V, " + condition.interval_s.mean.toFixed(3) + " s" : null;
+    row[condition.name] = known ? condition.amplitude_v.mean.toFixed(2) + " V, " +
+      condition.interval_s.mean.toFixed(3) + " s" : null;
   }
   return row;
 }
@@ -193,8 +198,10 @@ function differenceRow(each, base) {
   const row = { encoding: each.name };
   each.conditions.forEach((condition, i) => {
     const was = base.conditions[i];
-    row[condition.name + " amplitude_jnd"] = analysis.difference("amplitude", was.amplitude_v.mean, condition.amplitude_v.mean);
-    row[condition.name + " interval_jnd"] = analysis.difference("interval", was.interval_s.mean, condition.interval_s.mean);
+    row[condition.name + " amplitude_jnd"] = analysis.difference("amplitude", was.amplitude_v.mean,
+      condition.amplitude_v.mean);
+    row[condition.name + " interval_jnd"] = analysis.difference("interval", was.interval_s.mean,
+      condition.interval_s.mean);
   });
   row.pair_jnd = each.smallest_pair_jnd - base.smallest_pair_jnd;
   row.neighbours_min_jnd = each.neighbours.min_jnd - base.neighbours.min_jnd;
@@ -209,7 +216,8 @@ function movedRow(each, base) {
   const row = { curve: each.curve };
   for (const name of NAMES) {
     const moved = ["amplitude", "interval"].map((axis) => difference[name + " " + axis + "_jnd"]);
-    row[name] = moved.includes(null) ? null : moved.map((x) => (shown(x) > 0 ? "+" : "") + (shown(x) || 0).toFixed(2)).join(", ");
+    row[name] = moved.includes(null) ? null : moved.map((x) => (shown(x) > 0 ? "+" : "") +
+      (shown(x) || 0).toFixed(2)).join(", ");
   }
   return row;
 }
@@ -219,9 +227,11 @@ function tablesOf(done) {
   const curves = done.filter((each) => each.assignment === "texture_to_amplitude");
   return [
     { caption: "Three curves side by side, smallest distances (JND)", rows: curves.map(comparisonRow),
-      columns: ["curve", "amplitude_jnd", "interval_jnd", "amplitude_levels_jnd", "interval_levels_jnd", "step_jnd", "variation_pct"] },
+      columns: ["curve", "amplitude_jnd", "interval_jnd", "amplitude_levels_jnd", "interval_levels_jnd", "step_jnd",
+        "variation_pct"] },
     { caption: "The four conditions as measured", rows: curves.map(conditionRow), columns: ["curve"].concat(NAMES) },
-    { caption: "Against the " + (done.length > 0 ? done[0].curve : "first") + " curve: conditions moved by (amplitude, interval; JND)",
+    { caption: "Against the " + (done.length > 0 ? done[0].curve : "first") +
+      " curve: conditions moved by (amplitude, interval; JND)",
       rows: curves.slice(1).map((each) => movedRow(each, done[0])), columns: ["curve"].concat(NAMES) },
   ].filter((table) => table.rows.length > 0);
 }
@@ -229,22 +239,26 @@ function tablesOf(done) {
 // All curves that come within a hundredth of the best: measurement does not tell them apart.
 function bestOf(curves, key) {
   const most = Math.max.apply(null, curves.map(key));
-  return curves.filter((each) => key(each) > most - 0.01).map((each) => each.curve).join(" or ") + " (" + Math.abs(most).toFixed(2) + " JND)";
+  return curves.filter((each) => key(each) > most - 0.01).map((each) => each.curve).join(" or ") + " (" +
+    Math.abs(most).toFixed(2) + " JND)";
 }
 
 // What the figures say by themselves, and where they end.
 function symmetry(asymmetry) {
-  return "Swapping R and P is a symmetry of this metric: it exchanges smooth-high and rough-low, and texture and pressure, and leaves every " +
-    "distance as it is" + (asymmetry === null ? "" : " (measured: within " + Math.max(0.01, asymmetry).toFixed(2) + " JND)") +
+  return "Swapping R and P is a symmetry of this metric: it exchanges smooth-high and rough-low, and texture and " +
+    "pressure, and leaves every distance as it is" + (asymmetry === null ? "" : " (measured: within " +
+    Math.max(0.01, asymmetry).toFixed(2) + " JND)") +
     ". No figure here can prefer one assignment; people decide which is told apart, natural or preferred";
 }
 
 function conclusion(done) {
   const curves = done.filter((each) => each.assignment === "texture_to_amplitude");
   const axis = (name) => (each) => distancesOf(each)[name];
-  return "At constant Weber fractions the curve that keeps the conditions farthest apart is " + bestOf(curves, axis("pair_jnd")) +
+  return "At constant Weber fractions the curve that keeps the conditions farthest apart is " +
+    bestOf(curves, axis("pair_jnd")) +
     "; neighbouring levels in amplitude " + bestOf(curves, axis("amplitude_levels_jnd")) + ", in interval " +
-    bestOf(curves, axis("interval_levels_jnd")) + "; the one that moves least per train " + bestOf(curves, (each) => -each.gradual_jnd);
+    bestOf(curves, axis("interval_levels_jnd")) + "; the one that moves least per train " +
+      bestOf(curves, (each) => -each.gradual_jnd);
 }
 
 // What is the same for all is said once.
@@ -253,7 +267,8 @@ function sameForAll(done) {
   const least = Math.min.apply(null, accuracies.map((each) => (each.low === null ? 0 : each.low)));
   const verdicts = Array.from(new Set(done.map((each) => each.separable)));
   return "Recognised trials: " + (100 * Math.min.apply(null, accuracies.map((each) => each.value || 0))).toFixed(1) +
-    " % or more under every encoding (95 % interval from " + (100 * least).toFixed(1) + " %); separable by an oscilloscope: " + verdicts.join(", ") + ".";
+    " % or more under every encoding (95 % interval from " + (100 * least).toFixed(1) +
+      " %); separable by an oscilloscope: " + verdicts.join(", ") + ".";
 }
 
 function run(p) {
@@ -262,7 +277,8 @@ function run(p) {
   const reference = checkReference(p);
   bench.disarm();
   if (!reference.passed) {
-    return verdict({ verdict: "indeterminate", reference, encodings: [], reasons: [reference.reason + "; nothing was compared"] });
+    return verdict({ verdict: "indeterminate", reference, encodings: [],
+      reasons: [reference.reason + "; nothing was compared"] });
   }
   const trials = random.blocks(conditionsOf(p), p.repeats);
   const between = random.blocks(levels(), p.level_repeats);
@@ -272,15 +288,20 @@ function run(p) {
     record.partial({ reference, encodings: done.slice() }, tablesOf(done));
   }
   const asymmetry = asymmetryOf(done);
-  report.text("Both assignments were measured along three curves, and differ by no more than " + (asymmetry === null ? "?" : Math.max(0.01, asymmetry).toFixed(2)) +
-    " JND. Below is the default, texture to amplitude and pressure to interval; swapped, it comes out the same. Amplitude and interval are the smallest " +
-    "distances of pairs that differ in them, the worst pair is the smaller of the two; levels are neighbours in between. Conditions at R and P of " + p.low + " and " + p.high + "; at 0 and 1 all curves meet. Levels at R and P of " + LEVELS.join(", ") +
-    "; step_jnd is the largest from train to train when a finger crosses the plane in " + p.traverse_s + " s, computed, without limits on a step.");
+  report.text("Both assignments were measured along three curves, and differ by no more than " +
+    (asymmetry === null ? "?" : Math.max(0.01, asymmetry).toFixed(2)) +
+    " JND. Below is the default, texture to amplitude and pressure to interval; swapped, it comes out the same. " +
+    "Amplitude and interval are the smallest distances of pairs that differ in them, the worst pair is the smaller " +
+    "of the two; levels are neighbours in between. Conditions at R and P of " + p.low + " and " + p.high +
+      "; at 0 and 1 all curves meet. Levels at R and P of " + LEVELS.join(", ") +
+    "; step_jnd is the largest from train to train when a finger crosses the plane in " + p.traverse_s +
+      " s, computed, without limits on a step.");
   for (const table of tablesOf(done)) report.table(table.caption, table.rows, table.columns);
   report.text(sameForAll(done));
   report.figure("Four conditions under the default, " + done[0].name, plot.conditions(done[0]));
   report.figure("Exposure against limits", plot.exposure());
-  const results = { reference, default: done[0].name, encodings: done, differences: done.slice(1).map((each) => differenceRow(each, done[0])),
+  const results = { reference, default: done[0].name, encodings: done,
+    differences: done.slice(1).map((each) => differenceRow(each, done[0])),
     asymmetry_jnd: asymmetry };
   const missing = done.filter((each) => each.smallest_pair_jnd === null || each.neighbours.min_jnd === null);
   // A comparison has no pass: it has a verdict only where it could not be made.

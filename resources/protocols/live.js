@@ -4,8 +4,15 @@ protocol({
   purpose: "Drive the stimulator from a sliding finger, and record both.",
   kind: "live",
   needs: ["sensor", "stimulator"],
+  view: "none",
   parameters: {
-    duration: { label: "Duration, where the sensor does not end by itself", unit: "s", min: 0.1, max: 86400, value: 30 },
+    duration: {
+      label: "Duration, where the sensor does not end by itself",
+      unit: "s",
+      min: 0.1,
+      max: 86400,
+      value: 30,
+    },
     load: { label: "Load", unit: "ohm", min: 1, max: 1e6, value: 1e3 },
   },
 });

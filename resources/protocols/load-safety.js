@@ -8,6 +8,7 @@ protocol({
   purpose: "Does the stimulator keep every limit on known loads, and does it stop when it must?",
   kind: "load-safety",
   needs: ["stimulator", "oscilloscope"],
+  view: "loads",
   parameters: {
     area: {
       label: "Smallest electrode's area (0: profile)",

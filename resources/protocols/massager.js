@@ -4,8 +4,15 @@ protocol({
   purpose: "Feel texture as strength and pressure as pace on a massager, and record both.",
   kind: "massager",
   needs: ["sensor", "massager"],
+  view: "none",
   parameters: {
-    duration: { label: "Duration, where the sensor does not end by itself", unit: "s", min: 0.1, max: 86400, value: 30 },
+    duration: {
+      label: "Duration, where the sensor does not end by itself",
+      unit: "s",
+      min: 0.1,
+      max: 86400,
+      value: 30,
+    },
   },
 });
 

@@ -7,6 +7,7 @@ protocol({
   purpose: "Can this participant tell the four tactile conditions apart?",
   kind: "pilot-identification",
   needs: ["stimulator"],
+  view: "none",
   parameters: {
     participant: { label: "Participant: a code, or virtual:SEED", type: "text", value: "" },
     unfinished: {

@@ -5,6 +5,7 @@ protocol({
   purpose: "Find the levels between which this participant's conditions lie today.",
   kind: "pilot-thresholds",
   needs: ["stimulator"],
+  view: "none",
   parameters: {
     participant: { label: "Participant: a code, or virtual:SEED", type: "text", value: "" },
     unfinished: {

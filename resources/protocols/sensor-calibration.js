@@ -7,14 +7,43 @@ protocol({
   purpose: "Gives roughness R its scale on this rig, and force and taxels their units",
   kind: "sensor-calibration",
   needs: ["sensor"],
+  view: "slides",
   parameters: {
     smooth: { label: "Smooth reference", type: "text", step: "reference", value: "plastic" },
-    smooth_ra_um: { label: "Ra of the smooth reference, by profilometer", unit: "um", min: 0.001, max: 1000, step: "reference", value: 1.6 },
-    smooth_rz_um: { label: "Rz of the smooth reference (0: not stated)", unit: "um", min: 0, max: 10000, step: "reference", value: 11 },
+    smooth_ra_um: {
+      label: "Ra of the smooth reference, by profilometer",
+      unit: "um",
+      min: 0.001,
+      max: 1000,
+      step: "reference",
+      value: 1.6,
+    },
+    smooth_rz_um: {
+      label: "Rz of the smooth reference (0: not stated)",
+      unit: "um",
+      min: 0,
+      max: 10000,
+      step: "reference",
+      value: 11,
+    },
     smooth_file: { label: "Or its profilometer CSV", type: "file", step: "reference", value: "" },
     rough: { label: "Rough reference", type: "text", step: "reference", value: "P120" },
-    rough_ra_um: { label: "Ra of the rough reference, by profilometer", unit: "um", min: 0.001, max: 1000, step: "reference", value: 42 },
-    rough_rz_um: { label: "Rz of the rough reference (0: not stated)", unit: "um", min: 0, max: 10000, step: "reference", value: 290 },
+    rough_ra_um: {
+      label: "Ra of the rough reference, by profilometer",
+      unit: "um",
+      min: 0.001,
+      max: 1000,
+      step: "reference",
+      value: 42,
+    },
+    rough_rz_um: {
+      label: "Rz of the rough reference (0: not stated)",
+      unit: "um",
+      min: 0,
+      max: 10000,
+      step: "reference",
+      value: 290,
+    },
     rough_file: { label: "Or its profilometer CSV", type: "file", step: "reference", value: "" },
     more: {
       step: "reference",
@@ -26,24 +55,62 @@ protocol({
     speed_mm_s: { label: "Sliding speed", unit: "mm/s", min: 5, max: 500, value: 50 },
     force_n: { label: "Normal force while sliding", unit: "N", min: 0.15, max: 20, value: 1 },
     duration_s: { label: "Duration of a slide", unit: "s", min: 1, max: 60, value: 4 },
-    weights_g: { label: "Weights, in g, separated by ; (empty: none)", type: "text", step: "reference", value: "20; 50; 100; 200; 500" },
+    weights_g: {
+      label: "Weights, in g, separated by ; (empty: none)",
+      type: "text",
+      step: "reference",
+      value: "20; 50; 100; 200; 500",
+    },
     weight_repeats: { label: "Repeats of each weight, each way", type: "integer", min: 1, max: 20, value: 3 },
-    weight_tolerance_pct: { label: "Tolerance of the weights", unit: "%", min: 0, max: 10, step: "reference", value: 0.1 },
+    weight_tolerance_pct: {
+      label: "Tolerance of the weights",
+      unit: "%",
+      min: 0,
+      max: 10,
+      step: "reference",
+      value: 0.1,
+    },
     gravity_m_s2: { label: "Local gravity", unit: "m/s2", min: 9.7, max: 9.9, step: "reference", value: 9.80665 },
     // Sea level: 9.780 m/s2 at the equator, 9.832 m/s2 at the poles (WGS 84).
-    gravity_tolerance_pct: { label: "Uncertainty of local gravity, ± (0: not known)", unit: "%", min: 0, max: 1, step: "reference", value: 0.27 },
+    gravity_tolerance_pct: {
+      label: "Uncertainty of local gravity, ± (0: not known)",
+      unit: "%",
+      min: 0,
+      max: 1,
+      step: "reference",
+      value: 0.27,
+    },
     contact_area_cm2: { label: "Contact area under a weight (0: not known)", unit: "cm2", min: 0, max: 100, value: 1 },
-    contact_area_tolerance_pct: { label: "Uncertainty of the contact area, ± (0: not known)", unit: "%", min: 0, max: 90, value: 0 },
-    reference_tolerance_pct: { label: "Known-reference check, ±", unit: "%", min: 0.1, max: 50, step: "reference", value: 10 },
+    contact_area_tolerance_pct: {
+      label: "Uncertainty of the contact area, ± (0: not known)",
+      unit: "%",
+      min: 0,
+      max: 90,
+      value: 0,
+    },
+    reference_tolerance_pct: {
+      label: "Known-reference check, ±",
+      unit: "%",
+      min: 0.1,
+      max: 50,
+      step: "reference",
+      value: 10,
+    },
     store: { label: "Keep the result as a profile", type: "boolean", value: false },
   },
 });
 
+const WEIGHT_COLUMNS = ["mass_g", "reference_n", "force", "direction", "repeat"];
 const SLIDE_COLUMNS = ["material", "h", "h_abs", "v_static", "v_dynamic", "force_n", "sliding_frames"];
 
 // All of it is read before anything moves: a typing error must not cost an hour of sliding.
 function surfacesOf(p) {
-  const reference = (which) => ({ name: p[which], ra_um: p[which + "_ra_um"], rz_um: p[which + "_rz_um"], file: p[which + "_file"] });
+  const reference = (which) => ({
+    name: p[which],
+    ra_um: p[which + "_ra_um"],
+    rz_um: p[which + "_rz_um"],
+    file: p[which + "_file"],
+  });
   const surfaces = bench.surfaces(reference("smooth"), reference("rough"), p.more);
   return surfaces.map((surface) => Object.assign(surface, { slides: [] }));
 }
@@ -81,7 +148,7 @@ function slideOver(p, surfaces, rest, results) {
 function keep(results) {
   const tables = [];
   if (results.weights) {
-    tables.push({ caption: "Weights", rows: results.weights, columns: ["mass_g", "reference_n", "force", "direction", "repeat"] });
+    tables.push({ caption: "Weights", rows: results.weights, columns: WEIGHT_COLUMNS });
   }
   if (results.slides) {
     tables.push({ caption: "Slides", rows: results.slides, columns: SLIDE_COLUMNS });
@@ -96,29 +163,19 @@ function setUp(p, surfaces) {
   }
   operator.confirm(
     "setup",
-    "The fingertip is mounted as in use, the surfaces (" + surfaces.map((s) => s.name).join(", ") + ") are clean, and " +
-      "the Ra and Rz given are of these very specimens",
+    "The fingertip is mounted as in use, the surfaces (" + surfaces.map((s) => s.name).join(", ") +
+      ") are clean, and the Ra and Rz given are of these very specimens",
   );
 }
 
-// Before anything is believed: the largest weight must read as what it is. In counts it is not known what it should read;
-// then it must stand out from rest.
+// Before anything is believed: the largest weight must read as what it is.
 function checkReference(p, rest, masses) {
-  const check = { mass_g: null, reference_n: null, measured: null, deviation_pct: null, allowed_pct: p.reference_tolerance_pct, passed: null };
-  if (masses.length === 0 || rest.force.n === 0) return check; // not evaluated: no weight, or no force sensor
-  const reading = bench.measureWeight(Math.max(...masses), { gravity_m_s2: p.gravity_m_s2 });
-  check.mass_g = reading.mass_g;
-  check.reference_n = reading.reference_n;
-  const used = reading.force_in_use, idle = rest.force_in_use;
-  check.measured = used === null || used.mean === null || idle === null || idle.mean === null ? null : used.mean - idle.mean;
-  check.unit = used === null ? null : used.unit;
-  if (check.measured === null) check.passed = false;
-  else if (check.unit === "N") {
-    check.deviation_pct = 100 * Math.abs(check.measured / reading.reference_n - 1);
-    check.passed = check.deviation_pct <= p.reference_tolerance_pct;
-  } else check.passed = Math.abs(check.measured) > 5 * rest.force.sd;
-  record.measurement("known-reference check", check);
-  return check;
+  const weighs = masses.length > 0 && rest.force.n > 0;
+  const reading = weighs ? bench.measureWeight(Math.max(...masses), { gravity_m_s2: p.gravity_m_s2 }) : null;
+  const known = calibration.knownWeight(reading, rest, p.reference_tolerance_pct);
+  if (weighs) record.measurement("known-reference check", known.check);
+  report.table("Known-reference check", [known.check]);
+  return known;
 }
 
 // Up and down, again and again: what stays behind when weight is taken off shows as hysteresis.
@@ -140,12 +197,6 @@ function weigh(p, masses, results) {
   }
   bench.lift();
   return weighed;
-}
-
-// What one repeat cannot tell is not known, and is not 0.
-function show(estimate, digits) {
-  const one = (value) => (value === null || value === undefined ? "–" : value.toPrecision(digits));
-  return one(estimate.value) + " (95 %: " + one(estimate.low) + " to " + one(estimate.high) + ")";
 }
 
 // Weights become the scales of force and taxels, which are put into use before the surfaces are read.
@@ -178,11 +229,12 @@ function readRest(results, name) {
 function writeRest(results) {
   const rest = results.rest;
   if (results.sensor.some((stream) => stream.kind === "taxels")) {
-    report.table("Taxels at rest, nothing touched (" + rest.taxel_unit + ")",
-      rest.taxel_baseline.map((baseline, k) => ({ taxel: k + 1, baseline, floor: rest.taxel_floor })), ["taxel", "baseline", "floor"]);
+    const rows = rest.taxel_baseline.map((baseline, k) => ({ taxel: k + 1, baseline, floor: rest.taxel_floor }));
+    report.table("Taxels at rest, nothing touched (" + rest.taxel_unit + ")", rows, ["taxel", "baseline", "floor"]);
   }
   if (rest.mean_square !== null) {
-    report.text("Acceleration at rest, 5 Hz to 1 kHz: mean square " + rest.mean_square.toPrecision(3) + " (" + rest.unit + ")².");
+    report.text("Acceleration at rest, 5 Hz to 1 kHz: mean square " + rest.mean_square.toPrecision(3) +
+      " (" + rest.unit + ")².");
   }
 }
 
@@ -195,32 +247,10 @@ function keepProfile(p, found, results) {
   }
   const area = p.contact_area_cm2 > 0 ? { contact_area_cm2: p.contact_area_cm2 } : {};
   results.profile = record.sensorProfile(found, Object.assign({ store: p.store }, area));
-  const [smooth, rough] = results.surfaces;
-  results.reasons = [smooth.name + " and " + rough.name + " are told apart: d′ of R is " + show(found.d_prime.R, 3) + ", at least 1 is wanted"];
   record.event("sensor calibrated", { name: results.profile.name, file: results.profile.file });
+  const file = results.profile.file;
   report.text("The profile \"" + results.profile.name + "\" holds the scales" +
-    (results.profile.file === null ? "; it is in the session and was not kept as a file." : " and is kept as " + results.profile.file + "."));
-}
-
-// What was asked for and does not follow the weights is a fault of the fingertip.
-function judgeScales(results, weighed) {
-  if (results.force.asked && results.verdict === "pass") {
-    results.verdict = "indeterminate";
-    results.reasons = [results.force.reason].concat(results.reasons);
-  }
-  for (const one of [results.force].concat(results.taxels)) {
-    if (one.scale !== null || !weighed || !(one.reason || "").includes("does not follow")) continue;
-    results.verdict = "fail";
-    results.reasons = [one.reason].concat(results.reasons);
-  }
-}
-
-function notKnown(results) {
-  const read = results.reference;
-  results.verdict = "indeterminate";
-  results.reasons = ["the known-reference check failed: " + (read.measured === null ? "nothing" : read.measured.toPrecision(4) + " " + read.unit) +
-    " was read under " + read.reference_n.toPrecision(4) + " N; nothing was calibrated"];
-  return verdict(results);
+    (file === null ? "; it is in the session and was not kept as a file." : " and is kept as " + file + "."));
 }
 
 function run(p) {
@@ -234,10 +264,12 @@ function run(p) {
 
   readRest(results, "fingertip at rest");
   keep(results);
-  results.reference = checkReference(p, results.rest, masses);
-  report.table("Known-reference check", [results.reference]);
+  const reference = checkReference(p, results.rest, masses);
+  results.reference = reference.check;
   keep(results);
-  if (results.reference.passed === false) return notKnown(results);
+  if (reference.check.passed === false) {
+    return verdict(Object.assign(results, { verdict: "indeterminate", reasons: [reference.reason] }));
+  }
 
   const { scales, known, weighed } = scaleFingertip(p, masses, results);
   slideOver(p, surfaces, results.rest, results);
@@ -252,6 +284,5 @@ function run(p) {
   report.table("Slides", results.slides, SLIDE_COLUMNS);
   writeRest(results);
   keepProfile(p, found, results);
-  judgeScales(results, weighed);
-  return verdict(results);
+  return verdict(Object.assign(results, calibration.sensorVerdict(results, weighed)));
 }

@@ -6,6 +6,7 @@ protocol({
   purpose: "Can an oscilloscope tell the four tactile conditions apart?",
   kind: "separability",
   needs: ["sensor", "stimulator", "oscilloscope"],
+  view: "trials",
   parameters: {
     repeats: { label: "Repeats per condition", type: "integer", min: 2, max: 500, value: 25 },
     source: {
@@ -34,8 +35,9 @@ function feelReferences() {
   report.table("Reference surfaces", [smooth, rough], ["material", "h", "v", "frames"]);
 }
 
-// A lane for each condition of the paper's figure: trains one after the other for a little over twice the longest interval.
-// Null where the oscilloscope has no more of them (captures from files end with the trials) or shows something else.
+// A lane for each condition of the paper's figure: trains one after the other for a little over twice the longest
+// interval. Null where the oscilloscope has no more of them (captures from files end with the trials) or shows
+// something else.
 function lanesOf(p, found) {
   const span_s = 2.2 * Math.max.apply(null, found.conditions.map((condition) => condition.interval_s.mean || 0));
   const near = (x, y) => Math.abs(x - y) <= 0.1 * y;
@@ -61,7 +63,8 @@ function lanesOf(p, found) {
 
 function conditionRow(condition) {
   const percent = (x) => report.rounded(100 * x, "%", 2);
-  const bounded = (x, most) => (x === null ? "–" : percent(x) + ", at most " + (most === null ? "unknown" : percent(most)));
+  const bounded = (x, most) => (x === null ? "–" : percent(x) + ", at most " +
+    (most === null ? "unknown" : percent(most)));
   return {
     condition: condition.name,
     n: condition.n,
@@ -73,7 +76,8 @@ function conditionRow(condition) {
 }
 
 function pairRow(pair) {
-  const bounded = (x, least) => (x === null ? "–" : x.toFixed(2) + ", at least " + (least === null ? "unknown" : least.toFixed(2)));
+  const bounded = (x, least) => (x === null ? "–" : x.toFixed(2) + ", at least " +
+    (least === null ? "unknown" : least.toFixed(2)));
   return {
     a: pair.a,
     b: pair.b,
@@ -88,11 +92,12 @@ function basis(found) {
   const floor = found.floor;
   const known = floor.amplitude_v !== null && floor.interval_s !== null;
   return (
-    "5 just-noticeable differences (Weber fractions 0.10 of amplitude, 0.16 of interval) and 5 % of variation are choices. Each is judged by its " +
-    "one-sided 95 % confidence bound, not by the estimate: the difference by Student's t with the oscilloscope's uncertainty, the coefficient of " +
-    "variation by chi-squared. " +
+    "5 just-noticeable differences (Weber fractions 0.10 of amplitude, 0.16 of interval) and 5 % of variation are " +
+    "choices. Each is judged by its one-sided 95 % confidence bound, not by the estimate: the difference by " +
+    "Student's t with the oscilloscope's uncertainty, the coefficient of variation by chi-squared. " +
     (known
-      ? "No variance is taken below what the oscilloscope resolves, its time base included: " + 1e3 * Number(floor.amplitude_v.toPrecision(2)) + " mV and " +
+      ? "No variance is taken below what the oscilloscope resolves, its time base included: " +
+        1e3 * Number(floor.amplitude_v.toPrecision(2)) + " mV and " +
         Number((1e6 * floor.interval_s).toPrecision(2)) + " µs."
       : "What the oscilloscope resolves is unknown, so Mahalanobis distances are not evaluated.")
   );

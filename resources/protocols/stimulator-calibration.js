@@ -7,6 +7,7 @@ protocol({
   purpose: "Commanded against measured amplitude, interval, phase width and gap, with their uncertainty",
   kind: "stimulator-calibration",
   needs: ["stimulator", "oscilloscope"],
+  view: "calibration",
   parameters: {
     mode: {
       label: "Mode",
@@ -33,11 +34,31 @@ protocol({
     repeats: { label: "Repeats of each level, each way", type: "integer", min: 2, max: 50, value: 5 },
     load: { label: "Load", unit: "ohm", min: 100, max: 1e5, step: "reference", value: 1e3 },
     load_tolerance_pct: { label: "Tolerance of the load", unit: "%", min: 0.001, max: 20, step: "reference", value: 1 },
-    reference_tolerance_pct: { label: "Known load must read within", unit: "%", min: 0.01, max: 20, step: "reference", value: 5 },
-    reference_v: { label: "Reference source on the oscilloscope (0: none)", unit: "V", min: 0, max: 500, step: "reference", value: 0 },
+    reference_tolerance_pct: {
+      label: "Known load must read within",
+      unit: "%",
+      min: 0.01,
+      max: 20,
+      step: "reference",
+      value: 5,
+    },
+    reference_v: {
+      label: "Reference source on the oscilloscope (0: none)",
+      unit: "V",
+      min: 0,
+      max: 500,
+      step: "reference",
+      value: 0,
+    },
     reference_u_pct: { label: "Its uncertainty (k = 2)", unit: "%", min: 0, max: 10, step: "reference", value: 0 },
     amplitude_min_v: { label: "Lowest amplitude", unit: "V", min: 0.1, max: 200, value: 10 },
-    amplitude_max_v: { label: "Largest amplitude (of a current source times |Z|)", unit: "V", min: 0.2, max: 200, value: 40 },
+    amplitude_max_v: {
+      label: "Largest amplitude (of a current source times |Z|)",
+      unit: "V",
+      min: 0.2,
+      max: 200,
+      value: 40,
+    },
     interval_min_s: { label: "Shortest interval", unit: "s", min: 0.05, max: 60, value: 0.5 },
     interval_max_s: { label: "Longest interval", unit: "s", min: 0.1, max: 60, value: 2 },
     width_min_us: { label: "Shortest phase", unit: "us", min: 10, max: 10000, value: 100 },
@@ -48,8 +69,22 @@ protocol({
     settling_s: { label: "Settling at each level", unit: "s", min: 0, max: 60, value: 0 },
     tolerance_pct: { label: "Tolerance of amplitude", unit: "%", min: 0.01, max: 50, value: 2 },
     timing_tolerance_pct: { label: "Tolerance of interval, width and gap", unit: "%", min: 0.01, max: 50, value: 1 },
-    scope_gain_pct: { label: "Oscilloscope gain, ± (0: as it declares)", unit: "%", min: 0, max: 20, step: "reference", value: 0 },
-    timebase_ppm: { label: "Oscilloscope time base, ± (0: as it declares)", unit: "ppm", min: 0, max: 10000, step: "reference", value: 0 },
+    scope_gain_pct: {
+      label: "Oscilloscope gain, ± (0: as it declares)",
+      unit: "%",
+      min: 0,
+      max: 20,
+      step: "reference",
+      value: 0,
+    },
+    timebase_ppm: {
+      label: "Oscilloscope time base, ± (0: as it declares)",
+      unit: "ppm",
+      min: 0,
+      max: 10000,
+      step: "reference",
+      value: 0,
+    },
     rate: {
       label: "Sampling rate",
       type: "choice",
@@ -60,7 +95,6 @@ protocol({
 });
 
 const RATES = { "500k": 500e3, "1M": 1e6, "2M": 2e6, "5M": 5e6, "10M": 10e6 };
-const CLOCK_PCT = 0.5; // how far intervals may be from the computer's clock
 const KEYS = { amplitude: "amplitude", interval: "interval_s", width: "width_s", gap: "gap_s" };
 const TITLES = { amplitude: "Amplitude", interval: "Interval", width: "Phase width", gap: "Inter-phase gap" };
 
@@ -75,10 +109,21 @@ function checkParameters(p) {
   if (p.quantities !== "all") throw new Error("quantities is " + p.quantities + "; all is expected to keep a result");
 }
 
+const RANGES = ["amplitude_%_v", "interval_%_s", "width_%_us", "gap_%_us"];
+
+function rangesOf(p) {
+  const ranges = {};
+  for (const range of RANGES) {
+    for (const key of [range.replace("%", "min"), range.replace("%", "max")]) ranges[key] = p[key];
+  }
+  return ranges;
+}
+
 function checkRanges(p) {
-  for (const range of ["amplitude_%_v", "interval_%_s", "width_%_us", "gap_%_us"]) {
+  for (const range of RANGES) {
     const low = range.replace("%", "min"), high = range.replace("%", "max");
-    if (!(p[low] < p[high])) throw new Error(low + " is " + p[low] + "; below " + high + ", " + p[high] + ", is expected");
+    if (p[low] < p[high]) continue;
+    throw new Error(low + " is " + p[low] + "; below " + high + ", " + p[high] + ", is expected");
   }
 }
 
@@ -143,7 +188,8 @@ function applyLevel(p, quantity, share) {
 
 // What the oscilloscope states of itself, analysis.calibration() takes from the readings.
 function judge(p, quantity, readings, unit) {
-  if (quantity !== "amplitude") return analysis.calibration(readings, { quantity, tolerance_pct: p.timing_tolerance_pct });
+  const timing = { quantity, tolerance_pct: p.timing_tolerance_pct };
+  if (quantity !== "amplitude") return analysis.calibration(readings, timing);
   return analysis.calibration(readings, {
     quantity,
     tolerance_pct: p.tolerance_pct,
@@ -174,7 +220,8 @@ function calibrate(p, quantity, results) {
     record.trial(quantity + " " + step.direction, reading);
     if (readings.length % p.levels !== 0) continue;
     record.partial(Object.assign({}, results, { [quantity]: { readings: readings } }), [
-      { caption: TITLES[quantity] + ", readings", rows: readings, columns: ["commanded", "measured", "direction", "repeat"] },
+      { caption: TITLES[quantity] + ", readings", rows: readings,
+        columns: ["commanded", "measured", "direction", "repeat"] },
     ]);
   }
   bench.disarm();
@@ -213,24 +260,9 @@ function worst(verdicts) {
   return verdicts.includes("indeterminate") ? "indeterminate" : "pass";
 }
 
-// The part of a range that the calibration knows. A current source's amplitude is set in volts and known in mA.
-function knownPart(p, stored) {
-  const few = Object.assign({}, p, { levels: 3, repeats: 2 });
-  const part = (line, key, scale) => {
-    const low = key.replace("%", "min"), high = key.replace("%", "max");
-    few[low] = Math.max(line.lowest * scale, p[low]);
-    few[high] = Math.min(line.highest * scale, p[high]);
-  };
-  if (stored.amplitude.unit === "V") part(stored.amplitude, "amplitude_%_v", 1);
-  part(stored.interval, "interval_%_s", 1);
-  part(stored.width, "width_%_us", 1e6);
-  part(stored.gap, "gap_%_us", 1e6);
-  return few;
-}
-
 // Does the stored calibration still hold?
 function checkStored(p, stored, results) {
-  const few = knownPart(p, stored);
+  const few = Object.assign({}, p, calibration.knownRanges(stored, rangesOf(p)), { levels: 3, repeats: 2 });
   checkRanges(few);
   const checks = [];
   results.check = [];
@@ -247,16 +279,6 @@ function checkStored(p, stored, results) {
   return verdict(results);
 }
 
-// Trains are handed out by the computer's clock: a time base that reads it wrong reads every time wrong.
-function judgeTimeBase(found) {
-  if (found === undefined) return null;
-  const off_pct = 100 * Math.abs(found.gain - 1);
-  const u_pct = 100 * (found.gain_expanded_uncertainty === null ? NaN : found.gain_expanded_uncertainty);
-  if (off_pct + u_pct <= CLOCK_PCT) return null;
-  return "the time base is not sure: intervals by the computer's clock are read " + report.quantity(off_pct, "%", u_pct) +
-    " off, at most " + CLOCK_PCT + " % is allowed (choice)";
-}
-
 function calibrateAll(p, results) {
   const quantities = quantitiesOf(p);
   for (const quantity of quantities) {
@@ -270,13 +292,13 @@ function calibrateAll(p, results) {
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
 
-  const clock = judgeTimeBase(results.interval);
-  if (p.store && clock === null) {
+  const clock = calibration.timeBase(results.interval === undefined ? null : results.interval);
+  if (p.store && clock === "") {
     results.stored = record.calibration(results, { valid_days: p.valid_days, scope_due: p.scope_due });
     record.event("calibration stored", results.stored);
   }
-  results.verdict = worst(all.map((found) => found.verdict).concat(clock === null ? [] : ["indeterminate"]));
-  results.reasons = clock === null ? [] : [clock + (p.store ? "; nothing was stored" : "")];
+  results.verdict = worst(all.map((found) => found.verdict).concat(clock === "" ? [] : ["indeterminate"]));
+  results.reasons = clock === "" ? [] : [clock + (p.store ? "; nothing was stored" : "")];
   for (const found of all) {
     for (const reason of found.reasons) results.reasons.push(TITLES[found.quantity] + ": " + reason);
   }

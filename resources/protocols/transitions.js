@@ -5,13 +5,15 @@
 // encoder's design makes of the whole R-P plane is computed beside it. Definitions: science.md sections 4, 10 and 12.
 //
 // Results: { transitions: from analysis.transitions(), steps, and jumps with small steps among them: [{ name, and what
-// bench.step() returned }], movements: [{ name, and what bench.traverse() returned }], changes: from analysis.changes(),
-// latency: from analysis.latency(), reference: { load_ohm, measured_ohm, allowed_pct, passed }, verdict, reasons, notes }.
+// bench.step() returned }], movements: [{ name, and what bench.traverse() returned }], changes: from
+// analysis.changes(), latency: from analysis.latency(), reference: { load_ohm, measured_ohm, allowed_pct, passed },
+// verdict, reasons, notes }.
 protocol({
   title: "Transitions",
   purpose: "The largest step from train to train, and the time until a change is felt and is complete",
   kind: "transitions",
   needs: ["stimulator", "oscilloscope"],
+  view: "trials",
   parameters: {
     repeats: { label: "Steps of each kind", type: "integer", min: 1, max: 100, value: 10 },
     load: { label: "Load", unit: "ohm", min: 100, max: 1e5, value: 1e3 },
@@ -36,7 +38,12 @@ protocol({
       choices: { profile: "as the profile has them", given: "as given here", off: "none" },
       value: "profile",
     },
-    slew_amplitude_ratio: { label: "Amplitude, at most times the one before (0: no limit)", min: 0, max: 10, value: 1.2 },
+    slew_amplitude_ratio: {
+      label: "Amplitude, at most times the one before (0: no limit)",
+      min: 0,
+      max: 10,
+      value: 1.2,
+    },
     slew_v_per_s: { label: "Amplitude, at most (0: no limit)", unit: "V/s", min: 0, max: 1000, value: 0 },
     slew_ratio: { label: "Interval, at most times the one before (0: no limit)", min: 0, max: 10, value: 1.34 },
   },
@@ -44,7 +51,8 @@ protocol({
 
 const COLUMNS = ["step", "n", "missing", "latency_s", "median_s", "max_s", "designed_s", "off_s", "trains", "verdict"];
 const LARGEST = ["movement", "of", "change", "jnd", "R", "P", "wanted"];
-const CHANGES = ["change", "n", "amplitude_jnd", "interval_jnd", "complete_s", "max_s", "fastest_s", "trains", "verdict"];
+const CHANGES = ["change", "n", "amplitude_jnd", "interval_jnd", "complete_s", "max_s", "fastest_s", "trains",
+  "verdict"];
 const CAPTURED = "As captured: largest step per train (JND, at most 2 wanted), and time until complete";
 
 // The two inputs, both directions each; the order of the steps is drawn, and so is the moment within the interval.
@@ -118,7 +126,8 @@ function largestRows(found) {
       rows.push({
         movement: movement === "gradual" ? "across in " + found.traverse_s + " s" : "jump between corners",
         of: axis,
-        change: worst["from_" + unit].toPrecision(3) + " to " + worst["to_" + unit].toPrecision(3) + (unit === "v" ? " V" : " s"),
+        change: worst["from_" + unit].toPrecision(3) + " to " + worst["to_" + unit].toPrecision(3) +
+          (unit === "v" ? " V" : " s"),
         jnd: worst.jnd,
         R: worst.roughness,
         P: worst.pressure,
@@ -166,13 +175,17 @@ function passed(p, changes) {
   const groups = changes.groups;
   const most = largest(groups.map((group) => Math.max(group.amplitude_jnd, group.interval_jnd)));
   const ending = groups.filter((group) => group.completes), beyond = ending.filter((group) => group.out_of_reach > 0);
-  const out = ["No captured train differs from the one before by more than " + most.toFixed(2) + " just-noticeable differences; at most 2 are wanted"];
+  const out = ["No captured train differs from the one before by more than " + most.toFixed(2) +
+    " just-noticeable differences; at most 2 are wanted"];
   const within = "within " + p.complete_s + " s";
-  if (beyond.length < ending.length) out.push(ending.length - beyond.length + " of " + ending.length + " kinds of change are complete " + within);
+  if (beyond.length < ending.length) out.push(ending.length - beyond.length + " of " + ending.length +
+    " kinds of change are complete " + within);
   if (beyond.length > 0) {
     const least = Math.min.apply(null, beyond.map((group) => group.fastest_complete_s.min));
-    out.push(beyond.length + " of " + ending.length + " kinds of change cannot be complete " + within + " in steps of at most 2 differences (" + least.toFixed(1) +
-      " s at the least); they were, after " + Math.max.apply(null, beyond.map((group) => group.complete_s.max)).toFixed(1) +
+    out.push(beyond.length + " of " + ending.length + " kinds of change cannot be complete " + within +
+      " in steps of at most 2 differences (" + least.toFixed(1) +
+      " s at the least); they were, after " + Math.max.apply(null,
+        beyond.map((group) => group.complete_s.max)).toFixed(1) +
       " s at most, with the fewest trains that such steps take, which is what is judged there (choice)");
   }
   return out;
@@ -183,37 +196,46 @@ function openOf(changes) {
   const worst = (key) => largest(changes.groups.map((group) => group[key]));
   const amplitude = worst("amplitude_u_jnd"), interval = worst("interval_u_jnd");
   if (amplitude === null || interval === null) return "What captures leave open of a step is unknown. ";
-  return "Captures leave ± " + Number(amplitude.toPrecision(2)) + " differences of amplitude open, twice the scatter of trains of one command, and ± " +
+  return "Captures leave ± " + Number(amplitude.toPrecision(2)) +
+    " differences of amplitude open, twice the scatter of trains of one command, and ± " +
     Number(interval.toPrecision(2)) + " of interval. ";
 }
 
 // What is asked for and what cannot be had, before the figures.
 function writeChanges(p, changes) {
   report.text(
-    "Judged on captured trains: no train differs from the one before by more than 2 just-noticeable differences (w = 0.10 of amplitude, " +
-      "0.16 of interval), and a change of state is complete within " + p.complete_s + " s. (choice) Both at once are out of reach for large changes at " +
-      "these intervals, whatever the encoder does: the steps in between are trains, and trains take their intervals. " +
-      (p.complete === "seconds" ? "Such a change fails here." : "Such a change is judged by its trains: it passes with the fewest that steps of 2 differences take. (choice)"),
+    "Judged on captured trains: no train differs from the one before by more than 2 just-noticeable differences " +
+      "(w = 0.10 of amplitude, 0.16 of interval), and a change of state is complete within " + p.complete_s +
+      " s. (choice) Both at once are out of reach for large changes at these intervals, whatever the encoder " +
+      "does: the steps in between are trains, and trains take their intervals. " +
+      (p.complete === "seconds" ? "Such a change fails here."
+        : "Such a change is judged by its trains: it passes with the fewest that steps of 2 differences take. " +
+        "(choice)"),
   );
   report.table(CAPTURED, changeRows(changes), CHANGES);
   report.text(
     openOf(changes) + "Complete: median and largest time from the change to the train that reaches the new state; " +
-      "fastest_s is the least that steps of 2 differences allow; trains is how many it took, most / fewest that such steps take.",
+      "fastest_s is the least that steps of 2 differences allow; trains is how many it took, most / fewest that " +
+      "such steps take.",
   );
 }
 
 function writeSweep(found) {
-  report.figure("Computed from the encoding: largest step from train to train over the R-P plane", plot.transitions(found));
-  report.table("Computed from the encoding: largest step from train to train (at most " + found.wanted_jnd + " differences are wanted)", largestRows(found), LARGEST);
+  report.figure("Computed from the encoding: largest step from train to train over the R-P plane",
+    plot.transitions(found));
+  report.table("Computed from the encoding: largest step from train to train (at most " + found.wanted_jnd +
+    " differences are wanted)", largestRows(found), LARGEST);
 }
 
 function limitsText(found) {
-  const amplitude = found.amplitude_ratio_per_train, slew = found.amplitude_slew_v_per_s, interval = found.interval_ratio_per_train;
+  const amplitude = found.amplitude_ratio_per_train, slew = found.amplitude_slew_v_per_s,
+    interval = found.interval_ratio_per_train;
   const limits = [];
   if (amplitude > 0) limits.push("amplitude at most " + amplitude + " times the one before");
   if (slew > 0) limits.push("amplitude by at most " + slew + " V/s");
   if (interval > 0) limits.push("interval at most " + interval + " times the one before");
-  return limits.length === 0 ? "No limits on a step: a change is taken in one train." : "Limits on a step from train to train, either way: " + limits.join(", ") + ".";
+  return limits.length === 0 ? "No limits on a step: a change is taken in one train."
+    : "Limits on a step from train to train, either way: " + limits.join(", ") + ".";
 }
 
 function run(p) {
@@ -223,10 +245,12 @@ function run(p) {
     bench.setEncoding({ amplitude_ratio_per_train: p.slew_amplitude_ratio, amplitude_slew_v_per_s: p.slew_v_per_s,
       interval_ratio_per_train: p.slew_ratio });
   }
-  if (p.slew === "off") bench.setEncoding({ amplitude_ratio_per_train: 0, amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0 });
+  if (p.slew === "off") bench.setEncoding({ amplitude_ratio_per_train: 0, amplitude_slew_v_per_s: 0,
+    interval_ratio_per_train: 0 });
 
   const sweep = analysis.transitions({ lines: p.lines, traverse_s: p.traverse_s, jumps: p.jumps });
-  const computed = { caption: "Computed: largest step from train to train", rows: largestRows(sweep), columns: LARGEST };
+  const computed = { caption: "Computed: largest step from train to train", rows: largestRows(sweep),
+    columns: LARGEST };
   const results = { transitions: sweep, changes: null, latency: null, steps: [], jumps: [], movements: [] };
   record.partial(results, [computed]);
   report.text(limitsText(sweep));
@@ -253,18 +277,20 @@ function run(p) {
     judge();
   }
   for (const movement of known ? progress(movements, "Movements") : []) {
-    results.movements.push(Object.assign({ name: movement.name }, bench.traverse(movement.from, movement.to, { seconds: p.traverse_s })));
+    results.movements.push(Object.assign({ name: movement.name },
+      bench.traverse(movement.from, movement.to, { seconds: p.traverse_s })));
   }
   bench.disarm();
   judge();
 
   writeChanges(p, results.changes);
 
-  report.table("Latency: from the step to the first train that carries it, mean ± s.d.", latencyRows(results.latency), COLUMNS);
+  report.table("Latency: from the step to the first train that carries it, mean ± s.d.", latencyRows(results.latency),
+    COLUMNS);
   report.text(
     "Design: the pending train is pulled forward to max(now, last onset + new interval), and carries the newest " +
-      "amplitude. Steps fall on moments spread over the interval. Off is the largest difference between a step and its design; trains is " +
-      "how many a change takes until it is complete, measured / designed.",
+      "amplitude. Steps fall on moments spread over the interval. Off is the largest difference between a step and " +
+      "its design; trains is how many a change takes until it is complete, measured / designed.",
   );
   writeSweep(sweep);
   report.figure("Measured waveforms", plot.waveforms());
@@ -274,7 +300,8 @@ function run(p) {
   results.notes = results.changes.notes;
   results.reasons = results.changes.reasons.concat(results.latency.reasons, elsewhere);
   if (!known) results.reasons.unshift(results.reference.reason + "; nothing was measured");
-  const verdicts = [results.changes.verdict, results.latency.verdict, sweep.verdict === "pass" ? "pass" : "indeterminate"];
+  const verdicts = [results.changes.verdict, results.latency.verdict, sweep.verdict === "pass" ? "pass"
+    : "indeterminate"];
   results.verdict = verdicts.includes("fail") ? "fail" : verdicts.includes("indeterminate") ? "indeterminate" : "pass";
   if (results.verdict === "pass") results.reasons = passed(p, results.changes);
   return verdict(results);

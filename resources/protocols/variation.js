@@ -3,9 +3,11 @@
 // Nothing here is measured: every figure and table is a prediction and says so.
 protocol({
   title: "Variation: virtual participants",
-  purpose: "How many people do the amplitudes serve, how well would those tell the conditions apart, and what can a pilot of a few people show?",
+  purpose: "How many people do the amplitudes serve, how well would those tell the conditions apart, and what can a " +
+    "pilot of a few people show?",
   kind: "variation",
   needs: [],
+  view: "none",
   parameters: {
     participants: { label: "Virtual participants", type: "integer", min: 2, max: 20000, value: 200 },
     trials: { label: "Trials per condition", type: "integer", min: 1, max: 1000, value: 25 },
@@ -90,20 +92,24 @@ function headline(p, fixed, personal) {
   const why = [];
   if (fixed.participants_refused > 0) {
     const strong = fixed.withheld.every((each) => each.reason === "too strong for the participant");
-    why.push(fixed.participants_refused + " would be refused " + (strong ? fixed.range_v[1] + " V as too strong" : "part of it"));
+    why.push(fixed.participants_refused + " would be refused " +
+      (strong ? fixed.range_v[1] + " V as too strong" : "part of it"));
   }
   if (fixed.participants_not_feeling > 0) {
     why.push(fixed.participants_not_feeling + " are given all of it and do not feel " + fixed.range_v[0] + " V");
   }
-  if (fixed.participants_without_range > 0) why.push(fixed.participants_without_range + " cannot be given it by this device");
+  if (fixed.participants_without_range > 0) why.push(fixed.participants_without_range +
+    " cannot be given it by this device");
   const out = [fixedRange(fixed) + " serves " + fixed.served + " of " + fixed.participants + " virtual participants" +
     (why.length > 0 ? ": " + why.join(", ") : "") + "."];
   if (personal.served === 0) return out.concat("A range of their own within it serves none of them either.");
   out.push("A range of their own within it serves " + personal.served + " of " + personal.participants + "; " +
-    personal.clearly_separable + " of these have every pair of conditions 5 just-noticeable differences apart, and of " +
-    "their answers " + percent(personal.accuracy) + " % would be right (median; 5 to 95 % of them).");
+    personal.clearly_separable +
+      " of these have every pair of conditions 5 just-noticeable differences apart, and of their " +
+      "answers " + percent(personal.accuracy) + " % would be right (median; 5 to 95 % of them).");
   const pilot = personal.pilots.find((each) => each.people === p.pilot);
-  out.push("A pilot of " + p.pilot + (p.pilot === 1 ? " person" : " people") + " with such ranges: all are served with " +
+  out.push("A pilot of " + p.pilot + (p.pilot === 1 ? " person" : " people") +
+    " with such ranges: all are served with " +
     share(pilot.all_served) + " probability; if all are above chance, at least " + share(pilot.prevalence_all) +
     " of such people can do it (95 %).");
   return out;
@@ -117,13 +123,17 @@ function summary(name, found) {
 
 // Where comfort ends is not known: what is served is said for the lowest, the run's and the highest answer.
 function readings(p, fixed, personal) {
-  const at = [["the attention threshold", p.attention], ["the run's setting", p.discomfort], ["the intolerance threshold", p.intolerance]];
+  const at = [["the attention threshold", p.attention], ["the run's setting", p.discomfort],
+    ["the intolerance threshold", p.intolerance]];
   return at.map(([name, milliamps]) => {
     const same = milliamps === p.discomfort;
     const changed = { discomfort_ma: milliamps };
-    const shared = same ? fixed : predict(p, "profile", "Too strong from " + milliamps + " mA, fixed amplitudes", changed);
-    const own = same ? personal : predict(p, "personal", "Too strong from " + milliamps + " mA, personal amplitudes", changed);
-    return { too_strong_from: name, median_ma: milliamps, fixed_served: shared.served, fixed_refused: shared.participants_refused,
+    const shared = same ? fixed : predict(p, "profile", "Too strong from " + milliamps + " mA, fixed amplitudes",
+      changed);
+    const own = same ? personal : predict(p, "personal", "Too strong from " + milliamps + " mA, personal amplitudes",
+      changed);
+    return { too_strong_from: name, median_ma: milliamps, fixed_served: shared.served,
+      fixed_refused: shared.participants_refused,
       fixed_not_feeling: shared.participants_not_feeling, personal_served: own.served, accuracy: own.accuracy,
       presented_accuracy: own.presented_accuracy, presented_fixed_accuracy: shared.presented_accuracy };
   });
@@ -135,35 +145,44 @@ function pilotRows(needed) {
   const add = (aim, alone, pooled) => rows.push({ aim: aim, one_participant: alone,
     pooled_each: pooled.per_participant, pooled_trials: pooled.total, design_effect: pooled.design_effect,
     participants_at_least: pooled.participants_least });
-  add("95 % interval at most " + (100 * needed.width).toFixed(0) + " % wide", needed.per_participant.for_width, needed.pooled.for_width);
-  add("lower end above chance, " + (100 * needed.chance).toFixed(0) + " %", needed.per_participant.above_chance, needed.pooled.above_chance);
+  add("95 % interval at most " + (100 * needed.width).toFixed(0) + " % wide", needed.per_participant.for_width,
+    needed.pooled.for_width);
+  add("lower end above chance, " + (100 * needed.chance).toFixed(0) + " %", needed.per_participant.above_chance,
+    needed.pooled.above_chance);
   return rows;
 }
 
 function fewRows(pilots) {
   return pilots.map((each) => ({ people: each.people, all_are_served: share(each.all_served),
-    all_are_served_and_above_chance: share(each.all_above_chance), "if_all:_can_do_it,_at_least": share(each.prevalence_all),
+    all_are_served_and_above_chance: share(each.all_above_chance),
+      "if_all:_can_do_it,_at_least": share(each.prevalence_all),
     "if_all_but_one:_at_least": share(each.prevalence_but_one) }));
 }
 
 function fewText(found) {
   if (found.pilots.length === 0) return "No one is served, so a pilot has nothing to show.";
   const one = found.pilots[0];
-  return "Each person gives " + one.trials + " answers; " + one.right_from + " right ones or more are above chance (p < 0.05, one-sided). " +
-    "One person's 95 % interval is then " + percent(one.width) + " % wide. “If all” says what share of such people can do it, " +
-    "at least (95 %), when everyone in the pilot is above chance; “if all but one” when one is not (Bayesian prevalence, Ince et al. 2021, " +
-    "doi:10.7554/eLife.62461). So few people say whether people can do it, not how well people do it on average.";
+  return "Each person gives " + one.trials + " answers; " + one.right_from +
+    " right ones or more are above chance (p < 0.05, one-sided). One person's 95 % interval is " +
+    "then " + percent(one.width) +
+      " % wide. “If all” says what share of such people can do it, at least (95 %), when everyone in the pilot is " +
+      "above chance; “if all but one” when one is not (Bayesian prevalence, Ince et al. 2021, " +
+      "doi:10.7554/eLife.62461). So few people say whether people can do it, not how well people do it on average.";
 }
 
 // What is not everybody's result.
 function remarks(p, found) {
-  const out = ["Everything here is simulated: predicted from stated distributions, not measured on anybody. A condition counts for a participant only if it is presented, felt and not too strong."];
-  if (p.source === "voltage") out.push("A voltage source is refused for people: this shows what it would do, judged as on a bench load.");
-  if (found.model.electrode_area_cm2 === null) out.push("No electrode area is stated: the skin is that under " + found.model.skin_area_cm2 + " cm².");
+  const out = ["Everything here is simulated: predicted from stated distributions, not measured on anybody. A " +
+    "condition counts for a participant only if it is presented, felt and not too strong."];
+  if (p.source === "voltage") out.push("A voltage source is refused for people: this shows what it would do, judged " +
+    "as on a bench load.");
+  if (found.model.electrode_area_cm2 === null) out.push("No electrode area is stated: the skin is that under " +
+    found.model.skin_area_cm2 + " cm².");
   const missing = found.participants - found.served;
   if (missing > 0) {
     const withheld = found.withheld.map((each) => each.count + " times " + each.reason).join(", ");
-    out.push(missing + " of " + found.participants + " virtual participants are not served and are left out of accuracy and confusion" +
+    out.push(missing + " of " + found.participants +
+      " virtual participants are not served and are left out of accuracy and confusion" +
       (withheld === "" ? "." : ". Conditions that were withheld: " + withheld + "."));
   }
   if (found.trials_needed === null) out.push("No one is served, so there is no accuracy to predict.");
@@ -182,11 +201,13 @@ function run(p) {
   const bench = analysis.uncertainBench({ source: p.source });
 
   report.text(said.join(" "));
-  table("Who is served of " + p.participants + MARK, [summary(names.profile, fixed), summary(names.personal, personal)]);
+  table("Who is served of " + p.participants + MARK, [summary(names.profile, fixed),
+    summary(names.personal, personal)]);
   report.figure("Thresholds and currents of the participants" + MARK, plot.predicted(fixed, "thresholds"));
   report.table(fixedRange(fixed) + " for everybody" + MARK, fixed.conditions,
     ["name", "presented", "not_felt", "counted", "draws_attention", "too_strong", "not_tolerated"]);
-  report.text("Where comfort ends is not known: somewhere from the attention to the intolerance threshold. The run takes " + p.discomfort + " mA.");
+  report.text("Where comfort ends is not known: somewhere from the attention to the intolerance threshold. The run " +
+    "takes " + p.discomfort + " mA.");
   table("Served, by what is too strong" + MARK, read.map((each) => ({ too_strong_from: each.too_strong_from,
     median_ma: each.median_ma, fixed_range_serves: each.fixed_served, it_is_refused_to: each.fixed_refused,
     its_lowest_not_felt_by: each.fixed_not_feeling, own_range_serves: each.personal_served,
@@ -195,13 +216,16 @@ function run(p) {
   table("What 3 to 5 people can show" + MARK, fewRows(found.pilots));
   report.text(fewText(found));
   report.table("What the prediction rests on", found.premises, ["quantity", "value", "spread", "mark", "source"]);
-  report.text("Source: the value is the source's. Choice: ours, to be replaced with the laboratory's own. Set: for this run. Every spread (geometric standard deviation) is a choice.");
-  report.text("In what follows a value is the median, and in brackets stand 5 and 95 %, of participants or of benches. " +
-    "Accuracy, confusion and trials are those of: " + names[p.levels] + ".");
-  table("Conditions, " + names[p.levels].toLowerCase().replace(" v", " V") + MARK, found.conditions.map((each) => ({ name: each.name,
+  report.text("Source: the value is the source's. Choice: ours, to be replaced with the laboratory's own. Set: for " +
+    "this run. Every spread (geometric standard deviation) is a choice.");
+  report.text("In what follows a value is the median, and in brackets stand 5 and 95 %, of participants or of " +
+    "benches. Accuracy, confusion and trials are those of: " + names[p.levels] + ".");
+  table("Conditions, " + names[p.levels].toLowerCase().replace(" v", " V") + MARK,
+    found.conditions.map((each) => ({ name: each.name,
     presented: each.presented, refused: each.refused, not_felt: each.not_felt, counted: each.counted,
     "current,_mA": spread(each.current_ma, 2, 1), "voltage,_V": spread(each.voltage_v, 1, 1) })));
-  table("Distance of the conditions in just-noticeable differences" + MARK, found.separability.map((each) => ({ a: each.a, b: each.b,
+  table("Distance of the conditions in just-noticeable differences" + MARK,
+    found.separability.map((each) => ({ a: each.a, b: each.b,
     participants: each.participants, together: spread(each.jnd, 1, 1), by_amplitude: spread(each.amplitude_jnd, 1, 1),
     by_interval: spread(each.interval_jnd, 1, 1) })));
   report.figure("Confusion" + MARK, plot.predicted(found, "confusion"));
@@ -211,14 +235,18 @@ function run(p) {
   if (found.trials_needed !== null) report.text(found.trials_needed.assumptions);
   table("Benches within their tolerances" + MARK, bench.conditions.map((each) => ({ name: each.name,
     "amplitude,_V": spread(each.amplitude_v, 2, 1), "interval,_s": spread(each.interval_s, 4, 1) })));
-  table("Benches: distance of the conditions in just-noticeable differences" + MARK, bench.pairs.map((each) => ({ a: each.a, b: each.b,
+  table("Benches: distance of the conditions in just-noticeable differences" + MARK,
+    bench.pairs.map((each) => ({ a: each.a, b: each.b,
     by_amplitude: spread(each.amplitude_jnd, 2, 1), by_interval: spread(each.interval_jnd, 2, 1) })));
 
-  const results = Object.assign({ verdict: null, reasons: said, headline: said.join(" "), levels: p.levels, source: p.source,
+  const results = Object.assign({ verdict: null, reasons: said, headline: said.join(" "), levels: p.levels,
+    source: p.source,
     profile_served: fixed.served, personal_served: personal.served, readings: read }, found);
-  results.other_levels = { levels: other, accuracy: compared.accuracy, complete: compared.complete, refused: compared.refused,
+  results.other_levels = { levels: other, accuracy: compared.accuracy, complete: compared.complete,
+    refused: compared.refused,
     not_felt: compared.not_felt, served: compared.served, participants_refused: compared.participants_refused,
-    participants_not_feeling: compared.participants_not_feeling, participants_without_range: compared.participants_without_range,
+    participants_not_feeling: compared.participants_not_feeling,
+      participants_without_range: compared.participants_without_range,
     presented_accuracy: compared.presented_accuracy, conditions: compared.conditions, people: compared.people };
   results.bench = bench;
   verdict(results);

@@ -77,10 +77,25 @@ TEST(ProtocolDeclaration, IsWrittenAsTheCommandLinePromises) {
                                                      {"value", 1000}}));
 }
 
+TEST(ProtocolDeclaration, StatesItsViewOrHasTheOneOfItsKindAndDevices) {
+    const auto viewOf = [](const std::string& more) {
+        return readDeclaration(probe("protocol({ title: 'x', " + more + " });\nfunction run() {}")).value().view;
+    };
+    EXPECT_EQ(viewOf("needs: ['sensor'], view: 'trials'"), ProtocolView::Trials);
+    EXPECT_EQ(viewOf("kind: 'load-safety', view: 'none'"), ProtocolView::None);
+    EXPECT_EQ(viewOf("kind: 'load-safety'"), ProtocolView::Loads);
+    EXPECT_EQ(viewOf("kind: 'stimulator-calibration'"), ProtocolView::Calibration);
+    EXPECT_EQ(viewOf("needs: ['oscilloscope']"), ProtocolView::Trials);
+    EXPECT_EQ(viewOf("needs: ['sensor']"), ProtocolView::Slides);
+    EXPECT_EQ(viewOf("needs: []"), ProtocolView::None);
+    EXPECT_EQ(errorOf("protocol({ title: 'x', view: 'map' });"),
+              "/lab/probe.js:2: view is \"map\"; trials, loads, calibration, slides or none is expected");
+}
+
 TEST(ProtocolDeclaration, NamesFileLineAndWhatIsWrong) {
     EXPECT_EQ(errorOf("protocol({ title: 'x', tilte: 1 });"),
               "/lab/probe.js:2: protocol(): \"tilte\" is not a known key; accepted are title, purpose, kind, needs, "
-              "parameters");
+              "view, parameters");
     EXPECT_EQ(errorOf("protocol({});"), "/lab/probe.js:2: protocol(): title is missing, a text is expected");
     EXPECT_EQ(errorOf("protocol({ title: 'x', needs: ['laser'] });"),
               "/lab/probe.js:2: needs names \"laser\", only sensor, stimulator, oscilloscope, massager can be needed");

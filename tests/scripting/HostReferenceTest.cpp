@@ -35,7 +35,7 @@ TEST(HostReference, NamesTheObjectsOfTheLanguageAndNothingTwice) {
         objects.insert(std::string(function.object));
     }
     EXPECT_EQ(objects, (std::set<std::string>{"", "bench", "operator", "analysis", "report", "random", "record",
-                                              "measure", "pilot", "plot", "loads"}));
+                                              "measure", "pilot", "plot", "loads", "calibration"}));
     for (const char* global : {"protocol", "progress", "verdict", "log"}) EXPECT_TRUE(names.count(global)) << global;
 }
 

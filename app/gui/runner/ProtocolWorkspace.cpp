@@ -33,14 +33,6 @@ constexpr int kPreviewAfter_ms = 150;
 
 using State = StepList::State;
 
-RunViews::Plot plotOf(const ProtocolDeclaration& declaration) {
-    if (declaration.kind == "load-safety") return RunViews::Plot::Loads;  // before the first was measured
-    if (declaration.kind == "stimulator-calibration") return RunViews::Plot::Calibration;
-    if (declaration.needs.contains(Role::Oscilloscope)) return RunViews::Plot::Trials;
-    // No trains to look at: a fingertip by itself, or nothing that would be drawn.
-    return declaration.needs == std::set{Role::Sensor} ? RunViews::Plot::Slides : RunViews::Plot::None;
-}
-
 }  // namespace
 
 ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString& protocol, QWidget* parent)
@@ -162,7 +154,7 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         declaration_ = *declaration;
         panel_->say({});
         head_->show(QString::fromStdString(declaration_->title), QString::fromStdString(declaration_->purpose));
-        pages_->views().showPlot(plotOf(*declaration_));
+        pages_->views().showPlot(declaration_->view);
         pages_->offer(*declaration_);
     }
     path_->showNoRun(pages_->form().hasReference());
@@ -293,7 +285,7 @@ void ProtocolWorkspace::runNow() {
     running_ = true;
     paused_ = seenPaused_ = false;
     last_.reset();
-    pages_->views().begin(plotOf(*declaration_), asked_->settings.parameters);
+    pages_->views().begin(declaration_->view, asked_->settings.parameters);
     pages_->sign().clear();
     path_->showRun();
     showStep(kRun);

@@ -27,7 +27,7 @@ class ResultTables;
 class RunViews final : public QWidget {
     Q_OBJECT
 public:
-    enum class Plot { Trials, Loads, Calibration, Slides, None };
+    using Plot = ProtocolView;
     enum View { kPlot, kTables, kWaveform, kLog };
 
     explicit RunViews(QWidget* parent = nullptr);

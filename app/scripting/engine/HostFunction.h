@@ -54,6 +54,7 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> generalFunctions();
 [[nodiscard]] std::vector<HostFunction> benchFunctions();
 [[nodiscard]] std::vector<HostFunction> loadsFunctions();
+[[nodiscard]] std::vector<HostFunction> calibrationFunctions();
 [[nodiscard]] std::vector<HostFunction> operatorFunctions();
 [[nodiscard]] std::vector<HostFunction> recordFunctions();
 [[nodiscard]] std::vector<HostFunction> measureFunctions();

@@ -20,6 +20,7 @@ const std::vector<HostFunction>& hostFunctions() {
         add("random", randomFunctions());
         add("bench", benchFunctions());
         add("loads", loadsFunctions());
+        add("calibration", calibrationFunctions());
         add("operator", operatorFunctions());
         add("pilot", pilotFunctions());
         add("record", recordFunctions());

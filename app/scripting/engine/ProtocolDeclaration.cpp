@@ -34,6 +34,34 @@ bool answers(const std::string& question, const std::string& key) {
     return question == key;
 }
 
+constexpr std::array<std::pair<std::string_view, ProtocolView>, 5> kViews{{{"trials", ProtocolView::Trials},
+                                                                           {"loads", ProtocolView::Loads},
+                                                                           {"calibration", ProtocolView::Calibration},
+                                                                           {"slides", ProtocolView::Slides},
+                                                                           {"none", ProtocolView::None}}};
+
+std::string_view wordOf(const decltype(kViews)& words, ProtocolView view) {
+    return std::ranges::find(words, view, &std::pair<std::string_view, ProtocolView>::second)->first;
+}
+
+/// For a script that declares none: what its kind and its devices suggest.
+ProtocolView usualView(const ProtocolDeclaration& declaration) {
+    if (declaration.kind == "load-safety") return ProtocolView::Loads;
+    if (declaration.kind == "stimulator-calibration") return ProtocolView::Calibration;
+    if (declaration.needs.contains(Role::Oscilloscope)) return ProtocolView::Trials;
+    return declaration.needs == std::set{Role::Sensor} ? ProtocolView::Slides : ProtocolView::None;
+}
+
+Result<ProtocolView> readView(const Json& given, const ProtocolDeclaration& declaration) {
+    if (!given.contains("view")) return usualView(declaration);
+    const Json& said = given["view"];
+    for (const auto& [word, view] : kViews) {
+        if (said == word) return view;
+    }
+    return fail(ErrorCode::InvalidArgument, "view is {}; trials, loads, calibration, slides or none is expected",
+                shown(said));
+}
+
 }  // namespace
 
 std::string originOf(const ProtocolSource& source) {
@@ -45,7 +73,7 @@ Result<ProtocolDeclaration> parseDeclaration(const Json& given, const Json& orde
     if (!given.is_object()) {
         return fail(ErrorCode::InvalidArgument, "protocol() was given {}, an object is expected", shown(given));
     }
-    const auto known = onlyKeys(given, {"title", "purpose", "kind", "needs", "parameters"}, "protocol()");
+    const auto known = onlyKeys(given, {"title", "purpose", "kind", "needs", "view", "parameters"}, "protocol()");
     if (!known) return failure(known.map_error(asInvalidArgument));
     ProtocolDeclaration out;
     auto title = declaredText(given, "protocol()", "title", true, kMaxDeclaredTitle);
@@ -60,6 +88,9 @@ Result<ProtocolDeclaration> parseDeclaration(const Json& given, const Json& orde
     auto needs = readNeeds(given);
     if (!needs) return failure(needs);
     out.needs = *needs;
+    auto view = readView(given, out);
+    if (!view) return failure(view);
+    out.view = *view;
     const Json parameters = given.value("parameters", Json::object());
     if (!parameters.is_object()) {
         return fail(ErrorCode::InvalidArgument, "parameters is {}, an object is expected", shown(parameters));
@@ -82,6 +113,7 @@ std::string differenceOf(const ProtocolDeclaration& before, const ProtocolDeclar
     if (now.purpose != before.purpose) return "another purpose";
     if (now.kind != before.kind) return "another kind of result";
     if (now.needs != before.needs) return "other devices";
+    if (now.view != before.view) return "another view";
     if (now.parameters.size() != before.parameters.size()) return "other parameters";
     for (std::size_t i = 0; i < now.parameters.size(); ++i) {
         if (now.parameters[i] == before.parameters[i]) continue;
@@ -130,6 +162,7 @@ Json toJson(const ProtocolDeclaration& declaration) {
             {"purpose", declaration.purpose},
             {"kind", declaration.kind.empty() ? Json() : Json(declaration.kind)},
             {"needs", needs},
+            {"view", wordOf(kViews, declaration.view)},
             {"parameters", parameters},
             {"questions", declaration.questions}};
 }

@@ -34,13 +34,22 @@ struct ProtocolSource {
 /// Where a script comes from, for people: "shipped with the program", or its path.
 [[nodiscard]] std::string originOf(const ProtocolSource& source);
 
+/// What a window draws while a run's rows come.
+enum class ProtocolView {
+    Trials,       ///< trains as captured
+    Loads,        ///< a row per load of the bench set
+    Calibration,  ///< measured against commanded
+    Slides,       ///< a fingertip by itself
+    None,
+};
+
 struct ProtocolDeclaration {
     std::string name;
     std::string title;
     std::string purpose;
-    /// What its results are: the `kind` of those that name none, and how they are shown while they come. May be empty.
-    std::string kind;
+    std::string kind;  ///< what its results are: the `kind` of those that name none. May be empty
     std::set<Role> needs;
+    ProtocolView view = ProtocolView::None;
     std::vector<ProtocolParameter> parameters;  ///< as written
     std::vector<std::string> questions;         ///< names the script's text passes to `operator`; "surface-*" and
                                                 ///< "fit-load" where it uses functions that may ask those
@@ -77,7 +86,7 @@ struct ProtocolSettings {
 [[nodiscard]] Result<ProtocolSettings> applySettings(const ProtocolDeclaration& declaration,
                                                      const std::map<std::string, std::string>& settings);
 
-/// An element of cli.md's `protocols`: name, title, purpose, kind, needs, parameters.
+/// An element of cli.md's `protocols`: name, title, purpose, kind, needs, view, parameters, questions.
 [[nodiscard]] nlohmann::json toJson(const ProtocolDeclaration& declaration);
 
 }  // namespace tacto

@@ -44,6 +44,12 @@ nlohmann::json rowsOf(const std::vector<Group>& groups) {
     return rows;
 }
 
+/// A row of a session from before rows said what they are: a step tells when it was complete.
+bool isMovement(const nlohmann::json& row) {
+    const auto type = row.find("type");
+    return type != row.end() ? *type == "movement" : !row.contains("complete_s");
+}
+
 }  // namespace
 
 StepLatency stepLatencyFrom(const nlohmann::json& row) {
@@ -59,7 +65,7 @@ StepLatency stepLatencyFrom(const nlohmann::json& row) {
 
 CapturedChange capturedChangeFrom(const nlohmann::json& row) {
     CapturedChange change{.name = row.at("name").get<std::string>(),
-                          .movement = !row.contains("complete_s"),
+                          .movement = isMovement(row),
                           .from_v = numberOr(row, "from_v"),
                           .to_v = numberOr(row, "to_v"),
                           .from_s = numberOr(row, "from_s"),

@@ -355,7 +355,7 @@ std::vector<HostFunction> benchFunctions() {
          .text = "Lets trains run at one place of the plane, steps to another and watches the trains that follow, each "
                  "in a record of its own.",
          .returns =
-             "{ step_s, since_onset_s, latency_s, designed_latency_s, trains, designed_trains, complete_s, "
+             "{ type, step_s, since_onset_s, latency_s, designed_latency_s, trains, designed_trains, complete_s, "
              "designed_complete_s, fastest_complete_s, fewest_trains, from_v, to_v, from_s, to_s, before_v, onsets, "
              "captures }: latency_s is from the step to the onset of the first train whose amplitude, or interval "
              "since the train before, has left what was there by a quarter of a just-noticeable difference; trains how "
@@ -382,7 +382,7 @@ std::vector<HostFunction> benchFunctions() {
                   .optional("1e6 or the instrument's largest")},
          .text =
              "Moves through the plane at an even pace and back, and watches every train, each in a record of its own.",
-         .returns = "{ seconds, onsets }; onsets as of bench.step().",
+         .returns = "{ type, seconds, onsets }; onsets as of bench.step().",
          .errors = "Throws without an oscilloscope, or when the run is stopped.",
          .needs = Role::Oscilloscope,
          .call = host::bench::traverse},

@@ -78,7 +78,8 @@ Json answer(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s,
     const StepPace pace = fastestPace(ends, kWantedPerTrain);
     Json ids = Json::array();
     for (const auto& handle : session.hold(std::move(kept))) ids.push_back(handle["capture"]);
-    return {{"step_s", step_s},
+    return {{"type", "step"},
+            {"step_s", step_s},
             {"since_onset_s", ends.sinceOnset.count()},
             {"latency_s", inSeconds(measured.latency)},
             {"designed_latency_s", inSeconds(designed.latency)},
@@ -193,7 +194,7 @@ Result<Json> traverse(ScriptSession& session, const Arguments& arguments) {
         row["after_step_s"] = seen[k].onset_s - begin_s;
         trains.push_back(std::move(row));
     }
-    return Json{{"seconds", seconds}, {"onsets", trains}};
+    return Json{{"type", "movement"}, {"seconds", seconds}, {"onsets", trains}};
 }
 
 }  // namespace tacto::host::bench

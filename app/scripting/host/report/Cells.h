@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -14,6 +16,17 @@ namespace tacto::host::report {
 [[nodiscard]] inline double numberIn(const nlohmann::json& row, const char* key) {
     const auto at = row.find(key);
     return at != row.end() && at->is_number() ? at->get<double>() : std::nan("");
+}
+
+/// With so many significant digits, zeros at the end included, as toPrecision() of the script language writes it; "–"
+/// for what is not known.
+[[nodiscard]] inline std::string digitsOf(double value, int digits) {
+    if (!std::isfinite(value)) return "–";
+    const auto scientific = fmt::format("{:.{}e}", value, digits - 1);
+    const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
+    if (exponent < -6 || exponent >= digits)
+        return fmt::format("{}e{:+}", scientific.substr(0, scientific.find('e')), exponent);
+    return fmt::format("{:.{}f}", value, digits - 1 - exponent);
 }
 
 /// Empty where it is absent or no text.

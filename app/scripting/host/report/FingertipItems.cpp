@@ -1,6 +1,5 @@
 #include "app/scripting/host/report/FingertipItems.h"
 
-#include <cstdlib>
 #include <fmt/format.h>
 #include <string>
 
@@ -12,16 +11,6 @@ namespace tacto::host::report {
 namespace {
 
 using Json = nlohmann::json;
-
-/// With so many significant digits, zeros at the end included; "–" for what is not known.
-std::string digitsOf(double value, int digits) {
-    if (!std::isfinite(value)) return "–";
-    const auto scientific = fmt::format("{:.{}e}", value, digits - 1);
-    const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
-    if (exponent < -6 || exponent >= digits)
-        return fmt::format("{}e{:+}", scientific.substr(0, scientific.find('e')), exponent);
-    return fmt::format("{:.{}f}", value, digits - 1 - exponent);
-}
 
 Json paragraph(std::string text) { return {{"kind", "text"}, {"text", std::move(text)}}; }
 

@@ -1,0 +1,17 @@
+// CalibrationObject.h - the functions of the object "calibration"; CalibrationTable.cpp says what each takes and
+// returns.
+//
+// Thread-safety: calls come from the script's thread.
+#pragma once
+
+#include "app/scripting/engine/Arguments.h"
+#include "app/scripting/engine/HostFunction.h"
+
+namespace tacto::host::calibration {
+
+using Json = nlohmann::json;
+
+HostCall knownRanges, timeBase;       // Stimulator.cpp
+HostCall knownWeight, sensorVerdict;  // Fingertip.cpp
+
+}  // namespace tacto::host::calibration

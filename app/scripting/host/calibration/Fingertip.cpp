@@ -1,0 +1,92 @@
+// What the calibration of a fingertip begins and ends with.
+#include <cmath>
+
+#include "app/scripting/host/calibration/CalibrationObject.h"
+#include "app/scripting/host/report/Cells.h"
+
+namespace tacto::host::calibration {
+
+namespace {
+
+using report::digitsOf, report::numberIn;
+
+constexpr double kStandsOut = 5;  // standard deviations at rest
+
+/// The mean of what a reading gives as the profile scales it; null where there is none.
+Json meanInUse(const Json& reading) {
+    const Json used = reading.value("force_in_use", Json());
+    return used.is_object() ? used.value("mean", Json()) : Json();
+}
+
+std::string toldApart(const Json& results) {
+    const Json& surfaces = results.at("surfaces");
+    const Json& distance = results.at("d_prime").at("R");
+    // What one repeat cannot tell is not known, and is not 0.
+    return fmt::format("{} and {} are told apart: d′ of R is {} (95 %: {} to {}), at least 1 is wanted",
+                       surfaces.at(0).at("name").get<std::string>(), surfaces.at(1).at("name").get<std::string>(),
+                       digitsOf(numberIn(distance, "value"), 3), digitsOf(numberIn(distance, "low"), 3),
+                       digitsOf(numberIn(distance, "high"), 3));
+}
+
+}  // namespace
+
+Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
+    const Json& reading = arguments.any("reading");
+    const Json& rest = arguments.object("rest");
+    const double tolerance_pct = arguments.number("tolerance");
+    Json check = {{"mass_g", nullptr},        {"reference_n", nullptr},       {"measured", nullptr},
+                  {"deviation_pct", nullptr}, {"allowed_pct", tolerance_pct}, {"passed", nullptr}};
+    if (reading.is_null()) return Json{{"check", check}, {"reason", ""}};
+    if (!reading.is_object() || !reading.value("reference_n", Json()).is_number())
+        return arguments.wrong("reading", reading, "what bench.measureWeight() returned");
+    check["mass_g"] = reading.at("mass_g");
+    check["reference_n"] = reading.at("reference_n");
+    const Json used = reading.value("force_in_use", Json());
+    check["unit"] = used.is_object() ? used.value("unit", Json()) : Json();
+    const Json under = meanInUse(reading), idle = meanInUse(rest);
+    bool passed = false;
+    if (under.is_number() && idle.is_number()) {
+        const double measured = under.get<double>() - idle.get<double>();
+        check["measured"] = measured;
+        if (check["unit"] == "N") {
+            const double off_pct = 100 * std::abs(measured / check["reference_n"].get<double>() - 1);
+            check["deviation_pct"] = off_pct;
+            passed = off_pct <= tolerance_pct;
+        } else {
+            passed = std::abs(measured) > kStandsOut * rest.at("force").at("sd").get<double>();
+        }
+    }
+    check["passed"] = passed;
+    if (passed) return Json{{"check", check}, {"reason", ""}};
+    const auto read = check["measured"].is_null()
+                          ? std::string("nothing")
+                          : digitsOf(numberIn(check, "measured"), 4) + " " +
+                                (check["unit"].is_string() ? check["unit"].get<std::string>() : std::string("null"));
+    const auto reason = fmt::format("the known-reference check failed: {} was read under {} N; nothing was calibrated",
+                                    read, digitsOf(numberIn(check, "reference_n"), 4));
+    return Json{{"check", check}, {"reason", reason}};
+}
+
+Result<Json> sensorVerdict(ScriptSession&, const Arguments& arguments) {
+    const Json& results = arguments.object("results");
+    Json verdict = results.at("verdict");
+    Json reasons = results.at("accepted") == true ? Json::array({toldApart(results)}) : results.at("reasons");
+    const auto putFirst = [&reasons](const Json& reason) { reasons.insert(reasons.begin(), reason); };
+    const Json& force = results.at("force");
+    if (force.value("asked", false) && verdict == "pass") {
+        verdict = "indeterminate";
+        putFirst(force.at("reason"));
+    }
+    std::vector<Json> scales{force};
+    for (const auto& taxel : results.at("taxels")) scales.push_back(taxel);
+    for (const auto& scale : scales) {
+        const Json reason = scale.value("reason", Json());
+        if (!scale.value("scale", Json()).is_null() || !arguments.flag("weighed") || !reason.is_string()) continue;
+        if (reason.get_ref<const std::string&>().find("does not follow") == std::string::npos) continue;
+        verdict = "fail";
+        putFirst(reason);
+    }
+    return Json{{"verdict", verdict}, {"reasons", reasons}};
+}
+
+}  // namespace tacto::host::calibration
