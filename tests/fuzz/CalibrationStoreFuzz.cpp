@@ -51,6 +51,7 @@ void checkStore(std::span<const std::uint8_t> bytes) {
 std::filesystem::path chained(std::span<const std::uint8_t> bytes) {
     const auto path = fuzz::scratchFolder() / "chained.jsonl";
     std::filesystem::remove(path);
+    std::filesystem::remove(path.string() + ".end");
     constexpr std::size_t kMostLines = 8;  // each is committed to a disk
     std::istringstream lines(std::string(bytes.begin(), bytes.end()));
     std::size_t count = 0;

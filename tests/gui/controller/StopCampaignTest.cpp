@@ -83,14 +83,14 @@ void stopAtRandomMoments(BenchController& controller, const DeviceUri& uri, cons
     EXPECT_IN_TIME(interrupted >= raceTrials() / 2);
 }
 
-TEST(StopAtRandomMoments, OfTheSimulatedStimulator) {
+TEST(StopAtRandomMomentsInRealTime, OfTheSimulatedStimulator) {
     const auto watch = std::make_shared<Watch>();
     BenchController controller(watchedRegistry(watch, false));
     stopAtRandomMoments(
         controller, *DeviceUri::parse("sim:"), [] {}, [watch] { return watch->trains.load(); });
 }
 
-TEST(StopAtRandomMoments, OfAnEmulatedScienceModeStimulator) {
+TEST(StopAtRandomMomentsInRealTime, OfAnEmulatedScienceModeStimulator) {
     const SteadyClock clock;
     auto pty = sciencemode::EmulatedPty::open({}, clock);
     ASSERT_IN_TIME(pty.has_value()) << pty.error().message;
