@@ -2,10 +2,12 @@
 // of life, as it should; a virtual machine that is not given its processors for so long makes it do so without a fault.
 //
 // A thread that sleeps a millisecond at a time sees how long the machine stood still, and one that it wakes every now
-// and then how long a word from thread to thread takes (a transfer of an emulated USB device takes ten of them). A test
-// that fails on a machine that does both in time has failed, and so has one of which anything but a deadline failed
-// (support/InTime.h). One that was only late on another machine is tried again from the start, five times in all, each
-// when the machine has been calm. What fails five times has failed. Every retry is a line of the file that
+// and then how long a word from thread to thread takes (a transfer of an emulated USB device takes ten of them). Linux
+// says how long each thread of the test and of the programs that it started waited for a processor, and how long the
+// processors were taken from the virtual machine: it may be another thread's that stood still, not the watch's. A test
+// that fails on a machine that does all of it in time has failed, and so has one of which anything but a deadline
+// failed (support/InTime.h). One that was only late on another machine is tried again from the start, five times in
+// all, each when the machine has been calm. What fails five times has failed. Every retry is a line of the file that
 // TACTO_RETRIES names: ./dev prints and counts them.
 #include <algorithm>
 #include <atomic>
@@ -13,9 +15,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -86,6 +90,67 @@ private:
     std::thread echo_;  // last: starts when all else is ready
 };
 
+/// How long threads were kept from a processor, as Linux counts it: the most within about 100 ms.
+class Waits {
+public:
+    void look() {
+        const bool isFirst = last_ == Clock::time_point{};
+        if (!isFirst && Clock::now() - last_ < kBetween) return;
+        last_ = Clock::now();
+        known_ = isFirst;
+        take("stolen", stolen());
+        for (const auto& process : processes()) {
+            std::error_code gone;
+            for (std::filesystem::directory_iterator task(process / "task", gone), end; !gone && task != end;
+                 task.increment(gone)) {
+                double ran_ns = 0, waited_ns = 0;
+                if (std::ifstream(task->path() / "schedstat") >> ran_ns >> waited_ns)
+                    take(task->path(), Milliseconds(waited_ns / 1e6));
+            }
+        }
+    }
+    [[nodiscard]] Milliseconds longest() const noexcept { return longest_; }
+
+private:
+    static constexpr Milliseconds kBetween{50};
+    struct Count {
+        Milliseconds total, before;  ///< by the last look, and what the one before it added
+    };
+
+    /// Of all processors.
+    [[nodiscard]] static Milliseconds stolen() {
+        std::string cpu;
+        double user = 0, nice = 0, system = 0, idle = 0, waiting = 0, interrupts = 0, soft = 0, steal = 0;
+        std::ifstream("/proc/stat") >> cpu >> user >> nice >> system >> idle >> waiting >> interrupts >> soft >> steal;
+        return Milliseconds(1e3 * steal / static_cast<double>(::sysconf(_SC_CLK_TCK)));
+    }
+    /// This one and those that it started.
+    [[nodiscard]] static std::vector<std::filesystem::path> processes() {
+        std::vector<std::filesystem::path> all{"/proc/self"};
+        std::error_code gone;
+        for (std::filesystem::directory_iterator task("/proc/self/task", gone), end; !gone && task != end;
+             task.increment(gone)) {
+            std::ifstream children(task->path() / "children");
+            for (std::string id; children >> id;) all.push_back("/proc/" + id);
+        }
+        return all;
+    }
+    void take(const std::string& whose, Milliseconds total) {
+        const auto [at, isNew] = counts_.try_emplace(whose, Count{total, Milliseconds(0)});
+        auto& [last, before] = at->second;
+        // What was waited before the first look is not the test's; a thread that is new later is as young as that.
+        const auto added = !isNew ? total - last : known_ ? Milliseconds(0) : total;
+        longest_ = std::max(longest_, before + added);
+        last = total;
+        before = added;
+    }
+
+    Clock::time_point last_{};
+    bool known_ = true;  ///< in the first look: what is seen was there before
+    std::map<std::string, Count> counts_;
+    Milliseconds longest_{0};
+};
+
 /// Whether anything failed that no standstill excuses. An ASSERT_IN_TIME ends its test from within a function that the
 /// test calls, too: what failed for want of it would be no deadline.
 class Failures : public testing::EmptyTestEventListener {
@@ -112,7 +177,9 @@ public:
         // From here on, not from when the thread is first given a processor; and to the end.
         thread_ = std::thread([this, last = Clock::now()]() mutable {
             Words words;
+            Waits waits;
             const auto look = [&] {
+                waits.look();
                 const auto now = Clock::now();
                 longest_ = std::max(longest_, Milliseconds(now - last));
                 last = now;
@@ -123,6 +190,7 @@ public:
                 if (turn % 5 == 0) words.pass();
             }
             look();
+            waited_ = waits.longest();
             slowly_ = words.slow();
             said_ = std::to_string(words.slowOnes()) + " of " + std::to_string(words.passed());
         });
@@ -130,18 +198,21 @@ public:
     void TearDown() override {
         ending_ = true;
         thread_.join();
-        if (!testing::UnitTest::GetInstance()->Failed() || (longest_ < kStill && !slowly_)) return;
+        const bool calm = longest_ < kStill && waited_ < kStill && !slowly_;
+        if (!testing::UnitTest::GetInstance()->Failed() || calm) return;
         if (failures_->broken()) return;
         const char* set = std::getenv(kTry);
         const int number = set == nullptr ? 1 : std::atoi(set);
         std::printf(
-            "The machine stood still for %.0f ms, and %s words between threads took over %.0f ms: try %d of %d.\n",
-            longest_.count(), said_.c_str(), kSlowWord.count(), number, kTries);
+            "The machine stood still for %.0f ms, kept a thread waiting for %.0f ms, and %s words between threads took "
+            "over %.0f ms: try %d of %d.\n",
+            longest_.count(), waited_.count(), said_.c_str(), kSlowWord.count(), number, kTries);
         std::fflush(nullptr);
         if (number == kTries) return;
         if (const char* list = std::getenv("TACTO_RETRIES")) {
             std::ofstream(list, std::ios::app)
-                << testing::GTEST_FLAG(filter) << ": " << longest_.count() << " ms, " << said_ << " words slow\n";
+                << testing::GTEST_FLAG(filter) << ": still for " << longest_.count() << " ms, a thread waited "
+                << waited_.count() << " ms, " << said_ << " words slow\n";
         }
         waitForCalm();
         again(number + 1);
@@ -177,6 +248,7 @@ private:
     std::atomic<bool> ending_{false};
     // The thread's, until it is joined:
     Milliseconds longest_{0};
+    Milliseconds waited_{0};
     bool slowly_ = false;
     std::string said_;
 };
