@@ -8,12 +8,12 @@
 #include "core/dsp/AccelerationTrack.h"
 #include "core/dsp/ForceTrack.h"
 #include "core/dsp/FramePacer.h"
-#include "core/dsp/PowerSpectrum.h"
 #include "core/dsp/RoughnessIndex.h"
 #include "core/dsp/SlidingRest.h"
 #include "core/dsp/StreamCheck.h"
 #include "core/dsp/StreamScaling.h"
 #include "core/dsp/TaxelTrack.h"
+#include "core/dsp/WindowVibration.h"
 
 namespace tacto {
 
@@ -35,8 +35,6 @@ struct RoughnessChain::State {
     [[nodiscard]] bool ready(double centre_s, double end_s) const noexcept;
     void evaluate(double begin_s, double centre_s, double end_s, const AccelerationWindow* window,
                   std::vector<RoughnessFrame>& frames);
-    [[nodiscard]] double spectralFeature(const AccelerationWindow& window, double& meanSquare);
-    [[nodiscard]] double undoneMeanSquare(const AccelerationWindow& window);
     [[nodiscard]] double forceKnown_s() const noexcept;
     [[nodiscard]] double horizon_s() const noexcept;
     [[nodiscard]] double streamBegin_s() const noexcept;
@@ -52,12 +50,9 @@ struct RoughnessChain::State {
     std::optional<StreamInfo> accelerationInfo, forceInfo, taxelInfo;
     double period_s = 0;
     StreamKind pacedBy = StreamKind::Acceleration;
-    BinRange whole, rough;
-    std::vector<double> divisors;                                    // scratch: one window's
-    std::array<std::vector<double>, AxesBandpass::kMaxAxes> undone;  // scratch: one window's axes
 
     std::optional<AccelerationTrack> acceleration;
-    std::optional<PowerSpectrum> spectrum;
+    std::optional<WindowVibration> vibration;
     std::optional<ForceTrack> force;
     std::optional<TaxelTrack> taxels;
     std::optional<RoughnessIndex> index;
@@ -66,7 +61,6 @@ struct RoughnessChain::State {
     std::vector<std::size_t> taken;   // per stream, samples of the current blocks
 
     bool contactAssumed = false;
-    bool spectrumEmpty = false;
     bool finished = false;
     mutable RestLevels levels;
 };
@@ -89,19 +83,13 @@ RoughnessChain::State::State(std::span<const StreamInfo> infos, const RoughnessS
     if (accelerationInfo) {
         acceleration.emplace(*accelerationInfo);
         period_s = acceleration->hop_s();
-        spectrum.emplace(acceleration->windowLength(), accelerationInfo->channels, accelerationInfo->rate_hz);
-        const double top = std::min(AccelerationTrack::kHigh_hz, acceleration->upperEdge_hz());
-        whole = spectrum->bins(AccelerationTrack::kLow_hz, top);
-        divisors.resize(acceleration->windowLength());
-        for (auto& axis : undone) axis.resize(acceleration->windowLength());
-        if (top > settings.bandLow.value()) rough = spectrum->bins(settings.bandLow.value(), top);
+        vibration.emplace(*acceleration, accelerationInfo->channels, accelerationInfo->rate_hz, settings);
     } else {
         const auto& paced = taxelInfo ? *taxelInfo : *forceInfo;
         pacedBy = paced.kind;
         pacer.emplace(paced.rate_hz);
         period_s = pacer->period_s();
     }
-    spectrumEmpty = rough.empty();
     contactAssumed = !forceInfo && !declared.contact;
     index.emplace(settings, period_s);
     const bool restFits = accelerationInfo && settings.restUnit == accelerationInfo->unit;
@@ -247,34 +235,6 @@ void RoughnessChain::State::advance(std::vector<RoughnessFrame>& frames, bool fo
     }
 }
 
-double RoughnessChain::State::spectralFeature(const AccelerationWindow& window, double& meanSquare) {
-    const auto axes = acceleration->samples(window);
-    spectrum->transform(std::span(axes).first(accelerationInfo->channels));
-    const double high = rough.empty() ? 0 : spectrum->power(rough);
-    if (rough.empty() || rough.first <= whole.first) {
-        meanSquare = spectrum->power(whole);
-    } else {
-        meanSquare = spectrum->power({whole.first, rough.first - 1}) + high;
-    }
-    if (rough.empty()) return kNaN;
-    const double feature = settings.spectral == SpectralFeature::Relative ? high / meanSquare : high;
-    return feature > 0 && std::isfinite(feature) ? feature : kNaN;
-}
-
-/// The window's mean square with the normalisation undone sample by sample. While a finger lands or lifts, force
-/// changes tenfold within a window: undoing it with one number would make sensor noise a vibration (hazard H7).
-double RoughnessChain::State::undoneMeanSquare(const AccelerationWindow& window) {
-    const auto axes = acceleration->samples(window);
-    std::array<const double*, AxesBandpass::kMaxAxes> pointers{};
-    force->divisors(acceleration->stamps(window), divisors, streamBegin_s());
-    for (std::size_t a = 0; a < accelerationInfo->channels; ++a) {
-        for (std::size_t i = 0; i < divisors.size(); ++i) undone[a][i] = axes[a][i] * divisors[i];
-        pointers[a] = undone[a].data();
-    }
-    spectrum->transform(std::span(pointers).first(accelerationInfo->channels));
-    return spectrum->power(whole);
-}
-
 void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end_s, const AccelerationWindow* window,
                                      std::vector<RoughnessFrame>& frames) {
     RoughnessFrame frame;
@@ -285,14 +245,16 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
 
     double meanSquare = 0;
     if (window != nullptr) {
-        frame.h = spectralFeature(*window, meanSquare);
+        const auto read = vibration->of(*window);
+        frame.h = read.feature;
+        meanSquare = read.meanSquare;
         if (force) {
             // !(x > y) also serves a force that is not known.
             const bool pressing = pressed.force_n > ForceTrack::kSmallestDivisor_n;
             const double divisor = pressing ? pressed.force_n : ForceTrack::kSmallestDivisor_n;
             meanSquare *= divisor * divisor;
             if (frame.contact && force->unsteady(begin_s, end_s, streamBegin_s())) {
-                meanSquare = std::min(meanSquare, undoneMeanSquare(*window));
+                meanSquare = std::min(meanSquare, vibration->undoneMeanSquare(*window, *force, streamBegin_s()));
             }
         }
     }
@@ -375,7 +337,7 @@ RoughnessFlags RoughnessChain::flags() const noexcept {
     const auto& s = *state_;
     RoughnessFlags out;
     out.raise(BandTruncated, s.acceleration && s.acceleration->bandTruncated());
-    out.raise(NoSpectralFeature, s.spectrumEmpty);
+    out.raise(NoSpectralFeature, !s.vibration || !s.vibration->hasFeature());
     out.raise(NotForceNormalised, !s.force);
     out.raise(ContactAssumed, s.contactAssumed);
     out.raise(SlidingAssumed, s.sliding->assumed());

@@ -29,19 +29,9 @@ BenchController::~BenchController() {
     thread_.quit();
 }
 
-Telemetry BenchController::telemetry() const {
-    const std::scoped_lock lock(benchMutex_);
-    return bench_ != nullptr ? bench_->telemetry() : Telemetry{};
-}
-
 std::string BenchController::confirmationOf(const Load& load) const {
     if (!open_ || !open_->output) return {};
     return armingText(*open_->output, open_->source ? &*open_->source : nullptr, profile_, OutputMode::BenchLoad, load);
-}
-
-std::optional<DeviceReport> BenchController::deviceReport(Role role) const {
-    const std::scoped_lock lock(benchMutex_);
-    return bench_ != nullptr ? bench_->deviceReport(role) : std::nullopt;
 }
 
 Result<bool> BenchController::allVirtual(const std::vector<DeviceUri>& uris) const {
@@ -50,36 +40,11 @@ Result<bool> BenchController::allVirtual(const std::vector<DeviceUri>& uris) con
 
 void BenchController::stop(const char* by) noexcept {
     stops_->raise();  // first, even with nothing to switch off: see StopCounter.h
-    const std::scoped_lock lock(benchMutex_);
-    if (script_ == nullptr) unheardStop_ = by;
-    if (script_ != nullptr && takesStop_ && takesStop_(by)) return;
-    if (script_ != nullptr)
-        script_->stop(by);
-    else if (bench_ != nullptr)
-        bench_->stop(by);
-}
-
-void BenchController::pause() {
-    const std::scoped_lock lock(benchMutex_);
-    if (script_ != nullptr)
-        script_->pause();
-    else if (bench_ != nullptr)
-        bench_->pause();
-}
-
-void BenchController::resume() {
-    const std::scoped_lock lock(benchMutex_);
-    if (script_ != nullptr)
-        script_->resume();
-    else if (bench_ != nullptr)
-        bench_->resume();
+    published_.stop(by);
 }
 
 bool BenchController::markMoment(Instant at, const QString& word) {
-    {
-        const std::scoped_lock lock(benchMutex_);
-        if (bench_ == nullptr || !bench_->markMoment(at, word.toStdString())) return false;
-    }
+    if (!published_.markMoment(at, word.toStdString())) return false;
     emit marked(toSeconds(at), word);
     return true;
 }
@@ -252,10 +217,7 @@ std::uint64_t BenchController::runPilot(const RunOrder& order, const PilotSeats&
             if (!made) return failure(made);
             const std::shared_ptr<PilotRun> run(std::move(*made));
             if (seats.begun) seats.begun(run->run().opened().clock);
-            {
-                const std::scoped_lock lock(benchMutex_);
-                takesStop_ = seats.takesStop;
-            }
+            published_.setTakesStop(seats.takesStop);
             return Prepared{run, &run->run(), [run](RunRequest hooks) { return run->start(std::move(hooks)); },
                             [run] { return run->finish(); }};
         });
@@ -304,19 +266,6 @@ void BenchController::scopeFailed(const Error& error) {
     tell([this, why = QString::fromStdString(error.message)] { emit scopeStopped(why); });
 }
 
-void BenchController::publishBench(Bench* bench, ScriptRun* script) {
-    const std::scoped_lock lock(benchMutex_);
-    bench_ = bench;
-    script_ = script;
-}
-
-std::optional<std::string> BenchController::publishScript(Bench& bench, ScriptRun& script) {
-    const std::scoped_lock lock(benchMutex_);
-    bench_ = &bench;
-    script_ = &script;
-    return unheardStop_;
-}
-
 void BenchController::become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap) {
     tell([this, activity, open = std::move(open), tap = std::move(tap)] {
         activity_ = activity;
@@ -337,9 +286,9 @@ void BenchController::openOnThread(const LiveOrder& order, StopMark asked) {
     auto live =
         DrivenBench::open(registry, order, {limits_, stops_, asked, [beat = heartbeat_] { return beat->runs(); }});
     if (!live) return give_up(live.error());
-    publishBench(&(*live)->bench(), nullptr);  // from here on a stop reaches it
+    published_.publish(&(*live)->bench());  // from here on a stop reaches it
     if (stops_->movedSince(asked)) {
-        publishBench(nullptr, nullptr);
+        published_.publish(nullptr);
         live->reset();
         return give_up(Error{ErrorCode::Stopped, "stopped while devices were opening: nothing was delivered"});
     }
@@ -350,7 +299,7 @@ void BenchController::openOnThread(const LiveOrder& order, StopMark asked) {
 
 void BenchController::closeOnThread() {
     if (!live_) return;
-    publishBench(nullptr, nullptr);
+    published_.publish(nullptr);
     if (auto closed = live_->close(); !closed) report(closed.error());
     live_.reset();
     become(Activity::Closed, nullptr, nullptr);
@@ -366,10 +315,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     auto tap = std::make_shared<BenchTap>();
     auto registry = makeRegistry_();
     const auto end = [&] {
-        {
-            const std::scoped_lock lock(benchMutex_);
-            takesStop_ = nullptr;
-        }
+        published_.setTakesStop(nullptr);
         tell([this, finished] {
             activity_ = Activity::Closed;
             open_.reset();
@@ -385,26 +331,23 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
         return end();
     }
     auto& run = *prepared->run;
-    publishBench(&run.bench(), nullptr);  // from here on a stop reaches it
-    {
-        const std::scoped_lock lock(benchMutex_);
-        unheardStop_.reset();  // what came before is start()'s to see: the order is older than it
-    }
+    published_.publish(&run.bench());  // from here on a stop reaches it
+    published_.forgetStops();          // what came before is start()'s to see: the order is older than it
     RunRequest hooks;
     hooks.operatorDesk = &operator_;
     feed_.listen(hooks);
     if (auto started = prepared->start(std::move(hooks)); !started) {
-        publishBench(nullptr, nullptr);
+        published_.publish(nullptr);
         finished->result = prepared->finish();
         *prepared = {};
         return end();
     }
     // A stop between start and publishing has switched off the bench, and has not reached the script. One that the
     // script asked for itself, as a pilot session's stop test does, ends nothing.
-    if (const auto by = publishScript(run.bench(), *run.script())) run.script()->stop(by->c_str());
+    if (const auto by = published_.publish(run.bench(), *run.script())) run.script()->stop(by->c_str());
     become(Activity::Running, describeBench(run.opened()), tap);
     static_cast<void>(run.script()->wait());
-    publishBench(nullptr, nullptr);
+    published_.publish(nullptr);
     become(Activity::Closing, nullptr, tap);
     finished->result = prepared->finish();
     finished->html = run.files().report(".html");

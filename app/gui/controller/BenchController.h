@@ -17,12 +17,12 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 
 #include "app/gui/controller/DayNotes.h"
 #include "app/gui/controller/DeviceWatch.h"
 #include "app/gui/controller/OpenBench.h"
+#include "app/gui/controller/PublishedBench.h"
 #include "app/gui/controller/RunFeed.h"
 #include "app/gui/controller/TaskThread.h"
 #include "app/gui/controller/WindowHeartbeat.h"
@@ -77,9 +77,9 @@ public:
     /// Null while Closed or Opening.
     [[nodiscard]] std::shared_ptr<const OpenBench> open() const { return open_; }
     /// Disconnected without a bench.
-    [[nodiscard]] Telemetry telemetry() const;
+    [[nodiscard]] Telemetry telemetry() const { return published_.telemetry(); }
     /// What the open device of that role reports on itself: losses, clock drift. Nothing where there is none.
-    [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const;
+    [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const { return published_.deviceReport(role); }
     /// The samples, frames and trains of the open bench. Null without one; one reader, LiveHistory.
     [[nodiscard]] std::shared_ptr<BenchTap> tap() const { return tap_; }
     /// The profile in force: of the open bench, else the one of the last order or the shipped one.
@@ -112,8 +112,8 @@ public:
     /// Outputs off before this returns; any thread. Ends a running protocol too, and the opening of devices as soon as
     /// the driver that is at work returns.
     void stop(const char* by) noexcept;
-    void pause();
-    void resume();
+    void pause() { published_.pause(); }
+    void resume() { published_.resume(); }
     /// Marks the moment `at` of the session that is being recorded with a word, past every queue and without waiting
     /// for the disk; no output is touched. False where nothing is recorded.
     [[nodiscard]] bool markMoment(Instant at, const QString& word);
@@ -174,9 +174,6 @@ private:
     using Prepare = std::function<Result<Prepared>(Registry& registry, std::shared_ptr<BenchTap> tap)>;
     [[nodiscard]] RunOrder begun(const RunOrder& order, StopMark asked);
     void runOnThread(const RunOrder& order, std::uint64_t number, const Prepare& prepare);
-    void publishBench(Bench* bench, ScriptRun* script);
-    /// From here on a stop reaches the script. Returns who stopped the run before that and after it was begun.
-    [[nodiscard]] std::optional<std::string> publishScript(Bench& bench, ScriptRun& script);
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
 
     const MakeRegistry makeRegistry_;
@@ -196,11 +193,7 @@ private:
 
     // One for this controller and all its benches.
     const std::shared_ptr<StopCounter> stops_ = std::make_shared<StopCounter>();
-    mutable std::mutex benchMutex_;               // held for moments: to swap the pointers, to look, to stop
-    Bench* bench_ = nullptr;                      // guarded by benchMutex_
-    ScriptRun* script_ = nullptr;                 // guarded by benchMutex_
-    std::optional<std::string> unheardStop_;      // guarded by benchMutex_: the last stop that no script heard
-    std::function<bool(const char*)> takesStop_;  // guarded by benchMutex_: of the session that runs
+    PublishedBench published_;
 
     RunFeedCollector feed_;
     std::atomic<double> speed_{1};
