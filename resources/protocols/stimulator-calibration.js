@@ -153,7 +153,7 @@ function checkStored(stored, settings, results) {
     checks.push(check);
     results.check.push(...check.rows);
   }
-  return verdict(Object.assign(results, calibration.checkVerdict(checks, stored)));
+  return verdict(Object.assign(results, { type: "check" }, calibration.checkVerdict(checks, stored)));
 }
 
 function calibrateAll(settings, results) {

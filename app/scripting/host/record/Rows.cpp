@@ -6,6 +6,7 @@
 #include "app/scripting/host/record/RecordObject.h"
 #include "app/scripting/host/report/FingertipItems.h"
 #include "app/scripting/host/report/LoadSafetyTables.h"
+#include "core/session/ResultKind.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto::host::record {
@@ -13,12 +14,12 @@ namespace tacto::host::record {
 namespace {
 
 struct KindTables {
-    std::string_view kind;
+    ResultKind kind;
     Json (*tables)(const Json& found);
 };
 /// How what a run has found so far is shown, by the kind of its results.
-constexpr KindTables kTables[] = {{"load-safety", report::loadSafetyTables},
-                                  {"sensor-calibration", report::fingertipTables}};
+constexpr KindTables kTables[] = {{ResultKind::LoadSafety, report::loadSafetyTables},
+                                  {ResultKind::SensorCalibration, report::fingertipTables}};
 
 }  // namespace
 
@@ -51,7 +52,7 @@ Result<Json> event(ScriptSession& session, const Arguments& arguments) {
 
 Result<Json> partial(ScriptSession& session, const Arguments& arguments) {
     const Json& found = arguments.object("found");
-    const auto* own = std::ranges::find(kTables, session.kindOf(found), &KindTables::kind);
+    const auto* own = std::ranges::find(kTables, resultTraits(session.kindOf(found)).kind, &KindTables::kind);
     const bool isShown = !arguments.has("tables") && own != std::end(kTables);
     const Json tables = isShown ? own->tables(found) : arguments.list("tables");
     for (const auto& table : tables) {
