@@ -17,6 +17,7 @@
 #include "core/base/Printable.h"
 #include "core/dsp/RoughnessFlags.h"
 #include "core/session/Origin.h"
+#include "core/session/ResultKind.h"
 
 namespace tacto::cli {
 
@@ -218,16 +219,17 @@ struct Shown {
 };
 
 Shown shownAs(const json& results) {
-    static const std::map<std::string, Shown> kKinds{{"variation", {printVariation, true}},
-                                                     {"separability", {printSeparability}},
-                                                     {"load-safety", {printLoadSafety}},
-                                                     {"stimulator-calibration", {printCalibration}},
-                                                     {"transitions", {printTransitions}},
-                                                     {"encoding-comparison", {printEncodingComparison}},
-                                                     {"sensor-calibration", {printSensorCalibration}}};
+    using enum ResultKind;
+    static const std::map<ResultKind, Shown> kKinds{{Variation, {printVariation, true}},
+                                                    {Separability, {printSeparability}},
+                                                    {LoadSafety, {printLoadSafety}},
+                                                    {StimulatorCalibration, {printCalibration}},
+                                                    {Transitions, {printTransitions}},
+                                                    {EncodingComparison, {printEncodingComparison}},
+                                                    {SensorCalibration, {printSensorCalibration}}};
     const auto kind = results.is_object() ? results.find("kind") : results.end();
     if (kind == results.end() || !kind->is_string()) return {};
-    const auto found = kKinds.find(kind->get<std::string>());
+    const auto found = kKinds.find(resultTraits(kind->get<std::string>()).kind);
     return found != kKinds.end() ? found->second : Shown{};
 }
 

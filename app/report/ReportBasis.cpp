@@ -1,45 +1,16 @@
 #include "app/report/ReportBasis.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
+#include "core/session/ResultKind.h"
 
 namespace tacto {
 namespace {
 
 constexpr qsizetype kMaxNamedAt = 8;  // of what was not evaluated; the rest is counted
-
-struct Rule {
-    const char* kind;
-    const char* text;
-};
-constexpr std::array<Rule, 9> kRules{
-    {{"load-safety",
-      "Each value passes when value + U keeps its limit, fails when value − U does not, and is indeterminate between. "
-      "Values that were not measured are not evaluated and prevent a pass."},
-     {"stimulator-calibration",
-      "Each level passes when |error| + U is within the tolerance, fails when |error| − U is not, and is indeterminate "
-      "between; the worse sweep direction is judged. The verdict is the worst level's."},
-     {"separability",
-      "Separable when each pair of conditions is at least 5 just-noticeable differences apart in one dimension and no "
-      "coefficient of variation exceeds 5 %, each judged by its one-sided 95 % confidence bound, and the accuracy's "
-      "95 % interval begins at 95 % or above. The 5 differences and the 5 % are choices of this program."},
-     {"transitions",
-      "No step from one captured train to the next may exceed the just-noticeable differences wanted, uncertainty "
-      "included; a change must be complete in the time wanted or, where steps of that size cannot, in the fewest "
-      "trains that they take (choice); no latency may differ from its design by more than the tolerance."},
-     {"encoding-comparison", "A comparison: the encodings are set side by side, and none is judged."},
-     {"sensor-calibration",
-      "Accepted when the 95 % interval of d′ between the two references begins at 1 or above: the scale then tells "
-      "them apart."},
-     {"variation", "A prediction: nothing is measured, and nothing is judged."},
-     {"live", "A recording: nothing is judged."},
-     {"massager", "A recording: nothing is judged."}}};
-
-bool isGuardBanded(const QString& kind) { return kind == "load-safety" || kind == "stimulator-calibration"; }
 
 QString sentence(QString key) {
     key.replace('_', ' ');
@@ -62,10 +33,12 @@ void readRule(const QJsonObject& results, const QString& kind, ReportBasis& basi
             basis.rule.push_back({sentence(it.key()), cellText(it.value(), {})});
     }
     if (!basis.rule.empty()) return;
-    const auto known = std::find_if(kRules.begin(), kRules.end(), [&](const Rule& rule) { return kind == rule.kind; });
-    basis.rule.push_back({"Decision rule", known != kRules.end() ? QString::fromUtf8(known->text)
-                                                                 : QString("As the script gives it in its reasons.")});
-    if (!isGuardBanded(kind)) return;
+    const auto& traits = resultTraits(kind.toStdString());
+    const auto& known = traits.decisionRule;
+    basis.rule.push_back(
+        {"Decision rule", known.empty() ? QString("As the script gives it in its reasons.")
+                                        : QString::fromUtf8(known.data(), static_cast<qsizetype>(known.size()))});
+    if (!traits.guardBanded) return;
     basis.rule.push_back({"Guard band", "U on the side of the limit (ISO 14253-1)"});
     basis.rule.push_back({"Coverage", "U is the expanded uncertainty for a coverage of 95\u202f% (GUM)"});
 }
@@ -194,7 +167,7 @@ void readNotEvaluated(const QJsonObject& results, ReportBasis& basis) {
 }  // namespace
 
 void readBasis(const QJsonObject& results, ReportModel& model) {
-    const QString kind = results.value("kind").toString(model.protocol);
+    const QString kind = results.value("kind").toString(model.resultKind);
     readRule(results, kind, model.basis);
     readInstruments(results, model);
     readRestsOn(results, model.basis);

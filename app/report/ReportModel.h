@@ -97,9 +97,10 @@ struct ReportEvent {
 struct ReportModel {
     QString title;
     QString purpose;
-    QString protocol;  ///< "separability"
-    QString session;   ///< the session's name: its file name without the ending
-    QString started;   ///< ISO 8601 UTC
+    QString protocol;    ///< "separability"
+    QString resultKind;  ///< as the protocol declares it; what results are that do not say it themselves
+    QString session;     ///< the session's name: its file name without the ending
+    QString started;     ///< ISO 8601 UTC
     double duration_s = kUnknown;
     ReportVerdict verdict = ReportVerdict::None;
     QStringList reasons;     ///< why that verdict; one sentence each

@@ -48,6 +48,7 @@ QString shellWord(const QString& word) {
 void fillAbout(const SessionReader& reader, const std::filesystem::path& file, ReportModel& model) {
     const auto& about = reader.about();
     model.protocol = text(about.protocol);
+    model.resultKind = model.protocol;  // of sessions from before protocols declared what their results are
     model.session = text(file.stem().string());
     model.started = text(about.wallStart);
     model.simulated = about.simulated;
@@ -147,6 +148,10 @@ private:
     void takeAbout(const QJsonObject& item) {
         if (item.contains("title")) model_.title = item["title"].toString();
         if (item.contains("purpose")) model_.purpose = item["purpose"].toString();
+        if (item.contains("result_kind")) {
+            model_.resultKind = item["result_kind"].toString();
+            readBasis({}, model_);
+        }
         if (!item.contains("parameters")) return;
         model_.settings.clear();
         for (const auto& element : item["parameters"].toArray()) {

@@ -64,9 +64,9 @@ function give(load, command, p, mark) {
   const given = loads.give(command, p.trains);
   load[given.list].push(given.entry);
   if (given.list !== "steps") return;
-  const trial = { command_v: command.command_v, load: load.name };
-  if (mark) delete trial.load;
-  record.trial((mark || "") + given.entry.condition, Object.assign(trial, given.entry.reading));
+  const of = mark ? { type: "reference" } : { type: "command", load: load.name };
+  const trial = Object.assign(of, { command_v: command.command_v }, given.entry.reading);
+  record.trial((mark || "") + given.entry.condition, trial);
 }
 
 // A reading of a known load comes first: instruments that cannot give it can judge nothing.
@@ -109,7 +109,7 @@ function checkLoads(p, made, keep) {
     if (endsOutput) made.trips.push(bench.tripWhenArming(each.name, "1 kohm"));
     made.loads.push(endsOutput ? newLoad(each.name) : measureLoad(each.name, p, made.tolerances));
     const line = keep().loads.find((load) => load.name === each.name);
-    record.trial(line.name, Object.assign({ load: line.name, load_verdict: line.verdict }, line));
+    record.trial(line.name, Object.assign({}, line, { type: "load", load: line.name }));
   }
 }
 

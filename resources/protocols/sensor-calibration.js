@@ -100,9 +100,6 @@ protocol({
   },
 });
 
-const WEIGHT_COLUMNS = ["mass_g", "reference_n", "force", "direction", "repeat"];
-const SLIDE_COLUMNS = ["material", "h", "h_abs", "v_static", "v_dynamic", "force_n", "sliding_frames"];
-
 // All of it is read before anything moves: a typing error must not cost an hour of sliding.
 function surfacesOf(p) {
   const reference = (which) => ({
@@ -115,48 +112,7 @@ function surfacesOf(p) {
   return surfaces.map((surface) => Object.assign(surface, { slides: [] }));
 }
 
-function withoutTrack(slide) {
-  const out = Object.assign({}, slide);
-  delete out.track;
-  return out;
-}
-
-function slidesTable(surfaces) {
-  const rows = [];
-  for (const surface of surfaces) for (const slide of surface.slides) rows.push(withoutTrack(slide));
-  return rows;
-}
-
-function slideOver(p, surfaces, rest, results) {
-  const order = random.blocks(surfaces.map((surface, index) => index), p.slides);
-  for (const index of progress(order, "Slides")) {
-    const surface = surfaces[index];
-    const slide = bench.measureSlide(surface.name, rest, {
-      speed_mm_s: p.speed_mm_s,
-      force_n: p.force_n,
-      duration_s: p.duration_s,
-    });
-    surface.slides.push(slide);
-    record.trial(surface.name, withoutTrack(slide));
-    results.slides = slidesTable(surfaces);
-    keep(results);
-    bench.lift();
-  }
-}
-
-// What stands if the run ends early.
-function keep(results) {
-  const tables = [];
-  if (results.weights) {
-    tables.push({ caption: "Weights", rows: results.weights, columns: WEIGHT_COLUMNS });
-  }
-  if (results.slides) {
-    tables.push({ caption: "Slides", rows: results.slides, columns: SLIDE_COLUMNS });
-  }
-  record.partial(results, tables);
-}
-
-function setUp(p, surfaces) {
+function setUp(surfaces) {
   if (bench.devices.every((device) => device.simulated)) {
     report.text("Set-up: the simulated fingertip on the simulated surfaces.");
     return;
@@ -166,6 +122,11 @@ function setUp(p, surfaces) {
     "The fingertip is mounted as in use, the surfaces (" + surfaces.map((s) => s.name).join(", ") +
       ") are clean, and the Ra and Rz given are of these very specimens",
   );
+}
+
+function readRest(results, name) {
+  results.rest = bench.measureRest({ duration_s: 3 });
+  record.measurement(name, results.rest);
 }
 
 // Before anything is believed: the largest weight must read as what it is.
@@ -178,63 +139,57 @@ function checkReference(p, rest, masses) {
   return known;
 }
 
-// Up and down, again and again: what stays behind when weight is taken off shows as hysteresis.
+// Each weight up and down, again and again.
 function weigh(p, masses, results) {
+  if (masses.length === 0) return [];
   const weighed = [];
-  const steps = [];
-  for (let repeat = 1; repeat <= p.weight_repeats; ++repeat) {
-    for (const mass of masses) steps.push({ mass, direction: "up", repeat });
-    for (const mass of masses.slice().reverse()) steps.push({ mass, direction: "down", repeat });
-  }
-  if (steps.length === 0) return weighed;
   results.weights = [];
-  for (const step of progress(steps, "Weights")) {
-    const reading = bench.measureWeight(step.mass, { gravity_m_s2: p.gravity_m_s2 });
+  for (const step of progress(calibration.weighings(masses, p.weight_repeats), "Weights")) {
+    const reading = bench.measureWeight(step.mass_g, { gravity_m_s2: p.gravity_m_s2 });
+    const row = Object.assign({}, reading, { direction: step.direction, repeat: step.repeat });
     weighed.push({ reading, direction: step.direction });
-    results.weights.push(Object.assign({}, reading, { direction: step.direction, repeat: step.repeat }));
-    record.trial("weight " + step.mass + " g", results.weights[results.weights.length - 1]);
-    keep(results);
+    results.weights.push(row);
+    record.trial("weight " + step.mass_g + " g", row);
+    record.partial(results);
   }
   bench.lift();
   return weighed;
 }
 
 // Weights become the scales of force and taxels, which are put into use before the surfaces are read.
-function scaleFingertip(p, masses, results) {
-  const weights = weigh(p, masses, results);
+function scaleFingertip(p, weighed, results) {
   const known = {
     tolerance_pct: p.weight_tolerance_pct,
     gravity_tolerance_pct: p.gravity_tolerance_pct,
     contact_area_cm2: p.contact_area_cm2,
     contact_area_tolerance_pct: p.contact_area_tolerance_pct,
   };
-  const scales = analysis.fingertipScales(weights, known);
-  results.force = scales.force;
-  results.taxels = scales.taxels;
-  results.scaled = { force: false, taxels: false };
+  const scales = analysis.fingertipScales(weighed, known);
+  Object.assign(results, { force: scales.force, taxels: scales.taxels, scaled: { force: false, taxels: false } });
   record.measurement("force and taxels", { force: results.force, taxels: results.taxels });
-  keep(results);
-  if (weights.length > 0) {
+  record.partial(results);
+  if (weighed.length > 0) {
     results.scaled = bench.useFingertipScales(scales);
     readRest(results, "fingertip at rest, scaled");
   }
-  return { scales, known, weighed: weights.length > 0 };
+  return { scales, known };
 }
 
-function readRest(results, name) {
-  results.rest = bench.measureRest({ duration_s: 3 });
-  record.measurement(name, results.rest);
-}
-
-function writeRest(results) {
+// Over each surface again and again, in random order.
+function slideOver(p, surfaces, results) {
   const rest = results.rest;
-  if (results.sensor.some((stream) => stream.kind === "taxels")) {
-    const rows = rest.taxel_baseline.map((baseline, k) => ({ taxel: k + 1, baseline, floor: rest.taxel_floor }));
-    report.table("Taxels at rest, nothing touched (" + rest.taxel_unit + ")", rows, ["taxel", "baseline", "floor"]);
-  }
-  if (rest.mean_square !== null) {
-    report.text("Acceleration at rest, 5 Hz to 1 kHz: mean square " + rest.mean_square.toPrecision(3) +
-      " (" + rest.unit + ")².");
+  const how = { speed_mm_s: p.speed_mm_s, force_n: p.force_n, duration_s: p.duration_s };
+  const rows = surfaces.map(() => []);
+  for (const index of progress(random.blocks(surfaces.map((surface, k) => k), p.slides), "Slides")) {
+    const surface = surfaces[index];
+    const slide = bench.measureSlide(surface.name, rest, how);
+    const row = calibration.slideRow(slide);
+    surface.slides.push(slide);
+    rows[index].push(row);
+    record.trial(surface.name, row);
+    results.slides = [].concat(...rows);
+    record.partial(results);
+    bench.lift();
   }
 }
 
@@ -247,42 +202,43 @@ function keepProfile(p, found, results) {
   }
   const area = p.contact_area_cm2 > 0 ? { contact_area_cm2: p.contact_area_cm2 } : {};
   results.profile = record.sensorProfile(found, Object.assign({ store: p.store }, area));
-  record.event("sensor calibrated", { name: results.profile.name, file: results.profile.file });
-  const file = results.profile.file;
-  report.text("The profile \"" + results.profile.name + "\" holds the scales" +
+  const { name, file } = results.profile;
+  record.event("sensor calibrated", { name: name, file: file });
+  report.text("The profile \"" + name + "\" holds the scales" +
     (file === null ? "; it is in the session and was not kept as a file." : " and is kept as " + file + "."));
 }
 
 function run(p) {
   const surfaces = surfacesOf(p);
   const masses = bench.weights(p.weights_g);
-  setUp(p, surfaces);
+  setUp(surfaces);
   const results = { sensor: bench.sensorStreams, instruments: bench.devices };
   results.surfaces = surfaces.map((s) => ({ name: s.name, ra_um: s.ra_um, rz_um: s.rz_um, source: s.source }));
   report.table("Surfaces, as the profilometer describes them", results.surfaces, ["name", "ra_um", "rz_um", "source"]);
-  keep(results);
+  record.partial(results);
 
   readRest(results, "fingertip at rest");
-  keep(results);
+  record.partial(results);
   const reference = checkReference(p, results.rest, masses);
   results.reference = reference.check;
-  keep(results);
+  record.partial(results);
   if (reference.check.passed === false) {
     return verdict(Object.assign(results, { verdict: "indeterminate", reasons: [reference.reason] }));
   }
 
-  const { scales, known, weighed } = scaleFingertip(p, masses, results);
-  slideOver(p, surfaces, results.rest, results);
+  const weighed = weigh(p, masses, results);
+  const { scales, known } = scaleFingertip(p, weighed, results);
+  slideOver(p, surfaces, results);
   const found = analysis.sensorCalibration(surfaces, results.rest);
   record.measurement("sensor calibration", found);
   Object.assign(results, found);
   results.surfaces = found.surfaces.map((row, k) => Object.assign({ source: surfaces[k].source }, row));
-  keep(results);
+  record.partial(results);
 
   report.sensorCalibration(found);
   report.fingertipScales(scales, known);
-  report.table("Slides", results.slides, SLIDE_COLUMNS);
-  writeRest(results);
+  report.slides(results.slides);
+  report.fingertipRest(results.rest);
   keepProfile(p, found, results);
-  return verdict(Object.assign(results, calibration.sensorVerdict(results, weighed)));
+  return verdict(Object.assign(results, calibration.sensorVerdict(results, weighed.length > 0)));
 }

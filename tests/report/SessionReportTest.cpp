@@ -86,6 +86,22 @@ TEST_F(SessionReport, TakesItemsInTheScriptsOrder) {
     EXPECT_EQ(std::get<ReportTable>(model.items[2]).rows.size(), 1);
 }
 
+TEST_F(SessionReport, StatesTheRuleOfTheKindThatTheProtocolDeclares) {
+    RecordProperty("hazard", "H9");
+    ASSERT_TRUE(writer_->reportItem(Instant{0}, {{"kind", "about"}, {"title", "x"}, {"result_kind", "load-safety"}}));
+    const auto model = closedAndRead();
+    ASSERT_EQ(model.basis.rule.size(), 3U) << "and its guard band and coverage";
+    EXPECT_TRUE(model.basis.rule[0].value.startsWith("Each value passes when value + U keeps its limit"));
+}
+
+TEST_F(SessionReport, OfASessionFromBeforeKindsWereDeclaredStatesTheRuleOfItsProtocol) {
+    RecordProperty("hazard", "H9");
+    ASSERT_TRUE(writer_->reportItem(Instant{0}, {{"kind", "about"}, {"title", "Signal separability"}}));
+    const auto model = closedAndRead();
+    ASSERT_EQ(model.basis.rule.size(), 1U);
+    EXPECT_TRUE(model.basis.rule[0].value.startsWith("Separable when each pair of conditions"));
+}
+
 TEST_F(SessionReport, ShowsABrokenFigureAsASentence) {
     ASSERT_TRUE(
         writer_->reportItem(Instant{0}, {{"kind", "figure"}, {"caption", "Pie"}, {"figure", {{"type", "pie"}}}}));

@@ -109,7 +109,8 @@ TEST(Arguments, AreRefusedForWrongTypeNanInfinityAndRangeInOneSentence) {
                     break;
                 case ValueType::List:
                     bad = {1, "x", Json::object()};
-                    if (parameter.items != ValueType::Any) bad.push_back({1});
+                    if (parameter.items != ValueType::Any)
+                        bad.push_back(Json::array({parameter.items == ValueType::Number ? Json("x") : Json(1)}));
                     break;
                 case ValueType::Object:
                     bad = {1, "x", Json::array()};

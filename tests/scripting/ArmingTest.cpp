@@ -174,6 +174,23 @@ TEST_F(Arming, AnImpedanceCheckMeasuresAndEndsDisarmed) {
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
 
+TEST_F(Arming, OfACalibrationIsAskedForAsAnyOther) {
+    const std::string settings =
+        "const s = { load: 1000, rate_hz: 1e6, settling_s: 0, amplitude_min_v: 10, amplitude_max_v: 40, "
+        "interval_min_s: 0.5, interval_max_s: 2, width_min_us: 100, width_max_us: 400, gap_min_us: 100, gap_max_us: "
+        "400 };"
+        "const step = { share: 0, direction: 'up', repeat: 1 };";
+    for (const char* call : {"calibration.readKnownLoad(s);", "calibration.warmUp(1000, 1);",
+                             "calibration.beginLevels('amplitude', s);", "calibration.readLevel('width', step, s);"}) {
+        const auto outcome = run(settings + call, {});
+        ASSERT_TRUE(outcome.error) << call;
+        EXPECT_EQ(outcome.error->code, ErrorCode::NotFound) << call << outcome.error->message;
+        EXPECT_THAT(outcome.error->message, HasSubstr("into 1 kohm, up to 40 V"));
+    }
+    EXPECT_TRUE(nothingWasDelivered());
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+}
+
 TEST(ArmingOfACurrentSource, SaysTheCurrentThatItsWeakestLoadDraws) {
     RecordProperty("hazard", "H12");
     RunBench rig(true, "sim:stimulator?mode=current");

@@ -63,6 +63,22 @@ function run() { operator.wired(500); bench.arm({ load: 500 }); bench.present("s
     EXPECT_EQ(read->questions, (std::vector<std::string>{"wiring", "confirm-arming", "surface-*"}));
 }
 
+TEST(ProtocolDeclaration, NamesTheConfirmationOfArmingWhicheverFunctionArms) {
+    RecordProperty("hazard", "H12");
+    for (const char* call : {"loads.arm(name)", "loads.askToArm(command)", "bench.tripBySilence('1 kohm', 1)",
+                             "calibration.warmUp(1, 2)", "calibration . readLevel('gap', step, p)",
+                             "calibration.readKnownLoad(p)", "calibration.beginLevels('gap', p)"}) {
+        const auto read =
+            readDeclaration(probe(fmt::format("protocol({{ title: 'x' }});\nfunction run(p) {{ {}; }}", call)));
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(read->questions, (std::vector<std::string>{"confirm-arming"})) << call;
+    }
+    const auto read =
+        readDeclaration(probe("protocol({ title: 'x' });\nfunction run(p) { bench.disarm(); loads.armed(); }"));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_TRUE(read->questions.empty());
+}
+
 TEST(ProtocolDeclaration, IsWrittenAsTheCommandLinePromises) {
     const auto json = toJson(readDeclaration(probe(kFull)).value());
     EXPECT_EQ(json["name"], "probe");

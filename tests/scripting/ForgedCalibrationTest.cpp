@@ -118,7 +118,8 @@ TEST_F(ForgedCalibration, AReadingCountsOnce) {
 
 TEST_F(ForgedCalibration, WhatAScriptSaysBesideAReadingDoesNotCount) {
     RecordProperty("hazard", "H1");
-    const auto lied = altered("      measured: reading[key],", "      measured: 0.83 * reading[key],", {});
+    const auto lied = altered("rows.push(level.row);",
+                              "rows.push(Object.assign({}, level.row, { measured: 0.83 * level.row.measured }));", {});
     ASSERT_FALSE(lied.error) << lied.error->message;
     const auto all = kept();
     ASSERT_EQ(all.size(), 1U);

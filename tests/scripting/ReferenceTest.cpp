@@ -66,55 +66,6 @@ TEST(KnownReference, OfAnotherLoadOrOfNoneFailsWithItsReason) {
     EXPECT_THAT(refused.error->message, testing::HasSubstr("load is 0"));
 }
 
-TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
-    RunBench rig;
-    const auto outcome = rig.run(withRun(R"(
-        const rest = { force_in_use: { mean: 0, unit: 'N' }, force: { sd: 0.01 } };
-        const read = (mean, unit) => calibration.knownWeight(
-            { mass_g: 100, reference_n: 0.98, force_in_use: { mean: mean, unit: unit } }, rest, 10);
-        return verdict({ verdict: null, right: read(1, 'N'), wrong: read(1.2, 'N'), counts: read(0.06, 'count'),
-            lost: read(0.04, 'count'), nothing: read(null, 'N'), none: calibration.knownWeight(null, rest, 10) });)"));
-    ASSERT_FALSE(outcome.error) << outcome.error->message;
-    const auto& results = outcome.results;
-    EXPECT_EQ(results["right"]["check"]["passed"], true);
-    EXPECT_EQ(results["right"]["reason"], "");
-    EXPECT_NEAR(results["right"]["check"]["deviation_pct"].get<double>(), 100 * (1 / 0.98 - 1), 1e-9);
-    EXPECT_EQ(results["wrong"]["check"]["passed"], false);
-    EXPECT_EQ(results["wrong"]["reason"],
-              "the known-reference check failed: 1.200 N was read under 0.9800 N; nothing was calibrated");
-    EXPECT_EQ(results["counts"]["check"]["passed"], true);
-    EXPECT_TRUE(results["counts"]["check"]["deviation_pct"].is_null());
-    EXPECT_EQ(results["lost"]["check"]["passed"], false);
-    EXPECT_THAT(results["nothing"]["reason"].get<std::string>(), testing::HasSubstr("nothing was read under"));
-    EXPECT_TRUE(results["none"]["check"]["passed"].is_null());
-}
-
-TEST(KnownCalibrationRanges, AreNarrowedToWhatIsStoredAndTheTimeBaseIsJudgedWithItsUncertainty) {
-    RunBench rig;
-    const auto outcome = rig.run(withRun(R"(
-        const line = (unit, lowest, highest) => ({ unit: unit, lowest: lowest, highest: highest });
-        const stored = (unit) => ({ amplitude: line(unit, 12, 30), interval: line('s', 0.6, 3),
-            width: line('s', 1e-4, 3e-4), gap: line('s', 1e-4, 4e-4) });
-        const ranges = { amplitude_min_v: 10, amplitude_max_v: 40, interval_min_s: 0.5, interval_max_s: 2,
-            width_min_us: 100, width_max_us: 400, gap_min_us: 100, gap_max_us: 400 };
-        const clock = (gain, u) => calibration.timeBase({ gain: gain, gain_expanded_uncertainty: u });
-        return verdict({ verdict: null, volts: calibration.knownRanges(stored('V'), ranges),
-            current: calibration.knownRanges(stored('mA'), ranges), right: clock(1.004, 0.0005),
-            wrong: clock(1.0045, 0.001), unknown: clock(1, null), none: calibration.timeBase(null) });)"));
-    ASSERT_FALSE(outcome.error) << outcome.error->message;
-    const auto& results = outcome.results;
-    EXPECT_EQ(results["volts"]["amplitude_min_v"], 12);
-    EXPECT_EQ(results["volts"]["amplitude_max_v"], 30);
-    EXPECT_EQ(results["volts"]["interval_min_s"], 0.6);
-    EXPECT_EQ(results["volts"]["interval_max_s"], 2);
-    EXPECT_NEAR(results["volts"]["width_max_us"].get<double>(), 300, 1e-9);
-    EXPECT_EQ(results["current"]["amplitude_max_v"], 40) << "known in mA";
-    EXPECT_EQ(results["right"], "");
-    EXPECT_THAT(results["wrong"].get<std::string>(), testing::HasSubstr("the time base is not sure"));
-    EXPECT_NE(results["unknown"], "");
-    EXPECT_EQ(results["none"], "");
-}
-
 TEST(Wiring, OfASimulatedBenchIsReportedAndNobodyAsked) {
     RunBench rig(true, "sim:", 3, true);
     const auto outcome = rig.run(withRun("operator.wired(500); operator.wired();"));

@@ -137,6 +137,7 @@ TEST(ScriptRun, WritesTrialsFiguresAndTheVerdictIntoTheSession) {
     ASSERT_EQ(items.size(), 4U);
     EXPECT_EQ(items[0].body["kind"], "about");
     EXPECT_EQ(items[0].body["title"], "Probe");
+    EXPECT_EQ(items[0].body["result_kind"], "") << "it declares none";
     EXPECT_EQ(items[1].body["figure"]["captures"][0]["capture"], reader.captures().value()[0].seq);
     const auto verdicts = reader.verdicts().value();
     ASSERT_EQ(verdicts.size(), 1U);

@@ -11,6 +11,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/JsonFields.h"
+#include "core/session/ResultKind.h"
 
 namespace tacto::gui {
 
@@ -68,7 +69,8 @@ QString thresholdSentence(const nlohmann::json& results) {
 }  // namespace
 
 QString resultSentence(const nlohmann::json& results) {
-    if (textIn(results, "kind") == "pilot-thresholds") return thresholdSentence(results);
+    if (resultTraits(textIn(results, "kind").toStdString()).kind == ResultKind::PilotThresholds)
+        return thresholdSentence(results);
     const double n = numberIn(results, "n"), hits = numberIn(results, "hits");
     if (!std::isfinite(n) || !std::isfinite(hits)) return {};
     auto who = textIn(results, "participant.code");

@@ -2,6 +2,7 @@
 
 #include <QHeaderView>
 
+#include "app/gui/theme/RecordTable.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/TableContent.h"
@@ -82,14 +83,17 @@ void LoadRows::judge(int row, const QString& verdict) {
 }
 
 void LoadRows::add(const nlohmann::json& trial) {
-    const auto load = trial.find("load");
-    if (load == trial.end() || !load->is_string()) return;
-    const int row = rowOf(QString::fromStdString(load->get<std::string>()));
+    const auto textOf = [&trial](const char* key) {
+        const auto& value = memberAt(trial, key);
+        return value.is_string() ? value.get<std::string>() : std::string();
+    };
+    const auto type = textOf("type");
+    if (type != "command" && type != "load") return;
+    const int row = rowOf(QString::fromStdString(textOf("load")));
     scrollToItem(item(row, kLoad));
-    const auto verdict = trial.find("load_verdict");
-    if (verdict != trial.end() && verdict->is_string()) {
+    if (type == "load") {
         numbers(row, trial, "measured_ohm");
-        judge(row, QString::fromStdString(verdict->get<std::string>()));
+        judge(row, QString::fromStdString(textOf("verdict")));
     } else {
         const int count = item(row, kCommands)->data(kCountRole).toInt() + 1;
         item(row, kCommands)->setData(kCountRole, count);
@@ -101,13 +105,11 @@ void LoadRows::add(const nlohmann::json& trial) {
 }
 
 void LoadRows::end(const nlohmann::json& results) {
-    if (results.is_object() && results.contains("loads")) {
-        for (const auto& line : results["loads"]) {
-            if (!line.is_object()) continue;
-            const int row = rowOf(QString::fromStdString(line.value("name", std::string())));
-            numbers(row, line, "measured_ohm");
-            judge(row, QString::fromStdString(line.value("verdict", std::string("not evaluated"))));
-        }
+    for (const auto& line : memberAt(results, "loads")) {
+        if (!line.is_object()) continue;
+        const int row = rowOf(QString::fromStdString(line.value("name", std::string())));
+        numbers(row, line, "measured_ohm");
+        judge(row, QString::fromStdString(line.value("verdict", std::string("not evaluated"))));
     }
     for (int row = 0; row < rowCount(); ++row) {
         if (item(row, kVerdict)->data(kVerdictRole).toString().isEmpty()) judge(row, "not evaluated");

@@ -14,8 +14,8 @@ public:
     explicit LoadRows(QWidget* parent = nullptr);
     /// The bench set, all of it still to be done.
     void begin();
-    /// A command that was measured, or (with load_verdict) what a load has come to; a trial that names no load is
-    /// passed over.
+    /// A command that was measured (type "command") or what a load has come to (type "load", with its verdict); any
+    /// other trial is passed over.
     void add(const nlohmann::json& trial);
     /// The run's results, whose verdicts are the last word; null for a run without any. What was not reached says so.
     void end(const nlohmann::json& results);

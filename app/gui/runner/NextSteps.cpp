@@ -5,6 +5,7 @@
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/RecordTable.h"
 #include "app/gui/theme/Theme.h"
+#include "core/session/ResultKind.h"
 
 namespace tacto::gui {
 
@@ -48,21 +49,22 @@ std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
     const auto& outcome = run.result.outcome;
     const auto& results = outcome.results;
     const auto& kind = memberAt(results, "kind");
+    const auto& traits = resultTraits(kind.is_string() ? kind.get<std::string>() : std::string());
+    const bool calibrates = traits.kind == ResultKind::StimulatorCalibration;
     const auto verdict = run.result.verdict();
     const bool passed = verdict == "pass";
     std::vector<NextStep> steps;
     if (outcome.error || (!passed && !verdict.empty())) {
-        const bool failedCheck = kind == "stimulator-calibration" && results.contains("check");
+        const bool failedCheck = calibrates && memberAt(results, "type") == "check";
         steps.push_back(failedCheck && !outcome.error ? NextStep::Calibrate : NextStep::ChangeSettings);
     } else if (passed && memberAt(results, "profile.profile").is_object()) {
         steps.push_back(NextStep::UseProfile);
     }
     if (!run.result.session.empty()) {
         if (!outcome.error) steps.push_back(NextStep::Sign);
-        if (passed && kind == "stimulator-calibration") steps.push_back(NextStep::SafetyCheck);
-        if (passed && kind == "stimulator-calibration" && memberAt(results, "stored").is_object())
-            steps.push_back(NextStep::Check);
-        if (passed && kind == "load-safety") steps.push_back(NextStep::Live);
+        if (passed && traits.afterPass == AfterPass::SafetyCheck) steps.push_back(NextStep::SafetyCheck);
+        if (passed && calibrates && memberAt(results, "stored").is_object()) steps.push_back(NextStep::Check);
+        if (passed && traits.afterPass == AfterPass::Live) steps.push_back(NextStep::Live);
         steps.push_back(NextStep::Session);
     }
     return steps;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "app/report/NumberText.h"
+#include "core/session/ResultKind.h"
 
 namespace tacto::gui {
 
@@ -244,16 +245,17 @@ Tables deliveries(const char* title, const char* delivered) {
                    number("Samples lost", "samples_lost"), number("Gaps in the recording", "gaps")})};
 }
 
-std::map<std::string, Tables, std::less<>> buildSchemas() {
-    return {{"separability", separability()},
-            {"encoding-comparison", encodings()},
-            {"transitions", transitions()},
-            {"variation", variation()},
-            {"load-safety", loadSafety()},
-            {"stimulator-calibration", stimulatorCalibration()},
-            {"sensor-calibration", sensorCalibration()},
-            {"live", deliveries("Trains delivered", "trains_delivered")},
-            {"massager", deliveries("Bursts delivered", "bursts_delivered")}};
+std::map<ResultKind, Tables> buildSchemas() {
+    using enum ResultKind;
+    return {{Separability, separability()},
+            {EncodingComparison, encodings()},
+            {Transitions, transitions()},
+            {Variation, variation()},
+            {LoadSafety, loadSafety()},
+            {StimulatorCalibration, stimulatorCalibration()},
+            {SensorCalibration, sensorCalibration()},
+            {Live, deliveries("Trains delivered", "trains_delivered")},
+            {Massager, deliveries("Bursts delivered", "bursts_delivered")}};
 }
 
 bool isCell(const nlohmann::json& value) {
@@ -291,7 +293,7 @@ Columns columnsIn(const nlohmann::json& records) {
 const Tables& tablesOf(std::string_view kind) {
     static const auto schemas = buildSchemas();
     static const Tables none;
-    const auto at = schemas.find(kind);
+    const auto at = schemas.find(resultTraits(kind).kind);
     return at == schemas.end() ? none : at->second;
 }
 

@@ -3,9 +3,11 @@
 #include <QDeadlineTimer>
 #include <QProcess>
 #include <QRegularExpression>
+#include <algorithm>
 #include <mutex>
 
 #include "app/scripting/engine/Arming.h"
+#include "app/scripting/engine/HostFunction.h"
 #include "app/scripting/engine/MemoryGuard.h"
 #include "app/scripting/engine/ScriptThread.h"
 #include "core/base/JsonText.h"
@@ -42,6 +44,19 @@ public:
     std::optional<ScriptError> error_;        // guarded
 };
 
+/// Whether a script's text names a host function that asks this question.
+bool mayAsk(const QString& text, std::string_view question) {
+    return std::ranges::any_of(hostFunctions(), [&](const HostFunction& function) {
+        if (function.asks != question) return false;
+        const auto of = [](std::string_view word) {
+            return QRegularExpression::escape(QString::fromUtf8(word.data(), static_cast<qsizetype>(word.size())));
+        };
+        const QRegularExpression call(
+            QStringLiteral(R"(\b%1\s*\.\s*%2\b)").arg(of(function.object), of(function.name)));
+        return call.match(text).hasMatch();
+    });
+}
+
 void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaration) {
     const QString text = QString::fromStdString(source.text);
     static const QRegularExpression asks(
@@ -56,14 +71,10 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
             declaration.questions.push_back(name);
         }
     }
-    static const QRegularExpression presents(QStringLiteral(R"(\bbench\s*\.\s*(?:present|measureReference)\b)"));
-    static const QRegularExpression fits(QStringLiteral(R"(\bbench\s*\.\s*fitLoad\b)"));
-    static const QRegularExpression arms(QStringLiteral(R"(\bbench\s*\.\s*(?:arm|trip\w+)\b)"));
-    static const QRegularExpression wires(QStringLiteral(R"(\boperator\s*\.\s*wired\b)"));
-    if (wires.match(text).hasMatch()) declaration.questions.emplace_back("wiring");
-    if (arms.match(text).hasMatch()) declaration.questions.emplace_back(kConfirmArming);
-    if (presents.match(text).hasMatch()) declaration.questions.emplace_back("surface-*");
-    if (fits.match(text).hasMatch()) declaration.questions.emplace_back("fit-load");
+    // In this order, as a form shows them.
+    for (const std::string_view question : {"wiring", kConfirmArming, "surface-*", "fit-load"}) {
+        if (mayAsk(text, question)) declaration.questions.emplace_back(question);
+    }
 }
 
 std::string fileOf(const ProtocolSource& source) {

@@ -35,6 +35,7 @@ struct HostFunction {
     std::string_view text = {};      ///< what it does, one or two sentences
     std::string_view returns = {};   ///< empty for nothing
     std::string_view errors = {};    ///< when it throws; empty when it does so for wrong arguments only
+    std::string_view asks = {};      ///< a question that it may ask the operator, where scripts are searched for it
     std::optional<Role> needs = {};  ///< without a device of this role the call fails
     bool failsDisarmed = false;      ///< a failure, of its arguments too, leaves the output disarmed
     HostCall* call = nullptr;

@@ -46,8 +46,7 @@ std::string_view wordOf(const decltype(kViews)& words, ProtocolView view) {
 
 /// For a script that declares none: what its kind and its devices suggest.
 ProtocolView usualView(const ProtocolDeclaration& declaration) {
-    if (declaration.kind == "load-safety") return ProtocolView::Loads;
-    if (declaration.kind == "stimulator-calibration") return ProtocolView::Calibration;
+    if (const auto view = resultTraits(declaration.kind).view) return *view;
     if (declaration.needs.contains(Role::Oscilloscope)) return ProtocolView::Trials;
     return declaration.needs == std::set{Role::Sensor} ? ProtocolView::Slides : ProtocolView::None;
 }

@@ -185,6 +185,7 @@ void ScriptRun::State::writeAbout() {
     (void)request.session->reportItem(session.now(), {{"kind", "about"},
                                                       {"title", declaration->title},
                                                       {"purpose", declaration->purpose},
+                                                      {"result_kind", declaration->kind},
                                                       {"parameters", parameters}});
 }
 

@@ -314,12 +314,15 @@ void ScriptSession::judge(ScriptVerdict verdict, std::vector<std::string> reason
     verdict_ = verdict;
     reasons_ = std::move(reasons);
     results_ = std::move(results);
-    // What prints and reads results goes by what they are, not by what they happen to hold: by the kind of the analysis
-    // that the script returns, else by the one that it declares.
-    const auto& declared = request_.declaration;
-    if (results_.is_object() && !results_.contains("kind") && declared && !declared->kind.empty())
-        results_["kind"] = declared->kind;
+    const auto kind = kindOf(results_);
+    if (results_.is_object() && !results_.contains("kind") && !kind.empty()) results_["kind"] = kind;
     addBasis(results_);
+}
+
+std::string ScriptSession::kindOf(const nlohmann::json& results) const {
+    if (!results.is_object() || !results.contains("kind"))
+        return request_.declaration ? request_.declaration->kind : std::string();
+    return results["kind"].is_string() ? results["kind"].get<std::string>() : std::string();
 }
 
 void ScriptSession::recordBasis(const nlohmann::json& results) {

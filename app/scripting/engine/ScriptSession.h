@@ -95,6 +95,10 @@ public:
     void noteExpectedFault() noexcept { ++expectedFaults_; }
     [[nodiscard]] std::uint64_t expectedFaults() const noexcept { return expectedFaults_; }
 
+    /// What prints and reads results goes by what they are, not by what they happen to hold: by the kind of the
+    /// analysis that the script returns, else by the one that it declares.
+    [[nodiscard]] std::string kindOf(const nlohmann::json& results) const;
+
     /// What stands if the run ends early: results, and tables {caption, rows, columns} for the report.
     void keepPartial(nlohmann::json results, nlohmann::json tables);
     /// The kept results, marked, and their tables written into the report; null where nothing was kept.

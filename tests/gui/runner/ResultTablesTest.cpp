@@ -102,7 +102,7 @@ TEST(NextSteps, FollowFromWhatWasFound) {
     EXPECT_THAT(
         gui::nextStepsAfter(finished({{"kind", "stimulator-calibration"}, {"stored", {{"serial", "S"}}}}, pass)),
         ElementsAre(NextStep::Sign, NextStep::SafetyCheck, NextStep::Check, NextStep::Session));
-    const nlohmann::json check = {{"kind", "stimulator-calibration"}, {"check", nlohmann::json::array()}};
+    const nlohmann::json check = {{"kind", "stimulator-calibration"}, {"type", "check"}};
     EXPECT_THAT(gui::nextStepsAfter(finished(check, ScriptVerdict::Fail)),
                 ElementsAre(NextStep::Calibrate, NextStep::Sign, NextStep::Session));
     EXPECT_THAT(gui::nextStepsAfter(finished({{"kind", "load-safety"}}, pass)),

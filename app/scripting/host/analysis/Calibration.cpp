@@ -4,6 +4,7 @@
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/analysis/AnalysisObject.h"
+#include "app/scripting/host/analysis/CalibrationAsked.h"
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 
@@ -120,11 +121,16 @@ Result<std::optional<OwnSeries>> ownSeries(ScriptSession& session, const Json& r
     return std::optional<OwnSeries>(std::in_place, session, *known, std::move(*numbers), std::move(*readings));
 }
 
-Result<std::vector<CalibrationReading>> readingsFrom(const Arguments& arguments, const Json& rows) {
+tl::unexpected<Error> otherThanExpected(std::string_view name, const Json& value, std::string_view accepted) {
+    return fail(ErrorCode::InvalidArgument, "analysis.calibration: {} is {}, {} is expected", name, shown(value),
+                accepted);
+}
+
+Result<std::vector<CalibrationReading>> readingsFrom(const Json& rows) {
     std::vector<CalibrationReading> readings;
     for (const auto& row : rows) {
         if (!row.is_object() || !row.value("commanded", Json()).is_number()) {
-            return arguments.wrong("a reading", row, "an object with commanded, measured and direction");
+            return otherThanExpected("a reading", row, "an object with commanded, measured and direction");
         }
         CalibrationReading reading;
         reading.commanded = row["commanded"].get<double>();
@@ -133,7 +139,7 @@ Result<std::vector<CalibrationReading>> readingsFrom(const Arguments& arguments,
         const Json direction = row.value("direction", Json(""));
         const auto known =
             direction.is_string() ? valueFor(kSweepDirections, direction.get_ref<const std::string&>()) : std::nullopt;
-        if (!known) return arguments.wrong("direction", direction, "\"up\", \"down\" or \"\"");
+        if (!known) return otherThanExpected("direction", direction, "\"up\", \"down\" or \"\"");
         reading.direction = *known;
         readings.push_back(reading);
     }
@@ -142,33 +148,15 @@ Result<std::vector<CalibrationReading>> readingsFrom(const Arguments& arguments,
 
 }  // namespace
 
-Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
-    const Json& rows = arguments.list("readings");
-    auto readings = readingsFrom(arguments, rows);
+Result<Json> calibrationOf(ScriptSession& session, const Json& rows, CalibrationAsked asked) {
+    auto readings = readingsFrom(rows);
     if (!readings) return failure(readings);
-    const auto quantity = arguments.text("options.quantity");
-    const auto unit = arguments.text("options.unit");
-    const auto stated = [&arguments](std::string_view name, double usual) {
-        return arguments.isNull(name) ? kNaN : arguments.number(name, usual);
-    };
-    const double tolerance = stated("options.tolerance_pct", 2);
-    CalibrationOptions fit;
-    fit.sameLevel = stated("options.same_level", fit.sameLevel);
-    InstrumentErrors errors;
-    errors.unit = unit;
-    errors.gainTolerance = stated("options.gain_tolerance", errors.gainTolerance);
-    errors.probeTolerance = stated("options.probe_tolerance", errors.probeTolerance);
-    errors.offsetTolerance = stated("options.offset_tolerance", errors.offsetTolerance);
-    errors.resolution = stated("options.resolution", errors.resolution);
-    errors.loadTolerance = stated("options.load_tolerance", errors.loadTolerance);
-    errors.loadSensitivity = stated("options.load_sensitivity", errors.loadSensitivity);
-    errors.samplingStep = stated("options.sampling_step", errors.samplingStep);
+    auto& [quantity, tolerance_pct, fit, errors] = asked;
     auto own = ownSeries(session, rows, quantity);
     if (!own) return failure(own);
     if (*own) {
-        if (fit.sameLevel > kWidestLevel) {
-            return arguments.wrong("same_level", fit.sameLevel, fmt::format("at most {}", kWidestLevel));
-        }
+        if (fit.sameLevel > kWidestLevel)
+            return otherThanExpected("same_level", fit.sameLevel, fmt::format("at most {}", kWidestLevel));
         if (auto filled = (*own)->fill(*readings); !filled) return failure(filled);
         (*own)->widen(errors);
     }
@@ -177,7 +165,7 @@ Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
     if (!found) return failure(found);
     BudgetOptions budget;
     budget.seed = session.request().seed;
-    auto judged = judgeCalibration(std::move(*found), errors, tolerance, budget);
+    auto judged = judgeCalibration(std::move(*found), errors, tolerance_pct, budget);
     if (!judged) return failure(judged);
     constexpr double kIec_pct = 20;  // IEC 60601-2-10: output within ± 20 % of what is set
     Json out = toJson(*judged);
@@ -186,6 +174,26 @@ Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
     out["verdict_iec"] = nameOf(verdictAt(*judged, kIec_pct));
     out["calibration"] = *own ? Json((*own)->keep(out)) : Json();
     return out;
+}
+
+Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
+    const auto stated = [&arguments](std::string_view name, double usual) {
+        return arguments.isNull(name) ? kNaN : arguments.number(name, usual);
+    };
+    CalibrationAsked asked;
+    asked.quantity = arguments.text("options.quantity");
+    asked.tolerance_pct = stated("options.tolerance_pct", asked.tolerance_pct);
+    asked.fit.sameLevel = stated("options.same_level", asked.fit.sameLevel);
+    auto& errors = asked.errors;
+    errors.unit = arguments.text("options.unit");
+    errors.gainTolerance = stated("options.gain_tolerance", errors.gainTolerance);
+    errors.probeTolerance = stated("options.probe_tolerance", errors.probeTolerance);
+    errors.offsetTolerance = stated("options.offset_tolerance", errors.offsetTolerance);
+    errors.resolution = stated("options.resolution", errors.resolution);
+    errors.loadTolerance = stated("options.load_tolerance", errors.loadTolerance);
+    errors.loadSensitivity = stated("options.load_sensitivity", errors.loadSensitivity);
+    errors.samplingStep = stated("options.sampling_step", errors.samplingStep);
+    return calibrationOf(session, arguments.list("readings"), std::move(asked));
 }
 
 }  // namespace tacto::host::analysis

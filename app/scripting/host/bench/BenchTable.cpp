@@ -1,4 +1,5 @@
 // The object "bench", the bench: what scripts can call, and what each function takes and returns.
+#include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/bench/BenchObject.h"
 
@@ -6,6 +7,9 @@ namespace tacto {
 
 std::vector<HostFunction> benchFunctions() {
     using namespace takes;
+    constexpr std::string_view kTripErrors =
+        "Throws when a fault of another kind came, when the bench cannot change the load, and when the run is stopped. "
+        "The fault that was provoked is reset and does not end the run.";
     constexpr auto kMaxTrains = static_cast<double>(ScriptSession::kHeldCaptures);
     return {
         {.name = "arm",
@@ -15,6 +19,7 @@ std::vector<HostFunction> benchFunctions() {
                  "(question confirm-arming).",
          .errors = "Throws with what is missing; without the confirmation; when the impedance is out of range; when "
                    "the run is stopped. Then the output is disarmed.",
+         .asks = kConfirmArming,
          .failsDisarmed = true,
          .call = host::bench::arm},
         {.name = "disarm", .text = "Ends the output. Leaving run(p) does it too.", .call = host::bench::disarm},
@@ -64,6 +69,7 @@ std::vector<HostFunction> benchFunctions() {
          .text = "Disarms and changes the load: by itself where the bench can, else the operator is asked to (question "
                  "fit-load).",
          .errors = "Throws for a load that cannot be read, or without an answer.",
+         .asks = "fit-load",
          .call = host::bench::fitLoad},
         {.name = "present",
          .parameters =
@@ -81,6 +87,7 @@ std::vector<HostFunction> benchFunctions() {
                  "(question surface-MATERIAL).",
          .returns = "{ settled, roughness, pressure }: settled is false when R or P still moved at the limit.",
          .errors = "Throws for an unknown surface, without an answer, or when the run is stopped.",
+         .asks = "surface-*",
          .call = host::bench::present},
         {.name = "lift",
          .text = "Lifts the finger off the surface, on a rig that can.",
@@ -94,6 +101,7 @@ std::vector<HostFunction> benchFunctions() {
          .text = "Disarms, slides over a reference surface and averages the two roughness features.",
          .returns = "{ material, h, v, frames }; a feature this rig does not have is null.",
          .errors = "Throws when nothing was felt or the run is stopped.",
+         .asks = "surface-*",
          .call = host::bench::measureReference},
         {.name = "setReferences",
          .parameters = {object("smooth", "from bench.measureReference()"), object("rough", "the same")},
@@ -149,7 +157,8 @@ std::vector<HostFunction> benchFunctions() {
                             .range(0, 1)},
          .text = "What a command would be and do on a load, by computation; nothing is delivered.",
          .returns =
-             "{ load, strength, roughness, pressure, command_v, interval_s, nominal_ohm, amplitude (V or mA, as the device is "
+             "{ load, strength, roughness, pressure, command_v, interval_s, nominal_ohm, amplitude (V or mA, as the "
+             "device is "
              "programmed), forbidden, predicted, rms_5s_ma, peak_ma, fine_range_ma, check_forbidden, not_applicable, "
              "capture "
              "}: forbidden when a limit is broken at worst within 20 % of the load, predicted says by what; "
@@ -225,9 +234,8 @@ std::vector<HostFunction> benchFunctions() {
          .text = "Tries to arm into an open or short circuit. Arming must be refused after its one small pulse.",
          .returns = "{ name, evaluated, tripped, after_s, reason } for analysis.loadSafety(): not evaluated where the "
                     "stimulator cannot read back; after_s from the change to the end of output.",
-         .errors =
-             "Throws when a fault of another kind came, when the bench cannot change the load, and when the run is "
-             "stopped. The fault that was provoked is reset and does not end the run.",
+         .errors = kTripErrors,
+         .asks = kConfirmArming,
          .call = host::bench::inChecking},
         {.name = "tripWhileDelivering",
          .parameters = {text("becomes", "what the load becomes").oneOf({"open", "short", "intermittent"}),
@@ -241,9 +249,8 @@ std::vector<HostFunction> benchFunctions() {
          .returns = "{ name, evaluated, tripped, after_s, reason } for analysis.loadSafety(), and { command_v, "
                     "interval_s, captures }: the record of the train that found the circuit open, for measure.load(); "
                     "an empty list where there is none.",
-         .errors =
-             "Throws when a fault of another kind came, when the bench cannot change the load, and when the run is "
-             "stopped. The fault that was provoked is reset and does not end the run.",
+         .errors = kTripErrors,
+         .asks = kConfirmArming,
          .call = host::bench::whileDelivering},
         {.name = "tripBySilence",
          .parameters = {text("load", "the load"),
@@ -251,9 +258,8 @@ std::vector<HostFunction> benchFunctions() {
          .text = "Delivers the weakest trains and withholds the heartbeat. Output must end 100 ms later and stay off.",
          .returns = "{ name, evaluated, tripped, after_s, reason } for analysis.loadSafety(): not evaluated where the "
                     "stimulator cannot read back; after_s from the change to the end of output.",
-         .errors =
-             "Throws when a fault of another kind came, when the bench cannot change the load, and when the run is "
-             "stopped. The fault that was provoked is reset and does not end the run.",
+         .errors = kTripErrors,
+         .asks = kConfirmArming,
          .call = host::bench::bySilence},
         {.name = "sensorStreams",
          .kind = HostKind::Property,

@@ -4,6 +4,7 @@
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/bench/BenchObject.h"
+#include "app/scripting/host/bench/EncodingChange.h"
 #include "app/scripting/host/record/CalibratedOutput.h"
 #include "core/calibration/CalibrationStore.h"
 #include "core/session/SessionWriter.h"
@@ -27,15 +28,18 @@ std::optional<double> numberOf(const Json& value) {
 
 }  // namespace
 
-Result<Json> setEncoding(ScriptSession& session, const Arguments& arguments) {
-    const Json& wanted = arguments.object("changes");
-    Profile profile = session.bench().profile();
+Result<void> changeEncoding(Bench& bench, const Json& changes) {
+    Profile profile = bench.profile();
     Json section = toJson(profile.encoding);
-    section.update(wanted);  // an unknown key is refused below, by name
+    section.update(changes);  // an unknown key is refused below, by name
     auto encoding = encodingProfileFrom(section);
     if (!encoding) return failure(encoding);
     profile.encoding = *encoding;
-    return done(session.bench().setProfile(profile));
+    return bench.setProfile(profile);
+}
+
+Result<Json> setEncoding(ScriptSession& session, const Arguments& arguments) {
+    return done(changeEncoding(session.bench(), arguments.object("changes")));
 }
 
 /// A script may take a smaller electrode than the operator's profile states; a larger one would move the floor of the

@@ -11,7 +11,8 @@ namespace tacto::host::calibration {
 
 using Json = nlohmann::json;
 
-HostCall knownRanges, timeBase;       // Stimulator.cpp
-HostCall knownWeight, sensorVerdict;  // Fingertip.cpp
+HostCall readKnownLoad, warmUp, beginLevels, readLevel;                               // Levels.cpp
+HostCall checkRanges, knownRanges, judge, timeBase, checkVerdict, stimulatorVerdict;  // Stimulator.cpp
+HostCall knownWeight, weighings, slideRow, sensorVerdict;                             // Fingertip.cpp
 
 }  // namespace tacto::host::calibration

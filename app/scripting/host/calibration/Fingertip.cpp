@@ -30,6 +30,25 @@ std::string toldApart(const Json& results) {
 
 }  // namespace
 
+Result<Json> weighings(ScriptSession&, const Arguments& arguments) {
+    const Json& masses = arguments.list("masses");
+    Json steps = Json::array();
+    for (int repeat = 1; repeat <= arguments.whole("repeats"); ++repeat) {
+        const auto add = [&](const Json& mass, const char* direction) {
+            steps.push_back({{"mass_g", mass}, {"direction", direction}, {"repeat", repeat}});
+        };
+        for (auto mass = masses.begin(); mass != masses.end(); ++mass) add(*mass, "up");
+        for (auto mass = masses.rbegin(); mass != masses.rend(); ++mass) add(*mass, "down");
+    }
+    return steps;
+}
+
+Result<Json> slideRow(ScriptSession&, const Arguments& arguments) {
+    Json row = arguments.object("slide");
+    row.erase("track");
+    return row;
+}
+
 Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
     const Json& reading = arguments.any("reading");
     const Json& rest = arguments.object("rest");

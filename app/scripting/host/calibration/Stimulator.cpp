@@ -1,8 +1,11 @@
-// What the calibration of a stimulator begins and ends with.
+// The calibration of a stimulator: its ranges, what was found of a quantity, and the verdict.
 #include <algorithm>
 #include <cmath>
 
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/analysis/CalibrationAsked.h"
 #include "app/scripting/host/calibration/CalibrationObject.h"
+#include "app/scripting/host/report/CalibrationTables.h"
 #include "app/scripting/host/report/Cells.h"
 #include "core/base/QuantityText.h"
 
@@ -10,47 +13,75 @@ namespace tacto::host::calibration {
 
 namespace {
 
+using report::listIn, report::numberIn, report::textIn;
+
 constexpr double kClock_pct = 0.5;  // how far intervals may be from the computer's clock (choice)
 
-using report::numberIn;
-
 struct RangeKeys {
-    const char* quantity;
-    const char* low;
-    const char* high;
-    double perUnit;  // of the range, to one of the stored line
+    std::string_view quantity;
+    std::string_view low, high;  // members of the settings
+    double perUnit;              // of the range, to one of the stored line
 };
-constexpr RangeKeys kRanges[] = {{"amplitude", "amplitude_min_v", "amplitude_max_v", 1},
-                                 {"interval", "interval_min_s", "interval_max_s", 1},
-                                 {"width", "width_min_us", "width_max_us", 1e6},
-                                 {"gap", "gap_min_us", "gap_max_us", 1e6}};
+constexpr RangeKeys kRanges[] = {{"amplitude", "settings.amplitude_min_v", "settings.amplitude_max_v", 1},
+                                 {"interval", "settings.interval_min_s", "settings.interval_max_s", 1},
+                                 {"width", "settings.width_min_us", "settings.width_max_us", 1e6},
+                                 {"gap", "settings.gap_min_us", "settings.gap_max_us", 1e6}};
+
+std::string keyOfMember(std::string_view member) { return std::string(member.substr(member.find('.') + 1)); }
+
+std::string worstOf(const Json& judged) {
+    const auto any = [&judged](std::string_view verdict) {
+        return std::ranges::any_of(judged, [&](const Json& one) { return textIn(one, "verdict") == verdict; });
+    };
+    return any("fail") ? "fail" : any("indeterminate") ? "indeterminate" : "pass";
+}
 
 }  // namespace
 
+Result<Json> checkRanges(ScriptSession&, const Arguments& arguments) {
+    for (const auto& range : kRanges) {
+        const double low = arguments.number(range.low), high = arguments.number(range.high);
+        if (!(low < high))
+            return arguments.wrong(keyOfMember(range.low), low,
+                                   fmt::format("a number below {}, {:g},", keyOfMember(range.high), high));
+    }
+    return Json();
+}
+
 Result<Json> knownRanges(ScriptSession&, const Arguments& arguments) {
     const Json& stored = arguments.object("stored");
-    Json ranges = arguments.object("ranges");
-    for (const auto& [quantity, low, high, perUnit] : kRanges) {
-        const Json line = stored.value(quantity, Json::object());
-        const double lowest = perUnit * numberIn(line, "lowest"), highest = perUnit * numberIn(line, "highest");
-        const double from = numberIn(ranges, low), to = numberIn(ranges, high);
+    Json settings = arguments.object("settings");
+    for (const auto& range : kRanges) {
+        const Json line = stored.value(range.quantity, Json::object());
+        const double lowest = range.perUnit * numberIn(line, "lowest");
+        const double highest = range.perUnit * numberIn(line, "highest");
         if (std::isnan(lowest) || std::isnan(highest))
             return arguments.wrong("stored", stored, "what bench.calibration holds");
-        if (std::isnan(from) || std::isnan(to)) {
-            return arguments.wrong("ranges", arguments.object("ranges"),
-                                   fmt::format("an object with {} and {}", low, high));
-        }
-        if (line.value("unit", Json()) == "mA") continue;
-        ranges[low] = std::max(lowest, from);
-        ranges[high] = std::min(highest, to);
+        if (textIn(line, "unit") == "mA") continue;
+        settings[keyOfMember(range.low)] = std::max(lowest, arguments.number(range.low));
+        settings[keyOfMember(range.high)] = std::min(highest, arguments.number(range.high));
     }
-    return ranges;
+    return settings;
+}
+
+Result<Json> judge(ScriptSession& session, const Arguments& arguments) {
+    analysis::CalibrationAsked asked;
+    asked.quantity = arguments.text("quantity");
+    asked.tolerance_pct = arguments.number("settings.timing_tolerance_pct");
+    if (asked.quantity == "amplitude") {
+        asked.tolerance_pct = arguments.number("settings.tolerance_pct");
+        asked.errors.loadTolerance = arguments.number("settings.load_tolerance_pct") / 100;
+        // A current source is programmed to A / |Z|, and |Z| is measured each time.
+        const bool drivesCurrent = session.bench().devices().stimulator->traits().drive == Drive::Current;
+        if (drivesCurrent) asked.fit.sameLevel = 0.02;
+    }
+    return analysis::calibrationOf(session, arguments.list("rows"), std::move(asked));
 }
 
 Result<Json> timeBase(ScriptSession&, const Arguments& arguments) {
     const Json& found = arguments.any("interval");
     if (found.is_null()) return Json("");
-    if (!found.is_object()) return arguments.wrong("interval", found, "what analysis.calibration() returned");
+    if (!found.is_object()) return arguments.wrong("interval", found, "what calibration.judge() returned");
     const double off_pct = 100 * std::abs(numberIn(found, "gain") - 1);
     const double expanded_pct = 100 * numberIn(found, "gain_expanded_uncertainty");
     if (off_pct + expanded_pct <= kClock_pct) return Json("");
@@ -58,6 +89,35 @@ Result<Json> timeBase(ScriptSession&, const Arguments& arguments) {
         "the time base is not sure: intervals by the computer's clock are read {} off, at most {} % is allowed "
         "(choice)",
         measuredText(off_pct, expanded_pct, "%"), kClock_pct));
+}
+
+Result<Json> checkVerdict(ScriptSession&, const Arguments& arguments) {
+    const Json& checks = arguments.list("checks");
+    const auto verdict = worstOf(checks);
+    Json reasons = Json::array();
+    for (const auto& check : checks)
+        for (const auto& reason : listIn(check, "reasons")) reasons.push_back(reason);
+    if (verdict == "pass")
+        reasons =
+            Json::array({textIn(arguments.object("stored"), "text") + "; it still holds at three levels of each"});
+    return Json{{"verdict", verdict}, {"reasons", std::move(reasons)}};
+}
+
+Result<Json> stimulatorVerdict(ScriptSession&, const Arguments& arguments) {
+    const Json& found = arguments.list("found");
+    const auto clock = arguments.text("clock");
+    auto verdict = worstOf(found);
+    Json reasons = Json::array();
+    if (!clock.empty()) {
+        if (verdict == "pass") verdict = "indeterminate";
+        reasons.push_back(clock + (arguments.flag("store") ? "; nothing was stored" : ""));
+    }
+    for (const auto& one : found) {
+        const auto title = report::titleOfQuantity(textIn(one, "quantity"));
+        for (const auto& reason : listIn(one, "reasons"))
+            reasons.push_back(title + ": " + (reason.is_string() ? reason.get<std::string>() : shown(reason)));
+    }
+    return Json{{"verdict", verdict}, {"reasons", std::move(reasons)}};
 }
 
 }  // namespace tacto::host::calibration

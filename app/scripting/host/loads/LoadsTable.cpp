@@ -1,4 +1,5 @@
 // The object "loads", commands on known loads: what scripts can call, and what each function takes and returns.
+#include "app/scripting/engine/Arming.h"
 #include "app/scripting/host/loads/LoadsObject.h"
 
 namespace tacto {
@@ -7,8 +8,8 @@ std::vector<HostFunction> loadsFunctions() {
     using namespace takes;
     constexpr double kMostCommands = 101;
     const auto resistor = text("load", "a resistor or a skin equivalent");
-    const auto count = whole("count", "how many, from the weakest amplitude to the strongest in even steps")
-                           .range(2, kMostCommands);
+    const auto count =
+        whole("count", "how many, from the weakest amplitude to the strongest in even steps").range(2, kMostCommands);
     const auto command = object("command", "from loads.commands() or loads.strongest()");
     const auto commandLoad = text("command.load", "the load that is armed");
     const auto strength = number("command.strength", "", "0 the weakest amplitude to 1 the strongest").range(0, 1);
@@ -33,6 +34,7 @@ std::vector<HostFunction> loadsFunctions() {
          .text = "Arms as bench.arm() does. What is wrong with this load ends its part of the check and not the run.",
          .returns = "\"\" when armed, else why not.",
          .errors = "Throws without the operator's confirmation, for a fault, and when the run is stopped.",
+         .asks = kConfirmArming,
          .failsDisarmed = true,
          .call = host::loads::arm},
         {.name = "askToArm",
@@ -42,6 +44,7 @@ std::vector<HostFunction> loadsFunctions() {
                  "problem.",
          .returns = "{ refusals } or { problem }, for the load in analysis.loadSafety().",
          .errors = "As loads.arm().",
+         .asks = kConfirmArming,
          .needs = Role::Stimulator,
          .failsDisarmed = true,
          .call = host::loads::askToArm},

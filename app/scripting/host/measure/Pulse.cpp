@@ -3,6 +3,7 @@
 
 #include "app/scripting/host/measure/GivenCaptures.h"
 #include "app/scripting/host/measure/MeasureObject.h"
+#include "app/scripting/host/measure/PulseReading.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/measure/InstrumentStatement.h"
 #include "core/measure/PulseMeasurement.h"
@@ -57,9 +58,14 @@ void addLoad(Json& out, const Capture& capture, const ChannelMeasurement& voltag
 }  // namespace
 
 Result<Json> pulse(ScriptSession& session, const Arguments& arguments) {
-    auto given = capturesGiven(session, arguments.list("captures"));
+    const Json& handles = arguments.list("captures");
+    if (handles.empty()) return arguments.wrong("captures", handles, "at least one capture");
+    return pulseReading(session, handles);
+}
+
+Result<Json> pulseReading(ScriptSession& session, const Json& handles) {
+    auto given = capturesGiven(session, handles);
     if (!given) return failure(given);
-    if (given->captures.empty()) return arguments.wrong("captures", arguments.list("captures"), "at least one capture");
     const auto& captures = given->captures;
     const auto commands = session.commandsOf(given->ids);
     if (!commands) return failure(commands);

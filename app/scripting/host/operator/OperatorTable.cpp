@@ -44,6 +44,7 @@ std::vector<HostFunction> operatorFunctions() {
          .returns = "true",
          .errors =
              "Throws when the run has no operator and --set wiring=yes was not given, or when the run is stopped.",
+         .asks = "wiring",
          .call = host::operators::wired},
     };
 }

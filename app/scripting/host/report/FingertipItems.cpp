@@ -147,4 +147,34 @@ Json sensorCalibrationItems(const Json& found, bool simulated) {
     return items;
 }
 
+Json fingertipRestItems(const Json& rest, bool hasTaxels) {
+    Json items = Json::array();
+    if (hasTaxels) {
+        Json rows = Json::array();
+        for (const auto& baseline : listIn(rest, "taxel_baseline"))
+            rows.push_back({{"taxel", rows.size() + 1}, {"baseline", baseline}, {"floor", rest.at("taxel_floor")}});
+        items.push_back(tableItem("Taxels at rest, nothing touched (" + textIn(rest, "taxel_unit") + ")",
+                                  std::move(rows), {"taxel", "baseline", "floor"}));
+    }
+    if (const double square = numberIn(rest, "mean_square"); !std::isnan(square)) {
+        items.push_back(paragraph(fmt::format("Acceleration at rest, 5 Hz to 1 kHz: mean square {} ({})².",
+                                              digitsOf(square, 3), textIn(rest, "unit"))));
+    }
+    return items;
+}
+
+Json fingertipTables(const Json& results) {
+    Json tables = Json::array();
+    if (results.contains("weights"))
+        tables.push_back(
+            tableItem("Weights", results.at("weights"), {"mass_g", "reference_n", "force", "direction", "repeat"}));
+    if (results.contains("slides")) tables.push_back(slidesTable(results.at("slides")));
+    return tables;
+}
+
+Json slidesTable(const Json& slides) {
+    return tableItem("Slides", slides,
+                     {"material", "h", "h_abs", "v_static", "v_dynamic", "force_n", "sliding_frames"});
+}
+
 }  // namespace tacto::host::report

@@ -18,5 +18,10 @@ struct FingertipReferences {
 [[nodiscard]] nlohmann::json fingertipScaleItems(const nlohmann::json& scales, const FingertipReferences& known);
 /// Report items for the result of analysis.sensorCalibration(). `simulated`: every device was simulated.
 [[nodiscard]] nlohmann::json sensorCalibrationItems(const nlohmann::json& found, bool simulated);
+/// Report items for the result of bench.measureRest().
+[[nodiscard]] nlohmann::json fingertipRestItems(const nlohmann::json& rest, bool hasTaxels);
+/// What a sensor calibration has read so far, `weights` and `slides` of its results, as tables.
+[[nodiscard]] nlohmann::json fingertipTables(const nlohmann::json& results);
+[[nodiscard]] nlohmann::json slidesTable(const nlohmann::json& slides);
 
 }  // namespace tacto::host::report

@@ -33,7 +33,14 @@ constexpr MeasuredRow kMeasured[] = {{"|Z| at the end of the leading phase", "me
                                      {"Power density over 1 s", "power_density_w_cm2", "W/cm2", true}};
 constexpr std::size_t kCritical = 3;  // rows closest to their limits that are named before the matrix
 
-const Json& linesOf(const Json& found) { return listIn(found.at("matrix"), "lines"); }
+/// A list of the matrix; empty where nothing was analysed.
+const Json& ofMatrix(const Json& found, const char* key) {
+    static const Json kNone = Json::object();
+    const auto matrix = found.find("matrix");
+    return listIn(matrix != found.end() ? *matrix : kNone, key);
+}
+
+const Json& linesOf(const Json& found) { return ofMatrix(found, "lines"); }
 
 /// The same limit from two documents is one row of the matrix; the table of sources has both.
 bool isSameLimit(const Json& a, const Json& b) {
@@ -213,7 +220,7 @@ Json loadSafetyTables(const Json& found) {
                            "verdict", "remark"}}},
                         {{"kind", "matrix"},
                          {"caption", "Limits against loads, closest to a limit first"},
-                         {"columns", listIn(found.at("matrix"), "loads")},
+                         {"columns", ofMatrix(found, "loads")},
                          {"rows", limits}},
                         loadsMatrix(found),
                         {{"caption", "Output, as the FDA guidance asks"},

@@ -97,6 +97,17 @@ Result<Json> fingertipScales(ScriptSession& session, const Arguments& arguments)
     return writeItems(session, fingertipScaleItems(arguments.object("scales"), known));
 }
 
+Result<Json> fingertipRest(ScriptSession& session, const Arguments& arguments) {
+    const auto streams = session.bench().devices().sensor->streams();
+    const bool hasTaxels =
+        std::ranges::any_of(streams, [](const StreamInfo& stream) { return stream.kind == StreamKind::Taxels; });
+    return writeItems(session, fingertipRestItems(arguments.object("rest"), hasTaxels));
+}
+
+Result<Json> slides(ScriptSession& session, const Arguments& arguments) {
+    return writeItem(session, slidesTable(arguments.list("rows")));
+}
+
 Result<Json> sensorCalibration(ScriptSession& session, const Arguments& arguments) {
     const auto devices = session.bench().devices().identities();
     const bool simulated = std::ranges::all_of(devices, &DeviceIdentity::simulated);

@@ -11,7 +11,7 @@ namespace tacto::host::report {
 using Json = nlohmann::json;
 
 HostCall figure, table, matrix, quantity, rounded, text, calibration, calibrations, calibrationCheck, loadSafety,
-    loadTracingsFigures, fingertipScales,
+    loadTracingsFigures, fingertipRest, fingertipScales, slides,
     sensorCalibration;  // Report.cpp
 
 }  // namespace tacto::host::report

@@ -55,11 +55,11 @@ std::vector<HostFunction> reportFunctions() {
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::loadSafety},
         {.name = "loadTracings",
-         .parameters = {list("loads", "as analysis.loadSafety() takes them; steps from loads.give()")
-                            .of(ValueType::Object),
-                        any("burst",
-                            "from loads.burst(), with load and condition, the name of the trial that recorded it; null "
-                            "where there is none")},
+         .parameters =
+             {list("loads", "as analysis.loadSafety() takes them; steps from loads.give()").of(ValueType::Object),
+              any("burst",
+                  "from loads.burst(), with load and condition, the name of the trial that recorded it; null "
+                  "where there is none")},
          .text = "Adds the strongest trains into 500 ohm, 2 kohm and 10 kohm to the report on one time axis, and a "
                  "burst on another.",
          .errors = "Throws when the session file cannot be written.",
@@ -80,6 +80,17 @@ std::vector<HostFunction> reportFunctions() {
                  "uncertainty of R.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::sensorCalibration},
+        {.name = "slides",
+         .parameters = {list("rows", "of calibration.slideRow()").of(ValueType::Object)},
+         .text = "Adds slides over surfaces to the report.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::slides},
+        {.name = "fingertipRest",
+         .parameters = {object("rest", "from bench.measureRest()")},
+         .text = "Adds to the report what the fingertip reads when nothing touches it.",
+         .errors = "Throws when the session file cannot be written.",
+         .needs = Role::Sensor,
+         .call = host::report::fingertipRest},
         {.name = "quantity",
          .parameters =
              {number("value", "", "null where it is not known").orNull(),
