@@ -44,7 +44,8 @@ TrainReadBack readBackOf(const TrainReport& report) noexcept {
 std::optional<LoopFault> DeliveryJudge::delivered(const TrainReport& report, bool permitted) {
     const auto judgement = status(report);
     if (judgement.stops()) return LoopFault{causeOf(judgement.finding), judgement.reason.view()};
-    if (auto fault = readBack(report)) return fault;
+    // A train that a stop cut off may read as the pulse before it, or as nothing; too much is a fault whatever came.
+    if (auto fault = readBack(report); fault && (permitted || fault->cause == FaultCause::LimitBroken)) return fault;
     if (!source_.readsBack || !permitted) return std::nullopt;
     if (!std::isnan(report.impedance_ohm)) return updateImpedance(Ohms(report.impedance_ohm), report.statusAt);
     // A train too small to be read leaves the last reading to grow old; a check exists to be read.

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -43,6 +44,7 @@ public:
         if (answer.delivering && saysWhenItEnds) answer.trainEnd = stillOnUntil;
         answer.electrode = electrode;
         answer.impedance = impedance;
+        answer.amplitude = measured;
         answer.trainsDelivered = static_cast<std::uint64_t>(delivered.load());
         on = answer.delivering;
         return answer;
@@ -67,6 +69,7 @@ public:
     std::atomic<bool> statusBlocks{false};
     ElectrodeState electrode = ElectrodeState::Ok;
     Ohms impedance{1000};
+    std::optional<double> measured;  ///< amplitude that it reads back
     std::atomic<int> delivered{0};
     std::atomic<int> offs{0};
     std::atomic<int> keptAlive{0};

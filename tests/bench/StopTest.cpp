@@ -65,6 +65,30 @@ TEST_F(StopTest, DuringAWriteSwitchesOffAfterTheWrite) {
     EXPECT_EQ(device_->delivered, delivered);
 }
 
+TEST_F(StopTest, OfATrainThatThenReadsTooLittleIsNoFaultAndOfOneThatReadsTooMuchIs) {
+    RecordProperty("hazard", "H2");
+    const auto after = [this](double measured, bool stopped) {
+        open(false);
+        EXPECT_TRUE(arm());
+        device_->onDeliver = [this, measured, stopped] {
+            device_->measured = measured;
+            if (stopped) bench_->stop("test");
+        };
+        EXPECT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        EXPECT_FALSE(bench_->wait(Seconds(2)));
+        if (stopped) {
+            EXPECT_TRUE(bench_->begin(bench_->stops().mark()));
+            static_cast<void>(bench_->wait(Seconds(1)));  // what was cut off is read now
+        }
+        const auto seen = bench_->telemetry().state;
+        device_->onDeliver = nullptr;
+        return seen;
+    };
+    EXPECT_EQ(after(1, false), InterlockState::Faulted) << "40 V were commanded";
+    EXPECT_EQ(after(1, true), InterlockState::Disarmed) << "the pulse before it, in a train that was cut off";
+    EXPECT_EQ(after(60, true), InterlockState::Faulted);
+}
+
 TEST_F(StopTest, WhileTheDriveIsSetLeavesNoDriveForTheNextArming) {
     RecordProperty("hazard", "H2");
     std::atomic<bool> stops{false};

@@ -108,7 +108,7 @@ TEST_F(SafetyCheck, TheProfilesAreaIsAnAnswer) {
 TEST_F(SafetyCheck, AStoppedRunLeavesNoRowUndecided) {
     RecordProperty("hazard", "H9");
     gui::LoadRows rows;
-    rows.add({{"load", "500 ohm"}, {"impedance_ohm", 499.5}, {"peak_ma", 80.0}});
+    rows.add({{"type", "command"}, {"load", "500 ohm"}, {"impedance_ohm", 499.5}, {"peak_ma", 80.0}});
     EXPECT_THAT(rows.verdictOf("500 ohm").toStdString(), HasSubstr("being measured"));
     rows.end(nullptr);
     for (int row = 0; row < rows.rowCount(); ++row) EXPECT_EQ(rows.item(row, 1)->text(), "○ not evaluated");
