@@ -44,13 +44,21 @@ TrainReadBack readBackOf(const TrainReport& report) noexcept {
 std::optional<LoopFault> DeliveryJudge::delivered(const TrainReport& report, bool permitted) {
     const auto judgement = status(report);
     if (judgement.stops()) return LoopFault{causeOf(judgement.finding), judgement.reason.view()};
-    // A train that a stop cut off may read as the pulse before it, or as nothing; too much is a fault whatever came.
-    if (auto fault = readBack(report); fault && (permitted || fault->cause == FaultCause::LimitBroken)) return fault;
+    if (auto fault = readBack(report); fault && !(fault->cause == FaultCause::DeviceFault && wasCutOff(report)))
+        return fault;
     if (!source_.readsBack || !permitted) return std::nullopt;
     if (!std::isnan(report.impedance_ohm)) return updateImpedance(Ohms(report.impedance_ohm), report.statusAt);
     // A train too small to be read leaves the last reading to grow old; a check exists to be read.
     if (!report.isCheck) return std::nullopt;
     return LoopFault{FaultCause::StatusMissing, "the impedance check was not read back"};
+}
+
+/// A stop disarms before it switches off: what was being delivered may then read as the pulse before it. Whether too
+/// much came out is judged all the same, and so is a train that a pause let end.
+bool DeliveryJudge::wasCutOff(const TrainReport& report) const noexcept {
+    const auto state = interlock_.state();
+    return state == InterlockState::Disarmed || state == InterlockState::Disconnected ||
+           (state == InterlockState::Checking && !report.isCheck);
 }
 
 TrainJudgement DeliveryJudge::status(const TrainReport& report) const noexcept {

@@ -34,6 +34,7 @@ public:
     [[nodiscard]] std::optional<LoopFault> delivered(const TrainReport& report, bool permitted);
     /// What its status says.
     [[nodiscard]] TrainJudgement status(const TrainReport& report) const noexcept;
+    [[nodiscard]] bool wasCutOff(const TrainReport& report) const noexcept;
     /// Whether what is read back is the amplitude that was commanded.
     [[nodiscard]] std::optional<LoopFault> readBack(const TrainReport& report) const;
     /// The same from a capture.

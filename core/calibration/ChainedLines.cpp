@@ -101,6 +101,7 @@ Result<void> ChainedLines::read(const std::function<Result<void>(const nlohmann:
     cut_ = false;
     const auto noted = notedEnd();  // before the lines, which are written before it: another process may append
     if (!noted) return failure(noted);
+    hasNote_ = noted->has_value();
     const auto content = readTextFile(file_);
     if (!content && content.error().code != ErrorCode::NotFound) return failure(content);
     return readLines(content ? *content : "", *noted, take);
@@ -159,11 +160,10 @@ Result<void> ChainedLines::append(const std::function<Result<nlohmann::json>()>&
     }
     auto body = line();
     if (!body) return failure(body);
-    // A line that says so, and no note after a crash, would be a line too many.
-    const auto noted = notedEnd();
-    if (!noted) return failure(noted);
-    if (!*noted) {
+    // Before the first line that says that there is one: a crash between the two would leave it missing.
+    if (!hasNote_) {
         if (const auto first = noteEnd(); !first) return first;
+        hasNote_ = true;
     }
     (*body)["end_noted"] = true;
     (*body)["previous"] = end_.head;

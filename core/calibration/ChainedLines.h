@@ -3,8 +3,8 @@
 // Each line carries the SHA-256 of the line before it ("previous") and its own ("sha256"): a line that was changed,
 // taken out or put in is found when the file is read. FILE.end notes where the last line ended: lines that were taken
 // off the end are found, too, be it by an older copy of the file. Lines say that it is kept ("end_noted"), so that it
-// is missed where it is gone; a file without such lines was written before there was one. Whoever can write both files
-// can still make them fit each other.
+// is missed where it is gone; a file without such lines was written before there was one. A program that can write
+// both files can still make them agree.
 //
 // The last line may be cut short by a crash while it was written: it is left out, lastLineCut() says so, and append()
 // writes over it.
@@ -57,6 +57,7 @@ private:
     std::filesystem::path file_;
     std::string what_;
     End end_;
+    bool hasNote_ = false;
     bool cut_ = false;
 };
 

@@ -26,7 +26,8 @@ TEST(InTime, AMissedDeadlineBeginsItsMessageByThatAndNoOtherFailureDoes) {
     EXPECT_NE(std::string_view(failures.GetTestPartResult(1).message()).find(kNotInTime), 0U);
 }
 
-/// Tests that fail when they are tried first, each in a process of its own.
+/// Tests that fail at their first try. They are disabled for ctest; the last test of this file runs each of them in a
+/// process of its own.
 class InTimeExample : public testing::Test {
 protected:
     static bool first() { return std::getenv("TACTO_TEST_TRY") == nullptr; }

@@ -89,6 +89,21 @@ TEST_F(StopTest, OfATrainThatThenReadsTooLittleIsNoFaultAndOfOneThatReadsTooMuch
     EXPECT_EQ(after(60, true), InterlockState::Faulted);
 }
 
+TEST_F(StopTest, APauseIsNoneAndATrainThatReadsTooLittleIsAFault) {
+    RecordProperty("hazard", "H2");
+    open(true);
+    ASSERT_IN_TIME(arm());
+    device_->onDeliver = [this] {
+        device_->measured = 1;
+        bench_->pause();
+    };
+    ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto giveUp = clock_->now() + 2s;
+    while (bench_->telemetry().state != InterlockState::Faulted && clock_->now() < giveUp)
+        std::this_thread::sleep_for(1ms);
+    EXPECT_IN_TIME(bench_->telemetry().state == InterlockState::Faulted) << nameOf(bench_->telemetry().state);
+}
+
 TEST_F(StopTest, WhileTheDriveIsSetLeavesNoDriveForTheNextArming) {
     RecordProperty("hazard", "H2");
     std::atomic<bool> stops{false};

@@ -38,7 +38,7 @@ public:
     void start(Work work) {
         thread_.start(std::move(work));
     }
-    /// What has not begun is left out, and nobody is told.
+    /// Drops the work that has not begun; its `then` is never called.
     void drop() { thread_.clear(); }
 
 private:

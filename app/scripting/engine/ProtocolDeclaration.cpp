@@ -5,6 +5,7 @@
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/DeclaredText.h"
 #include "core/base/JsonText.h"
+#include "core/base/Words.h"
 
 namespace tacto {
 
@@ -34,15 +35,11 @@ bool answers(const std::string& question, const std::string& key) {
     return question == key;
 }
 
-constexpr std::array<std::pair<std::string_view, ProtocolView>, 5> kViews{{{"trials", ProtocolView::Trials},
-                                                                           {"loads", ProtocolView::Loads},
-                                                                           {"calibration", ProtocolView::Calibration},
-                                                                           {"slides", ProtocolView::Slides},
-                                                                           {"none", ProtocolView::None}}};
-
-std::string_view wordOf(const decltype(kViews)& words, ProtocolView view) {
-    return std::ranges::find(words, view, &std::pair<std::string_view, ProtocolView>::second)->first;
-}
+constexpr Word<ProtocolView> kViews[] = {{"trials", ProtocolView::Trials},
+                                         {"loads", ProtocolView::Loads},
+                                         {"calibration", ProtocolView::Calibration},
+                                         {"slides", ProtocolView::Slides},
+                                         {"none", ProtocolView::None}};
 
 /// For a script that declares none: what its kind and its devices suggest.
 ProtocolView usualView(const ProtocolDeclaration& declaration) {
@@ -54,9 +51,8 @@ ProtocolView usualView(const ProtocolDeclaration& declaration) {
 Result<ProtocolView> readView(const Json& given, const ProtocolDeclaration& declaration) {
     if (!given.contains("view")) return usualView(declaration);
     const Json& said = given["view"];
-    for (const auto& [word, view] : kViews) {
-        if (said == word) return view;
-    }
+    const auto view = said.is_string() ? valueFor(kViews, said.get_ref<const std::string&>()) : std::nullopt;
+    if (view) return *view;
     return fail(ErrorCode::InvalidArgument, "view is {}; trials, loads, calibration, slides or none is expected",
                 shown(said));
 }
@@ -161,7 +157,7 @@ Json toJson(const ProtocolDeclaration& declaration) {
             {"purpose", declaration.purpose},
             {"kind", declaration.kind.empty() ? Json() : Json(declaration.kind)},
             {"needs", needs},
-            {"view", wordOf(kViews, declaration.view)},
+            {"view", wordFor(kViews, declaration.view)},
             {"parameters", parameters},
             {"questions", declaration.questions}};
 }
