@@ -148,8 +148,8 @@ Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body
     feel(trial);
     given(trial);
     const auto response = textOr(body, "response");
-    StageAnswer answer{response, numberOr(body, "rt_s"), countOr(body, "attempt"), !response.empty() || !trial.asks,
-                       true,     {}};
+    StageAnswer answer{
+        response, numberOr(body, "rt_s"), countOr(body, "attempt"), !response.empty() || !trial.asks, true, {}};
     if (const auto found = body.find(kVibration); found != body.end()) answer.vibration = burstFiguresFrom(*found);
     return answer;
 }
@@ -291,7 +291,8 @@ Result<void> PilotStage::arm() {
     if (bench_.outputIsReal()) {
         const auto load = parseLoad(request.load);
         request.confirmed = load ? bench_.armingText(*load) : std::string();
-        const auto asked = participant_.ask(yesNoPrompt("arm", request.confirmed, PromptTo::Operator));
+        const auto asked =
+            participant_.ask(yesNoPrompt("arm", fmt::format("Arm {}?", request.confirmed), PromptTo::Operator));
         if (!asked) return failure(asked);
         if (asked->key() != "yes")
             return fail(ErrorCode::NotArmed, "the operator did not confirm {}", request.confirmed);

@@ -16,7 +16,9 @@ namespace tacto::test {
 /// Remembers what it was told. Bursts end by themselves.
 class FakeMassager final : public Massager {
 public:
-    explicit FakeMassager(const Clock& clock) : clock_(clock) {}
+    explicit FakeMassager(const Clock& clock)
+        : FakeMassager(clock, {"fake:massager", Role::Massager, "fake massager", "M1", "", true}) {}
+    FakeMassager(const Clock& clock, DeviceIdentity identity) : identity_(std::move(identity)), clock_(clock) {}
     struct Sent {
         Instant at;
         VibrationBurst burst;
@@ -41,7 +43,7 @@ public:
     std::function<void()> onVibrate;
 
 private:
-    const DeviceIdentity identity_{"fake:massager", Role::Massager, "fake massager", "M1", "", true};
+    const DeviceIdentity identity_;
     const Clock& clock_;
     mutable std::mutex mutex_;
     std::vector<Sent> sent_;

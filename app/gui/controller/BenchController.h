@@ -114,6 +114,8 @@ public:
     void stop(const char* by) noexcept;
     void pause() { published_.pause(); }
     void resume() { published_.resume(); }
+    /// The output is held back; of a protocol: it waits, or will at its next step.
+    [[nodiscard]] bool paused() const { return published_.paused(); }
     /// Marks the moment `at` of the session that is being recorded with a word, past every queue and without waiting
     /// for the disk; no output is touched. False where nothing is recorded.
     [[nodiscard]] bool markMoment(Instant at, const QString& word);

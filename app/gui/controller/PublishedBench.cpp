@@ -40,6 +40,12 @@ void PublishedBench::resume() {
         bench_->resume();
 }
 
+bool PublishedBench::paused() const {
+    const std::scoped_lock lock(mutex_);
+    if (script_ != nullptr) return script_->paused();
+    return bench_ != nullptr && bench_->telemetry().paused;
+}
+
 bool PublishedBench::markMoment(Instant at, const std::string& word) {
     const std::scoped_lock lock(mutex_);
     return bench_ != nullptr && bench_->markMoment(at, word);

@@ -24,6 +24,7 @@ public:
     void stop(const char* by) noexcept;
     void pause();
     void resume();
+    [[nodiscard]] bool paused() const;
     /// False where nothing is recorded.
     [[nodiscard]] bool markMoment(Instant at, const std::string& word);
 

@@ -85,7 +85,8 @@ OperatorPage::OperatorPage(QWidget* parent)
     column->addWidget(obstacle_);
     column->addWidget(ask_);
     column->addSpacing(kOperatorPad / 2);
-    column->addWidget(trend_, 1);
+    column->addWidget(trend_, 100);
+    column->addStretch(1);  // the room of a trend that is not there
     column->addSpacing(kOperatorPad / 2);
     column->addWidget(notes_);
     all->addLayout(column, 1);
@@ -158,14 +159,14 @@ QWidget* OperatorPage::buildBar() {
     return bar;
 }
 
-void OperatorPage::begin(bool blind, bool simulated) {
-    blind_ = blind;
+void OperatorPage::begin(const PilotStart& start) {
+    blind_ = start.blind;
     screen_ = {};
     answered_ = repeated_ = seenTrial_ = seenBlock_ = 0;
     theirs_.reset();
-    vibrates_ = false;
+    vibrates_ = start.massager;
     trend_->clear();
-    trend_->setSimulated(simulated);
+    trend_->setSimulated(start.simulated());
     showTrend();
     notes_->clear();
     ask_->close();
@@ -234,10 +235,6 @@ void OperatorPage::closeQuestion(quint64 id) {
 }
 
 void OperatorPage::refresh(const Telemetry& telemetry) {
-    if (std::isfinite(telemetry.intensity) && !vibrates_) {
-        vibrates_ = true;
-        showTrend();
-    }
     if (screen_.phase == "test") trend_->note(screen_.trial, telemetry.impedance_ohm);
     const double gone = double(phaseSince_.nsecsElapsed()) * 1e-9;
     if (theirs_) {

@@ -12,6 +12,7 @@
 
 #include "app/gui/pilot/OperatorAsk.h"
 #include "app/gui/pilot/PhaseBar.h"
+#include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SessionNotes.h"
 #include "core/bench/Telemetry.h"
 #include "core/pilot/Prompt.h"
@@ -27,7 +28,7 @@ class OperatorPage final : public QWidget {
     Q_OBJECT
 public:
     explicit OperatorPage(QWidget* parent = nullptr);
-    void begin(bool blind, bool simulated);
+    void begin(const PilotStart& start);
     void show(const PilotScreen& screen);
     /// To either of the two.
     void ask(const PilotPrompt& prompt, quint64 id);

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <QString>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/gui/pilot/AnswerKeys.h"
+#include "core/devices/DeviceUri.h"
 #include "core/seal/Secret.h"
 #include "core/study/Gates.h"
 
@@ -19,19 +21,25 @@ struct PilotStart {
     QString folder;                            ///< of the study
     std::shared_ptr<const Secret> passphrase;  ///< null: a rehearsal
     std::string participant = "virtual:1";     ///< a code, or virtual:SEED
-    QString who;                               ///< for the operator: "P-7K3D", "virtual, seed 1"
-    bool person = false;         ///< someone sits at the participant's window; else a virtual participant answers
-    bool confirmsCode = false;   ///< they are asked first whether the code is theirs
+    std::vector<DeviceUri> devices{{"sim", "", {}}};
+    bool massager = false;      ///< delivers, in place of electrodes
+    QString who;                ///< for the operator: "P-7K3D", "virtual, seed 1"
+    bool person = false;        ///< someone sits at the participant's window; else a virtual participant answers
+    bool confirmsCode = false;  ///< they are asked first whether the code is theirs
     bool rehearsal = true;
     std::vector<ExclusionAnswer> exclusions{};  ///< a person's
     std::string protocol = "pilot-identification";
-    std::string method = "quest";   ///< of detection
-    std::string unfinished{};       ///< of a session that was broken off: "resume", "end"; empty: there is none
-    std::uint64_t seed = 1;         ///< of plan and order, and in a rehearsal of the virtual participant
-    std::string modality = "study"; ///< of a new rehearsal: "electrodes", "massager"; "study": as the study says
-    std::optional<int> blocks{};    ///< of a rehearsal's test; nothing: the study's
+    std::string method = "quest";    ///< of detection
+    std::string unfinished{};        ///< of a session that was broken off: "resume", "end"; empty: there is none
+    std::uint64_t seed = 1;          ///< of plan and order, and in a rehearsal of the virtual participant
+    std::string modality = "study";  ///< of a new rehearsal: "electrodes", "massager"; "study": as the study says
+    std::optional<int> blocks{};     ///< of a rehearsal's test; nothing: the study's
     bool blind = true;
     KeySet keys = KeySet::Figures;
+
+    [[nodiscard]] bool simulated() const {
+        return std::ranges::all_of(devices, [](const DeviceUri& uri) { return uri.scheme == "sim"; });
+    }
 };
 
 }  // namespace tacto::gui

@@ -28,7 +28,7 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
     : QWidget(parent),
       path_(new SessionPath(this)),
       pages_(new QStackedWidget(this)),
-      start_(new SessionStartPage(pages_)),
+      start_(new SessionStartPage(controller.watch(), pages_)),
       page_(new OperatorPage(pages_)),
       result_(new PilotResult(pages_)),
       side_(new SessionSide(this)),
@@ -46,8 +46,8 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
     };
     row->addWidget(path_);
     pathEdge_ = edge();
-    for (auto* page : {buildHome(), static_cast<QWidget*>(start_), static_cast<QWidget*>(page_),
-                       static_cast<QWidget*>(result_)})
+    for (auto* page :
+         {buildHome(), static_cast<QWidget*>(start_), static_cast<QWidget*>(page_), static_cast<QWidget*>(result_)})
         pages_->addWidget(page);
     row->addWidget(pages_, 1);
     sideEdge_ = edge();
@@ -76,12 +76,13 @@ void PilotWorkspace::connectSession() {
     auto* session = session_.get();
     connect(session, &SessionConduct::begun, this, [this, session] {
         const auto& start = session->start();
-        path_->setTitle(tr("Session of %1").arg(start.who),
-                        !start.rehearsal ? tr("Study, simulated bench")
-                        : !start.person  ? tr("Rehearsal, virtual participant")
-                        : ofStudy_       ? tr("Rehearsal with a person")
-                                         : tr("Rehearsal: you answer yourself"));
-        path_->begin(start.blocks.value_or(kUsualBlocks), start.person);
+        path_->setTitle(tr("Session of %1").arg(start.who), !start.rehearsal && start.simulated()
+                                                                ? tr("Study, simulated bench")
+                                                            : !start.rehearsal ? tr("Study")
+                                                            : !start.person    ? tr("Rehearsal, virtual participant")
+                                                            : ofStudy_         ? tr("Rehearsal with a person")
+                                                                               : tr("Rehearsal: you answer yourself"));
+        path_->begin(start.blocks.value_or(kUsualBlocks), start.person, start.massager);
         showPage(kSession);
     });
     connect(session, &SessionConduct::screenChanged, this, [this, session](const PilotScreen& screen) {

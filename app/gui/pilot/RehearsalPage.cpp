@@ -10,6 +10,7 @@
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -57,15 +58,19 @@ RehearsalPage::RehearsalPage(QWidget* parent)
       blocks_(new QSpinBox(this)),
       trouble_(new QLabel(this)),
       begin_(new QPushButton(tr("Begin rehearsal"), this)) {
-    auto* column = new QVBoxLayout(this);
+    auto* whole = new QVBoxLayout(this);
+    whole->setContentsMargins(0, 0, 0, 0);
+    whole->setSpacing(0);
+    auto* inside = new QWidget(this);
+    auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad);
     column->setSpacing(12);
-    column->addWidget(heading(tr("A new rehearsal"), this));
+    column->addWidget(heading(tr("A new rehearsal"), inside));
     column->addWidget(explanation(
         tr("The whole session as a participant and an operator live it, on simulated devices: checklist, thresholds, "
            "training, test, ratings. Nothing of it reaches a person."),
-        this));
-    auto* holder = new QWidget(this);
+        inside));
+    auto* holder = new QWidget(inside);
     holder->setMaximumWidth(scaledPx(kFormWide));
     auto* form = new QFormLayout(holder);
     form->setContentsMargins(0, 8, 0, 0);
@@ -123,20 +128,25 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     seats_ = std::make_unique<SeatRows>(*form, *holder);
     column->addWidget(holder);
     column->addWidget(seats_->about());
+    column->addStretch();
+    whole->addWidget(new ScrollingPage(inside, this), 1);
+    auto* foot = new QVBoxLayout;
+    foot->setContentsMargins(kPagePad, 12, kPagePad, 12);
+    foot->setSpacing(8);
     trouble_->setWordWrap(true);
     trouble_->setObjectName("rehearsalTrouble");
     trouble_->setTextFormat(Qt::PlainText);
     setTone(*trouble_, Tone::Warning);
     trouble_->hide();
-    column->addWidget(trouble_);
+    foot->addWidget(trouble_);
     begin_->setObjectName("beginRehearsal");
     begin_->setIcon(icon("run", Ink::Primary));
     begin_->setAutoDefault(false);
     begin_->setToolTip(tr("Opens both windows. Nothing is delivered before the checklist is answered."));
     makePrimary(*begin_);
     connect(begin_, &QPushButton::clicked, this, &RehearsalPage::beginWanted);
-    column->addWidget(begin_, 0, Qt::AlignLeft);
-    column->addStretch();
+    foot->addWidget(begin_, 0, Qt::AlignLeft);
+    whole->addLayout(foot);
     connect(folder_, &QLineEdit::textChanged, this, &RehearsalPage::look);
     connect(seed_, &QSpinBox::valueChanged, this, &RehearsalPage::look);
     connect(who_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
@@ -155,6 +165,7 @@ PilotStart RehearsalPage::rehearsal() const {
     made.protocol = protocol_->currentData().toString().toStdString();
     made.method = method_->currentData().toString().toStdString();
     made.unfinished = offer_->chosen();
+    made.massager = modality_->currentData().toString() == "massager";
     if (modality_->isEnabled()) made.modality = modality_->currentData().toString().toStdString();
     if (made.unfinished != "resume") made.blocks = blocks_->value();
     seats_->writeTo(made);

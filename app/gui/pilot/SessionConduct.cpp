@@ -75,9 +75,7 @@ Result<RunOrder> SessionConduct::order() const {
     order.script = std::move(*source);
     order.declaration = std::move(*declaration);
     order.settings = std::move(*settings);
-    auto uri = DeviceUri::parse("sim:");
-    if (!uri) return failure(uri);
-    order.uris.push_back(std::move(*uri));
+    order.uris = start_.devices;
     order.needed = order.declaration.needs;
     order.seed = start_.seed;
     order.realtime = start_.person;
@@ -105,7 +103,7 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     participantStops_ = faults_ = 0;
     screen_ = {};
     stoppedAt_.invalidate();
-    page_.begin(start.blind, true);
+    page_.begin(start);
     emit begun();
     if (start_.person) openWindow();
     emit changed();
@@ -123,7 +121,10 @@ void SessionConduct::openWindow() {
     desk_.setScreenThere(true);
     window_ = std::make_unique<ParticipantWindow>(desk_, [this](const char* by) { stopAsParticipant(by); });
     window_->setKeys(start_.keys);
-    window_->setNote(start_.rehearsal ? tr("rehearsal · simulated") : tr("simulated"));
+    QStringList notes;
+    if (start_.rehearsal) notes << tr("rehearsal");
+    if (start_.simulated()) notes << tr("simulated");
+    window_->setNote(notes.join(" · "));
     connect(window_.get(), &ParticipantWindow::changed, this, &SessionConduct::changed);
     strip_ = new OperatorStrip;
     connectStrip();

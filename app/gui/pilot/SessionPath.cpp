@@ -23,7 +23,9 @@ std::optional<int> stepOf(const std::string& name, int now) {
     if (name == "checklist" || name == "code") return kChecklist;
     if (name == "stop-test") return kStopTest;
     if (name == "erythema" || name == "oedema") return now >= kRatings ? kAfter : now >= kThresholds ? now : int(kSkin);
-    if (name == "electrode-lot" || name == "electrodes-untouched") return kSkin;
+    if (name == "electrode-lot" || name == "electrodes-untouched" || name == "massager-untouched" ||
+        name == "masking-noise")
+        return kSkin;
     if (name == "ascending" || name == "detection" || name == "range") return kThresholds;
     if (name == "familiarisation" || name == "training") return kTraining;
     if (name == "test" || name == "drift" || name == "break") return kTest;
@@ -55,8 +57,14 @@ SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     top->addWidget(title_);
     top->addWidget(below_);
     column->addLayout(top);
-    steps_ = new StepList({tr("Checklist"), tr("Stop test"), tr("Skin and electrodes"), tr("Thresholds and range"),
-                           tr("Training"), tr("Test"), tr("Ratings"), tr("Electrodes off, skin")},
+    steps_ = new StepList({tr("Checklist"),
+                           tr("Stop test"),
+                           {},
+                           tr("Thresholds and range"),
+                           tr("Training"),
+                           tr("Test"),
+                           tr("Ratings"),
+                           {}},
                           this);
     column->addWidget(steps_);
     column->addStretch();
@@ -80,14 +88,21 @@ void SessionPath::setTitle(const QString& title, const QString& below) {
     below_->setText(below);
 }
 
-void SessionPath::begin(int blocks, bool counts) {
+void SessionPath::begin(int blocks, bool counts, bool massager) {
+    nameSeats(massager);
     screen_ = {};
     blocks_ = blocks;
     counts_ = counts;
     reach(kChecklist);
 }
 
+void SessionPath::nameSeats(bool massager) {
+    steps_->setName(kSkin, massager ? tr("Skin and massager") : tr("Skin and electrodes"));
+    steps_->setName(kAfter, massager ? tr("Massager off, skin") : tr("Electrodes off, skin"));
+}
+
 void SessionPath::clear() {
+    nameSeats(false);
     counts_ = false;
     reach(-1);
 }

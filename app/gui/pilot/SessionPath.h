@@ -18,8 +18,8 @@ class SessionPath final : public QWidget {
 public:
     explicit SessionPath(QWidget* parent = nullptr);
     void setTitle(const QString& title, const QString& below);
-    /// `blocks` of the test; `counts`: the time left is that of people.
-    void begin(int blocks, bool counts);
+    /// `blocks` of the test; `counts`: the time left is that of people; `massager`: there are no electrodes.
+    void begin(int blocks, bool counts, bool massager);
     void show(const PilotScreen& screen);
     void asked(const PilotPrompt& prompt);
     /// The test is under way, though its screens are not shown.
@@ -34,6 +34,7 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    void nameSeats(bool massager);
     void reach(int step);
     void reachFor(const std::string& name);
     [[nodiscard]] QString timeLeft() const;

@@ -3,12 +3,13 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QRandomGenerator>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
+#include "app/gui/pilot/DeviceRows.h"
 #include "app/gui/pilot/ExclusionChecklist.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -19,7 +20,7 @@ constexpr int kStartPad = 16, kStartWide = 1200, kTwoColumns = 900;
 constexpr int kMaxPlanSeed = 1'000'000'000;
 }  // namespace
 
-SessionStartPage::SessionStartPage(QWidget* parent)
+SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     : QWidget(parent),
       head_(new QLabel(this)),
       about_(new QLabel(this)),
@@ -34,11 +35,7 @@ SessionStartPage::SessionStartPage(QWidget* parent)
     auto* whole = new QVBoxLayout(this);
     whole->setContentsMargins(0, 0, 0, 0);
     whole->setSpacing(0);
-    auto* area = new QScrollArea(this);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setFocusPolicy(Qt::NoFocus);
-    auto* inside = new QWidget(area);
+    auto* inside = new QWidget(this);
     inside->setMaximumWidth(scaledPx(kStartWide));
     auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(kStartPad, kStartPad, kStartPad, kStartPad);
@@ -63,6 +60,7 @@ SessionStartPage::SessionStartPage(QWidget* parent)
     method_->addItem(tr("QUEST+"), "quest");
     method_->addItem(tr("weighted staircase"), "staircase");
     form->addRow(tr("Detection by"), method_);
+    devices_ = new DeviceRows(*form, *inside, watch);
     seats_ = std::make_unique<SeatRows>(*form, *inside);
     auto* left = new QVBoxLayout;
     left->setSpacing(12);
@@ -84,9 +82,7 @@ SessionStartPage::SessionStartPage(QWidget* parent)
     asks->addWidget(checklist_);
     asks->addStretch();
     column->addStretch();
-    area->setWidget(inside);
-    for (auto* ground : {inside, area->viewport()}) ground->setAutoFillBackground(false);
-    whole->addWidget(area, 1);
+    whole->addWidget(new ScrollingPage(inside, this), 1);
     trouble_->setObjectName("sessionTrouble");
     trouble_->setContentsMargins(kStartPad, 0, kStartPad, 8);
     setTone(*trouble_, Tone::Warning);
@@ -113,6 +109,7 @@ SessionStartPage::SessionStartPage(QWidget* parent)
     connect(begin_, &QPushButton::clicked, this, &SessionStartPage::beginWanted);
     connect(back, &QPushButton::clicked, this, &SessionStartPage::backWanted);
     connect(checklist_, &ExclusionChecklist::changed, this, &SessionStartPage::judge);
+    connect(devices_, &DeviceRows::changed, this, &SessionStartPage::judge);
     connect(offer_, &UnfinishedOffer::changed, this, &SessionStartPage::judge);
 }
 
@@ -120,6 +117,7 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     code_ = participant.code;
     virtual_ = participant.virtualSeed.has_value();
     rehearsal_ = study.isRehearsal();
+    massager_ = study.settings().modality == Modality::Massager;
     checklist_->clear();
     asks_->setVisible(!virtual_);
     seats_->showFor(!virtual_);
@@ -132,13 +130,16 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
                                   "checklist and is done in seconds.")
                                    .arg(*participant.virtualSeed)
                              : tr("The person reads the code on their own screen and says whether it is theirs, before "
-                                  "anything else. The simulated bench takes a person in a rehearsal only."));
+                                  "anything else."));
+    devices_->offer(study.settings(), !virtual_);
     judge();
 }
 
 PilotStart SessionStartPage::start() const {
     PilotStart made;
     made.participant = code_;
+    made.devices = devices_->chosen();
+    made.massager = massager_;
     made.who = qtext(code_);
     made.person = !virtual_;
     made.confirmsCode = !virtual_;
@@ -159,9 +160,11 @@ void SessionStartPage::judge() {
     const auto open = checklist_->answers().size();
     const bool whole = virtual_ || checklist_->whole();
     const bool chosen = !offer_->asks() || !offer_->chosen().empty();
-    begin_->setEnabled(whole && chosen);
-    begin_->setToolTip(!chosen  ? tr("First say what happens to the session that was broken off.")
-                       : !whole ? tr("%1 of %2 questions of the checklist are answered; each is needed.")
+    const auto lacks = devices_->missing();
+    begin_->setEnabled(whole && chosen && lacks.isEmpty());
+    begin_->setToolTip(!chosen            ? tr("First say what happens to the session that was broken off.")
+                       : !lacks.isEmpty() ? lacks
+                       : !whole           ? tr("%1 of %2 questions of the checklist are answered; each is needed.")
                                       .arg(open)
                                       .arg(exclusionItems().size())
                                 : tr("Every condition of the study is looked at first. Nothing is delivered before."));

@@ -16,13 +16,16 @@
 
 namespace tacto::gui {
 
+class DeviceRows;
+class DeviceWatch;
 class ExclusionChecklist;
 class UnfinishedOffer;
 
 class SessionStartPage final : public QWidget {
     Q_OBJECT
 public:
-    explicit SessionStartPage(QWidget* parent = nullptr);
+    /// `watch` outlives it: what is plugged in.
+    explicit SessionStartPage(const DeviceWatch& watch, QWidget* parent = nullptr);
     /// Afresh for a session of `participant`.
     void prepare(const Study& study, const Participant& participant);
     /// All but the study's folder and passphrase.
@@ -43,11 +46,13 @@ private:
     std::string code_;
     bool virtual_ = false;
     bool rehearsal_ = false;
+    bool massager_ = false;
     QLabel* head_;
     QLabel* about_;
     UnfinishedOffer* offer_;
     QComboBox* protocol_;
     QComboBox* method_;
+    DeviceRows* devices_;
     std::unique_ptr<SeatRows> seats_;
     QBoxLayout* body_ = nullptr;
     QWidget* asks_;

@@ -106,11 +106,6 @@ void ProtocolWorkspace::connectPath() {
     connect(steps_, &StepList::chosen, this, [this](int step) { goTo(Step(step)); });
     connect(panel_, &RunPanel::runWanted, this, &ProtocolWorkspace::runAsked);
     connect(panel_, &RunPanel::confirmed, this, &ProtocolWorkspace::runNow);
-    connect(panel_, &RunPanel::stopWanted, this, [this] { controller_.stop("operator (Stop)"); });
-    connect(panel_, &RunPanel::pauseWanted, this, [this](bool pause) {
-        paused_ = pause;
-        pause ? controller_.pause() : controller_.resume();
-    });
     connect(panel_, &RunPanel::lineWanted, this, [this](int line, const QString& why) { edit(source_, line, why); });
     connect(panel_, &RunPanel::profileChangeWanted, this, &ProtocolWorkspace::profileChangeWanted);
 }
@@ -283,7 +278,6 @@ void ProtocolWorkspace::runNow() {
     if (controller_.stoppedSince(askedAt_) || askedSince_.nsecsElapsed() > Interlock::kConfirmWithin.count())
         return panel_->say(tr("The question was answered after a stop or after 30 s. Press Run again."));
     running_ = true;
-    paused_ = seenPaused_ = false;
     last_.reset();
     pages_->views().begin(declaration_->view, asked_->settings.parameters);
     pages_->sign().clear();
@@ -293,21 +287,18 @@ void ProtocolWorkspace::runNow() {
     run_ = controller_.run(*std::exchange(asked_, std::nullopt), askedAt_);
 }
 
-void ProtocolWorkspace::refresh(const Telemetry& telemetry) {
+void ProtocolWorkspace::refresh() {
     if (!running_) return;
     const auto feed = controller_.takeRunFeed();
     pages_->views().take(feed);
     if (!feed.captures.empty()) emit captured(feed.captures.back());
     if (feed.progress) steps_->setNote(kRun, tr("%1 of %2").arg(feed.progress->done).arg(feed.progress->total));
-    // It may have been paused and resumed from elsewhere.
-    const bool isPaused = telemetry.state == InterlockState::Paused;
-    if (isPaused != std::exchange(seenPaused_, isPaused)) paused_ = isPaused;
-    panel_->show(feed.progress ? &*feed.progress : nullptr, paused_, prompt_->open());
+    panel_->show(feed.progress ? &*feed.progress : nullptr, controller_.paused(), prompt_->open());
 }
 
 void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     if (!running_ || run->number != run_) return;  // another page's
-    refresh({});
+    refresh();
     running_ = false;
     last_ = run;
     prompt_->close();
@@ -319,7 +310,7 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     steps_->setNote(kResult, pages_->views().word());
     showStep(kResult);
     showButtons();
-    if (watched) steps_->focusShown();  // Stop had the keys, and is gone
+    if (watched) steps_->focusShown();  // the progress had the keys, and is gone
     if (!error) return;
     if (run->result.session.empty()) panel_->say(tr("%1 Output is off.").arg(sentence(*error)));
     if (editor_ != nullptr && editor_->isVisible() && run->result.outcome.line > 0)

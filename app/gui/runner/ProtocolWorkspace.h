@@ -30,7 +30,8 @@ class ProtocolWorkspace final : public QWidget {
     Q_OBJECT
 public:
     ProtocolWorkspace(BenchController& controller, const QString& protocol, QWidget* parent = nullptr);
-    void refresh(const Telemetry& telemetry);
+    /// Thirty times a second: what its run says.
+    void refresh();
     [[nodiscard]] bool running() const { return running_; }
     /// Whether a protocol was read, none runs here, and nothing is in the way of its run.
     [[nodiscard]] bool ready() const { return declaration_.has_value() && !running_ && obstacle_.isEmpty(); }
@@ -97,8 +98,6 @@ private:
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
     std::uint64_t run_ = 0;  ///< its number
-    bool paused_ = false;    // asked for here, or seen
-    bool seenPaused_ = false;
 
     QBoxLayout* layout_;
     QFrame* edge_ = nullptr;  // between the path and the page

@@ -48,29 +48,19 @@ RunPanel::RunPanel(QWidget* parent)
     layout_->setContentsMargins(0, 0, 0, 0);
     buildWords();
     layout_->addWidget(words_);
-    auto* row = new QHBoxLayout;
     run_ = new QPushButton(tr("R&un"), this);
     run_->setObjectName("runButton");
+    run_->setAutoDefault(false);
     makePrimary(*run_);
     connect(run_, &QPushButton::clicked, this, &RunPanel::runWanted);
     setFocusProxy(run_);
-    pause_ = new ConfirmButton({}, this);
-    pause_->setObjectName("pauseButton");
-    pause_->setToolTip(tr("Holds the output back; the script waits at its next step."));
-    connect(pause_, &QPushButton::clicked, this, [this] {
-        if (pause_->listens()) emit pauseWanted(!paused_);
-    });
-    stop_ = new QPushButton(tr("&Stop"), this);
-    stop_->setObjectName("stopButton");
-    stop_->setToolTip(tr("Output off; what was recorded so far is kept (Shift+F5)."));
-    connect(stop_, &QPushButton::clicked, this, &RunPanel::stopWanted);
-    for (auto* button : {run_, static_cast<QPushButton*>(pause_), stop_}) {
-        button->setAutoDefault(false);
-        row->addWidget(button, 1);
-    }
-    layout_->addLayout(row);
+    layout_->addWidget(run_);
     bar_ = new QProgressBar(this);
     bar_->setAccessibleName(tr("Progress"));
+    bar_->setToolTip(
+        tr("STOP, Esc and Shift+F5 switch the output off and end the run; what was recorded so far is kept. "
+           "Pause in the safety bar holds it."));
+    bar_->setFocusPolicy(Qt::StrongFocus);  // during a run it has the keys, so that Space stops and types nowhere
     bar_->setRange(0, 1);
     bar_->setValue(0);
     layout_->addWidget(bar_);
@@ -206,7 +196,6 @@ void RunPanel::begin() {
     say({});
     question_->hide();
     running_ = true;
-    paused_ = false;
     progress_ = {};
     since_.restart();
     timeLeft_.begin();
@@ -214,12 +203,11 @@ void RunPanel::begin() {
     bar_->setRange(0, 0);
     sayHowFar(tr("starting"), tr("opening the devices"));
     showButtons();
-    stop_->setFocus();
+    bar_->setFocus();
 }
 
 void RunPanel::show(const ScriptProgress* progress, bool paused, bool waiting) {
     if (!running_) return;
-    if (std::exchange(paused_, paused) != paused) showButtons();
     const double now_s = double(since_.elapsed()) / 1000;
     if (progress != nullptr) progress_ = *progress;
     if (progress_.total == 0) {
@@ -241,7 +229,6 @@ void RunPanel::show(const ScriptProgress* progress, bool paused, bool waiting) {
 
 void RunPanel::end(bool early) {
     running_ = false;
-    paused_ = false;
     const auto steps = progress_.total > 0 ? tr(" after %1 of %2").arg(progress_.done).arg(progress_.total) : QString();
     bar_->setRange(0, std::max(1, int(progress_.total)));
     bar_->setValue(early ? int(progress_.done) : bar_->maximum());
@@ -253,9 +240,6 @@ void RunPanel::end(bool early) {
 
 void RunPanel::showButtons() {
     run_->setEnabled(!running_ && ready_);
-    pause_->setVisible(running_);
-    pause_->setMeaning(paused_ ? tr("&Resume") : tr("&Pause"), paused_);
-    stop_->setVisible(running_);
     run_->setVisible(!across_ || !running_);
     left_->setVisible(!across_);
 }

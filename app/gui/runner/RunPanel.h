@@ -1,4 +1,5 @@
-// RunPanel.h - run, pause, stop; how far a run is and how long it still takes; what is in the way of one.
+// RunPanel.h - run; how far a run is and how long it still takes; what is in the way of one. Pause and STOP stand in
+// the safety bar alone.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -13,8 +14,6 @@
 #include "app/scripting/engine/ScriptRun.h"
 
 namespace tacto::gui {
-
-class ConfirmButton;
 
 /// Time left from what the steps so far took: pauses and what came before the first step do not count.
 class TimeLeft {
@@ -59,8 +58,6 @@ public:
 signals:
     void runWanted();
     void confirmed();
-    void pauseWanted(bool pause);
-    void stopWanted();
     void lineWanted(int line, const QString& why);
     void profileChangeWanted();
 
@@ -80,8 +77,6 @@ private:
     QPushButton* arm_ = nullptr;
     QPushButton* back_ = nullptr;  // of the question, takes the focus
     QPushButton* run_;
-    ConfirmButton* pause_;
-    QPushButton* stop_;
     QProgressBar* bar_;
     QLabel* left_;
     QElapsedTimer since_;
@@ -91,7 +86,6 @@ private:
     int line_ = 0;
     bool ready_ = false;
     bool running_ = false;
-    bool paused_ = false;
     bool across_ = false;
 };
 

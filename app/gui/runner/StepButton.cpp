@@ -18,12 +18,17 @@ constexpr int kAcrossHeight = 40, kAcrossSide = 12, kAcrossDot = 20, kAcrossGap 
 
 StepButton::StepButton(const QString& name, int number, Place place, QWidget* parent)
     : QAbstractButton(parent), number_(number), place_(place) {
-    setText(name);
-    setAccessibleName(name);
     setCheckable(true);
     setAutoExclusive(true);
     setFocusPolicy(Qt::TabFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    setName(name);
+}
+
+void StepButton::setName(const QString& name) {
+    setText(name);
+    setAccessibleName(name);
+    updateGeometry();
     say();
 }
 

@@ -16,6 +16,7 @@ public:
     enum class Place { First, Between, Last };
     /// `number`: counted from 1.
     StepButton(const QString& name, int number, Place place, QWidget* parent);
+    void setName(const QString& name);
     void setState(StepList::State state);
     [[nodiscard]] StepList::State state() const { return state_; }
     void setNote(const QString& note);

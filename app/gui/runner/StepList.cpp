@@ -18,9 +18,10 @@ StepList::StepList(const QStringList& steps, QWidget* parent)
     layout_->setContentsMargins(0, 0, 0, 0);
     layout_->setSpacing(0);
     for (const auto& step : steps) {
-        const auto place = buttons_.empty()            ? StepButton::Place::First
-                           : step == steps.constLast() ? StepButton::Place::Last
-                                                       : StepButton::Place::Between;
+        const bool isLast = int(buttons_.size()) == steps.size() - 1;
+        const auto place = buttons_.empty() ? StepButton::Place::First
+                           : isLast         ? StepButton::Place::Last
+                                            : StepButton::Place::Between;
         auto* button = new StepButton(step, int(buttons_.size()) + 1, place, this);
         connect(button, &StepButton::clicked, this, [this, index = int(buttons_.size())] { emit chosen(index); });
         layout_->addWidget(button);
@@ -36,6 +37,11 @@ StepList::State StepList::state(int step) const { return buttons_.at(std::size_t
 void StepList::setNote(int step, const QString& note) { buttons_.at(std::size_t(step))->setNote(note); }
 
 void StepList::setOutOfReach(int step, const QString& why) { buttons_.at(std::size_t(step))->setOutOfReach(why); }
+
+void StepList::setName(int step, const QString& name) {
+    buttons_.at(std::size_t(step))->setName(name);
+    placeAcross();
+}
 
 void StepList::setStepVisible(int step, bool visible) {
     buttons_.at(std::size_t(step))->setVisible(visible);

@@ -25,6 +25,7 @@ public:
     void setNote(int step, const QString& note);
     /// `why`: the sentence that says why a click does not go there yet; empty: it does.
     void setOutOfReach(int step, const QString& why);
+    void setName(int step, const QString& name);
     /// A procedure may lack a step.
     void setStepVisible(int step, bool visible);
     /// The step whose page is shown.

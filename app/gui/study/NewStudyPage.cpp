@@ -3,11 +3,11 @@
 #include <QDir>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QScrollArea>
 #include <QStandardPaths>
 #include <QVBoxLayout>
 
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -24,15 +24,19 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
       form_(new StudyForm(this)),
       trouble_(new QLabel(this)) {
     setObjectName("newStudy");
-    auto* column = new QVBoxLayout(this);
+    auto* whole = new QVBoxLayout(this);
+    whole->setContentsMargins(0, 0, 0, 0);
+    whole->setSpacing(0);
+    auto* inside = new QWidget(this);
+    auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(kNewPad, kNewPad, kNewPad, kNewPad);
     column->setSpacing(12);
-    column->addWidget(heading(tr("A new study"), this));
+    column->addWidget(heading(tr("A new study"), inside));
     column->addWidget(explanation(
         tr("As the ethics committee approved it. Settings and protocols are fixed with it: a later change is an "
            "amendment with a reference of its own."),
-        this));
-    auto* place = new QWidget(this);
+        inside));
+    auto* place = new QWidget(inside);
     auto* row = new QHBoxLayout(place);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(8);
@@ -54,20 +58,19 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     row->addWidget(choose);
     place->setMaximumWidth(scaledPx(kFormWide));
     column->addWidget(place);
-    auto* area = new QScrollArea(this);
-    area->setObjectName("newStudyFields");
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
     form_->setMaximumWidth(scaledPx(kFormWide));
-    area->setWidget(form_);
-    for (auto* ground : {static_cast<QWidget*>(form_), area->viewport()}) ground->setAutoFillBackground(false);
-    column->addWidget(area, 1);
+    column->addWidget(form_);
+    column->addStretch();
+    whole->addWidget(new ScrollingPage(inside, this), 1);
+    auto* below = new QVBoxLayout;
+    below->setContentsMargins(kNewPad, 12, kNewPad, 12);
+    below->setSpacing(8);
     trouble_->setObjectName("newStudyTrouble");
     trouble_->setTextFormat(Qt::PlainText);
     trouble_->setWordWrap(true);
     setTone(*trouble_, Tone::Warning);
     trouble_->hide();
-    column->addWidget(trouble_);
+    below->addWidget(trouble_);
     auto* foot = new QHBoxLayout;
     foot->setSpacing(8);
     auto* create = new QPushButton(tr("Create the study…"), this);
@@ -80,7 +83,8 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
         foot->addWidget(button);
     }
     foot->addStretch();
-    column->addLayout(foot);
+    below->addLayout(foot);
+    whole->addLayout(below);
     connect(form_, &StudyForm::edited, trouble_, &QLabel::hide);
     connect(create, &QPushButton::clicked, this, &NewStudyPage::askForPassphrase);
     connect(cancel, &QPushButton::clicked, this, &NewStudyPage::cancelled);

@@ -7,6 +7,7 @@
 #include "app/gui/study/PassphraseDialog.h"
 #include "app/gui/study/StudyList.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -28,7 +29,7 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
     column->addWidget(pages_);
     pages_->addWidget(buildNone());
     pages_->addWidget(new_);
-    pages_->addWidget(list_);
+    pages_->addWidget(new ScrollingPage(list_, pages_));
     connect(new_, &NewStudyPage::cancelled, this, [this] { pages_->setCurrentIndex(kNone); });
     connect(list_, &StudyList::sessionWanted, this, &StudyPage::sessionWanted);
     connect(&study_, &OpenStudy::opened, this, [this] {

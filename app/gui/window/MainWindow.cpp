@@ -38,7 +38,7 @@
 #include "app/gui/window/RecentFiles.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
-#include "app/gui/window/ScrollingPage.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/window/SimulatedBenchDialog.h"
 #include "app/gui/window/StopKeys.h"
 #include "app/gui/window/WelcomeTour.h"
@@ -235,7 +235,7 @@ void MainWindow::tick() {
     if (measured) summary_->refresh(telemetry);
     if (closing_ == nullptr) return;  // nothing runs where there is no page for it
     // One of them takes what a run says: the one it was started from, told apart by themselves.
-    for (auto* protocol : runners()) protocol->refresh(telemetry);
+    for (auto* protocol : runners()) protocol->refresh();
     pilot_->refresh(telemetry);
 }
 

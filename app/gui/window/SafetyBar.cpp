@@ -190,9 +190,11 @@ QWidget* SafetyBar::buildButtons() {
     action_->setObjectName("armButton");
     connect(action_, &QPushButton::clicked, this, &SafetyBar::pressAction);
     pause_ = new ConfirmButton({}, holder);
-    pause_->setToolTip(tr(
-        "Holds the output back and keeps the run. A train that is under way ends by itself, within 2 s; no other one "
-        "is delivered until you resume. STOP ends it at once."));
+    pause_->setObjectName("pauseButton");
+    pause_->setToolTip(
+        tr("Holds the output back and keeps the run; a protocol waits at its next step. A train that is under way ends "
+           "by itself, within 2 s; no other one "
+           "is delivered until you resume. STOP ends it at once."));
     connect(pause_, &QPushButton::clicked, this, &SafetyBar::pressPause);
     details_ = new QPushButton(tr("Details…"), holder);
     details_->setAutoDefault(false);
@@ -282,7 +284,8 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     device_->setText(text);
     device_->setToolTip(text);
     load_->setText(
-        std::isfinite(telemetry.impedance_ohm)
+        !open->source ? QString()  // a massager has no impedance
+        : std::isfinite(telemetry.impedance_ohm)
             ? QString("%1 · %2").arg(quantityText(telemetry.impedance_ohm, "ohm", 3), ageText(telemetry.impedanceAge_s))
             : tr(kUnmeasured));
     showCalibration();
@@ -339,9 +342,10 @@ void SafetyBar::showButtons(InterlockState state) {
     }
     action_->setEnabled(live && state != InterlockState::Disconnected);
     if (!pauseInstead_) pausedInstead_ = false;
-    const bool paused = state == InterlockState::Paused || pausedInstead_;
-    pause_->setMeaning(paused ? tr("Res&ume") : tr("&Pause"), paused);
-    pause_->setEnabled(pauseInstead_ || state == InterlockState::Delivering || state == InterlockState::Paused);
+    const bool runs = controller_.activity() == Activity::Running;
+    paused_ = state == InterlockState::Paused || pausedInstead_ || (runs && controller_.paused());
+    pause_->setMeaning(paused_ ? tr("Res&ume") : tr("&Pause"), paused_);
+    pause_->setEnabled(pauseInstead_ || runs || state == InterlockState::Delivering || paused_);
     pause_->setVisible(state != InterlockState::Faulted);
     details_->setVisible(state == InterlockState::Faulted);
     makePrimary(*action_, state == InterlockState::Faulted);
@@ -363,7 +367,7 @@ void SafetyBar::pressPause() {
         pausedInstead_ = !pausedInstead_;
         return pauseInstead_(pausedInstead_);
     }
-    if (state_ == InterlockState::Paused)
+    if (paused_)
         controller_.resume();
     else
         controller_.pause();

@@ -74,6 +74,7 @@ private:
     bool blind_ = false;
     std::function<void(bool)> pauseInstead_;
     bool pausedInstead_ = false;
+    bool paused_ = false;  ///< as shown
     QWidget* buttons_ = nullptr;
     ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
     ConfirmButton* pause_ = nullptr;

@@ -344,6 +344,11 @@ void ScriptRun::resume() noexcept {
     state_->woken.notify_all();
 }
 
+bool ScriptRun::paused() const noexcept {
+    const std::lock_guard lock(state_->control);
+    return state_->paused && !state_->over && !state_->stopping;
+}
+
 ScriptOutcome ScriptRun::wait() {
     if (!state_->outcome) state_->conclude(state_->thread->wait());
     return *state_->outcome;

@@ -6,7 +6,8 @@
 // ends, if ever, it can never touch the bench or the session again, and the outputs are off. Leaving run() by any door
 // disarms.
 //
-// Thread-safety: stop(), pause(), resume() from any thread, as often as wanted; wait functions have one caller.
+// Thread-safety: stop(), pause(), resume() and paused() from any thread, as often as wanted; wait functions have one
+// caller.
 // Needs a QCoreApplication, but no event loop.
 #pragma once
 
@@ -109,6 +110,8 @@ public:
     /// Bench paused; the script waits at its next host call.
     void pause() noexcept;
     void resume() noexcept;
+    /// Whether it waits, or will at its next host call.
+    [[nodiscard]] bool paused() const noexcept;
 
     /// Blocks until the script has ended or was abandoned. On return the bench is disarmed.
     [[nodiscard]] ScriptOutcome wait();

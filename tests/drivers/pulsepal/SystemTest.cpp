@@ -104,6 +104,7 @@ TEST_F(PulsePalUsb, UnpluggedIsAFaultAndComesBackByIdentity) {
     const auto gone = (*opened)->status();
     ASSERT_FALSE(gone);
     EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
+    ASSERT_IN_TIME(waitForDevices(0));
     usb.plug();
     ASSERT_IN_TIME(waitForDevices(1));
     const auto back = (*opened)->status();

@@ -26,7 +26,7 @@ protected:
         QObject::connect(&controller, &gui::BenchController::finished,
                          [this](std::shared_ptr<const gui::FinishedRun> run) { ended = std::move(run); });
         QObject::connect(&frame, &QTimer::timeout, [this] {
-            for (auto* runner : workspace.runners()) runner->refresh(controller.telemetry());
+            for (auto* runner : workspace.runners()) runner->refresh();
             drawnWhileRunning = std::max(drawnWhileRunning, drawn());
         });
         frame.start(33);

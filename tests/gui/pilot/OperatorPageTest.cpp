@@ -24,7 +24,7 @@ class Operator8b : public testing::Test {
 protected:
     Operator8b() {
         page.resize(880, 720);
-        page.begin(true, true);
+        page.begin(start);
         page.setVisible(true);
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&page));
     }
@@ -51,17 +51,18 @@ protected:
             if (i < trial) page.closeQuestion(quint64(i));
         }
     }
+    gui::PilotStart start;
     gui::OperatorPage page;
 };
 
 TEST_F(Operator8b, ShowsNoImpedanceOfAMassager) {
     runTo(3);
     EXPECT_THAT(allText(), HasSubstr("Impedance"));
-    Telemetry vibrating;
-    vibrating.intensity = 0.3;
-    page.refresh(vibrating);
+    start.massager = true;
+    page.begin(start);
     EXPECT_THAT(allText(), Not(HasSubstr("Impedance")));
-    page.begin(true, true);
+    start.massager = false;
+    page.begin(start);
     EXPECT_THAT(allText(), HasSubstr("Impedance"));
 }
 
@@ -84,7 +85,8 @@ TEST_F(Operator8b, WhileBlindNothingOfAConditionIsShown) {
     screen.operatorMayKnow = true;
     page.show(screen);
     EXPECT_THAT(allText(), HasSubstr("3.4 kohm"));
-    page.begin(false, true);
+    start.blind = false;
+    page.begin(start);
     screen.operatorText = "rough-high, 6.5 mA, 0.5 s";
     screen.operatorMayKnow = false;
     page.show(screen);
@@ -95,7 +97,7 @@ TEST_F(Operator8b, ItsPixelsAreTheSameForEveryCondition) {
     RecordProperty("hazard", "H9");
     std::vector<QImage> seen;
     for (const auto* condition : {"rough-high", "smooth-low"}) {
-        page.begin(true, true);
+        page.begin(start);
         auto screen = testScreen(ScreenState::Feel, 1);
         screen.operatorText = condition;
         page.show(screen);

@@ -12,6 +12,7 @@
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/pilot/PluggedDevices.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
@@ -27,8 +28,10 @@ protected:
         gui::applyTheme(gui::Theme::Light);
     }
     /// In a rehearsal: keys without a passphrase.
-    void prepare(std::optional<std::uint64_t> virtualSeed) {
-        study = Study::createRehearsal(scratch.path() / "study").value();
+    void prepare(std::optional<std::uint64_t> virtualSeed, Modality modality = Modality::Electrodes) {
+        StudySettings settings;
+        settings.modality = modality;
+        study = Study::createRehearsal(scratch.path() / "study", settings).value();
         Participant enrolled;
         enrolled.virtualSeed = virtualSeed;
         who = study->enrol(enrolled).value();
@@ -42,12 +45,30 @@ protected:
         for (const auto& item : exclusionItems())
             page.findChild<QRadioButton*>(QString::fromStdString(std::string(item.key)) + word)->click();
     }
+    void plug(std::vector<DeviceIdentity> devices) {
+        plugs->set(std::move(devices));
+        watch.look();
+        ASSERT_IN_TIME(comesTrue([this] { return watch.devices() == plugs->all(); }));
+    }
+    [[nodiscard]] std::vector<std::string> devices() const {
+        std::vector<std::string> uris;
+        for (const auto& uri : page.start().devices) uris.push_back(uri.text());
+        return uris;
+    }
+    [[nodiscard]] QComboBox& box(const char* name) { return *page.findChild<QComboBox*>(name); }
     [[nodiscard]] QPushButton& begin() { return *page.findChild<QPushButton*>("beginSession"); }
 
     ScratchDir scratch;
     std::optional<Study> study;
     Participant who;
-    gui::SessionStartPage page;
+    std::shared_ptr<Plugs> plugs = std::make_shared<Plugs>();
+    gui::DeviceWatch watch{[plugs = plugs] {
+                               std::vector<std::unique_ptr<Driver>> drivers;
+                               drivers.push_back(std::make_unique<PluggedDevices>(plugs));
+                               return Registry(std::move(drivers));
+                           },
+                           std::chrono::seconds(1)};
+    gui::SessionStartPage page{watch};
 };
 
 TEST_F(SessionStart, EveryQuestionIsAnsweredAndNoneBeforehand) {
@@ -100,6 +121,51 @@ TEST_F(SessionStart, ASessionThatWasBrokenOffIsOfferedWithItsTimeAndAnswers) {
     offer->offer(gui::Unfinished{2, "pilot-thresholds", 27, at.addSecs(-7200), false});
     EXPECT_FALSE(page.findChild<QRadioButton*>("goOnWithIt")->isEnabled()) << "too long ago";
     EXPECT_EQ(page.start().unfinished, "");
+}
+
+TEST_F(SessionStart, AVirtualParticipantAndARehearsalWithElectrodesHaveTheSimulatedBenchAlone) {
+    RecordProperty("hazard", "H11");
+    ASSERT_NO_FATAL_FAILURE(plug({PluggedDevices::massager("M1")}));
+    prepare({});
+    EXPECT_EQ(box("deliversWith").count(), 1);
+    EXPECT_THAT(devices(), testing::ElementsAre("sim:"));
+    EXPECT_FALSE(box("looksAtMotor").isVisible());
+    EXPECT_TRUE(page.start().simulated());
+}
+
+TEST_F(SessionStart, AMassagerIsChosenAndNoneTakesThePlaceOfOneThatIsGone) {
+    RecordProperty("hazard", "H11");
+    auto blocked = PluggedDevices::massager("M3");
+    blocked.obstacle = "Another program uses it.";
+    const auto one = PluggedDevices::massager("M1"), two = PluggedDevices::massager("M2");
+    ASSERT_NO_FATAL_FAILURE(plug({one, two, blocked, PluggedDevices::board("TSB-1")}));
+    prepare({}, Modality::Massager);
+    answer("-no");
+    EXPECT_THAT(devices(), testing::ElementsAre("sim:")) << "of a rehearsal, until a device is chosen";
+    auto& delivers = box("deliversWith");
+    ASSERT_EQ(delivers.count(), 4);
+    EXPECT_FALSE(delivers.model()->flags(delivers.model()->index(3, 0)).testFlag(Qt::ItemIsEnabled));
+    EXPECT_EQ(delivers.itemData(3, Qt::ToolTipRole).toString(), "Another program uses it.");
+    delivers.setCurrentIndex(2);
+    EXPECT_THAT(devices(), testing::ElementsAre("plugged:M2"));
+    EXPECT_FALSE(page.start().simulated());
+    EXPECT_TRUE(page.start().massager);
+    auto& looks = box("looksAtMotor");
+    EXPECT_TRUE(looks.isVisible());
+    looks.setCurrentIndex(1);
+    EXPECT_THAT(devices(), testing::ElementsAre("plugged:M2", "plugged:TSB-1"));
+    EXPECT_TRUE(begin().isEnabled());
+
+    ASSERT_NO_FATAL_FAILURE(plug({one}));
+    EXPECT_THAT(devices(), testing::IsEmpty());
+    EXPECT_FALSE(begin().isEnabled());
+    EXPECT_EQ(begin().toolTip(), "Choose the device that delivers.");
+    ASSERT_NO_FATAL_FAILURE(plug({one, two}));
+    EXPECT_THAT(devices(), testing::IsEmpty()) << "it is chosen anew";
+    delivers.setCurrentIndex(1);
+    EXPECT_EQ(begin().toolTip(), "The sensor board on the motor is gone. Choose another, or nothing.");
+    looks.setCurrentIndex(0);
+    EXPECT_THAT(devices(), testing::ElementsAre("plugged:M1"));
 }
 
 TEST_F(SessionStart, LooksRightInBothThemesAndSizes) {

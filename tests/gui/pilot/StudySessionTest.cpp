@@ -5,15 +5,20 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 
+#include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/PilotWorkspace.h"
 #include "app/gui/pilot/SessionStartPage.h"
+#include "app/gui/runner/StepButton.h"
+#include "app/gui/runner/StepList.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "app/run/StudyProgram.h"
 #include "core/study/Study.h"
+#include "drivers/simulated/SimulatedDriver.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/pilot/PluggedDevices.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/Support.h"
 
@@ -24,11 +29,23 @@ using testing::HasSubstr;
 
 constexpr const char* kWords = "correct horse 4711";
 
-class StudyInTheWindow : public Window {
+struct Plugged {
+    std::shared_ptr<Plugs> plugs = std::make_shared<Plugs>();
+};
+
+class StudyInTheWindow : protected Plugged, public Window {
 protected:
+    StudyInTheWindow()
+        : Window([plugs = plugs] {
+              std::vector<std::unique_ptr<Driver>> drivers;
+              drivers.push_back(makeSimulatedDriver());
+              drivers.push_back(std::make_unique<PluggedDevices>(plugs));
+              return Registry(std::move(drivers));
+          }) {}
     /// One participant who has consented; `virtualSeed` nothing: a person.
-    void make(std::optional<std::uint64_t> virtualSeed) {
+    void make(std::optional<std::uint64_t> virtualSeed, Modality modality = Modality::Electrodes) {
         StudySettings settings;
+        settings.modality = modality;
         settings.title = "Four conditions";
         settings.approval.reference = "EC-2026-17";
         settings.approval.from = std::chrono::year(2020) / 1 / 1;
@@ -64,6 +81,12 @@ protected:
     void start() {
         click(*pilot->findChild<QPushButton*>("startSession"));
         ASSERT_TRUE(page().isVisible());
+    }
+    void plugIn(const DeviceIdentity& device) {
+        plugs->set({device});
+        auto& watch = window.controller().watch();
+        watch.look();
+        ASSERT_IN_TIME(comesTrue([&] { return std::ranges::find(watch.devices(), device) != watch.devices().end(); }));
     }
     void answerNoToAll() {
         for (const auto& item : exclusionItems())
@@ -116,12 +139,27 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     EXPECT_EQ(cell(0, 5), "complete");
 }
 
-TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndIsRefusedOnTheSimulatedBenchWithNothingMade) {
+TEST_F(StudyInTheWindow, WithNothingPluggedInAPersonsSessionCannotBegin) {
     RecordProperty("hazard", "H11");
     ASSERT_NO_FATAL_FAILURE(make({}));
     ASSERT_NO_FATAL_FAILURE(openIt());
     ASSERT_NO_FATAL_FAILURE(start());
     answerNoToAll();
+    const auto* button = page().findChild<QPushButton*>("beginSession");
+    EXPECT_FALSE(button->isEnabled()) << "the simulated bench delivers nothing";
+    EXPECT_EQ(button->toolTip(), "No stimulator is plugged in.");
+    EXPECT_TRUE(nothingWasMade());
+    shot(window, "study-window-nothing-plugged-in");
+}
+
+TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerThatWasChosen) {
+    RecordProperty("hazard", "H11");
+    ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
+    ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M1")));
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    ASSERT_NO_FATAL_FAILURE(start());
+    answerNoToAll();
+    shot(window, "study-window-massager");
     begin();
     auto* theirs = pilot->participantWindow();
     ASSERT_NE(theirs, nullptr);
@@ -144,21 +182,42 @@ TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndIsRefusedOnTheSimulatedBench
     theirs = pilot->participantWindow();
     ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
     QTest::keyClick(theirs->windowHandle(), Qt::Key_1);  // yes
+    const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
+    ASSERT_IN_TIME(
+        comesTrue([&] { return !pilot->running() || (strip->isVisible() && strip->question().open()); }, 20'000));
+    ASSERT_TRUE(pilot->running()) << trouble();
+    QStringList asked;
+    for (const auto* label : strip->question().findChildren<QLabel*>()) asked << label->text();
+    EXPECT_THAT(asked.join(' ').toStdString(), HasSubstr("Arm haptic pad M1, vibrating up to its strongest?"))
+        << "what may move is confirmed by name";
+    shot(*theirs, "pilot-arm-massager");
+    click(*find<QPushButton>(*strip, "Yes"));
+    ASSERT_IN_TIME(
+        comesTrue([&] { return !pilot->running() || (theirs->asking() && theirs->title().contains("STOP")); }, 20'000));
+    ASSERT_TRUE(pilot->running()) << trouble();
+    const auto open = window.controller().open();
+    ASSERT_TRUE(open);
+    EXPECT_FALSE(open->simulated());
+    ASSERT_EQ(open->about.devices.size(), 1U) << "nothing simulated beside it";
+    EXPECT_EQ(open->about.devices[0].uri, "plugged:M1");
+    EXPECT_FALSE(nothingWasMade());
+    shot(window, "study-window-massager-session");
+    EXPECT_EQ(faultsOf(window), "");
+    EXPECT_EQ(pilot->findChild<gui::StepList*>()->findChildren<gui::StepButton*>()[2]->text(), "Skin and massager");
+    window.controller().stop("operator (abort)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
-    EXPECT_THAT(trouble(),
-                HasSubstr("is a person and the devices are simulated; that is accepted in a rehearsal only"));
-    EXPECT_TRUE(nothingWasMade());
-    shot(window, "study-window-refused");
 }
 
 TEST_F(StudyInTheWindow, AStopInPlaceOfTheCodeBeginsNothing) {
     RecordProperty("hazard", "H2");
-    ASSERT_NO_FATAL_FAILURE(make({}));
+    ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
+    ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M1")));
     ASSERT_NO_FATAL_FAILURE(openIt());
     ASSERT_NO_FATAL_FAILURE(start());
     answerNoToAll();
     begin();
     auto* theirs = pilot->participantWindow();
+    ASSERT_NE(theirs, nullptr);
     ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
     QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }));

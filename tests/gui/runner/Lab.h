@@ -25,7 +25,7 @@ protected:
         QObject::connect(&controller, &gui::BenchController::finished,
                          [this](std::shared_ptr<const gui::FinishedRun> run) { ended = std::move(run); });
         QObject::connect(&frame, &QTimer::timeout, [this] {
-            if (workspace) workspace->refresh(controller.telemetry());
+            if (workspace) workspace->refresh();
         });
         frame.start(33);
     }

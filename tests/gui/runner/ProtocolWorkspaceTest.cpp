@@ -150,18 +150,18 @@ TEST_F(WorkspaceInLargeText, ARunInARowSaysHowFarItIsAndCanBeStopped) {
     choose("loop");
     ASSERT_IN_TIME(ready());
     click(the<QPushButton>("runButton"));
-    ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(*workspace, "stopButton") != nullptr; }));
-    EXPECT_EQ(find<QPushButton>(*workspace, "runButton"), nullptr) << "two of three buttons have room";
+    ASSERT_IN_TIME(comesTrue([this] { return workspace->running(); }));
+    EXPECT_EQ(find<QPushButton>(*workspace, "runButton"), nullptr) << "its room is the progress's";
+    EXPECT_EQ(workspace->focusWidget(), find<QProgressBar>(*workspace, "Progress")) << "no key types or presses a thing";
     EXPECT_IN_TIME(comesTrue([this] {
         const auto* bar = find<QProgressBar>(*workspace, "Progress");
         return bar != nullptr && bar->format().contains(" · ");
     }));
     EXPECT_IN_TIME(comesTrue([this] { return faultsOf(*workspace).empty(); })) << faultsOf(*workspace);
     shot(*workspace, "row_running");
-    click(the<QPushButton>("stopButton"));
+    controller.stop("operator (STOP)");
     ASSERT_IN_TIME(ends());
     EXPECT_NE(find<QPushButton>(*workspace, "runButton"), nullptr);
-    EXPECT_EQ(find<QPushButton>(*workspace, "stopButton"), nullptr);
 }
 
 TEST_F(Workspace, EveryShippedProtocolRunsAsItComes) {
@@ -347,10 +347,12 @@ function run(p) {
     ASSERT_IN_TIME(comesTrue([this] {
         return says("timeLeft").contains("left") && !says("timeLeft").contains("not known");
     })) << says("timeLeft").toStdString();
-    click(the<QPushButton>("pauseButton"));
+    controller.pause();
+    EXPECT_TRUE(controller.paused());
     ASSERT_IN_TIME(comesTrue([this] { return says("timeLeft") == "paused"; }));
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Paused; }));
-    click(the<QPushButton>("pauseButton"));
+    controller.resume();
+    EXPECT_FALSE(controller.paused());
     ASSERT_IN_TIME(ends());
     EXPECT_IN_TIME(!ended->result.outcome.error) << ended->result.outcome.error->message;
 }

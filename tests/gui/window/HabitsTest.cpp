@@ -16,7 +16,7 @@
 
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/window/ScrollingPage.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"

@@ -234,6 +234,39 @@ TEST_F(Bar, ADoubleClickOnPauseLeavesItPaused) {
     EXPECT_IN_TIME(is(InterlockState::Paused)) << "and pausing waits for nothing";
 }
 
+TEST_F(Bar, PauseHoldsAProtocolBetweenItsTrainsToo) {
+    RecordProperty("hazard", "H12");
+    RunOrder order;
+    order.script.name = "ticks";
+    order.script.text =
+        "protocol({ title: 'T', needs: [], parameters: {} });\n"
+        "function run(p) { for (;;) { bench.wait(0.1); log('tick'); } }";
+    order.declaration = readDeclaration(order.script).value();
+    order.uris.push_back(*DeviceUri::parse("sim:"));
+    order.profile = controller.profile();
+    order.limits = controller.limits();
+    auto* pause = bar.findChild<gui::ConfirmButton*>("pauseButton");
+    ASSERT_NE(pause, nullptr);
+    bar.refresh(controller.telemetry());
+    EXPECT_FALSE(pause->isEnabled()) << "there is nothing to hold";
+    (void)controller.run(order);
+    ASSERT_IN_TIME(comesTrue([&] { return !controller.takeRunFeed().log.empty(); }));
+    bar.refresh(controller.telemetry());
+    ASSERT_TRUE(pause->isEnabled()) << word().toStdString();
+    click(*pause);
+    EXPECT_TRUE(controller.paused());
+    bar.refresh(controller.telemetry());
+    EXPECT_EQ(pause->text().remove('&'), "Resume");
+    QTest::qWait(100);  // the step that was under way
+    (void)controller.takeRunFeed();
+    QTest::qWait(100);
+    EXPECT_TRUE(controller.takeRunFeed().log.empty()) << "it went on while paused";
+    click(*pause);
+    EXPECT_FALSE(controller.paused());
+    EXPECT_IN_TIME(comesTrue([&] { return !controller.takeRunFeed().log.empty(); }));
+    controller.stop("test");
+}
+
 TEST_F(Bar, APressMeantForDisarmDoesNotResetTheFaultThatCameFirst) {
     RecordProperty("hazard", "H12");
     ASSERT_TRUE(armed({"sim:stimulator?fault=unplug@1s", "sim:"}));

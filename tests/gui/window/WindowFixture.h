@@ -16,7 +16,7 @@ namespace tacto::test {
 
 class Window : public testing::Test {
 protected:
-    Window() {
+    explicit Window(std::function<Registry()> makeRegistry = simulatedRegistry) : window(std::move(makeRegistry)) {
         window.resize(1440, 900);
         window.show();
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
@@ -67,7 +67,7 @@ protected:
         window.controller().drive(DriveSource::Manual, 0.5, 1);
         ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
     }
-    gui::MainWindow window{simulatedRegistry};
+    gui::MainWindow window;
 };
 
 }  // namespace tacto::test

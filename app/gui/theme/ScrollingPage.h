@@ -13,6 +13,8 @@ class ScrollingPage final : public QScrollArea {
 public:
     /// Takes the page.
     ScrollingPage(QWidget* page, QWidget* parent);
+    /// None of the page's: one that stands within another scrolls by itself.
+    [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
 };
 
 }  // namespace tacto::gui

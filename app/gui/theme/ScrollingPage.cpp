@@ -1,4 +1,4 @@
-#include "app/gui/window/ScrollingPage.h"
+#include "app/gui/theme/ScrollingPage.h"
 
 namespace tacto::gui {
 

@@ -1,0 +1,48 @@
+// DeviceRows.h - rows of a form: the device that a session delivers with, of those that are plugged in, and with a
+// massager the sensor board on its motor.
+//
+// What may deliver follows the gates of a study (pilot.md, section 3): the simulated bench for a virtual participant
+// and in a rehearsal; a device for a person, in a rehearsal a massager alone.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <vector>
+
+#include "app/gui/controller/DeviceWatch.h"
+#include "core/study/StudySettings.h"
+
+namespace tacto::gui {
+
+class DeviceRows final : public QObject {
+    Q_OBJECT
+public:
+    /// The rows are added to `form`, and belong to `parent`. `watch` outlives them.
+    DeviceRows(QFormLayout& form, QWidget& parent, const DeviceWatch& watch);
+    /// Afresh: for a person, or for a virtual participant.
+    void offer(const StudySettings& study, bool person);
+    /// None while one is missing.
+    [[nodiscard]] std::vector<DeviceUri> chosen() const;
+    /// Why none is chosen, a sentence; empty where one is.
+    [[nodiscard]] QString missing() const;
+
+signals:
+    void changed();
+
+private:
+    void list();
+    void judge();
+
+    QFormLayout& form_;
+    const DeviceWatch& watch_;
+    QComboBox* delivers_;
+    QComboBox* looks_;
+    std::vector<DeviceIdentity> listed_;
+    Role role_ = Role::Stimulator;
+    bool simulated_ = false;  ///< the simulated bench is offered
+    bool plugged_ = false;    ///< devices are
+};
+
+}  // namespace tacto::gui
