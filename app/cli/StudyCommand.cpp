@@ -99,8 +99,7 @@ int show(const Study& study, const QCommandLineParser& parser) {
         return kDone;
     }
     const auto& settings = study.settings();
-    say("{}{}\n  modality {}\n", settings.title, study.isRehearsal() ? " (rehearsal)" : "",
-        nameOf(settings.modality));
+    say("{}{}\n  modality {}\n", settings.title, study.isRehearsal() ? " (rehearsal)" : "", nameOf(settings.modality));
     say("  approval {}, {} to {}{}\n  consent form {}\n", settings.approval.reference, dateText(settings.approval.from),
         dateText(settings.approval.expires), all["approval"]["valid"] == true ? "" : ": not valid today",
         settings.consentVersion);

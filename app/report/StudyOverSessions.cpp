@@ -48,9 +48,9 @@ Result<void> addOverSessions(std::vector<ReportBlock>& blocks, Captions& caption
                                            .arg(100 * compared->smallestChange, 0, 'f', 0)});
     if (std::isfinite(compared->trend.value)) {
         const auto& trend = compared->trend;
-        blocks.emplace_back(ParagraphBlock{
-            QString("Trend: %1 (%2 to %3) in log odds per day.")
-                .arg(figureText(trend.value, 3), figureText(trend.low, 3), figureText(trend.high, 3))});
+        blocks.emplace_back(
+            ParagraphBlock{QString("Trend: %1 (%2 to %3) in log odds per day.")
+                               .arg(figureText(trend.value, 3), figureText(trend.low, 3), figureText(trend.high, 3))});
     }
     return {};
 }

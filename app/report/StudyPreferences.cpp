@@ -104,8 +104,9 @@ QString preferencesNote(const StudyRecord& study) {
         had << QString("%1 participant(s) had %2").arg(people).arg(order);
         balanced = balanced && people == orders.begin()->second;
     }
-    return QString("Preferences are shown and not tested: five alike of five people have p = 0.06 (two-sided). In the "
-                   "order in which they had the encodings: %1.%2")
+    return QString(
+               "Preferences are shown and not tested: five alike of five people have p = 0.06 (two-sided). In the "
+               "order in which they had the encodings: %1.%2")
         .arg(had.join("; "),
              balanced ? "" : " The orders are not balanced, so a preference may be one for what came first or last.");
 }

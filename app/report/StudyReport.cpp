@@ -132,12 +132,12 @@ void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
          {std::pair{"Texture alone", &found.texture}, {"Pressure alone", &found.pressure}}) {
         if (!*feature) continue;
         const auto& figures = (*feature)->figures;
-        facts.facts.push_back({name, QString("%1 of %2, %3; corrected information %4 bit, d′ %5, criterion %6")
-                                         .arg(figures.hits)
-                                         .arg(figures.n)
-                                         .arg(shareText(figures.accuracy), figureText(figures.itCorrected_bits, 2),
-                                              figureText((*feature)->dPrime, 2),
-                                              figureText((*feature)->criterion, 2))});
+        facts.facts.push_back(
+            {name, QString("%1 of %2, %3; corrected information %4 bit, d′ %5, criterion %6")
+                       .arg(figures.hits)
+                       .arg(figures.n)
+                       .arg(shareText(figures.accuracy), figureText(figures.itCorrected_bits, 2),
+                            figureText((*feature)->dPrime, 2), figureText((*feature)->criterion, 2))});
     }
     facts.facts.push_back({"Catch trials", QString("%1 of %2 answered with a name, exact 95 % interval up to %3 %")
                                                .arg(found.catches.falseAlarms)
@@ -230,11 +230,10 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vect
                               figureText(figures.itCorrected_bits, 2)});
     }
     blocks.emplace_back(std::move(table));
-    blocks.emplace_back(
-        ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")
-                           .arg(figureText(100 * together.accuracy.median, 0),
-                                figureText(100 * together.accuracy.min, 0),
-                                figureText(100 * together.accuracy.max, 0))});
+    blocks.emplace_back(ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")
+                                           .arg(figureText(100 * together.accuracy.median, 0),
+                                                figureText(100 * together.accuracy.min, 0),
+                                                figureText(100 * together.accuracy.max, 0))});
     blocks.emplace_back(ParagraphBlock{qtext(fewPeopleSentence(together))});
     blocks.emplace_back(ParagraphBlock{
         "Answers of different people are not pooled: no proportion, p or interval is given over all trials.", true});

@@ -41,11 +41,11 @@ Result<void> addVibration(std::vector<ReportBlock>& blocks, Captions& captions, 
                      {"Rise, 10 to 90 % (ms)", true},
                      {"Moved in", true}};
     for (const auto& each : judged->conditions) {
-        table.rows.push_back(
-            {QString::fromStdString(each.name), figureText(each.intensity, 2), figureText(each.interval_s, 2),
-             figureText(each.strength_m_s2.mean, 2), figureText(each.measuredInterval_s.mean, 3),
-             figureText(1e3 * each.latency_s.mean, 1), figureText(1e3 * each.rise_s.mean, 1),
-             QString("%1 of %2 vibrations").arg(each.moved).arg(each.bursts - each.missed)});
+        table.rows.push_back({QString::fromStdString(each.name), figureText(each.intensity, 2),
+                              figureText(each.interval_s, 2), figureText(each.strength_m_s2.mean, 2),
+                              figureText(each.measuredInterval_s.mean, 3), figureText(1e3 * each.latency_s.mean, 1),
+                              figureText(1e3 * each.rise_s.mean, 1),
+                              QString("%1 of %2 vibrations").arg(each.moved).arg(each.bursts - each.missed)});
     }
     blocks.emplace_back(std::move(table));
     QString said = QString("Whether the four are apart, by the rule that electrical conditions are judged by: %1.")

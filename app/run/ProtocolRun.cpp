@@ -96,8 +96,8 @@ Result<void> ProtocolRun::start(RunRequest hooks) {
 
 /// Kept before the first train: a check that is killed takes the place of an earlier pass as one that fails does.
 Result<void> ProtocolRun::beginCheck() {
-    auto check = loadSafetyCheckOf(order_.script, opened_->about, bench().profile(),
-                                   opened_->files.session.filename().string());
+    auto check =
+        loadSafetyCheckOf(order_.script, opened_->about, bench().profile(), opened_->files.session.filename().string());
     if (!check) return {};
     if (auto kept = keepCheck(*check); !kept) return kept;
     check_ = std::move(check);
@@ -130,7 +130,7 @@ RunResult ProtocolRun::finish() {
     }
     const bool abandoned = result.outcome.abandoned;
     result.stoppedBySafety = endedBySafety(result.outcome, bench());
-    if (!abandoned) {  // else its thread may still look at it
+    if (!abandoned) {                                                // else its thread may still look at it
         if (check_) check_->area = bench().profile().electrodeArea;  // as the run had it
         opened_->bench.reset();
     }

@@ -18,9 +18,9 @@ struct RunOrder : BenchOrder {
     ProtocolSource script;
     ProtocolDeclaration declaration;  ///< as the operator saw it; without a title: the script was not read before
     ProtocolSettings settings;
-    std::string ownLoad = {};  ///< in place of the load that the parameters declare: a virtual participant's skin
+    std::string ownLoad = {};      ///< in place of the load that the parameters declare: a virtual participant's skin
     std::set<Role> ownNeeds = {};  ///< in place of what the script declares to need: a massager study's; empty: that
-    bool resetFault = false;   ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
+    bool resetFault = false;  ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
 };
 
 /// The load that a protocol's parameters declare: what the simulated bench starts with.
@@ -76,7 +76,7 @@ private:
     std::shared_ptr<OpenedBench> opened_;  // and the script's
     std::optional<Error> notStarted_;
     std::optional<LoadSafetyCheck> check_;  // of a load-safety run, as it is kept
-    std::unique_ptr<ScriptRun> script_;  // Last: ends first
+    std::unique_ptr<ScriptRun> script_;     // Last: ends first
 };
 
 }  // namespace tacto

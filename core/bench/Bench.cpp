@@ -246,8 +246,7 @@ Result<void> Bench::wait(Seconds duration) {
     return {};
 }
 
-Result<Presented> Bench::present(const Presentation& presentation,
-                                 const std::function<void(Seconds since)>& passing) {
+Result<Presented> Bench::present(const Presentation& presentation, const std::function<void(Seconds since)>& passing) {
     auto& s = *state_;
     if (const auto valid = validate(presentation); !valid) return failure(valid);
     if (const auto settable = s.levels.checkSettable(presentation.level); !settable) return failure(settable);
@@ -283,9 +282,7 @@ Result<Presented> Bench::present(const Presentation& presentation,
 }
 
 Result<void> Bench::accept(const StimulusLevel& level) { return state_->levels.accept(level); }
-Result<void> Bench::reportDiscomfort(const StimulusLevel& level) {
-    return state_->levels.reportDiscomfort(level);
-}
+Result<void> Bench::reportDiscomfort(const StimulusLevel& level) { return state_->levels.reportDiscomfort(level); }
 Result<void> Bench::beginAscending() { return state_->levels.ascend(true); }
 Result<void> Bench::endAscending() { return state_->levels.ascend(false); }
 Result<StimulusLevel> Bench::levelCeiling() { return state_->levels.ceiling(); }

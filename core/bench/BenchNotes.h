@@ -33,8 +33,7 @@ public:
     [[nodiscard]] Result<void> arming(const ArmRequest& request, const GateSetup& setup, const Profile& profile) const;
     /// `kind`, one of the above: a level that a participant accepted, or called too strong, and the ceiling after it.
     /// Errors: the same.
-    [[nodiscard]] Result<void> level(const char* kind, const StimulusLevel& level,
-                                     const StimulusLevel& ceiling) const;
+    [[nodiscard]] Result<void> level(const char* kind, const StimulusLevel& level, const StimulusLevel& ceiling) const;
     /// Last of all, since counts grow until the end. Without this event the marks of a session are not known.
     /// `calibrated`: of the stimulator, if there is one.
     void marks(const RoughnessFlags& flags, std::optional<bool> calibrated, const Profile& profile) const noexcept;

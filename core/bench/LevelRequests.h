@@ -16,8 +16,8 @@ namespace tacto {
 struct LevelRequest {
     enum class What { Accept, Discomfort, BeginAscending, EndAscending, Ceiling };
     What what = What::Ceiling;
-    PulseTrain train;                     ///< of the study's kind: the level to accept, else any; none of a massager
-    StimulusLevel level = Milliamps(0);   ///< that was accepted or uncomfortable; an intensity is a massager's
+    PulseTrain train;                    ///< of the study's kind: the level to accept, else any; none of a massager
+    StimulusLevel level = Milliamps(0);  ///< that was accepted or uncomfortable; an intensity is a massager's
 };
 
 class LevelRequests {

@@ -9,12 +9,10 @@ namespace tacto {
 
 namespace {
 
-constexpr Word<CheckVerdict> kCheckVerdicts[] = {{"begun", CheckVerdict::Begun},
-                                            {"pass", CheckVerdict::Pass},
-                                            {"fail", CheckVerdict::Fail},
-                                            {"indeterminate", CheckVerdict::Indeterminate},
-                                            {"stopped", CheckVerdict::Stopped},
-                                            {"none", CheckVerdict::None}};
+constexpr Word<CheckVerdict> kCheckVerdicts[] = {
+    {"begun", CheckVerdict::Begun},     {"pass", CheckVerdict::Pass},
+    {"fail", CheckVerdict::Fail},       {"indeterminate", CheckVerdict::Indeterminate},
+    {"stopped", CheckVerdict::Stopped}, {"none", CheckVerdict::None}};
 
 bool isSha256(std::string_view text) {
     return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
@@ -73,9 +71,10 @@ std::string shortOf(const LoadSafetyCheck& found, const LoadSafetyNeed& need) {
     if (!found.area)
         return fmt::format("states no electrode area; one of at most {:g} cm² is expected", need.area.value());
     if (!(found.area->value() <= need.area.value())) {
-        return fmt::format("is of electrodes of {:g} cm², and those of the study have {:g} cm²; that or less is "
-                           "expected",
-                           found.area->value(), need.area.value());
+        return fmt::format(
+            "is of electrodes of {:g} cm², and those of the study have {:g} cm²; that or less is "
+            "expected",
+            found.area->value(), need.area.value());
     }
     constexpr double kRounding = 1e-9;
     const auto& made = found.reach;
@@ -89,9 +88,10 @@ std::string shortOf(const LoadSafetyCheck& found, const LoadSafetyNeed& need) {
                            made.interval_s, wanted.interval_s);
     }
     if (!(made.phase_us >= wanted.phase_us - kRounding)) {
-        return fmt::format("had {:g} µs of each phase in a train, and the study's trains have {:g} µs; that or more is "
-                           "expected",
-                           made.phase_us, wanted.phase_us);
+        return fmt::format(
+            "had {:g} µs of each phase in a train, and the study's trains have {:g} µs; that or more is "
+            "expected",
+            made.phase_us, wanted.phase_us);
     }
     for (const auto& set : need.limits) {
         if (std::ranges::find(found.limits, set) != found.limits.end()) continue;
@@ -162,8 +162,7 @@ Result<LoadSafetyCheck> LoadSafetyStore::passed(const LoadSafetyNeed& need) cons
     const auto age = std::chrono::sys_days(need.day) - std::chrono::sys_days(found->made);
     if (age < std::chrono::days(0))
         return refused(fmt::format("{} is dated after today, {}; set the clock", of, dateText(need.day)));
-    if (age > kLoadSafetyHolds)
-        return refused(fmt::format("{} passed {} days ago; {}", of, age.count(), wanted));
+    if (age > kLoadSafetyHolds) return refused(fmt::format("{} passed {} days ago; {}", of, age.count(), wanted));
     if (const auto open = shortOf(*found, need); !open.empty()) return refused(of + " " + open);
     return *found;
 }

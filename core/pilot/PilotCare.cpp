@@ -112,8 +112,7 @@ Result<void> PilotCare::machine() {
     auto& bench = stage_.bench();
     const auto unit = stage_.settings().unit;
     auto missing = machineLacks(bench.devices(), bench.profile(), unit);
-    if (missing.empty() && bench.mode() != OutputMode::Person)
-        missing = "the bench was not opened for a participant";
+    if (missing.empty() && bench.mode() != OutputMode::Person) missing = "the bench was not opened for a participant";
     return gate(part() + " machine", missing.empty(), missing + ". Nothing was presented");
 }
 

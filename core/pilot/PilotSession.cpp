@@ -114,9 +114,8 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
     results["drift"] = identification_.driftJson();
     nlohmann::json presented = nlohmann::json::array();
     for (const auto& each : identification_.presented())
-        presented.push_back({{"name", each.name},
-                             {nameOf(stage_.settings().unit), each.level},
-                             {"interval_s", each.interval.count()}});
+        presented.push_back(
+            {{"name", each.name}, {nameOf(stage_.settings().unit), each.level}, {"interval_s", each.interval.count()}});
     results["presented"] = std::move(presented);
     if (stage_.settings().unit == LevelUnit::Intensity) {
         const auto vibration = judgeVibration(identification_.vibrations(), identification_.labels());

@@ -42,7 +42,7 @@ struct StageTrial {
     double level = 0;                                 ///< in the settings' unit; 0: empty
     Presentation presentation;
     PilotPrompt prompt;
-    bool asks = true;          ///< false: nothing is asked, and its answer has no response
+    bool asks = true;  ///< false: nothing is asked, and its answer has no response
     /// From before the first train until the targets appear; with ScreenState::Interval it marks the two intervals of
     /// a detection trial as they pass.
     PilotScreen screen;

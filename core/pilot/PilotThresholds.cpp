@@ -282,12 +282,10 @@ nlohmann::json PilotThresholds::toJson() const {
                           {"marked", each.marked()}});
     nlohmann::json history = nlohmann::json::array();
     for (const auto& each : trials_) history.push_back({{nameOf(unit), each.level}, {"correct", each.correct}});
-    const nlohmann::json detection{{"method", nameOf(method_)},
-                                   {levelKey("estimate", unit), estimateJson(estimate_)},
-                                   {"trials", trials_.size()},
-                                   {"history", std::move(history)},
-                                   {"first", shareJson(shares_.first)},
-                                   {"second", shareJson(shares_.second)}};
+    const nlohmann::json detection{
+        {"method", nameOf(method_)},         {levelKey("estimate", unit), estimateJson(estimate_)},
+        {"trials", trials_.size()},          {"history", std::move(history)},
+        {"first", shareJson(shares_.first)}, {"second", shareJson(shares_.second)}};
     return {{levelKey("felt", unit), orNull(ascending_.felt)},
             {levelKey("too_strong", unit), orNull(ascending_.tooStrong)},
             {"said_too_strong", ascending_.saidTooStrong},

@@ -48,8 +48,7 @@ void VibrationWatch::end() {
 std::optional<BurstFigures> VibrationWatch::measured(const Presented& presented) const {
     if (!tap_) return std::nullopt;
     std::vector<CommandedBurst> bursts;
-    for (const auto& train : presented.trains)
-        bursts.push_back({toSeconds(train.onset), VibrationBurst{}.duration});
+    for (const auto& train : presented.trains) bursts.push_back({toSeconds(train.onset), VibrationBurst{}.duration});
     if (bursts.empty()) return std::nullopt;
     const auto found = burstFigures(samples_, bursts);
     return found ? std::optional(*found) : std::nullopt;

@@ -236,8 +236,8 @@ Run unknownRun() noexcept {
     return run;
 }
 
-/// The same for any number of trains, the first of which finds up to `carried` on the load. What holds more bounds more:
-/// the widest run is the bound of all.
+/// The same for any number of trains, the first of which finds up to `carried` on the load. What holds more bounds
+/// more: the widest run is the bound of all.
 Run enclosed(const Plan& plan, double carried) noexcept {
     Held first{-carried, carried};
     Held once = first;

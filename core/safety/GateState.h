@@ -35,9 +35,9 @@ struct State {
     std::optional<Ohms> lastGood;    // since configure(), whatever came after it
     bool impedanceRejected = false;  // the last reading was no number or out of range
 
-    std::map<std::string, AcceptedLevels> people;  // a participant who comes back keeps the accepted levels
-    AcceptedLevels none;                           // permits nothing
-    AcceptedLevels* levels = &none;                // the current participant's, in people; without one, none
+    std::map<std::string, AcceptedLevels> people;         // a participant who comes back keeps the accepted levels
+    AcceptedLevels none;                                  // permits nothing
+    AcceptedLevels* levels = &none;                       // the current participant's, in people; without one, none
     std::map<std::string, AcceptedIntensities> vibrated;  // the same of those at a massager
     AcceptedIntensities noIntensities;                    // permits nothing
     AcceptedIntensities* intensities = &noIntensities;

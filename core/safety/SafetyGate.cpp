@@ -117,9 +117,7 @@ constexpr Rule<State> kVibratedRules[] = {
 
 constexpr Rule<State> kIntensityOwnerRules[] = {
     {IntensityOfPerson, [](auto& s) { return !s.vibrates(); },
-     [](auto&) {
-         return fail(ErrorCode::NotArmed, "intensities are accepted by a person at a massager only");
-     }},
+     [](auto&) { return fail(ErrorCode::NotArmed, "intensities are accepted by a person at a massager only"); }},
 };
 
 constexpr Rule<double> kAcceptedIntensityRules[] = {

@@ -87,16 +87,15 @@ BidsTable identificationTable(const BidsSession& session, bool massager) {
         const bool isCatch = trial.condition == kCatchCondition;
         const auto features = isCatch ? LabelFeatures{} : featuresOf(trial.condition);
         const double interval_s = isCatch ? kNaN : trial.interval_s;
-        std::vector<BidsCell> cells = {trial.number,     trial.block,       nameOf(trial.phase),
-                                       session.encoding, trial.condition,   features.texture,
-                                       features.pressure, shared(trial.response), isRight(trial),
-                                       trial.rt_s,       trial.attempt};
+        std::vector<BidsCell> cells = {trial.number,    trial.block,      nameOf(trial.phase), session.encoding,
+                                       trial.condition, features.texture, features.pressure,   shared(trial.response),
+                                       isRight(trial),  trial.rt_s,       trial.attempt};
         if (massager)
             append(cells, {row.intensity, interval_s, trial.trains, row.detection, row.vibration.strength_m_s2,
                            row.vibration.latency_s, row.vibration.interval_s});
         else
-            append(cells, {trial.current, row.intensity, row.voltage, interval_s, trial.trains, row.impedance,
-                           row.detection});
+            append(cells,
+                   {trial.current, row.intensity, row.voltage, interval_s, trial.trains, row.impedance, row.detection});
         cells.emplace_back(row.adapted);
         table.add(std::move(cells));
     }

@@ -70,7 +70,7 @@ struct BidsSession {
     Milliamps low{kNaN}, high{kNaN};  ///< range
     double lowIntensity = kNaN, highIntensity = kNaN;
     double detection = kNaN, tooStrong = kNaN;  ///< mA, or a massager's intensity
-    std::optional<int> skinBefore, skinAfter;  ///< the worse of erythema and oedema, 0 to 4
+    std::optional<int> skinBefore, skinAfter;   ///< the worse of erythema and oedema, 0 to 4
     bool complete = false;
     std::size_t parts = 1;
     std::vector<std::string> labels;  ///< the answers offered, in the study's order
@@ -100,7 +100,7 @@ struct BidsStudy {
     /// Participants that the first approval allowed: labels are drawn among as many, and of later ones among as many
     /// again.
     std::size_t places = 0;
-    std::uint64_t labelSeed = 0;  ///< a secret of the study; the same at each export
+    std::uint64_t labelSeed = 0;                ///< a secret of the study; the same at each export
     std::vector<BidsParticipant> participants;  ///< active and those who left; never one who withdrew
 };
 

@@ -39,11 +39,11 @@ inline constexpr const char* kExported = "exported";
 }  // namespace ledger
 
 struct LedgerState {
-    std::string settingsSha256;                ///< of study.json, as last written
-    nlohmann::json settings;                   ///< the same, as JSON
-    int firstPlaces = 0;                       ///< participants that the first approval allowed
-    std::vector<StudyAmendment> amendments;    ///< in order
-    std::size_t adverseEventRows = 0;          ///< also without the key
+    std::string settingsSha256;              ///< of study.json, as last written
+    nlohmann::json settings;                 ///< the same, as JSON
+    int firstPlaces = 0;                     ///< participants that the first approval allowed
+    std::vector<StudyAmendment> amendments;  ///< in order
+    std::size_t adverseEventRows = 0;        ///< also without the key
     std::vector<Participant> participants;
     std::vector<StudySession> sessions;                               ///< without `answered`
     std::map<std::string, std::string> heads;                         ///< of ended files: file to chain head

@@ -122,8 +122,7 @@ Result<void> StudyBook::amend(StudySettings amended, std::string_view reference)
 
 Result<void> StudyBook::adverseEvent(std::string_view session, const AdverseEvent& event) {
     if (auto may = changeable(); !may) return may;
-    if (known.session(session) == nullptr)
-        return fail(ErrorCode::NotFound, "the study has no session {}", session);
+    if (known.session(session) == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", session);
     if (event.what.empty() || event.severity < 1 || event.severity > 4 || event.relation < 1 || event.relation > 5) {
         return fail(
             ErrorCode::InvalidArgument,

@@ -44,9 +44,8 @@ Motor::Vibration Motor::at(Instant moment) const {
     const auto after = std::ranges::find_if(commands_, [&](const Command& each) { return each.at > moment; });
     if (after == commands_.begin()) return {};
     const auto& command = *std::prev(after);
-    const Instant off = after == commands_.end()
-                            ? std::min(command.off, Instant(cut_.load(std::memory_order_acquire)))
-                            : command.off;
+    const Instant off =
+        after == commands_.end() ? std::min(command.off, Instant(cut_.load(std::memory_order_acquire))) : command.off;
     const double speed = std::max(0.0, motionIn(command, off, moment).speed);
     return {settings_.topAcceleration_m_s2 * speed * speed, settings_.topFrequency.value() * speed};
 }

@@ -57,7 +57,7 @@ private:
 
     const MotorSettings settings_;
     mutable std::mutex mutex_;
-    std::deque<Command> commands_;  // guarded by mutex_; the newest last
+    std::deque<Command> commands_;                   // guarded by mutex_; the newest last
     std::atomic<Instant::rep> cut_{kNever.count()};  // of the newest
 };
 

@@ -84,8 +84,8 @@ std::array<double, 3> SimulatedSensor::shaken() {
     if (!motor_) return out;
     const double t = opened_s_ + static_cast<double>(sample_) / settings_.rate_hz;
     const auto vibration = motor_->at(toInstant(t));
-    motorTurn_ = std::fmod(motorTurn_ + 2 * std::numbers::pi * vibration.frequency_hz / settings_.rate_hz,
-                           2 * std::numbers::pi);
+    motorTurn_ =
+        std::fmod(motorTurn_ + 2 * std::numbers::pi * vibration.frequency_hz / settings_.rate_hz, 2 * std::numbers::pi);
     for (std::size_t axis = 0; axis < 3; ++axis)
         out[axis] += kDirection[axis] * vibration.amplitude_m_s2 * std::sin(motorTurn_);
     return out;

@@ -75,7 +75,7 @@ private:
     std::array<double, Finger::kTaxels> offsets_{};
     std::int64_t sample_ = 0;  // index of the next acceleration sample
     std::shared_ptr<const Motor> motor_;
-    double motorTurn_ = 0;     // angle of the motor's mass at that sample
+    double motorTurn_ = 0;  // angle of the motor's mass at that sample
     std::array<double, 3> lastAcceleration_{};
     std::array<double, Finger::kTaxels> lastPressures_{};
     double lastForce_ = 0;

@@ -91,15 +91,13 @@ TEST_F(StudyCli, AnAmendmentRenewsTheApprovalAndIsListed) {
     const auto sealed = desk.run({"study", "show", at(), "--json"});
     const auto shown = jsonOf(sealed);
     EXPECT_EQ(shown["amendments"], Json::array({made}));
-    EXPECT_EQ(shown["approval"], Json({{"reference", "EC-17 A1"},
-                                       {"from", "2026-01-01"},
-                                       {"expires", "2099-12-31"},
-                                       {"valid", true}}));
+    EXPECT_EQ(shown["approval"],
+              Json({{"reference", "EC-17 A1"}, {"from", "2026-01-01"}, {"expires", "2099-12-31"}, {"valid", true}}));
     EXPECT_THAT(desk.run({"study", "show", at()}).out, HasSubstr("changed approval.expires, blocks"));
     // The license is the study's, and no amendment is needed for what is not the protocol.
-    ASSERT_EQ(desk.run({"export", at(), "--format", "bids", "--out", desk.at("bids"), "--passphrase-file", passphrase})
-                  .code,
-              0);
+    ASSERT_EQ(
+        desk.run({"export", at(), "--format", "bids", "--out", desk.at("bids"), "--passphrase-file", passphrase}).code,
+        0);
     EXPECT_THAT(contentOf(desk.at("bids/dataset_description.json")), HasSubstr("\"License\": \"CC-BY-4.0\""));
 }
 

@@ -139,7 +139,8 @@ TEST(Language, SaysNothingInTheMakersWords) {
 
 TEST(Language, SentencesAreFoundInSources) {
     const std::string source =
-        "// \"no\"\n/* \"no\" */ x = tr(\"one \\\"two\\\"\"\n  \" three\"); f('\"', g(fail(kA, R\"(raw \"x\")\")));\n\"last\";";
+        "// \"no\"\n/* \"no\" */ x = tr(\"one \\\"two\\\"\"\n  \" three\"); f('\"', g(fail(kA, R\"(raw "
+        "\"x\")\")));\n\"last\";";
     const auto found = Literals(source).all();
     ASSERT_EQ(found.size(), 3U);
     EXPECT_EQ(found[0].text, "one \"two\" three");

@@ -204,9 +204,7 @@ TEST_F(MachineGate, LimitsAreTheApprovals) {
     EXPECT_THAT(said(), HasSubstr("the study names no limit sets"));
 }
 
-TEST_F(MachineGate, ASimulatedStimulatorNeedsNoCheck) {
-    EXPECT_EQ(said(std::string("sim:stimulator?") + kSource), "");
-}
+TEST_F(MachineGate, ASimulatedStimulatorNeedsNoCheck) { EXPECT_EQ(said(std::string("sim:stimulator?") + kSource), ""); }
 
 TEST_F(MachineGate, AMassagerIsAskedForItsStepsAndForBeingAlone) {
     RecordProperty("hazard", "H12");

@@ -134,9 +134,9 @@ TEST(SessionResults, ExposureIsOfEveryTrainThatWasDelivered) {
     const json train{{"amplitude_ma", 5}, {"width_s", 200e-6}, {"pulses", 2}, {"interval_s", 0.5}};
     auto unknown = train;
     unknown["amplitude_ma"] = nullptr;
-    const auto found = exposureOf({rowOf("delivered", "", train), rowOf("delivered", "", train),
-                                   rowOf("impedance check", "", train), rowOf("failed", "", train),
-                                   rowOf("delivered", "", unknown)});
+    const auto found =
+        exposureOf({rowOf("delivered", "", train), rowOf("delivered", "", train), rowOf("impedance check", "", train),
+                    rowOf("failed", "", train), rowOf("delivered", "", unknown)});
     EXPECT_EQ(found.trains, 3U);
     EXPECT_NEAR(found.stimulated_s, 1.5, 1e-12);
     EXPECT_NEAR(found.charge_uC, 2 * 5 * 0.2 * 2, 1e-9);

@@ -2,8 +2,8 @@
 //
 // A machine that stands still makes a program late; it cannot make it deliver a train after a stop. On the machine's
 // clock whatever must happen is a deadline (a bench arms, delivers, waits: a status that comes 50 ms late switches it
-// off, as it should), and whatever must not happen is none. A test that failed by EXPECT_IN_TIME or ASSERT_IN_TIME alone
-// is tried again where the machine stood still (support/Standstill.cpp); any other failure is one. There an
+// off, as it should), and whatever must not happen is none. A test that failed by EXPECT_IN_TIME or ASSERT_IN_TIME
+// alone is tried again where the machine stood still (support/Standstill.cpp); any other failure is one. There an
 // ASSERT_IN_TIME also ends the test from within a function that the test calls.
 //
 // Thread-safety: as gtest's assertions.

@@ -35,9 +35,8 @@ SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(thi
     view_ = new ReportView(tr("The report appears here after a run."), this);
     row->addWidget(view_, 1);
     addStateTo(view_->row());
-    connect(&maker_, &ReportMaker::done, this, [this](const QString& out) {
-        out.endsWith(".pdf") ? showReport(out) : showState();
-    });
+    connect(&maker_, &ReportMaker::done, this,
+            [this](const QString& out) { out.endsWith(".pdf") ? showReport(out) : showState(); });
     const auto note = [this](const QString& why) {
         if (fault_.isEmpty()) fault_ = why;
         showState();

@@ -149,9 +149,7 @@ QString trialsText(std::size_t count) {
     return count == 1 ? QObject::tr("1 trial") : QObject::tr("%1 trials").arg(count);
 }
 
-QString conditionText(const std::string& condition) {
-    return withOhmSigns(qtext(condition));
-}
+QString conditionText(const std::string& condition) { return withOhmSigns(qtext(condition)); }
 
 QString beganText(const QDateTime& began) {
     const auto today = QDate::currentDate();

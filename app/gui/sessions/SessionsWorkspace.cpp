@@ -100,9 +100,8 @@ QWidget* SessionsWorkspace::buildListActions() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
     row->setContentsMargins(kListMargin, kAroundActions, kListMargin, kAroundActions);
-    compare_ =
-        actions_.add(*row, "compare", tr("Co&mpare two"), tr("Shows the differences between two sessions."),
-                     [this] { compare(); });
+    compare_ = actions_.add(*row, "compare", tr("Co&mpare two"), tr("Shows the differences between two sessions."),
+                            [this] { compare(); });
     actions_.add(*row, "verify", tr("Verif&y"),
                  tr("Is it what was recorded? Checks every row and sample against the chain."), [this] { verify(); });
     actions_.add(*row, "export", tr("E&xport CSV…"),

@@ -115,9 +115,8 @@ void NewStudyPage::askForPassphrase() {
     trouble_->setVisible(!why.isEmpty());
     if (!why.isEmpty()) return;
     asks_ = new PassphraseDialog(PassphraseDialog::Purpose::New, qtext(settings->title), this);
-    connect(asks_, &PassphraseDialog::given, this, [this, folder, settings = *settings] {
-        study_.create(folder, settings, asks_->passphrase());
-    });
+    connect(asks_, &PassphraseDialog::given, this,
+            [this, folder, settings = *settings] { study_.create(folder, settings, asks_->passphrase()); });
     openDialog(asks_);
 }
 

@@ -80,17 +80,15 @@ void OpenStudy::takeBack() {
 
 void OpenStudy::exportBids(const QString& place) {
     if (study() == nullptr) return;
-    work_.start(
-        [this, out = place.toStdString()](const WorkPort&) {
-            return tacto::exportBids(*study_, BidsWith(), out, TACTOSCOPE_VERSION);
-        },
-        [this, place](const Result<void>& done) {
-            emit changed();
-            if (done)
-                emit exported(place);
-            else
-                emit refused(sentence(done.error()));
-        });
+    work_.start([this, out = place.toStdString()](
+                    const WorkPort&) { return tacto::exportBids(*study_, BidsWith(), out, TACTOSCOPE_VERSION); },
+                [this, place](const Result<void>& done) {
+                    emit changed();
+                    if (done)
+                        emit exported(place);
+                    else
+                        emit refused(sentence(done.error()));
+                });
     emit changed();
 }
 

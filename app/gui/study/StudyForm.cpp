@@ -140,9 +140,8 @@ ProtocolParameter parameterOf(const StudyFormField& field, nlohmann::json defaul
     if (!stored.words.empty()) {
         made.type = ParameterType::Choice;
         for (std::size_t i = 0; i < stored.words.size(); ++i)
-            made.choices.emplace_back(stored.words[i], i < field.words.size()
-                                                           ? translated(field.words[i]).toStdString()
-                                                           : std::string(stored.words[i]));
+            made.choices.emplace_back(stored.words[i], i < field.words.size() ? translated(field.words[i]).toStdString()
+                                                                              : std::string(stored.words[i]));
         made.value = value;
     } else if (stored.numbers) {
         made.type = stored.numbers->whole ? ParameterType::Integer : ParameterType::Number;
@@ -217,8 +216,7 @@ void StudyForm::clear() {
         auto& form = *groups_[std::size_t(g)];
         form.show(fields);
         for (const auto& field : studyForm()) {
-            if (auto* editor = form.findChild<QWidget*>(qtext(field.key)))
-                editor->setToolTip(translated(field.tip));
+            if (auto* editor = form.findChild<QWidget*>(qtext(field.key))) editor->setToolTip(translated(field.tip));
         }
     }
 }

@@ -257,14 +257,13 @@ void StudyList::showTables(const Study& study) {
     const auto& settings = study.settings();
     title_->setText(qtext(settings.title));
     const auto& approval = settings.approval;
-    facts_->setText(
-        study.isRehearsal()
-            ? tr("A rehearsal: nothing of it is sealed, and only simulated devices are used.")
-            : tr("Approval %1, %2 to %3 · consent form %4 · %5 of %6 participants enrolled")
-                  .arg(qtext(approval.reference), qtext(dateText(approval.from)), qtext(dateText(approval.expires)),
-                       qtext(settings.consentVersion))
-                  .arg(study.participants().size())
-                  .arg(settings.participantsMax));
+    facts_->setText(study.isRehearsal()
+                        ? tr("A rehearsal: nothing of it is sealed, and only simulated devices are used.")
+                        : tr("Approval %1, %2 to %3 · consent form %4 · %5 of %6 participants enrolled")
+                              .arg(qtext(approval.reference), qtext(dateText(approval.from)),
+                                   qtext(dateText(approval.expires)), qtext(settings.consentVersion))
+                              .arg(study.participants().size())
+                              .arg(settings.participantsMax));
     if (const auto approved = study.stillApproved(); !approved)
         say(tr("No session can begin: %1").arg(sentence(approved.error())));
     for (auto** table : {&participants_, &sessions_}) delete std::exchange(*table, nullptr);

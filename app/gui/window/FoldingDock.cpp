@@ -78,8 +78,7 @@ void FoldingDock::setContent(QWidget* content, Room room) {
     } else if (auto* area = qobject_cast<QScrollArea*>(content)) {
         inside_ = area->widget();
     }
-    if (content->toolTip().isEmpty())
-        content->setWhatsThis(tr("%1. The arrow keys scroll it.").arg(title_->text()));
+    if (content->toolTip().isEmpty()) content->setWhatsThis(tr("%1. The arrow keys scroll it.").arg(title_->text()));
     column->addWidget(content);
     setWidget(body);
     if (inside_ != nullptr) inside_->installEventFilter(this);

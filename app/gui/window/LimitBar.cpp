@@ -67,8 +67,7 @@ void LimitBar::show(const std::optional<ExposureRow>& row, std::span<const Limit
     } else if (!evaluated_) {
         text_ = tr("not evaluated");
     } else if (limited_) {
-        text_ = tr("%1 of %2")
-                    .arg(valueText(*row), settingText(row->limit, qtext(row->unit)));
+        text_ = tr("%1 of %2").arg(valueText(*row), settingText(row->limit, qtext(row->unit)));
     } else {
         text_ = quantityText(row->value, qtext(row->unit), 3);
     }

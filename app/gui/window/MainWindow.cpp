@@ -24,6 +24,7 @@
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/ArmQuestion.h"
 #include "app/gui/window/CloseQuestion.h"
@@ -38,7 +39,6 @@
 #include "app/gui/window/RecentFiles.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
-#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/window/SimulatedBenchDialog.h"
 #include "app/gui/window/StopKeys.h"
 #include "app/gui/window/WelcomeTour.h"
@@ -58,11 +58,9 @@ constexpr int kDocksFrom = 960;      // narrower windows, as with large text, be
 enum LiveTab { kTouch, kScope };
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
 
-
 }  // namespace
 
-MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages)
-    : controller_(std::move(makeRegistry)) {
+MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages) : controller_(std::move(makeRegistry)) {
     setWindowTitle(tr("Tactoscope"));
     setAcceptDrops(true);
     setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // animated, they stop where another move cuts in
@@ -410,8 +408,7 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 
 /// What is built afterwards does not delay the first picture.
 bool MainWindow::event(QEvent* event) {
-    if (event->type() == QEvent::Paint && closing_ == nullptr)
-        QTimer::singleShot(0, this, &MainWindow::buildOthers);
+    if (event->type() == QEvent::Paint && closing_ == nullptr) QTimer::singleShot(0, this, &MainWindow::buildOthers);
     return QMainWindow::event(event);
 }
 

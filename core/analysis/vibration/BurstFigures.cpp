@@ -127,8 +127,7 @@ std::optional<OneBurst> measure(const Course& course, const CommandedBurst& burs
 
 }  // namespace
 
-Result<BurstFigures> burstFigures(std::span<const AccelerationSample> samples,
-                                  std::span<const CommandedBurst> bursts) {
+Result<BurstFigures> burstFigures(std::span<const AccelerationSample> samples, std::span<const CommandedBurst> bursts) {
     if (auto sound = checkBursts(bursts); !sound) return failure(sound);
     if (auto sound = checkStamps(samples); !sound) return failure(sound);
     const auto course = courseOf(samples, bursts.front().onset_s);

@@ -39,9 +39,9 @@ struct CommandedBurst {
 };
 
 struct BurstFigures {
-    std::size_t bursts = 0;    ///< commanded
-    std::size_t moved = 0;     ///< in which the motor moved
-    std::size_t missed = 0;    ///< that were not measured
+    std::size_t bursts = 0;       ///< commanded
+    std::size_t moved = 0;        ///< in which the motor moved
+    std::size_t missed = 0;       ///< that were not measured
     double strength_m_s2 = kNaN;  ///< means over those that moved
     double latency_s = kNaN;
     double rise_s = kNaN;

@@ -100,12 +100,9 @@ json toJson(const VibrationSeparability& found) {
                          {"interval_jnd", numberOrNull(p.intervalJnd)},
                          {"interval_jnd_low", numberOrNull(p.intervalJndBounds.low)}});
     }
-    return {{"measured", found.measured},
-            {"verdict", found.measured ? json(nameOf(found.verdict)) : json(nullptr)},
-            {"reasons", found.reasons},
-            {"conditions", std::move(conditions)},
-            {"pairs", std::move(pairs)},
-            {"accuracy", found.measured ? toJson(found.accuracy) : json(nullptr)}};
+    return {{"measured", found.measured}, {"verdict", found.measured ? json(nameOf(found.verdict)) : json(nullptr)},
+            {"reasons", found.reasons},   {"conditions", std::move(conditions)},
+            {"pairs", std::move(pairs)},  {"accuracy", found.measured ? toJson(found.accuracy) : json(nullptr)}};
 }
 
 json toJson(const BurstFigures& figures) {

@@ -171,8 +171,8 @@ private:
     double impedance_ = kNaN;
     double detectionLevel_ = kNaN;
     double beforeLevel_ = kNaN, highestLevel_ = kNaN;  // of the ascending limits
-    std::set<std::size_t> adapted_;                // blocks
-    std::map<std::size_t, BidsTrial> silent_;      // without an answer so far
+    std::set<std::size_t> adapted_;                    // blocks
+    std::map<std::size_t, BidsTrial> silent_;          // without an answer so far
 };
 
 }  // namespace

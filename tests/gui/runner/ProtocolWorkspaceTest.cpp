@@ -152,7 +152,8 @@ TEST_F(WorkspaceInLargeText, ARunInARowSaysHowFarItIsAndCanBeStopped) {
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(comesTrue([this] { return workspace->running(); }));
     EXPECT_EQ(find<QPushButton>(*workspace, "runButton"), nullptr) << "its room is the progress's";
-    EXPECT_EQ(workspace->focusWidget(), find<QProgressBar>(*workspace, "Progress")) << "no key types or presses a thing";
+    EXPECT_EQ(workspace->focusWidget(), find<QProgressBar>(*workspace, "Progress"))
+        << "no key types or presses a thing";
     EXPECT_IN_TIME(comesTrue([this] {
         const auto* bar = find<QProgressBar>(*workspace, "Progress");
         return bar != nullptr && bar->format().contains(" · ");

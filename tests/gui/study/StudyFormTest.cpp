@@ -82,8 +82,10 @@ TEST_F(StudyInThePage, ANewStudyIsMade) {
     EXPECT_THAT(made->findChild<QLabel*>("newStudyTrouble")->text().toStdString(), HasSubstr("Title"));
     EXPECT_EQ(dialog("passphraseDialog"), nullptr);
     auto* form = made->findChild<gui::StudyForm*>();
-    for (const auto& [key, text] : {std::pair("title", "Four conditions"), {"approval.reference", "EC-2026-17"},
-                                    {"approval.from", "2020-01-01"}, {"approval.expires", "2090-12-31"},
+    for (const auto& [key, text] : {std::pair("title", "Four conditions"),
+                                    {"approval.reference", "EC-2026-17"},
+                                    {"approval.from", "2020-01-01"},
+                                    {"approval.expires", "2090-12-31"},
                                     {"consent_version", "2"}})
         form->set(key, text);
     for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {

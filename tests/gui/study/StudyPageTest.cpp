@@ -140,8 +140,8 @@ TEST_F(StudyOfThisUser, GetsAReportFromTheCommandLinesProgram) {
     emit asks->fileSelected(out);
     asks->close();
     const auto* said = page.findChild<QLabel*>("studyTrouble");
-    ASSERT_IN_TIME(comesTrue([&] { return said->text().contains("committee.html") || said->text().startsWith("⚠"); },
-                             30'000));
+    ASSERT_IN_TIME(
+        comesTrue([&] { return said->text().contains("committee.html") || said->text().startsWith("⚠"); }, 30'000));
     EXPECT_TRUE(QFileInfo::exists(out)) << said->text().toStdString();
 }
 

@@ -14,9 +14,9 @@
 #include <QTreeWidget>
 #include <gmock/gmock.h>
 
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/ScrollingPage.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
@@ -123,7 +123,8 @@ TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
             const auto& row = set.rows[std::size_t(line)];
             EXPECT_THAT(rows->item(line, 1)->text().toStdString(), HasSubstr(row.strict ? "<" : "≤"));
             EXPECT_EQ(rows->item(line, 2)->text() == "one pulse", windowOf(row.quantity) == 0);
-            EXPECT_EQ(rows->item(line, 5)->text(), QString::fromStdString(row.source).replace("kohm", "kΩ").replace(" ohm", " Ω"));
+            EXPECT_EQ(rows->item(line, 5)->text(),
+                      QString::fromStdString(row.source).replace("kohm", "kΩ").replace(" ohm", " Ω"));
         }
         shot(*help, QString("help-limits-%1").arg(i + 1));
     }

@@ -29,13 +29,12 @@ std::vector<HostFunction> analysisFunctions() {
          .errors = "Throws for fewer than two conditions, or a value that is not above zero.",
          .call = host::analysis::separability},
         {.name = "loadValue",
-         .parameters = {object("load", "as in analysis.loadSafety()"), object("tolerances", "as in it"),
-                        number("tolerances.load_pct", "%", "of the load")
-                            .range(0.01, 50)
-                            .otherwise(tolerances.load_pct),
-                        number("tolerances.resistor_pct", "%", "of the resistor where no multimeter read it")
-                            .range(0.01, 50)
-                            .otherwise(tolerances.resistor_pct)},
+         .parameters =
+             {object("load", "as in analysis.loadSafety()"), object("tolerances", "as in it"),
+              number("tolerances.load_pct", "%", "of the load").range(0.01, 50).otherwise(tolerances.load_pct),
+              number("tolerances.resistor_pct", "%", "of the resistor where no multimeter read it")
+                  .range(0.01, 50)
+                  .otherwise(tolerances.resistor_pct)},
          .text = "Judges whether a load is what it should be, by its first command: nothing else is asked of one that "
                  "is not.",
          .returns = "\"\" when it is, else why not.",

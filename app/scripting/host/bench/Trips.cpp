@@ -16,12 +16,8 @@ namespace {
 constexpr double kTripLook_s = 0.02;
 
 Json trial(std::string_view name, bool evaluated, bool tripped, double after_s, std::string_view reason) {
-    return {{"name", name},
-            {"evaluated", evaluated},
-            {"tripped", tripped},
-            {"after_s", numberOrNull(after_s)},
-            {"reason", reason},
-            {"captures", Json::array()}};
+    return {{"name", name},     {"evaluated", evaluated},   {"tripped", tripped}, {"after_s", numberOrNull(after_s)},
+            {"reason", reason}, {"captures", Json::array()}};
 }
 
 bool canTell(Bench& bench) {

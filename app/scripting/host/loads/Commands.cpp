@@ -8,8 +8,7 @@ Result<Json> commands(ScriptSession& session, const Arguments& arguments) {
     const int count = arguments.whole("count");
     Json out = Json::array();
     for (int i = 0; i < count; ++i) {
-        auto command =
-            bench::predictCommand(session, arguments.text("load"), static_cast<double>(i) / (count - 1));
+        auto command = bench::predictCommand(session, arguments.text("load"), static_cast<double>(i) / (count - 1));
         if (!command) return command;
         out.push_back(std::move(*command));
     }

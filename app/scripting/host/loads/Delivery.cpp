@@ -94,16 +94,13 @@ Result<Json> give(ScriptSession& session, const Arguments& arguments) {
         return Json{{"list", "undriven"}, {"entry", entry}};
     }
     const auto refusal = [&entry](const Json& forbidden, bool refused, const Json& predicted, std::string_view reason) {
-        entry.update(
-            {{"forbidden", forbidden}, {"refused", refused}, {"predicted", predicted}, {"reason", reason}});
+        entry.update({{"forbidden", forbidden}, {"refused", refused}, {"predicted", predicted}, {"reason", reason}});
         return Json{{"list", "refusals"}, {"entry", entry}};
     };
-    const auto asked =
-        bench::attemptCommand(bench, numberOf(*command, "roughness"), numberOf(*command, "pressure"));
+    const auto asked = bench::attemptCommand(bench, numberOf(*command, "roughness"), numberOf(*command, "pressure"));
     if (!asked) return failure(asked);
     const bool forbidden = command->at("forbidden").get<bool>();
-    if (asked->refused || forbidden)
-        return refusal(forbidden, asked->refused, command->at("predicted"), asked->reason);
+    if (asked->refused || forbidden) return refusal(forbidden, asked->refused, command->at("predicted"), asked->reason);
 
     const auto refusedBefore = bench.telemetry().trainsRefused;
     auto reading = readTrains(session, *command, arguments.whole("trains"));

@@ -1,11 +1,10 @@
 // What trains did to a load, from captures.
-#include "app/scripting/host/measure/LoadReadings.h"
-
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "app/scripting/host/measure/GivenCaptures.h"
+#include "app/scripting/host/measure/LoadReadings.h"
 #include "app/scripting/host/measure/MeasureObject.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 
@@ -58,8 +57,8 @@ Result<Json> measureLoad(ScriptSession& session, const Arguments& arguments) {
     const Json& rhythm = arguments.list("rhythm");
     if (arguments.has("rhythm") && rhythm.size() != 1)
         return arguments.wrong("rhythm", rhythm, "a list of one capture");
-    return loadReading(
-        session, {arguments.list("captures"), arguments.list("fine"), rhythm, arguments.text("by") == "voltage"});
+    return loadReading(session,
+                       {arguments.list("captures"), arguments.list("fine"), rhythm, arguments.text("by") == "voltage"});
 }
 
 }  // namespace tacto::host::measure

@@ -50,10 +50,10 @@ Json loadTracings(ScriptSession& session, const Json& loads, const Json& burst) 
         items.push_back(figureItem(session, "Single pulses", pulses, fmt::format("{}", fmt::join(settings, "; "))));
     if (burst.is_null()) return items;
     const auto load = writtenLoad(textIn(burst, "load"));
-    items.push_back(figureItem(
-        session, "Burst", {{textIn(burst, "condition"), load + ", " + volts(burst)}},
-        fmt::format("burst of {} every {} s into {}, {:.0f} kS/s", volts(burst), numberIn(burst, "interval_s"), load,
-                    std::round(numberIn(burst, "rate_hz") / 1e3))));
+    items.push_back(
+        figureItem(session, "Burst", {{textIn(burst, "condition"), load + ", " + volts(burst)}},
+                   fmt::format("burst of {} every {} s into {}, {:.0f} kS/s", volts(burst),
+                               numberIn(burst, "interval_s"), load, std::round(numberIn(burst, "rate_hz") / 1e3))));
     return items;
 }
 
