@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/devices/Device.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto {
@@ -35,6 +36,10 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
         std::ranges::move(*events, std::back_inserter(rows.events));
         const auto& about = reader->about();
         if (!rows.seed) rows.seed = about.seed;
+        const auto delivers = std::ranges::find_if(about.devices, [](const SessionDevice& device) {
+            return device.role == nameOf(Role::Stimulator) || device.role == nameOf(Role::Massager);
+        });
+        if (!rows.delivers && delivers != about.devices.end()) rows.delivers = *delivers;
         rows.chainHead = reader->chainHead();
         auto last = wallTimeFrom(about.wallStart);
         if (!about.virtualClock) last += std::chrono::floor<std::chrono::seconds>(reader->lastAt());

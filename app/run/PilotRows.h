@@ -18,9 +18,10 @@ namespace tacto {
 inline constexpr std::chrono::hours kResumedWithin{2};
 
 struct PilotRows {
-    std::vector<SessionRow> events;     ///< in order
-    std::optional<std::uint64_t> seed;  ///< of the first part
-    std::string chainHead;              ///< of the last part
+    std::vector<SessionRow> events;         ///< in order
+    std::optional<std::uint64_t> seed;      ///< of the first part
+    std::string chainHead;                  ///< of the last part
+    std::optional<SessionDevice> delivers;  ///< the stimulator or massager of the first part
     /// When the last row was written. On a virtual clock a session's time runs ahead of the wall's, so a part counts
     /// from its beginning.
     std::chrono::sys_seconds lastAt{};

@@ -215,6 +215,22 @@ Result<void> PilotRun::mayResume() const {
                 std::chrono::duration<double, std::ratio<3600>>(now - earlier_.lastAt).count());
 }
 
+/// What was too strong, and the range, were found with the first part's device and hold for no other.
+Result<void> PilotRun::sameDevice(const DeviceSet& devices) const {
+    if (!earlier_.delivers) return {};
+    const auto& begun = *earlier_.delivers;
+    const auto& now = devices.stimulator ? devices.stimulator->identity() : devices.massager->identity();
+    if (now.name == begun.name && now.serial == begun.serial) return {};
+    const auto named = [](const std::string& name, const std::string& serial) {
+        return serial.empty() ? name : name + " " + serial;
+    };
+    return fail(
+        kGateRefused,
+        "session {} of {} was begun with {} and {} is connected; it goes on with the former, or ends with --set "
+        "unfinished=end",
+        unfinished_->number, who_.code, named(begun.name, begun.serial), named(now.name, now.serial));
+}
+
 // The bench
 
 Result<VirtualObserver> PilotRun::observerFor(const RunOrder& order) const {
@@ -294,6 +310,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
                                                                const DeviceSet& devices) -> Result<RunSession> {
         if (auto holds = machineGate(study_->settings(), profile, limits, devices, utcToday()); !holds)
             return failure(holds);
+        if (auto same = sameDevice(devices); !same) return failure(same);
         return makeSession(about, clock, devices);
     };
 

@@ -62,6 +62,7 @@ private:
     [[nodiscard]] Result<void> openStudy(const RunOrder& order, const PilotOrder& pilot);
     [[nodiscard]] Result<void> chooseSession(const RunOrder& order);
     [[nodiscard]] Result<void> mayResume() const;
+    [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
     [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
     void fitOrder(RunOrder& order, const PilotOrder& pilot);
     void chooseEncoding();

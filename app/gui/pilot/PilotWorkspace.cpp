@@ -22,6 +22,12 @@ namespace {
 enum HomeTab { kRehearsalTab, kStudyTab };
 constexpr int kUsualBlocks = 5;
 
+QString kindOf(const PilotStart& start, bool ofStudy) {
+    if (!start.rehearsal) return start.simulated() ? QObject::tr("Study, simulated bench") : QObject::tr("Study");
+    if (!start.person) return QObject::tr("Rehearsal, virtual participant");
+    return ofStudy ? QObject::tr("Rehearsal with a person") : QObject::tr("Rehearsal: you answer yourself");
+}
+
 }  // namespace
 
 PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
@@ -76,12 +82,7 @@ void PilotWorkspace::connectSession() {
     auto* session = session_.get();
     connect(session, &SessionConduct::begun, this, [this, session] {
         const auto& start = session->start();
-        path_->setTitle(tr("Session of %1").arg(start.who), !start.rehearsal && start.simulated()
-                                                                ? tr("Study, simulated bench")
-                                                            : !start.rehearsal ? tr("Study")
-                                                            : !start.person    ? tr("Rehearsal, virtual participant")
-                                                            : ofStudy_         ? tr("Rehearsal with a person")
-                                                                               : tr("Rehearsal: you answer yourself"));
+        path_->setTitle(tr("Session of %1").arg(start.who), kindOf(start, ofStudy_));
         path_->begin(start.blocks.value_or(kUsualBlocks), start.person, start.massager);
         showPage(kSession);
     });

@@ -4,6 +4,7 @@
 #include <QTableWidget>
 #include <filesystem>
 #include <gmock/gmock.h>
+#include <set>
 
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantWindow.h"
@@ -91,6 +92,17 @@ protected:
     void answerNoToAll() {
         for (const auto& item : exclusionItems())
             page().findChild<QRadioButton*>(QString::fromStdString(std::string(item.key)) + "-no")->click();
+    }
+    void confirmCode() {
+        auto* theirs = pilot->participantWindow();
+        ASSERT_NE(theirs, nullptr);
+        ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
+        QTest::keyClick(theirs->windowHandle(), Qt::Key_1);  // yes
+    }
+    [[nodiscard]] static std::set<std::string> filesIn(const std::filesystem::path& folder) {
+        std::set<std::string> names;
+        for (const auto& file : std::filesystem::directory_iterator(folder)) names.insert(file.path().filename());
+        return names;
     }
     void begin() { click(*page().findChild<QPushButton*>("beginSession")); }
     [[nodiscard]] gui::SessionStartPage& page() { return *pilot->findChild<gui::SessionStartPage*>(); }
@@ -206,6 +218,38 @@ TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerT
     EXPECT_EQ(pilot->findChild<gui::StepList*>()->findChildren<gui::StepButton*>()[2]->text(), "Skin and massager");
     window.controller().stop("operator (abort)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+}
+
+TEST_F(StudyInTheWindow, ASessionThatWasBrokenOffGoesOnWithNoOtherMassager) {
+    RecordProperty("hazard", "H6");
+    ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
+    ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M1")));
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    ASSERT_NO_FATAL_FAILURE(start());
+    answerNoToAll();
+    begin();
+    ASSERT_NO_FATAL_FAILURE(confirmCode());
+    ASSERT_IN_TIME(comesTrue([this] { return !nothingWasMade(); }, 20'000));
+    ASSERT_IN_TIME(comesTrue(
+        [this] {
+            window.controller().stop("operator (STOP)");
+            return !pilot->running();
+        },
+        20'000));
+    click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
+    ASSERT_NO_FATAL_FAILURE(seeList());
+    ASSERT_EQ(cell(0, 5), "broken off, may go on");
+    const auto files = filesIn(place() / "sessions");
+
+    ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M2")));
+    ASSERT_NO_FATAL_FAILURE(start());
+    answerNoToAll();
+    page().findChild<QRadioButton*>("goOnWithIt")->click();
+    begin();
+    ASSERT_NO_FATAL_FAILURE(confirmCode());
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+    EXPECT_THAT(trouble(), HasSubstr("was begun with haptic pad M1 and haptic pad M2 is connected"));
+    EXPECT_EQ(filesIn(place() / "sessions"), files);
 }
 
 TEST_F(StudyInTheWindow, AStopInPlaceOfTheCodeBeginsNothing) {
