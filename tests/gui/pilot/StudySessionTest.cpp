@@ -93,11 +93,26 @@ protected:
         for (const auto& item : exclusionItems())
             page().findChild<QRadioButton*>(QString::fromStdString(std::string(item.key)) + "-no")->click();
     }
-    void confirmCode() {
-        auto* theirs = pilot->participantWindow();
+    /// A person's session of a massager study, begun: their own screen asks for the code.
+    void seatAtMassager() {
+        ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
+        ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M1")));
+        ASSERT_NO_FATAL_FAILURE(openIt());
+        ASSERT_NO_FATAL_FAILURE(start());
+        answerNoToAll();
+        shot(window, "study-window-massager");
+        begin();
+        ASSERT_NO_FATAL_FAILURE(waitForCode());
+    }
+    void waitForCode() {
+        const auto* theirs = pilot->participantWindow();
         ASSERT_NE(theirs, nullptr);
         ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
-        QTest::keyClick(theirs->windowHandle(), Qt::Key_1);  // yes
+    }
+    void answer(Qt::Key key) { QTest::keyClick(pilot->participantWindow()->windowHandle(), key); }
+    void confirmCode() {
+        ASSERT_NO_FATAL_FAILURE(waitForCode());
+        answer(Qt::Key_1);  // yes
     }
     [[nodiscard]] static std::set<std::string> filesIn(const std::filesystem::path& folder) {
         std::set<std::string> names;
@@ -166,20 +181,12 @@ TEST_F(StudyInTheWindow, WithNothingPluggedInAPersonsSessionCannotBegin) {
 
 TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerThatWasChosen) {
     RecordProperty("hazard", "H11");
-    ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
-    ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M1")));
-    ASSERT_NO_FATAL_FAILURE(openIt());
-    ASSERT_NO_FATAL_FAILURE(start());
-    answerNoToAll();
-    shot(window, "study-window-massager");
-    begin();
+    ASSERT_NO_FATAL_FAILURE(seatAtMassager());
     auto* theirs = pilot->participantWindow();
-    ASSERT_NE(theirs, nullptr);
-    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
     EXPECT_EQ(theirs->title(), "Is " + code + " your code?");
     shot(*theirs, "pilot-code");
     EXPECT_EQ(faultsOf(*theirs), "");
-    QTest::keyClick(theirs->windowHandle(), Qt::Key_2);  // no
+    answer(Qt::Key_2);  // no
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }));
     EXPECT_THAT(trouble(), HasSubstr("is not their code. Nothing was begun."));
     EXPECT_EQ(pilot->participantWindow(), nullptr);
@@ -192,8 +199,7 @@ TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerT
         },
         20'000));
     theirs = pilot->participantWindow();
-    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
-    QTest::keyClick(theirs->windowHandle(), Qt::Key_1);  // yes
+    ASSERT_NO_FATAL_FAILURE(confirmCode());
     const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
     ASSERT_IN_TIME(
         comesTrue([&] { return !pilot->running() || (strip->isVisible() && strip->question().open()); }, 20'000));
@@ -222,12 +228,7 @@ TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerT
 
 TEST_F(StudyInTheWindow, ASessionThatWasBrokenOffGoesOnWithNoOtherMassager) {
     RecordProperty("hazard", "H6");
-    ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
-    ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M1")));
-    ASSERT_NO_FATAL_FAILURE(openIt());
-    ASSERT_NO_FATAL_FAILURE(start());
-    answerNoToAll();
-    begin();
+    ASSERT_NO_FATAL_FAILURE(seatAtMassager());
     ASSERT_NO_FATAL_FAILURE(confirmCode());
     ASSERT_IN_TIME(comesTrue([this] { return !nothingWasMade(); }, 20'000));
     ASSERT_IN_TIME(comesTrue(
@@ -254,16 +255,8 @@ TEST_F(StudyInTheWindow, ASessionThatWasBrokenOffGoesOnWithNoOtherMassager) {
 
 TEST_F(StudyInTheWindow, AStopInPlaceOfTheCodeBeginsNothing) {
     RecordProperty("hazard", "H2");
-    ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
-    ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M1")));
-    ASSERT_NO_FATAL_FAILURE(openIt());
-    ASSERT_NO_FATAL_FAILURE(start());
-    answerNoToAll();
-    begin();
-    auto* theirs = pilot->participantWindow();
-    ASSERT_NE(theirs, nullptr);
-    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }));
-    QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
+    ASSERT_NO_FATAL_FAILURE(seatAtMassager());
+    answer(Qt::Key_Escape);
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }));
     EXPECT_THAT(trouble(), HasSubstr("Stopped before"));
     EXPECT_TRUE(nothingWasMade());
