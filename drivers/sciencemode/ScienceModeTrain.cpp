@@ -29,8 +29,10 @@ Result<ScienceModeStimulator::Sent> ScienceModeStimulator::firePulse(const Pulse
                                                                      Instant& written) {
     if (stoppedSince(offs)) return Sent::Stopped;
     if (gone_) return fail(ErrorCode::Device, "stimulator {} is gone: unplugged, or its bus failed", identity_.serial);
-    written = clock_.now();
     const auto sent = exchange_->send(Command::ChannelConfig, request.view());
+    // Afterwards: a thread that was held up on its way to the wire has sent this pulse no later than now, and none
+    // may follow it too fast.
+    written = clock_.now();
     // A stop that came while the write was in flight may have reached the device before it: off again.
     if (stoppedSince(offs)) sendStop();
     if (exchange_->gone()) gone_ = true;

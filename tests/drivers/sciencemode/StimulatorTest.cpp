@@ -194,6 +194,22 @@ TEST(ScienceModeDeliver, AHostThatIsALittleLateNeverHurriesAfterwards) {
     }
 }
 
+TEST(ScienceModeDeliver, APulseHeldUpOnItsWayToTheWireIsNotFollowedTooFast) {
+    RecordProperty("hazard", "H1");
+    ScienceModeBench bench;
+    int writes = 0;
+    bench.line->onWrite([&] {
+        if (++writes % 2 == 0) bench.clock.advanceTo(bench.clock.now() + milliseconds(4));
+    });
+    ASSERT_TRUE(bench.stimulator->deliver(bench.approved(5, 8)).has_value());
+    bench.wait(Seconds(0.2));
+    const auto pulses = bench.line->pulseList();
+    ASSERT_EQ(pulses.size(), 8U);
+    for (std::size_t i = 1; i < pulses.size(); ++i) {
+        EXPECT_GE(pulses[i].onset - pulses[i - 1].onset, milliseconds(9)) << i;
+    }
+}
+
 TEST(ScienceModeDeliver, SmallSlipsDoNotAddUpUntilTheTrainIsGivenUp) {
     RecordProperty("hazard", "H2");
     ScienceModeBench bench;
