@@ -6,6 +6,7 @@
 
 #include "app/cli/Command.h"
 #include "app/run/CaptureFormatsList.h"
+#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
 namespace tacto::cli {
@@ -21,6 +22,13 @@ Result<std::pair<std::string, std::string>> pairOf(const QString& text, const ch
         return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; CHANNEL={} is expected", option, both, example);
     }
     return std::pair(std::string(trimmed(both.substr(0, equals))), std::string(trimmed(both.substr(equals + 1))));
+}
+
+/// Adds what an option says of a channel. Errors: InvalidArgument for a channel that it was given for before.
+template <class Map, class Entry>
+Result<void> addOnce(Map& all, const Entry& entry, const char* option) {
+    if (all.emplace(entry.first, entry.second).second) return {};
+    return fail(ErrorCode::InvalidArgument, "{}", givenTwice("--{} of {}", option, entry.first));
 }
 
 /// "[#####.....] 52 %" on a terminal, from the second second on; gone when it is.
@@ -93,7 +101,7 @@ Result<ReadOptions> captureOptions(const QCommandLineParser& parser) {
     for (const auto& text : parser.values("unit")) {
         const auto unit = pairOf(text, "unit", "mV");
         if (!unit) return failure(unit);
-        options.units.insert_or_assign(unit->first, unit->second);
+        if (const auto once = addOnce(options.units, *unit, "unit"); !once) return failure(once);
     }
     for (const auto& text : parser.values("probe")) {
         const auto probe = pairOf(text, "probe", "10");
@@ -103,7 +111,8 @@ Result<ReadOptions> captureOptions(const QCommandLineParser& parser) {
             return fail(ErrorCode::InvalidArgument, "--probe is \"{}\"; CHANNEL=10, a number, is expected",
                         text.toStdString());
         }
-        options.probeFactors.insert_or_assign(probe->first, *factor);
+        const auto once = addOnce(options.probeFactors, std::pair(probe->first, *factor), "probe");
+        if (!once) return failure(once);
     }
     for (const auto& text : parser.values("range")) {
         const auto range = pairOf(text, "range", "-5:5");
@@ -115,7 +124,8 @@ Result<ReadOptions> captureOptions(const QCommandLineParser& parser) {
             return fail(ErrorCode::InvalidArgument, "--range is \"{}\"; CHANNEL=-5:5, two numbers, is expected",
                         text.toStdString());
         }
-        options.ranges.insert_or_assign(range->first, std::pair(*low, *high));
+        const auto once = addOnce(options.ranges, std::pair(range->first, std::pair(*low, *high)), "range");
+        if (!once) return failure(once);
     }
     if (parser.isSet("sample-rate")) {
         const auto rate = numberOption(parser, "sample-rate");

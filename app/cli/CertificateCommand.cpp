@@ -59,7 +59,7 @@ int list(const CertificateStore& store, bool json) {
 }
 
 /// Errors: InvalidArgument naming the option and what is accepted.
-Result<Certificate> given(const QCommandLineParser& parser) {
+Result<Certificate> certificateGiven(const QCommandLineParser& parser) {
     Certificate out;
     for (const auto& text : kCertificateTexts)
         out.*text.member = parser.value(QString::fromStdString(std::string(text.key))).trimmed().toStdString();
@@ -81,7 +81,7 @@ Result<Certificate> given(const QCommandLineParser& parser) {
 }
 
 int add(CertificateStore& store, const QCommandLineParser& parser) {
-    const auto certificate = given(parser);
+    const auto certificate = certificateGiven(parser);
     if (!certificate) return usage("certificate add: " + certificate.error().message);
     const auto today = utcToday();
     if (const auto added = store.add(*certificate, today); !added) return failWith(added.error());

@@ -167,7 +167,7 @@ struct Running {
 
 Result<Running> prepareRun(RunOrder order, const QCommandLineParser& parser, Registry& registry) {
     Running running;
-    if (!isPilotProtocol(order.script.name) || !order.script.shipped) {
+    if (!resultTraits(order.declaration.kind).ofStudy || !order.script.shipped) {
         auto alone = ProtocolRun::prepare(std::move(order), registry);
         if (!alone) return failure(alone);
         running.alone = std::move(*alone);

@@ -1,12 +1,15 @@
 // tactoscope-cli - all of Tactoscope without a window. `tactoscope-cli help` is the contract.
 #include <QApplication>
 #include <QCoreApplication>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "app/cli/Command.h"
 #include "app/scripting/engine/ScriptRun.h"
@@ -19,11 +22,26 @@ namespace {
 constexpr const char* kNotice =
     "Tactoscope is a research bench, not a medical device. Simulated devices are marked as simulated.";
 
+/// "tactoscope-cli NAME ARGUMENTS"; a line for each of {these | and these} arguments.
+std::string howToCall(const Command& command, std::string_view indent) {
+    const std::string_view arguments = command.arguments;
+    const auto end = arguments.starts_with('{') ? arguments.find('}') : std::string_view::npos;
+    if (end == std::string_view::npos) return fmt::format("{}tactoscope-cli {} {}\n", indent, command.name, arguments);
+    std::string all;
+    for (auto rest = arguments.substr(1, end - 1); !rest.empty();) {
+        const auto bar = std::min(rest.find(" | "), rest.size());
+        all += fmt::format("{}tactoscope-cli {} {}{}\n", indent, command.name, rest.substr(0, bar),
+                           arguments.substr(end + 1));
+        rest.remove_prefix(std::min(bar + 3, rest.size()));
+    }
+    return all;
+}
+
 void printHelp(std::FILE* to) {
     say(to, "tactoscope-cli {} - tactile-feedback stimulation, from fingertip to judged pulse train\n\n",
         TACTOSCOPE_VERSION);
     for (const auto& command : commands()) {
-        say(to, "  tactoscope-cli {} {}\n        {}\n", command.name, command.arguments, command.summary);
+        say(to, "{}        {}\n", howToCall(command, "  "), command.summary);
     }
     say(to,
         "\nExit codes: 0 done and passed, 1 a verdict failed, 2 usage, 3 could not run (device, file),\n"
@@ -65,7 +83,7 @@ int runCommand(const Command& command, int argc, char** argv) {
                                  command.name, command.arguments));
     }
     if (parser.isSet("help")) {
-        say("tactoscope-cli {} {}\n", command.name, command.arguments);
+        say("{}", howToCall(command, ""));
         say("{}\n", lines(parser.helpText().section('\n', 1).toStdString()));
         return kDone;
     }

@@ -8,6 +8,7 @@
 #include "core/analysis/identification/Encodings.h"
 #include "core/base/JsonFields.h"
 #include "core/base/SystemTime.h"
+#include "core/session/ResultKind.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto {
@@ -17,7 +18,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kVirtual = "virtual:";
-constexpr std::string_view kIdentification = "pilot-identification";
 
 std::string textOf(const RunOrder& order, const char* name) { return textOr(order.settings.parameters, name); }
 
@@ -111,8 +111,6 @@ bool wasTested(const Study& study, const StudySession& session) {
 }
 
 }  // namespace
-
-bool isPilotProtocol(const std::string& name) noexcept { return name == "pilot-thresholds" || name == kIdentification; }
 
 PilotRun::~PilotRun() {
     run_.reset();  // the script first: it calls the session
@@ -261,7 +259,8 @@ void PilotRun::chooseEncoding() {
     if (offered.size() < 2) return;
     std::vector<std::string> had;
     for (const auto& session : study_->sessions()) {
-        if (session.participant != who_.id || session.protocol != kIdentification) continue;
+        if (session.participant != who_.id) continue;
+        if (resultTraits(session.protocol).kind != ResultKind::PilotIdentification) continue;
         if (session.state == StudySessionState::Complete && wasTested(*study_, session))
             had.push_back(session.encoding);
     }

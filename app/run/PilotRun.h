@@ -20,9 +20,6 @@
 
 namespace tacto {
 
-/// Whether a protocol is one of a study's sessions.
-[[nodiscard]] bool isPilotProtocol(const std::string& name) noexcept;
-
 /// Where and with whom.
 struct PilotOrder {
     std::filesystem::path study;

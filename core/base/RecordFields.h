@@ -16,8 +16,10 @@
 // the JSON.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,7 +27,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/ValueKind.h"
+#include "core/base/RecordTable.h"
 
 namespace tacto {
 
@@ -40,10 +42,19 @@ class RecordFields {
     template <class T>
     struct Bare {
         using Type = T;
+        static constexpr const RecordTable::OptionalAccess* kAccess = nullptr;
     };
     template <class T>
     struct Bare<std::optional<T>> {
         using Type = T;
+        static constexpr RecordTable::OptionalAccess kHow{
+            [](const void* member) -> const void* {
+                const auto& held = *static_cast<const std::optional<T>*>(member);
+                return held ? &*held : nullptr;
+            },
+            [](void* member) -> void* { return &static_cast<std::optional<T>*>(member)->emplace(); },
+            [](void* member) { static_cast<std::optional<T>*>(member)->reset(); }};
+        static constexpr const RecordTable::OptionalAccess* kAccess = &kHow;
     };
     template <class Member>
     using Held = std::remove_cvref_t<std::invoke_result_t<Member, Record&>>;
@@ -53,7 +64,8 @@ class RecordFields {
 
 public:
     // `member` is a pointer to a member, in() for a member of a member, or std::identity for fields of the record
-    // itself that stand in an object of their own. What is returned may be changed until the next field is added.
+    // itself that stand in an object of their own: a part of the record, not of what it points to. What is returned may
+    // be changed until the next field is added.
 
     template <class Member>
     FieldInfo& number(std::string_view key, Member member, const AcceptedNumbers& accepted = {}) {
@@ -82,221 +94,79 @@ public:
     /// A list of `least` to `most` values.
     template <class Member>
     FieldInfo& list(std::string_view key, Member member, const ValueKind<typename ValueOf<Member>::value_type>& each,
-                    std::size_t least, std::size_t most);
+                    std::size_t least, std::size_t most) {
+        return add(key, member, listKind<ValueOf<Member>>(each, least, most));
+    }
     template <class Member>
-    FieldInfo& add(std::string_view key, Member member, ValueKind<ValueOf<Member>> kind);
+    FieldInfo& add(std::string_view key, Member member, ValueKind<ValueOf<Member>> kind) {
+        static Record example{};
+        const auto* at = reinterpret_cast<const std::byte*>(std::addressof(std::invoke(member, example)));
+        const auto offset = static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&example));
+        return table_.add(key, offset, std::move(kind), Bare<Held<Member>>::kAccess);
+    }
 
     /// A text for people who read the file. It is kept by no member.
-    void note(std::string_view key, const AcceptedText& accepted = {});
-    /// What must hold between fields; checked after each field by itself.
-    void rule(std::function<Result<void>(const Record&)> holds) { rules_.push_back(std::move(holds)); }
-    /// The record is written as null where `absent` says so.
-    void absentWhere(std::function<bool(const Record&)> absent) { absent_ = std::move(absent); }
+    void note(std::string_view key, const AcceptedText& accepted = {}) { table_.note(key, accepted); }
+    /// What must hold between fields; checked after each field by itself. `holds(record)` gives a Result<void>.
+    template <class Rule>
+    void rule(Rule holds) {
+        table_.rule([holds = std::move(holds)](const void* record) -> Result<void> {
+            return holds(*static_cast<const Record*>(record));
+        });
+    }
+    /// The record is written as null where `absent(record)`.
+    template <class Absent>
+    void absentWhere(Absent absent) {
+        table_.absentWhere([absent = std::move(absent)](const void* record) -> bool {
+            return absent(*static_cast<const Record*>(record));
+        });
+    }
     /// Null stands for a missing key: what a script hands on.
-    void takeNullAsMissing() { nullIsMissing_ = true; }
+    void takeNullAsMissing() { table_.takeNullAsMissing(); }
     /// Keys that the table does not know are notes.
-    void passOverUnknownKeys() { passOver_ = true; }
+    void passOverUnknownKeys() { table_.passOverUnknownKeys(); }
 
     /// Errors: ParseError naming an unknown or missing key or a value of another type; InvalidArgument naming a value
     /// that is not accepted; as the rules. `into` may hold a part of it then.
-    [[nodiscard]] Result<void> read(const nlohmann::json& object, Record& into, const RecordPlace& place) const;
+    [[nodiscard]] Result<void> read(const nlohmann::json& object, Record& into, const RecordPlace& place) const {
+        return table_.read(object, &into, place);
+    }
     /// A new record. Errors: as read().
     [[nodiscard]] Result<Record> read(const nlohmann::json& object, const RecordPlace& place) const {
         Record record{};
         if (auto done = read(object, record, place); !done) return failure(done);
         return record;
     }
-    [[nodiscard]] nlohmann::json write(const Record& record) const;
+    [[nodiscard]] nlohmann::json write(const Record& record) const { return table_.write(&record); }
     /// Errors: InvalidArgument naming the first value that is not accepted; as the rules.
-    [[nodiscard]] Result<void> check(const Record& record, const RecordPlace& place) const;
+    [[nodiscard]] Result<void> check(const Record& record, const RecordPlace& place) const {
+        return table_.check(&record, place);
+    }
 
-    [[nodiscard]] std::vector<FieldInfo> infos() const { return {fields_.begin(), fields_.end()}; }
-    [[nodiscard]] ValueKind<Record> kind() const;
+    [[nodiscard]] std::vector<FieldInfo> infos() const { return table_.infos(); }
+    [[nodiscard]] ValueKind<Record> kind() const { return ValueKind<Record>(table_.kind()); }
 
 private:
-    struct Field : FieldInfo {
-        std::function<Result<void>(const nlohmann::json&, Record&, const RecordPlace&)> read;
-        std::function<void(Record&)> clear;
-        std::function<nlohmann::json(const Record&)> write;
-        std::function<Result<void>(const Record&, const RecordPlace&)> check;
-    };
-    [[nodiscard]] Result<void> checkRules(const Record& record, const RecordPlace& place) const;
-
-    std::vector<Field> fields_;
-    std::vector<std::function<Result<void>(const Record&)>> rules_;
-    std::function<bool(const Record&)> absent_;
-    bool nullIsMissing_ = false;
-    bool passOver_ = false;
+    RecordTable table_;
 };
 
-template <class Record>
-template <class Member>
-FieldInfo& RecordFields<Record>::add(std::string_view key, Member member, ValueKind<ValueOf<Member>> kind) {
-    constexpr bool kOptional = !std::is_same_v<Held<Member>, ValueOf<Member>>;
-    Field field{std::move(kind.info), {}, {}, {}, {}};
-    field.key = key;
-    field.mayBeNull = kOptional;
-    field.read = [member, read = std::move(kind.read), name = field.key](const nlohmann::json& value, Record& into,
-                                                                         const RecordPlace& place) -> Result<void> {
-        auto& held = std::invoke(member, into);
-        if constexpr (kOptional)
-            return read(value, held.emplace(), place, name);
-        else
-            return read(value, held, place, name);
-    };
-    field.clear = [member](Record& into) {
-        if constexpr (kOptional) std::invoke(member, into).reset();
-    };
-    field.write = [member, write = std::move(kind.write)](const Record& record) -> nlohmann::json {
-        const auto& held = std::invoke(member, record);
-        if constexpr (kOptional)
-            return held ? write(*held) : nlohmann::json();
-        else
-            return write(held);
-    };
-    if (kind.check) {
-        field.check = [member, check = std::move(kind.check), name = field.key](
-                          const Record& record, const RecordPlace& place) -> Result<void> {
-            const auto& held = std::invoke(member, record);
-            if constexpr (kOptional)
-                return held ? check(*held, place, name) : Result<void>();
-            else
-                return check(held, place, name);
-        };
-    }
-    return fields_.emplace_back(std::move(field));
-}
-
-template <class Record>
-template <class Member>
-FieldInfo& RecordFields<Record>::list(std::string_view key, Member member,
-                                      const ValueKind<typename ValueOf<Member>::value_type>& each, std::size_t least,
-                                      std::size_t most) {
-    using List = ValueOf<Member>;
-    const auto nameOf = [](std::string_view list, std::size_t i) { return fmt::format("{}[{}]", list, i); };
-    ValueKind<List> kind;
-    kind.info.accepted = fmt::format("a list of {} to {} entries", least, most);
-    kind.read = [=, what = kind.info.accepted](const nlohmann::json& value, List& into, const RecordPlace& place,
-                                               std::string_view name) -> Result<void> {
-        if (!value.is_array() || value.size() < least || value.size() > most)
-            return place.refuse(ErrorCode::ParseError, name, shownJson(value), what);
-        into.clear();
-        for (std::size_t i = 0; i < value.size(); ++i) {
-            auto& entry = into.emplace_back();
-            if (auto done = each.read(value[i], entry, place, nameOf(name, i)); !done && !place.lenient) return done;
-        }
-        return {};
-    };
-    kind.write = [each](const List& values) {
-        auto out = nlohmann::json::array();
-        for (const auto& value : values) out.push_back(each.write(value));
-        return out;
-    };
-    kind.check = [=, what = kind.info.accepted](const List& values, const RecordPlace& place,
-                                                std::string_view name) -> Result<void> {
-        if (values.size() < least || values.size() > most)
-            return place.refuse(ErrorCode::InvalidArgument, name, fmt::format("a list of {}", values.size()), what);
-        for (std::size_t i = 0; each.check && i < values.size(); ++i) {
-            if (auto sound = each.check(values[i], place, nameOf(name, i)); !sound) return sound;
-        }
-        return {};
-    };
-    return add(key, member, std::move(kind));
-}
-
-template <class Record>
-void RecordFields<Record>::note(std::string_view key, const AcceptedText& accepted) {
-    ValueKind<Record> kind;
-    kind.read = [text = textKind(accepted)](const nlohmann::json& value, Record&, const RecordPlace& place,
-                                            std::string_view name) {
-        std::string read;
-        return text.read(value, read, place, name);
-    };
-    kind.write = [](const Record&) { return nlohmann::json(); };
-    add(key, std::identity{}, std::move(kind)).leftOutIfEmpty = true;
-}
-
-template <class Record>
-Result<void> RecordFields<Record>::read(const nlohmann::json& object, Record& into, const RecordPlace& place) const {
-    std::vector<std::string_view> keys;
-    for (const auto& field : fields_) keys.push_back(field.key);
-    const auto known = passOver_ ? expectObject(object, place.text()) : onlyKeys(object, keys, place.text());
-    if (!known && !place.lenient) return known;
-    for (const auto& field : fields_) {
-        const auto found = object.find(field.key);
-        Result<void> done;
-        const bool isNull = found != object.end() && found->is_null();
-        const bool isThere = found != object.end() && !(isNull && nullIsMissing_);
-        if (isNull && field.mayBeNull && !field.leftOutIfEmpty)
-            field.clear(into);
-        else if (field.required && (!isThere || isNull))
-            done = place.refuse(ErrorCode::ParseError, field.key, "missing", field.accepted);
-        else if (isThere)
-            done = field.read(*found, into, place);
-        if (!done && !place.lenient) return done;
-    }
-    return place.lenient ? Result<void>() : checkRules(into, place);
-}
-
-template <class Record>
-nlohmann::json RecordFields<Record>::write(const Record& record) const {
-    if (absent_ && absent_(record)) return nullptr;
-    auto out = nlohmann::json::object();
-    for (const auto& field : fields_) {
-        auto value = field.write(record);
-        if (!field.leftOutIfEmpty || !value.empty()) out[field.key] = std::move(value);
-    }
-    return out;
-}
-
-template <class Record>
-Result<void> RecordFields<Record>::check(const Record& record, const RecordPlace& place) const {
-    for (const auto& field : fields_) {
-        if (!field.check) continue;
-        if (auto sound = field.check(record, place); !sound) return sound;
-    }
-    return checkRules(record, place);
-}
-
-template <class Record>
-Result<void> RecordFields<Record>::checkRules(const Record& record, const RecordPlace& place) const {
-    for (const auto& holds : rules_) {
-        if (auto sound = holds(record); !sound) return place.refuse(std::move(sound.error()));
-    }
-    return {};
-}
-
-template <class Record>
-ValueKind<Record> RecordFields<Record>::kind() const {
-    ValueKind<Record> kind;
-    kind.info = {.key = {}, .accepted = "an object", .members = infos()};
-    kind.read = [fields = *this](const nlohmann::json& value, Record& into, const RecordPlace& place,
-                                 std::string_view key) { return fields.read(value, into, place.in(key)); };
-    kind.write = [fields = *this](const Record& record) { return fields.write(record); };
-    kind.check = [fields = *this](const Record& record, const RecordPlace& place, std::string_view key) {
-        return fields.check(record, place.in(key));
-    };
-    return kind;
-}
-
-/// A record that stands in the file as a `Stored`.
-template <class Record, class Stored>
-[[nodiscard]] ValueKind<Record> storedAs(const RecordFields<Stored>& fields,
-                                         std::function<Record(const Stored&)> fromStored,
-                                         std::function<Stored(const Record&)> toStored) {
+/// A record that stands in the file as a `Stored`: `fromStored(stored)` and `toStored(record)` make one of the other.
+template <class Record, class Stored, class From, class To>
+[[nodiscard]] ValueKind<Record> storedAs(const RecordFields<Stored>& fields, From fromStored, To toStored) {
     const auto stored = fields.kind();
-    ValueKind<Record> kind{.info = stored.info};
-    kind.read = [stored, fromStored](const nlohmann::json& value, Record& into, const RecordPlace& place,
-                                     std::string_view key) -> Result<void> {
+    ValueKind<Record> kind;
+    kind.info = stored.info;
+    kind.reads([stored, fromStored](const nlohmann::json& value, Record& into, const RecordPlace& place,
+                                    std::string_view key) -> Result<void> {
         Stored read{};
         if (auto done = stored.read(value, read, place, key); !done) return done;
         into = fromStored(read);
         return {};
-    };
-    kind.write = [stored, toStored](const Record& record) { return stored.write(toStored(record)); };
-    kind.check = [stored, toStored](const Record& record, const RecordPlace& place, std::string_view key) {
+    });
+    kind.writes([stored, toStored](const Record& record) { return stored.write(toStored(record)); });
+    kind.checks([stored, toStored](const Record& record, const RecordPlace& place, std::string_view key) {
         return stored.check(toStored(record), place, key);
-    };
+    });
     return kind;
 }
 

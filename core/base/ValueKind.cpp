@@ -89,11 +89,11 @@ ValueKind<std::string> textKind(const AcceptedText& accepted) {
             return text != nullptr && fits(*text) ? std::optional(*text) : std::nullopt;
         },
         [](const std::string& text) { return json(text); });
-    kind.check = [fits, accepted](const std::string& text, const RecordPlace& place,
-                                  std::string_view key) -> Result<void> {
-        if (fits(text)) return {};
-        return place.refuse(ErrorCode::InvalidArgument, key, shownJson(text), accepted.text());
-    };
+    kind.checks(
+        [fits, accepted](const std::string& text, const RecordPlace& place, std::string_view key) -> Result<void> {
+            if (fits(text)) return {};
+            return place.refuse(ErrorCode::InvalidArgument, key, shownJson(text), accepted.text());
+        });
     return kind;
 }
 
@@ -101,7 +101,27 @@ ValueKind<bool> flagKind() {
     return codedKind<bool>(
         "true or false",
         [](const json& value) { return value.is_boolean() ? std::optional(value.get<bool>()) : std::nullopt; },
-        [](const bool& flag) { return json(flag); });
+        [](bool flag) { return json(flag); });
+}
+
+AnyKind numberKindOf(const AcceptedNumbers& accepted, const NumberAccess& access) {
+    AnyKind kind{.info = {.accepted = accepted.text(), .numbers = accepted}};
+    kind.readInto = [accepted, access](const json& value, void* into, const RecordPlace& place,
+                                       std::string_view key) -> Result<void> {
+        const auto number = readNumber(value, accepted, place, key);
+        if (!number) return failure(number);
+        if (access.set(into, value, *number)) return {};
+        return place.refuse(ErrorCode::InvalidArgument, key, shownJson(value), accepted.text());
+    };
+    kind.writeFrom = [access](const void* held) {
+        if (access.write != nullptr) return access.write(held);
+        const double number = access.get(held);
+        return std::isfinite(number) ? json(number) : json();
+    };
+    kind.checkOf = [accepted, access](const void* held, const RecordPlace& place, std::string_view key) {
+        return checkNumber(access.get(held), accepted, place, key);
+    };
+    return kind;
 }
 
 std::string listedWords(const std::vector<std::string_view>& words) {
@@ -109,6 +129,61 @@ std::string listedWords(const std::vector<std::string_view>& words) {
     for (std::size_t i = 0; i < words.size(); ++i)
         all += fmt::format("{}{}", i == 0 ? "" : i + 1 < words.size() ? ", " : " or ", words[i]);
     return all;
+}
+
+AnyKind wordKindOf(std::vector<std::string_view> words, WordAccess access) {
+    const auto accepted = listedWords(words);
+    AnyKind kind{.info = {.accepted = accepted, .words = words}};
+    kind.readInto = [words, accepted, set = std::move(access.set)](
+                        const json& value, void* into, const RecordPlace& place, std::string_view key) -> Result<void> {
+        const auto found = std::ranges::find_if(words, [&](std::string_view word) { return value == word; });
+        if (found == words.end()) return place.refuse(ErrorCode::ParseError, key, shownJson(value), accepted);
+        set(into, static_cast<std::size_t>(found - words.begin()));
+        return {};
+    };
+    kind.writeFrom = [words, find = access.find](const void* held) {
+        const auto i = find(held);
+        return json(i < words.size() ? words[i] : kNoWord);
+    };
+    kind.checkOf = [count = words.size(), accepted, find = access.find](const void* held, const RecordPlace& place,
+                                                                        std::string_view key) -> Result<void> {
+        if (find(held) < count) return {};
+        return place.refuse(ErrorCode::InvalidArgument, key, "no known value", accepted);
+    };
+    return kind;
+}
+
+AnyKind listKindOf(AnyKind each, std::size_t least, std::size_t most, const ListAccess& access) {
+    const auto nameOf = [](std::string_view list, std::size_t i) { return fmt::format("{}[{}]", list, i); };
+    AnyKind kind{.info = {.accepted = fmt::format("a list of {} to {} entries", least, most)}};
+    kind.readInto = [=, what = kind.info.accepted, read = std::move(each.readInto)](
+                        const json& value, void* into, const RecordPlace& place,
+                        std::string_view name) -> Result<void> {
+        if (!value.is_array() || value.size() < least || value.size() > most)
+            return place.refuse(ErrorCode::ParseError, name, shownJson(value), what);
+        access.clear(into);
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            auto done = read(value[i], access.append(into), place, nameOf(name, i));
+            if (!done && !place.lenient) return done;
+        }
+        return {};
+    };
+    kind.writeFrom = [access, write = std::move(each.writeFrom)](const void* list) {
+        auto out = json::array();
+        for (std::size_t i = 0; i < access.size(list); ++i) out.push_back(write(access.at(list, i)));
+        return out;
+    };
+    kind.checkOf = [=, what = kind.info.accepted, check = std::move(each.checkOf)](
+                       const void* list, const RecordPlace& place, std::string_view name) -> Result<void> {
+        const auto count = access.size(list);
+        if (count < least || count > most)
+            return place.refuse(ErrorCode::InvalidArgument, name, fmt::format("a list of {}", count), what);
+        for (std::size_t i = 0; check && i < count; ++i) {
+            if (auto sound = check(access.at(list, i), place, nameOf(name, i)); !sound) return sound;
+        }
+        return {};
+    };
+    return kind;
 }
 
 }  // namespace tacto

@@ -76,14 +76,53 @@ struct RecordPlace {
     [[nodiscard]] tl::unexpected<Error> refuse(Error error) const;
 };
 
-/// How the values of a type stand in JSON.
-template <class T>
-struct ValueKind {
+/// How the values of a type stand in JSON, for code that does not know the type: `into` and `held` are addresses of
+/// one. Compiled once; a template of it took a third of the compiling and of the code of the layers that store records.
+struct AnyKind {
     FieldInfo info{};  ///< all but the key
+    std::function<Result<void>(const nlohmann::json&, void* into, const RecordPlace&, std::string_view key)> readInto{};
+    std::function<nlohmann::json(const void* held)> writeFrom{};
+    /// Empty: any value.
+    std::function<Result<void>(const void* held, const RecordPlace&, std::string_view key)> checkOf{};
+};
+
+/// The same for a type that is known.
+template <class T>
+struct ValueKind : AnyKind {
+    ValueKind() = default;
+    explicit ValueKind(AnyKind kind) : AnyKind(std::move(kind)) {}
+
     /// Errors: ParseError for another type of value, InvalidArgument for one that is not accepted.
-    std::function<Result<void>(const nlohmann::json&, T& into, const RecordPlace&, std::string_view key)> read{};
-    std::function<nlohmann::json(const T&)> write{};
-    std::function<Result<void>(const T&, const RecordPlace&, std::string_view key)> check{};  ///< empty: any value
+    [[nodiscard]] Result<void> read(const nlohmann::json& value, T& into, const RecordPlace& place,
+                                    std::string_view key) const {
+        return readInto(value, &into, place, key);
+    }
+    [[nodiscard]] nlohmann::json write(const T& held) const { return writeFrom(&held); }
+    [[nodiscard]] Result<void> check(const T& held, const RecordPlace& place, std::string_view key) const {
+        return checkOf ? checkOf(&held, place, key) : Result<void>();
+    }
+
+    /// `how` is called as read() is.
+    template <class How>
+    void reads(How how) {
+        readInto = [how = std::move(how)](const nlohmann::json& value, void* into, const RecordPlace& place,
+                                          std::string_view key) -> Result<void> {
+            return how(value, *static_cast<T*>(into), place, key);
+        };
+    }
+    template <class How>
+    void writes(How how) {
+        writeFrom = [how = std::move(how)](const void* held) -> nlohmann::json {
+            return how(*static_cast<const T*>(held));
+        };
+    }
+    template <class How>
+    void checks(How how) {
+        checkOf = [how = std::move(how)](const void* held, const RecordPlace& place,
+                                         std::string_view key) -> Result<void> {
+            return how(*static_cast<const T*>(held), place, key);
+        };
+    }
 };
 
 /// The number in `value`. Errors: as of ValueKind::read().
@@ -94,18 +133,19 @@ struct ValueKind {
 [[nodiscard]] ValueKind<std::string> textKind(const AcceptedText& accepted = {});
 [[nodiscard]] ValueKind<bool> flagKind();
 
-/// `from` gives nothing for JSON that is not accepted.
-template <class T>
-[[nodiscard]] ValueKind<T> codedKind(std::string accepted, std::function<std::optional<T>(const nlohmann::json&)> from,
-                                     std::function<nlohmann::json(const T&)> to) {
-    ValueKind<T> kind{.info = {.accepted = std::move(accepted)}, .write = std::move(to)};
-    kind.read = [what = kind.info.accepted, from](const nlohmann::json& value, T& into, const RecordPlace& place,
-                                                  std::string_view key) -> Result<void> {
-        auto found = from(value);
+/// `from(json)` gives a std::optional<T>, empty for JSON that is not accepted; `to(value)` gives JSON.
+template <class T, class From, class To>
+[[nodiscard]] ValueKind<T> codedKind(std::string accepted, From from, To to) {
+    ValueKind<T> kind;
+    kind.info.accepted = std::move(accepted);
+    kind.reads([what = kind.info.accepted, from](const nlohmann::json& value, T& into, const RecordPlace& place,
+                                                 std::string_view key) -> Result<void> {
+        std::optional<T> found = from(value);
         if (!found) return place.refuse(ErrorCode::ParseError, key, shownJson(value), what);
         into = *std::move(found);
         return {};
-    };
+    });
+    kind.writes(std::move(to));
     return kind;
 }
 
@@ -128,67 +168,81 @@ template <class T>
     return value.get<double>() < std::ldexp(1.0, std::numeric_limits<T>::digits);
 }
 
+/// How a number of some type is reached.
+struct NumberAccess {
+    double (*get)(const void*);
+    /// False where the type cannot hold this whole number: `value`, which is `number` as a double.
+    bool (*set)(void*, const nlohmann::json& value, double number);
+    nlohmann::json (*write)(const void*);  ///< to the last digit; null: what get() gives
+};
+[[nodiscard]] AnyKind numberKindOf(const AcceptedNumbers& accepted, const NumberAccess& access);
+
 /// What is not finite is written as null.
 template <class T>
 [[nodiscard]] ValueKind<T> numberKind(AcceptedNumbers accepted) {
+    NumberAccess access{[](const void* held) { return plainNumber(*static_cast<const T*>(held)); },
+                        [](void* into, const nlohmann::json&, double number) {
+                            *static_cast<T*>(into) = T(number);
+                            return true;
+                        },
+                        nullptr};
     if constexpr (std::is_integral_v<T>) {
         accepted.whole = true;
         accepted.low = std::max(accepted.low, static_cast<double>(std::numeric_limits<T>::lowest()));
         accepted.high = std::min(accepted.high, static_cast<double>(std::numeric_limits<T>::max()));
+        access.set = [](void* into, const nlohmann::json& value, double number) {
+            if (!holdsWhole<T>(value)) return false;
+            *static_cast<T*>(into) = value.is_number_integer() ? value.get<T>() : static_cast<T>(number);
+            return true;
+        };
+        access.write = [](const void* held) { return nlohmann::json(*static_cast<const T*>(held)); };
     }
-    ValueKind<T> kind{.info = {.accepted = accepted.text(), .numbers = accepted}};
-    kind.read = [accepted](const nlohmann::json& value, T& into, const RecordPlace& place,
-                           std::string_view key) -> Result<void> {
-        const auto number = readNumber(value, accepted, place, key);
-        if (!number) return failure(number);
-        if constexpr (std::is_integral_v<T>) {
-            if (!holdsWhole<T>(value))
-                return place.refuse(ErrorCode::InvalidArgument, key, shownJson(value), accepted.text());
-            into = value.is_number_integer() ? value.get<T>() : static_cast<T>(*number);
-        } else {
-            into = T(*number);
-        }
-        return {};
-    };
-    kind.write = [](const T& value) -> nlohmann::json {
-        if constexpr (std::is_integral_v<T>)
-            return value;
-        else
-            return std::isfinite(plainNumber(value)) ? nlohmann::json(plainNumber(value)) : nlohmann::json();
-    };
-    kind.check = [accepted](const T& value, const RecordPlace& place, std::string_view key) {
-        return checkNumber(plainNumber(value), accepted, place, key);
-    };
-    return kind;
+    return ValueKind<T>(numberKindOf(accepted, access));
 }
 
 /// "a, b or c".
 [[nodiscard]] std::string listedWords(const std::vector<std::string_view>& words);
 
+/// How a value that is one of several words is reached.
+struct WordAccess {
+    std::function<std::size_t(const void*)> find;  ///< which word; beyond the last: none
+    std::function<void(void*, std::size_t)> set;
+};
+[[nodiscard]] AnyKind wordKindOf(std::vector<std::string_view> words, WordAccess access);
+
 /// `words` must outlive the kind.
 template <class T>
 [[nodiscard]] ValueKind<T> wordKind(Words<T> words) {
-    FieldInfo info;
-    for (const auto& word : words) info.words.push_back(word.text);
-    info.accepted = listedWords(info.words);
-    ValueKind<T> kind = codedKind<T>(
-        info.accepted,
-        [words](const nlohmann::json& value) -> std::optional<T> {
-            for (const auto& word : words) {
-                if (value == word.text) return word.value;
-            }
-            return std::nullopt;
-        },
-        [words](const T& value) -> nlohmann::json { return wordFor(words, value); });
-    kind.check = [words, what = info.accepted](const T& value, const RecordPlace& place,
-                                               std::string_view key) -> Result<void> {
-        for (const auto& word : words) {
-            if (word.value == value) return {};
-        }
-        return place.refuse(ErrorCode::InvalidArgument, key, "no known value", what);
+    std::vector<std::string_view> texts;
+    for (const auto& word : words) texts.push_back(word.text);
+    const auto find = [words](const void* held) {
+        std::size_t i = 0;
+        while (i < words.size() && words[i].value != *static_cast<const T*>(held)) ++i;
+        return i;
     };
-    kind.info = std::move(info);
-    return kind;
+    const auto set = [words](void* into, std::size_t i) { *static_cast<T*>(into) = words[i].value; };
+    return ValueKind<T>(wordKindOf(std::move(texts), {find, set}));
+}
+
+/// How a list of some type is reached.
+struct ListAccess {
+    std::size_t (*size)(const void*);
+    const void* (*at)(const void*, std::size_t);
+    void (*clear)(void*);
+    void* (*append)(void*);  ///< a new entry
+};
+[[nodiscard]] AnyKind listKindOf(AnyKind each, std::size_t least, std::size_t most, const ListAccess& access);
+
+/// A list of `least` to `most` values.
+template <class List>
+[[nodiscard]] ValueKind<List> listKind(const ValueKind<typename List::value_type>& each, std::size_t least,
+                                       std::size_t most) {
+    return ValueKind<List>(listKindOf(
+        each, least, most,
+        {[](const void* list) { return static_cast<const List*>(list)->size(); },
+         [](const void* list, std::size_t i) -> const void* { return &(*static_cast<const List*>(list))[i]; },
+         [](void* list) { static_cast<List*>(list)->clear(); },
+         [](void* list) -> void* { return &static_cast<List*>(list)->emplace_back(); }}));
 }
 
 }  // namespace tacto

@@ -20,10 +20,12 @@ struct Word {
 template <class Value>
 using Words = std::span<const Word<Value>>;
 
+constexpr std::string_view kNoWord = "unknown";
+
 /// `otherwise` for a value that has no word.
 template <class Value>
 [[nodiscard]] constexpr std::string_view wordFor(std::type_identity_t<Words<Value>> words, Value value,
-                                                 std::string_view otherwise = "unknown") noexcept {
+                                                 std::string_view otherwise = kNoWord) noexcept {
     for (const auto& word : words) {
         if (word.value == value) return word.text;
     }

@@ -14,7 +14,7 @@ constexpr AcceptedNumbers aboveZero(std::string_view unit = {}) { return {.low =
 /// {"peak_current": 20}: any of the quantities.
 ValueKind<Ceilings> ceilingsKind() {
     ValueKind<Ceilings> kind;
-    kind.read = [](const json& value, Ceilings& into, const RecordPlace& place, std::string_view key) -> Result<void> {
+    kind.reads([](const json& value, Ceilings& into, const RecordPlace& place, std::string_view key) -> Result<void> {
         const auto inside = place.in(key);
         std::vector<std::string_view> known;
         for (std::size_t i = 0; i < kQuantityCount; ++i) known.push_back(keyOf(static_cast<Quantity>(i)));
@@ -26,12 +26,12 @@ ValueKind<Ceilings> ceilingsKind() {
             into.push_back({*quantityOf(quantity), *number});
         }
         return {};
-    };
-    kind.write = [](const Ceilings& ceilings) {
+    });
+    kind.writes([](const Ceilings& ceilings) {
         json out = json::object();
         for (const auto& ceiling : ceilings) out[std::string(keyOf(ceiling.quantity))] = ceiling.max;
         return out;
-    };
+    });
     return kind;
 }
 

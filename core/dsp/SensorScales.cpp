@@ -73,15 +73,15 @@ RecordFields<ForceScale> forceFields() {
 
 RecordFields<TaxelScales> taxelFields() {
     constexpr std::size_t kMaxTaxels = 100'000;
-    auto orNull = numberKind<double>({.low = 0});
-    orNull.read = [known = orNull.read](const nlohmann::json& value, double& into, const RecordPlace& place,
-                                        std::string_view key) -> Result<void> {
+    const auto known = numberKind<double>({.low = 0});
+    auto orNull = known;
+    orNull.reads([known](const nlohmann::json& value, double& into, const RecordPlace& place, std::string_view key) {
         into = kNaN;
-        return value.is_null() ? Result<void>() : known(value, into, place, key);
-    };
-    orNull.check = [known = orNull.check](double value, const RecordPlace& place, std::string_view key) {
-        return std::isnan(value) ? Result<void>() : known(value, place, key);
-    };
+        return value.is_null() ? Result<void>() : known.read(value, into, place, key);
+    });
+    orNull.checks([known](double value, const RecordPlace& place, std::string_view key) {
+        return std::isnan(value) ? Result<void>() : known.check(value, place, key);
+    });
     RecordFields<TaxelScales> all;
     all.word("unit", &TaxelScales::unit, kTaxelUnits).required = true;
     all.list("scale", &TaxelScales::scale, numberKind<double>({}), 1, kMaxTaxels).required = true;

@@ -30,15 +30,15 @@ bool modelMatches(std::string_view pattern, std::string_view model) {
 
 /// A share as `unit` states it, `perUnit` of the whole each.
 ValueKind<double> shareKind(double most, std::string_view unit, double perUnit) {
-    auto kind = numberKind<double>({.low = 0, .high = most, .unit = unit});
-    kind.read = [stated = kind.read, perUnit](const json& value, double& into, const RecordPlace& place,
-                                              std::string_view key) {
-        auto done = stated(value, into, place, key);
+    const auto stated = numberKind<double>({.low = 0, .high = most, .unit = unit});
+    ValueKind<double> kind;
+    kind.info = stated.info;
+    kind.reads([stated, perUnit](const json& value, double& into, const RecordPlace& place, std::string_view key) {
+        auto done = stated.read(value, into, place, key);
         into *= perUnit;
         return done;
-    };
-    kind.write = [perUnit](double share) { return json(share / perUnit); };
-    kind.check = nullptr;
+    });
+    kind.writes([perUnit](double share) { return json(share / perUnit); });
     return kind;
 }
 

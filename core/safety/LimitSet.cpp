@@ -27,16 +27,17 @@ ValueKind<Quantity> quantityKind() {
 }
 
 /// A key that repeats what the row's quantity says already, so that no figure is read in another unit or window.
-ValueKind<LimitRow> repeatedKind(std::function<json(const LimitRow&)> stated) {
+template <class Stated>
+ValueKind<LimitRow> repeatedKind(Stated stated) {
     ValueKind<LimitRow> kind;
     kind.info.accepted = "that of the quantity";
-    kind.read = [stated](const json& value, LimitRow& row, const RecordPlace& place,
-                         std::string_view key) -> Result<void> {
-        if (value == stated(row)) return {};
-        return place.refuse(ErrorCode::ParseError, key, shownJson(value),
-                            fmt::format("{} of {}", shownJson(stated(row)), keyOf(row.quantity)));
-    };
-    kind.write = std::move(stated);
+    kind.reads(
+        [stated](const json& value, LimitRow& row, const RecordPlace& place, std::string_view key) -> Result<void> {
+            if (value == stated(row)) return {};
+            return place.refuse(ErrorCode::ParseError, key, shownJson(value),
+                                fmt::format("{} of {}", shownJson(stated(row)), keyOf(row.quantity)));
+        });
+    kind.writes(std::move(stated));
     return kind;
 }
 

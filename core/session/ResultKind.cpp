@@ -58,8 +58,8 @@ constexpr std::array kKinds{
             "tells them apart."},
     ResultTraits{.kind = ResultKind::Live, .name = "live", .decisionRule = kRecording},
     ResultTraits{.kind = ResultKind::Massager, .name = "massager", .decisionRule = kRecording},
-    ResultTraits{.kind = ResultKind::PilotThresholds, .name = "pilot-thresholds"},
-    ResultTraits{.kind = ResultKind::PilotIdentification, .name = "pilot-identification"}};
+    ResultTraits{.kind = ResultKind::PilotThresholds, .name = "pilot-thresholds", .ofStudy = true},
+    ResultTraits{.kind = ResultKind::PilotIdentification, .name = "pilot-identification", .ofStudy = true}};
 
 }  // namespace
 

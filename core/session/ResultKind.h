@@ -43,6 +43,7 @@ struct ResultTraits {
     bool guardBanded = false;               ///< the uncertainty stands on the side of the limit
     std::optional<ProtocolView> view = {};  ///< of protocols that declare none; nothing: their devices say it
     AfterPass afterPass = AfterPass::Nothing;
+    bool ofStudy = false;  ///< a session of a study: with a participant, on their record
 };
 
 /// Of the kind with that name; of Other where there is none.

@@ -110,17 +110,18 @@ ValueKind<MassagerTemplate> stopKind() {
         if (stop.fields.has_value() != stop.hex.has_value()) return {};
         return fail(ErrorCode::ParseError, "\"fields\": 0 or \"hex\" is accepted, one of them");
     });
-    ValueKind<MassagerTemplate> kind{.info = stored.kind().info};
-    kind.read = [stored](const json& value, MassagerTemplate& into, const RecordPlace& place,
-                         std::string_view key) -> Result<void> {
+    ValueKind<MassagerTemplate> kind;
+    kind.info = stored.kind().info;
+    kind.reads([stored](const json& value, MassagerTemplate& into, const RecordPlace& place,
+                        std::string_view key) -> Result<void> {
         auto stop = stored.read(value, place.in(key));
         if (!stop) return failure(stop);
         into.stop = std::move(stop->hex);
         return {};
-    };
-    kind.write = [stored](const MassagerTemplate& from) {
+    });
+    kind.writes([stored](const MassagerTemplate& from) {
         return stored.write({from.stop ? std::nullopt : std::optional(0), from.stop});
-    };
+    });
     return kind;
 }
 

@@ -108,6 +108,13 @@ Result<Frame> BoardLink::ask(Command command, Reply answer, std::span<const std:
                 kAttempt.count());
 }
 
+Result<void> BoardLink::order(Command command) {
+    const auto answer = ask(command, Reply::Done);
+    if (!answer) return failure(answer);
+    if (const auto done = readDone(*answer, command); !done) return fail(ErrorCode::Device, "{}", done.error().message);
+    return {};
+}
+
 Result<std::optional<Frame>> BoardLink::await(Command command, Reply answer, std::uint8_t token) {
     const auto begin = counts().bytes;
     const Instant deadline = clock_.now() + toInstant(kAttempt);

@@ -39,6 +39,9 @@ public:
     /// Errors: Timeout where nothing sound came; Device where only noise did, the board refused, or the line failed.
     [[nodiscard]] Result<Frame> ask(Command command, Reply answer, std::span<const std::uint8_t> payload = {});
 
+    /// The same for a command that is answered by DONE. Errors: as ask(); Device for one that names another command.
+    [[nodiscard]] Result<void> order(Command command);
+
     /// The next frame of what has been read; nothing when that is used up: see fill().
     [[nodiscard]] std::optional<Frame> next() noexcept { return decoder_.take(pending_); }
     /// From now on a thread reads; ask() must not be called any more. Nothing on a virtual clock.

@@ -28,7 +28,7 @@ Result<std::unique_ptr<SensorBoard>> SensorBoard::open(std::unique_ptr<Transport
     if (ready) {
         // Until it is acknowledged it may have been heard all the same.
         board->began_ = true;
-        if (const auto started = board->link_.ask(Command::Start, Reply::Done); !started) ready = failure(started);
+        ready = board->link_.order(Command::Start);
     }
     if (!ready) {
         return fail(ready.error().code, "sensor board \"{}\": {}", settings.uri, ready.error().message);
@@ -58,7 +58,7 @@ Result<void> SensorBoard::identify(const SensorBoardSettings& settings) {
     identity_ = {settings.uri, Role::Sensor,  who->name.empty() ? "sensor board" : who->name,
                  who->serial,  who->firmware, who->serial.starts_with(kEmulatedSerial)};
     // One that a program left running is stopped first: configurations are set in silence.
-    if (const auto stopped = link_.ask(Command::Stop, Reply::Done); !stopped) return failure(stopped);
+    if (const auto stopped = link_.order(Command::Stop); !stopped) return stopped;
     return configure(settings, who->streams);
 }
 

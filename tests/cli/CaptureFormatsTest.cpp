@@ -93,10 +93,12 @@ TEST(CaptureFormatsCommands, ClippingIsWhatTheStatedRangeSays) {
 TEST(CaptureFormatsCommands, WrongOptionsAreAMatterOfUsage) {
     const Desk desk;
     const auto path = desk.write("scope.csv", rigol());
-    for (const Words& words : {Words{"--unit", "CH1"}, Words{"--unit", "=V"}, Words{"--probe", "CH1=ten"},
-                               Words{"--skip-rows", "-1"}, Words{"--skip-rows", "1.5"}, Words{"--columns", "1,,2"},
-                               Words{"--range", "CH1=5"}, Words{"--range", "CH1=0:x"}, Words{"--range", "0:1"},
-                               Words{"--sample-rate", "0"}, Words{"--sample-rate", "nan"}}) {
+    for (const Words& words :
+         {Words{"--unit", "CH1"}, Words{"--unit", "=V"}, Words{"--probe", "CH1=ten"}, Words{"--skip-rows", "-1"},
+          Words{"--skip-rows", "1.5"}, Words{"--columns", "1,,2"}, Words{"--range", "CH1=5"},
+          Words{"--range", "CH1=0:x"}, Words{"--range", "0:1"}, Words{"--sample-rate", "0"},
+          Words{"--sample-rate", "nan"}, Words{"--unit", "CH1=V", "--unit", "CH1=mV"},
+          Words{"--probe", "CH1=1", "--probe", "CH1=10"}, Words{"--range", "CH1=0:1", "--range", "CH1=0:2"}}) {
         Words all{"measure", path};
         all.insert(all.end(), words.begin(), words.end());
         const auto ran = desk.run(all);

@@ -26,6 +26,16 @@ TEST(Usage, HelpNamesEveryCommandAndEveryExitCode) {
     EXPECT_THAT(ran.out, testing::HasSubstr("5 indeterminate"));
 }
 
+TEST(Usage, HelpHasALineForEachFormOfACommand) {
+    const Desk desk;
+    const std::string leave = "tactoscope-cli study leave STUDY CODE [--passphrase-file F] [--json]\n";
+    EXPECT_THAT(desk.run({"help"}).out, testing::HasSubstr("\n  " + leave));
+    const auto ran = desk.run({"study", "--help"});
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_THAT(ran.out, testing::HasSubstr("\n" + leave));
+    EXPECT_THAT(ran.out, testing::Not(testing::HasSubstr(" | ")));
+}
+
 TEST(Usage, AnUnknownCommandIsNamedWithThoseThatExist) {
     const Desk desk;
     expectRefused(desk.run({"calibrate"}), 2, {"calibrate", "run", "verify"});

@@ -14,6 +14,7 @@
 #include "app/gui/theme/RecordTable.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/session/ResultKind.h"
 #include "core/study/StudyFiles.h"
 
 namespace tacto::gui {
@@ -56,9 +57,14 @@ QString consentWords(const Study& study, const Participant& participant) {
 }
 
 QString protocolWords(const std::string& protocol) {
-    return protocol == "pilot-identification" ? QObject::tr("identification")
-           : protocol == "pilot-thresholds"   ? QObject::tr("thresholds")
-                                              : qtext(protocol);
+    switch (resultTraits(protocol).kind) {
+        case ResultKind::PilotIdentification:
+            return QObject::tr("identification");
+        case ResultKind::PilotThresholds:
+            return QObject::tr("thresholds");
+        default:
+            return qtext(protocol);
+    }
 }
 
 std::string localText(std::chrono::sys_seconds at) {

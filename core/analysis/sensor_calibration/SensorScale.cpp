@@ -19,7 +19,7 @@ Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
     const double se = fit->gainStandardError;
     const double k = studentQuantile(0.975, freedom);
     if (!std::isfinite(gain) || gain == 0 || std::abs(gain) <= k * se) {
-        return fail(ErrorCode::InvalidArgument,
+        return fail(ErrorCode::Device,
                     "{} does not follow the references: its slope is {:.3g} ± {:.2g}; one that differs from 0 is "
                     "expected",
                     what, gain, k * se);

@@ -31,8 +31,8 @@ struct SensorScale {
 
 /// `readings`: commanded is the reference, measured the sensor's reading. `referenceTolerance` is relative, half-width;
 /// nothing: not known.
-/// Errors: as fitCalibration(); InvalidArgument where the reading does not follow the reference: the slope's 95 %
-/// interval reaches 0. `what` names the sensor in that sentence.
+/// Errors: as fitCalibration(); Device where the reading does not follow the reference: the slope's 95 % interval
+/// reaches 0. `what` names the sensor in that sentence.
 [[nodiscard]] Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
                                                  std::optional<double> referenceTolerance, std::string_view what);
 

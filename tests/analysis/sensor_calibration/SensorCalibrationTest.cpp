@@ -242,6 +242,7 @@ TEST(SensorScale, RefusesASensorThatDoesNotFollow) {
     Random random(12, "dead");
     const auto dead = fitSensorScale(weighed(random, 0, 1000, 10, 3), 0, "taxel 3");
     ASSERT_FALSE(dead);
+    EXPECT_EQ(dead.error().code, ErrorCode::Device);
     EXPECT_THAT(dead.error().message, HasSubstr("taxel 3 does not follow the references"));
     EXPECT_FALSE(fitSensorScale(weighed(random, 250, 0, 1, 1), NAN, "force"));
 }

@@ -288,6 +288,17 @@ TEST(SensorBoardFaults, AnotherVersionOfTheProtocolIsRefused) {
         "sensor board \"sensor:\": it speaks versions 2 to 3 of the sensor board protocol; version 1 was expected");
 }
 
+TEST(SensorBoardFaults, ADoneOfAnotherCommandIsNotTakenForThisOne) {
+    RecordProperty("hazard", "H4");
+    EmulatedBoardSettings settings;
+    settings.done = static_cast<std::uint8_t>(Command::Start);  // said of STOP, which is asked first
+    SensorBoardBench bench(settings);
+    const auto refused = bench.tryOpen();
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+    EXPECT_THAT(refused.error().message, HasSubstr("it says that it has done command"));
+}
+
 TEST(SensorBoardFaults, WrongUnitsAreRefused) {
     RecordProperty("hazard", "H4");
     EmulatedBoardSettings settings;

@@ -31,8 +31,10 @@ struct Weighed {
 
 Json evaluate(std::span<const CalibrationReading> readings, std::optional<double> tolerance, std::string_view name) {
     const auto found = fitSensorScale(readings, tolerance, name);
-    if (!found) return {{"scale", nullptr}, {"reason", found.error().message}};
-    return toJson(*found);
+    if (found) return toJson(*found);
+    Json none = {{"scale", nullptr}, {"reason", found.error().message}};
+    if (found.error().code == ErrorCode::Device) none["follows"] = false;
+    return none;
 }
 
 Json forceScale(const std::vector<Weighed>& weighed, const Tolerances& known) {
@@ -68,14 +70,16 @@ Json taxelScale(const std::vector<Weighed>& weighed, std::size_t taxel, double a
         found = evaluate(readings, known.ofPressure(), name);
     }
     const auto of = [&found](const char* key) { return found.value(key, Json()); };
-    return {{"taxel", taxel + 1},
-            {"unit", weighed.front().reading->at("taxel_unit")},
-            {"scale", of("scale")},
-            {"scale_expanded_uncertainty", of("scale_expanded_uncertainty")},
-            {"offset_pa", of("offset")},
-            {"offset_expanded_uncertainty_pa", of("offset_expanded_uncertainty")},
-            {"residual_max_pct_fs", of("residual_max_pct_fs")},
-            {"reason", of("reason")}};
+    Json out = {{"taxel", taxel + 1},
+                {"unit", weighed.front().reading->at("taxel_unit")},
+                {"scale", of("scale")},
+                {"scale_expanded_uncertainty", of("scale_expanded_uncertainty")},
+                {"offset_pa", of("offset")},
+                {"offset_expanded_uncertainty_pa", of("offset_expanded_uncertainty")},
+                {"residual_max_pct_fs", of("residual_max_pct_fs")},
+                {"reason", of("reason")}};
+    if (found.contains("follows")) out["follows"] = found["follows"];
+    return out;
 }
 
 bool isReading(const Json& one) {

@@ -99,11 +99,9 @@ Result<Json> sensorVerdict(ScriptSession&, const Arguments& arguments) {
     std::vector<Json> scales{force};
     for (const auto& taxel : results.at("taxels")) scales.push_back(taxel);
     for (const auto& scale : scales) {
-        const Json reason = scale.value("reason", Json());
-        if (!scale.value("scale", Json()).is_null() || !arguments.flag("weighed") || !reason.is_string()) continue;
-        if (reason.get_ref<const std::string&>().find("does not follow") == std::string::npos) continue;
+        if (scale.value("follows", true) || !arguments.flag("weighed")) continue;
         verdict = "fail";
-        putFirst(reason);
+        putFirst(scale.at("reason"));
     }
     return Json{{"verdict", verdict}, {"reasons", reasons}};
 }

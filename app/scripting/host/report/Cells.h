@@ -18,12 +18,13 @@ namespace tacto::host::report {
     return at != row.end() && at->is_number() ? at->get<double>() : std::nan("");
 }
 
-/// With so many significant digits, zeros at the end included, as toPrecision() of the script language writes it; "–"
-/// for what is not known.
+/// With so many significant digits, zeros at the end included; "–" for what is not known. Whole numbers of up to six
+/// digits are written out: 1010, not 1.01e+3.
 [[nodiscard]] inline std::string digitsOf(double value, int digits) {
     if (!std::isfinite(value)) return "–";
     const auto scientific = fmt::format("{:.{}e}", value, digits - 1);
     const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
+    if (exponent >= digits && exponent < 6) return fmt::format("{:.0f}", std::strtod(scientific.c_str(), nullptr));
     if (exponent < -6 || exponent >= digits)
         return fmt::format("{}e{:+}", scientific.substr(0, scientific.find('e')), exponent);
     return fmt::format("{:.{}f}", value, digits - 1 - exponent);

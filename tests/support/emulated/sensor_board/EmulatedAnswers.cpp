@@ -28,6 +28,10 @@ void EmulatedBoard::answer(const tsb_command& command, Instant now) {
     const auto refuse = [&](std::uint8_t reason) {
         queue(firstOf(frame, tsb_encode_refused(frame.data(), command.token, command.type, reason)), now);
     };
+    const auto done = [&] {
+        const auto named = settings_.done.value_or(command.type);
+        queue(firstOf(frame, tsb_encode_done(frame.data(), command.token, named, time_us(now))), now);
+    };
     switch (command.type) {
         case TSB_HELLO: {
             const tsb_identity identity{settings_.lowestVersion, settings_.highestVersion, kStreams,
@@ -52,11 +56,11 @@ void EmulatedBoard::answer(const tsb_command& command, Instant now) {
             return queue(firstOf(frame, tsb_encode_calibration(frame.data(), command.token, &calibration)), now);
         }
         case TSB_START:
-            queue(firstOf(frame, tsb_encode_done(frame.data(), command.token, command.type, time_us(now))), now);
+            done();
             return begin(now);
         case TSB_STOP:
             running_ = false;
-            return queue(firstOf(frame, tsb_encode_done(frame.data(), command.token, command.type, time_us(now))), now);
+            return done();
         case TSB_GET_STATUS:
             return sendStatus(command.token, now);
         default:

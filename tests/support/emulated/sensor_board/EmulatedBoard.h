@@ -44,6 +44,7 @@ struct EmulatedBoardSettings {
     std::uint8_t blockSamples = 32, slowBlockSamples = 2;
     bool wideForce = false;                ///< force as int32
     std::optional<std::uint8_t> unit;      ///< of acceleration, in place of the right one
+    std::optional<std::uint8_t> done;      ///< the command that each DONE names, in place of the right one
     double drift_ppm = 0;                  ///< how much faster than the host's its clock runs
     std::uint64_t powerUp_us = 1'234'567;  ///< its clock when it is made
     Seconds latency{300e-6};               ///< of a frame on its way, at least
