@@ -41,7 +41,7 @@ void printHelp(std::FILE* to) {
     say(to, "tactoscope-cli {} - tactile-feedback stimulation, from fingertip to judged pulse train\n\n",
         TACTOSCOPE_VERSION);
     for (const auto& command : commands()) {
-        say(to, "{}        {}\n", howToCall(command, "  "), command.summary);
+        say(to, "{}        {}\n", lines(howToCall(command, "  ")), command.summary);
     }
     say(to,
         "\nExit codes: 0 done and passed, 1 a verdict failed, 2 usage, 3 could not run (device, file),\n"
@@ -83,7 +83,7 @@ int runCommand(const Command& command, int argc, char** argv) {
                                  command.name, command.arguments));
     }
     if (parser.isSet("help")) {
-        say("{}", howToCall(command, ""));
+        say("{}", lines(howToCall(command, "")));
         say("{}\n", lines(parser.helpText().section('\n', 1).toStdString()));
         return kDone;
     }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <QObject>
+#include <QFuture>
 #include <QPromise>
 #include <QThreadPool>
 #include <memory>

@@ -4,6 +4,7 @@
 #include <QMenu>
 #include <QPdfDocument>
 #include <QPdfView>
+#include <QProgressBar>
 #include <QToolButton>
 #include <gmock/gmock.h>
 

@@ -1,6 +1,7 @@
 // What one expects of every good program: drop files on it, find them again, help at hand, and that it looks
 // tomorrow as it was left today.
 #include <QComboBox>
+#include <QDockWidget>
 #include <QDropEvent>
 #include <QMenu>
 #include <QMenuBar>
