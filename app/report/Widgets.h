@@ -3,6 +3,8 @@
 //
 // <QtWidgets> is all of Qt's core and drawing: 450 MB precompiled, which every file takes two seconds to load. So is
 // what qcustomplot.h includes to print; it needs the printer alone.
+//
+// Thread-safety: Qt's: widgets belong to the main thread.
 #pragma once
 
 #include <QApplication>

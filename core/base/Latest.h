@@ -3,10 +3,12 @@
 // A sequence lock: the writer never waits; a reader that met a write in progress reads again. Values are
 // copied word by word through atomics (release stores, acquire loads), so a torn copy is thrown away
 // rather than undefined: a reader that saw any new word also sees the odd sequence number before it.
+// The writer stores what differs from the value before: telemetry is written each step, and most of it stays.
 //
 // Thread-safety: write() has one caller at a time; read() any thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -23,11 +25,18 @@ class Latest {
 public:
     /// One writer at a time.
     void write(const T& value) noexcept {
-        std::uint64_t words[kWords] = {};
-        std::memcpy(words, &value, sizeof(T));
+        const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
+        auto* const written = reinterpret_cast<std::byte*>(written_.data());
         const auto sequence = sequence_.load(std::memory_order_relaxed);
         sequence_.store(sequence + 1, std::memory_order_release);
-        for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
+        for (std::size_t word = 0; word < kWords; word += kBlock) {
+            const auto at = word * sizeof(std::uint64_t);
+            const auto size = std::min(kBlock * sizeof(std::uint64_t), sizeof(T) - at);
+            if (std::memcmp(written + at, bytes + at, size) == 0) continue;
+            std::memcpy(written + at, bytes + at, size);
+            for (auto i = word; i < std::min(word + kBlock, kWords); ++i)
+                words_[i].store(written_[i], std::memory_order_release);
+        }
         sequence_.store(sequence + 2, std::memory_order_release);
     }
 
@@ -46,8 +55,10 @@ public:
 
 private:
     static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
+    static constexpr std::size_t kBlock = 32;  ///< words that are compared at a time
     std::atomic<std::uint64_t> sequence_{0};
     std::array<std::atomic<std::uint64_t>, kWords> words_{};
+    std::array<std::uint64_t, kWords> written_{};  ///< the same, for the writer alone
 };
 
 }  // namespace tacto

@@ -12,6 +12,10 @@ const void* RecordTable::Field::held(const void* record) const {
     return optional != nullptr ? optional->get(member) : member;
 }
 
+void RecordTable::Field::clear(void* record) const {
+    if (optional != nullptr) optional->reset(in(record));
+}
+
 Result<void> RecordTable::Field::read(const json& value, void* record, const RecordPlace& place) const {
     void* member = in(record);
     return kind.readInto(value, optional != nullptr ? optional->emplace(member) : member, place, kind.info.key);
@@ -51,7 +55,7 @@ Result<void> RecordTable::read(const json& object, void* into, const RecordPlace
         const bool isNull = found != object.end() && found->is_null();
         const bool isThere = found != object.end() && !(isNull && nullIsMissing_);
         if (isNull && info.mayBeNull && !info.leftOutIfEmpty)
-            field.optional->reset(field.in(into));
+            field.clear(into);
         else if (info.required && (!isThere || isNull))
             done = place.refuse(ErrorCode::ParseError, info.key, "missing", info.accepted);
         else if (isThere)

@@ -48,6 +48,8 @@ private:
         const OptionalAccess* optional;
 
         [[nodiscard]] void* in(void* record) const noexcept { return static_cast<std::byte*>(record) + offset; }
+        /// What is no std::optional keeps what it holds.
+        void clear(void* record) const;
         /// Null where the member is a std::optional that holds nothing.
         [[nodiscard]] const void* held(const void* record) const;
         [[nodiscard]] Result<void> read(const nlohmann::json& value, void* record, const RecordPlace& place) const;

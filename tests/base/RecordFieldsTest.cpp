@@ -61,6 +61,14 @@ TEST(RecordFields, NullIsNoValueWhereAMissingKeyIsHowNoneIsWritten) {
     EXPECT_THAT(read.error().message, HasSubstr("area_cm2"));
 }
 
+TEST(RecordFields, NullLeavesAMemberAloneThatCannotBeEmpty) {
+    RecordFields<Thing> all;
+    all.number("count", &Thing::count).mayBeNull = true;
+    all.record("grip", &Thing::grip, gripFields()).mayBeNull = true;
+    EXPECT_EQ(all.read(json{{"count", nullptr}, {"grip", nullptr}}, {}).value(), Thing{});
+    EXPECT_TRUE(all.read(json{{"count", 3}}, {}).has_value());
+}
+
 std::string refusal(const json& object) {
     const auto read = thingFields().read(object, {.file = "a.json"});
     return read ? "accepted" : read.error().message;

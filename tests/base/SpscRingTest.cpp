@@ -2,6 +2,7 @@
 #include <thread>
 
 #include "core/base/SpscRing.h"
+#include "tests/support/Trials.h"
 
 namespace tacto {
 namespace {
@@ -63,7 +64,7 @@ TEST_P(SpscRingThreads, LoseNothingUncountedAndTearNothing) {
 #ifdef TACTOSCOPE_SANITIZED
     constexpr std::uint64_t kPushes = 50'000;
 #else
-    constexpr std::uint64_t kPushes = 500'000;
+    const auto kPushes = test::trials<std::uint64_t>({.local = 100'000, .ci = 500'000, .campaign = 5'000'000});
 #endif
     SpscRing<Element> ring(GetParam());
     std::atomic<bool> done{false};

@@ -1,8 +1,8 @@
 // The short run of a fuzz target in the ordinary builds, without clang:
 //   fuzzed TARGET CORPUS_FOLDER [--dictionary FILE] [--inputs N] [--seconds S] [--seed K]
 //   fuzzed TARGET FILE          one input again
-// Runs every file of the folder, then N (200000) inputs made of them and of the dictionary's words, until S (3) seconds
-// are over. Without --seed each run draws another, and says which.
+// Runs every file of the folder, then N (200000) inputs made of them and of the dictionary's words, until S (1; where a
+// change lands 3, under a sanitizer 3) seconds are over. Without --seed each run draws another, and says which.
 //
 // The inputs run in a process of their own and lie in memory that both share. So an input that kills it, in whatever
 // way (a failed check, a sanitizer, no memory), or that never ends, is still there: it is kept in
@@ -27,6 +27,7 @@
 
 #include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/Mutation.h"
+#include "tests/support/Trials.h"
 
 namespace {
 
@@ -37,13 +38,19 @@ using tacto::fuzz::Target;
 constexpr unsigned kMaxInput_s = 20;
 constexpr int kMisused = 2;
 
+#ifdef TACTOSCOPE_SANITIZED
+constexpr std::uint64_t kSeconds = 3;
+#else
+const auto kSeconds = tacto::test::trials<std::uint64_t>({.local = 1, .ci = 3, .campaign = 30});
+#endif
+
 struct Options {
     std::string name;
     Target target = nullptr;
     std::filesystem::path inputs;
     std::filesystem::path dictionary;
     std::uint64_t count = 200'000;
-    std::uint64_t seconds = 3;
+    std::uint64_t seconds = kSeconds;
     std::uint64_t seed = std::random_device{}();
 };
 
