@@ -193,24 +193,22 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
                     "session {} of {} ({}) is unfinished; --set unfinished=resume or unfinished=end is expected",
                     unfinished_->number, who_.code, unfinished_->protocol);
     if (unfinished_->protocol != order.script.name)
-        return fail(ErrorCode::NotFound,
-                    "session {} of {} is of {}; it goes on with that protocol, or ends with "
-                    "--set unfinished=end",
-                    unfinished_->number, who_.code, unfinished_->protocol);
+        return fail(ErrorCode::NotFound, "session {} of {} is of {}; it goes on with that protocol, or ends with {}",
+                    unfinished_->number, who_.code, unfinished_->protocol, whatEnds());
     auto rows = pilotRows(*study_, *unfinished_);
     if (!rows) return failure(rows);
     earlier_ = std::move(*rows);
     return mayResume();
 }
 
+std::string_view PilotRun::whatEnds() const { return inWindow_ ? "“End it as stopped”" : "--set unfinished=end"; }
+
 Result<void> PilotRun::mayResume() const {
     const auto now = SystemTime::real().wall();
     if (now - earlier_.lastAt <= kResumedWithin) return {};
-    return fail(kGateRefused,
-                "session {} of {} was broken off {:.1f} h ago; it can go on within 2 h, and is ended with --set "
-                "unfinished=end",
+    return fail(kGateRefused, "session {} of {} was broken off {:.1f} h ago; it can go on within 2 h, and ends with {}",
                 unfinished_->number, who_.code,
-                std::chrono::duration<double, std::ratio<3600>>(now - earlier_.lastAt).count());
+                std::chrono::duration<double, std::ratio<3600>>(now - earlier_.lastAt).count(), whatEnds());
 }
 
 /// What was too strong, and the range, were found with the first part's device and hold for no other.
@@ -222,11 +220,10 @@ Result<void> PilotRun::sameDevice(const DeviceSet& devices) const {
     const auto named = [](const std::string& name, const std::string& serial) {
         return serial.empty() ? name : name + " " + serial;
     };
-    return fail(
-        kGateRefused,
-        "session {} of {} was begun with {} and {} is connected; it goes on with the former, or ends with --set "
-        "unfinished=end",
-        unfinished_->number, who_.code, named(begun.name, begun.serial), named(now.name, now.serial));
+    return fail(kGateRefused,
+                "session {} of {} was begun with {} and {} is connected; it goes on with the former, or ends with {}",
+                unfinished_->number, who_.code, named(begun.name, begun.serial), named(now.name, now.serial),
+                whatEnds());
 }
 
 // The bench
@@ -339,6 +336,7 @@ Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock&
 Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder pilot, Registry& registry,
                                                     std::shared_ptr<BenchTap> tap) {
     std::unique_ptr<PilotRun> made(new PilotRun());
+    made->inWindow_ = pilot.people != nullptr;
     const auto answers = simulatedAnswers(order);
     if (!answers) return failure(answers);
     if (textOf(order, "participant").starts_with(kVirtual)) {  // Before a rehearsal is made for it

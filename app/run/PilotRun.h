@@ -59,6 +59,8 @@ private:
     [[nodiscard]] Result<void> openStudy(const RunOrder& order, const PilotOrder& pilot);
     [[nodiscard]] Result<void> chooseSession(const RunOrder& order);
     [[nodiscard]] Result<void> mayResume() const;
+    /// What ends an unfinished session, for messages: an option, or what the window offers.
+    [[nodiscard]] std::string_view whatEnds() const;
     [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
     [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
     void fitOrder(RunOrder& order, const PilotOrder& pilot);
@@ -68,6 +70,7 @@ private:
 
     std::optional<Study> study_;
     Participant who_;
+    bool inWindow_ = false;
     std::optional<StudySession> unfinished_;  // That is gone on with
     std::optional<BegunSession> begun_;
     SessionRequest request_;

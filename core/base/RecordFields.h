@@ -16,6 +16,7 @@
 // the JSON.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
@@ -102,6 +103,7 @@ public:
         static Record example{};
         const auto* at = reinterpret_cast<const std::byte*>(std::addressof(std::invoke(member, example)));
         const auto offset = static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&example));
+        assert(offset + sizeof(Held<Member>) <= sizeof(Record));
         return table_.add(key, offset, std::move(kind), Bare<Held<Member>>::kAccess);
     }
 

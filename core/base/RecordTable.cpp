@@ -18,7 +18,9 @@ void RecordTable::Field::clear(void* record) const {
 
 Result<void> RecordTable::Field::read(const json& value, void* record, const RecordPlace& place) const {
     void* member = in(record);
-    return kind.readInto(value, optional != nullptr ? optional->emplace(member) : member, place, kind.info.key);
+    auto done = kind.readInto(value, optional != nullptr ? optional->emplace(member) : member, place, kind.info.key);
+    if (!done) clear(record);  // a damaged row goes on: what was not read is none, and not 0
+    return done;
 }
 
 json RecordTable::Field::write(const void* record) const {

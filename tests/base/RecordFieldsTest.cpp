@@ -61,6 +61,15 @@ TEST(RecordFields, NullIsNoValueWhereAMissingKeyIsHowNoneIsWritten) {
     EXPECT_THAT(read.error().message, HasSubstr("area_cm2"));
 }
 
+TEST(RecordFields, WhatADamagedRowDoesNotTellIsNone) {
+    const json damaged{{"drive_v", 1}, {"time_s", "soon"}, {"area_cm2", "large"}};
+    const auto read = gripFields().read(damaged, {.lenient = true});
+    ASSERT_TRUE(read.has_value());
+    EXPECT_EQ(read->drive, Volts(1));
+    EXPECT_EQ(read->time, Seconds(1)) << "as it was";
+    EXPECT_FALSE(read->area.has_value()) << "not 0";
+}
+
 TEST(RecordFields, NullLeavesAMemberAloneThatCannotBeEmpty) {
     RecordFields<Thing> all;
     all.number("count", &Thing::count).mayBeNull = true;

@@ -6,8 +6,8 @@
 // Thread-safety: the GUI thread; the work itself must not touch widgets.
 #pragma once
 
-#include <QObject>
 #include <QFuture>
+#include <QObject>
 #include <QPromise>
 #include <QThreadPool>
 #include <memory>

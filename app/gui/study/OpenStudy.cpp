@@ -62,6 +62,13 @@ void OpenStudy::create(const QString& folder, const StudySettings& settings, std
     });
 }
 
+void OpenStudy::giveUpOpening() {
+    if (!busy()) return;
+    close();
+    // Behind it, and in its place: what it opens is forgotten unseen.
+    work_.start([](const WorkPort&) { return Result<void>(); }, [this](const Result<void>&) { emit changed(); });
+}
+
 void OpenStudy::close() {
     study_.reset();
     passphrase_.reset();

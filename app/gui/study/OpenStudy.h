@@ -37,6 +37,8 @@ public:
     /// `passphrase` null: a rehearsal. opened() or refused() follows.
     void open(const QString& folder, std::shared_ptr<const Secret> passphrase);
     void create(const QString& folder, const StudySettings& settings, std::shared_ptr<const Secret> passphrase);
+    /// What open() is at comes to nothing: neither opened() nor refused() follows.
+    void giveUpOpening();
     void close();
     /// For a session, which opens it by itself; takeBack() opens it again.
     void lend();

@@ -44,6 +44,7 @@ PassphraseDialog::PassphraseDialog(Purpose purpose, const QString& study, QWidge
     trouble_->setMinimumHeight(2 * fontMetrics().height());
     column->addWidget(trouble_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+    cancel_ = buttons->button(QDialogButtonBox::Cancel);
     go_ = buttons->addButton(isNew ? tr("Create the study") : tr("Open"), QDialogButtonBox::ActionRole);
     go_->setObjectName("usePassphrase");
     makePrimary(*go_);
@@ -52,7 +53,7 @@ PassphraseDialog::PassphraseDialog(Purpose purpose, const QString& study, QWidge
     connect(first_, &PassphraseEdit::edited, this, &PassphraseDialog::judge);
     connect(first_, &QLineEdit::returnPressed, this, &PassphraseDialog::give);
     connect(go_, &QPushButton::clicked, this, &PassphraseDialog::give);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(buttons, &QDialogButtonBox::rejected, this, &PassphraseDialog::reject);
     judge();
     first_->setFocus();
 }
@@ -64,6 +65,15 @@ void PassphraseDialog::judge() {
     }
     const bool whole = !first_->isEmpty() && (second_ == nullptr || first_->equals(*second_));
     go_->setEnabled(whole && !looking_);
+    cancel_->setEnabled(mayCancel());
+}
+
+bool PassphraseDialog::mayCancel() const { return !looking_ || purpose_ == Purpose::Open; }
+
+void PassphraseDialog::reject() {
+    if (!mayCancel()) return;
+    if (looking_) emit givenUp();
+    QDialog::reject();
 }
 
 void PassphraseDialog::give() {

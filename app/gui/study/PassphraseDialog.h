@@ -22,19 +22,24 @@ public:
     [[nodiscard]] std::shared_ptr<const Secret> passphrase() const { return passphrase_; }
     /// It did not open: says so, wiped, and asks again.
     void refuse(const QString& why);
+    /// Cancel. A study that is being made is made, so not meanwhile.
+    void reject() override;
 
 signals:
-    /// While it is looked at, which takes a second, nothing can be pressed.
+    /// While it is looked at, which takes a second, nothing but Cancel can be pressed.
     void given();
+    void givenUp();  ///< cancelled while a study is being opened
 
 private:
     void judge();
+    [[nodiscard]] bool mayCancel() const;
     void give();
     const Purpose purpose_;
     PassphraseEdit* first_;
     PassphraseEdit* second_ = nullptr;
     QLabel* trouble_;
     QPushButton* go_;
+    QPushButton* cancel_;
     bool looking_ = false;
     std::shared_ptr<const Secret> passphrase_;
 };

@@ -108,6 +108,7 @@ void StudyPage::open(const QString& folder) {
     if (!look->sealed) return study_.open(folder, nullptr);
     asks_ = new PassphraseDialog(PassphraseDialog::Purpose::Open, look->title, this);
     connect(asks_, &PassphraseDialog::given, this, [this, folder] { study_.open(folder, asks_->passphrase()); });
+    connect(asks_, &PassphraseDialog::givenUp, &study_, &OpenStudy::giveUpOpening);
     openDialog(asks_);
 }
 

@@ -250,6 +250,7 @@ TEST_F(StudyInTheWindow, ASessionThatWasBrokenOffGoesOnWithNoOtherMassager) {
     ASSERT_NO_FATAL_FAILURE(confirmCode());
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_THAT(trouble(), HasSubstr("was begun with haptic pad M1 and haptic pad M2 is connected"));
+    EXPECT_THAT(trouble(), testing::AllOf(HasSubstr("End it as stopped"), testing::Not(HasSubstr("--set"))));
     EXPECT_EQ(filesIn(place() / "sessions"), files);
 }
 

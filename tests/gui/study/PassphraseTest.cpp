@@ -1,6 +1,8 @@
 // A passphrase at the window: typed into locked memory, shown as dots, wrong ones refused in place.
 #include <QClipboard>
+#include <QDialogButtonBox>
 #include <QSettings>
+#include <QSignalSpy>
 
 #include "app/gui/study/PassphraseEdit.h"
 #include "tests/gui/study/OpenedStudy.h"
@@ -68,6 +70,42 @@ TEST_F(StudyInThePage, AWrongPassphraseIsOneSentenceAndIsAskedAgain) {
     EXPECT_TRUE(study.study()->hasKey());
     for (const auto& key : QSettings().allKeys())
         EXPECT_FALSE(QSettings().value(key).toString().contains("correct horse")) << key.toStdString();
+}
+
+TEST_F(StudyInThePage, CancelledWhileThePassphraseIsTriedNothingIsOpened) {
+    RecordProperty("hazard", "H11");
+    make();
+    page.open(folder());
+    auto* asks = qobject_cast<gui::PassphraseDialog*>(dialog("passphraseDialog"));
+    ASSERT_NE(asks, nullptr);
+    QSignalSpy opened(&study, &gui::OpenStudy::opened);
+    QObject::connect(asks, &gui::PassphraseDialog::given, asks, [asks] { QTest::keyClick(asks, Qt::Key_Escape); });
+    QTest::keyClicks(asks->findChild<QLineEdit*>("passphrase"), kWords);
+    click(*asks->findChild<QPushButton*>("usePassphrase"));
+    ASSERT_IN_TIME(comesTrue([this] { return !study.busy() && dialog("passphraseDialog") == nullptr; }));
+    EXPECT_EQ(opened.count(), 0);
+    EXPECT_EQ(study.study(), nullptr);
+    EXPECT_EQ(study.passphrase(), nullptr);
+    const auto words = Passphrase::from(kWords).value();
+    EXPECT_TRUE(Study::open(folder().toStdString(), &words, Study::Access::Change, around())) << "it is locked still";
+    open();
+}
+
+TEST(PassphraseDialog, WhileAStudyIsMadeItCannotBeCancelled) {
+    gui::PassphraseDialog asks(gui::PassphraseDialog::Purpose::New, "Four conditions", nullptr);
+    asks.show();
+    auto* cancel = asks.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel);
+    EXPECT_TRUE(cancel->isEnabled());
+    QTest::keyClicks(asks.findChild<QLineEdit*>("passphrase"), kWords);
+    QTest::keyClicks(asks.findChild<QLineEdit*>("passphraseAgain"), kWords);
+    click(*asks.findChild<QPushButton*>("usePassphrase"));
+    EXPECT_FALSE(cancel->isEnabled());
+    asks.reject();
+    EXPECT_TRUE(asks.isVisible());
+    asks.refuse("There is no room.");
+    EXPECT_TRUE(cancel->isEnabled());
+    asks.reject();
+    EXPECT_FALSE(asks.isVisible());
 }
 
 TEST_F(StudyInThePage, ClosingForgetsThePassphraseAndLetsOthersIn) {
