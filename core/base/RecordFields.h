@@ -100,9 +100,8 @@ public:
     }
     template <class Member>
     FieldInfo& add(std::string_view key, Member member, ValueKind<ValueOf<Member>> kind) {
-        static Record example{};
-        const auto* at = reinterpret_cast<const std::byte*>(std::addressof(std::invoke(member, example)));
-        const auto offset = static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&example));
+        auto* const at = reinterpret_cast<std::byte*>(std::addressof(std::invoke(member, example())));
+        const auto offset = static_cast<std::size_t>(at - reinterpret_cast<std::byte*>(&example()));
         assert(offset + sizeof(Held<Member>) <= sizeof(Record));
         return table_.add(key, offset, std::move(kind), Bare<Held<Member>>::kAccess);
     }
@@ -149,6 +148,12 @@ public:
     [[nodiscard]] ValueKind<Record> kind() const { return ValueKind<Record>(table_.kind()); }
 
 private:
+    /// A record that shows where its members stand.
+    [[nodiscard]] static Record& example() {
+        static Record one{};
+        return one;
+    }
+
     RecordTable table_;
 };
 
