@@ -15,7 +15,7 @@ using test::LoadSafetyRig;
 
 // The sanitizers look for other things than statistics, and are ten times slower.
 #ifdef TACTOSCOPE_SANITIZED
-const std::uint64_t kSeeds = 1, kRuns = 20;
+const std::uint64_t kSeeds = 1, kRuns = 4;
 #else
 const auto kSeeds = test::trials<std::uint64_t>({.local = 1, .ci = 3, .campaign = 30});
 const auto kRuns = test::trials<std::uint64_t>({.local = 40, .ci = 200, .campaign = 2000});
