@@ -79,8 +79,9 @@ int runCommand(const Command& command, int argc, char** argv) {
     auto words = QCoreApplication::arguments();
     words.removeAt(1);  // the command's name
     if (!parser.parse(words)) {
+        const bool hasForms = std::string_view(command.arguments).starts_with('{');
         return usage(fmt::format("{}: {} (tactoscope-cli {} {})", command.name, parser.errorText().toStdString(),
-                                 command.name, command.arguments));
+                                 command.name, hasForms ? "--help" : command.arguments));
     }
     if (parser.isSet("help")) {
         say("{}", lines(howToCall(command, "")));

@@ -34,6 +34,9 @@ TEST(Usage, HelpHasALineForEachFormOfACommand) {
     EXPECT_EQ(ran.code, 0);
     EXPECT_THAT(ran.out, testing::HasSubstr("\n" + leave));
     EXPECT_THAT(ran.out, testing::Not(testing::HasSubstr(" | ")));
+    const auto wrong = desk.run({"study", "--colour"});
+    expectRefused(wrong, 2, {"colour", "tactoscope-cli study --help"});
+    EXPECT_THAT(wrong.err, testing::Not(testing::HasSubstr(" | ")));
 }
 
 TEST(Usage, AnUnknownCommandIsNamedWithThoseThatExist) {
