@@ -69,8 +69,8 @@ PilotWorkspace::~PilotWorkspace() = default;
 
 QWidget* PilotWorkspace::buildHome() {
     home_ = new TabbedPage(pages_);
-    rehearsal_ = new RehearsalPage(home_);
-    studies_ = new StudyPage(study_, home_);
+    rehearsal_ = new RehearsalPage(home_->room());
+    studies_ = new StudyPage(study_, home_->room());
     home_->addTab(rehearsal_, tr("Rehearsal"));
     home_->addTab(studies_, tr("Study"));
     connect(rehearsal_, &RehearsalPage::beginWanted, this, [this] { beginRehearsal(false); });

@@ -61,7 +61,8 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     auto* whole = new QVBoxLayout(this);
     whole->setContentsMargins(0, 0, 0, 0);
     whole->setSpacing(0);
-    auto* inside = new QWidget(this);
+    auto* page = new ScrollingPage(this);
+    auto* inside = new QWidget(page->viewport());
     auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad);
     column->setSpacing(12);
@@ -129,7 +130,8 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     column->addWidget(holder);
     column->addWidget(seats_->about());
     column->addStretch();
-    whole->addWidget(new ScrollingPage(inside, this), 1);
+    page->hold(inside);
+    whole->addWidget(page, 1);
     auto* foot = new QVBoxLayout;
     foot->setContentsMargins(kPagePad, 12, kPagePad, 12);
     foot->setSpacing(8);

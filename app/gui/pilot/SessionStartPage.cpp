@@ -35,7 +35,8 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     auto* whole = new QVBoxLayout(this);
     whole->setContentsMargins(0, 0, 0, 0);
     whole->setSpacing(0);
-    auto* inside = new QWidget(this);
+    auto* page = new ScrollingPage(this);
+    auto* inside = new QWidget(page->viewport());
     inside->setMaximumWidth(scaledPx(kStartWide));
     auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(kStartPad, kStartPad, kStartPad, kStartPad);
@@ -82,7 +83,8 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     asks->addWidget(checklist_);
     asks->addStretch();
     column->addStretch();
-    whole->addWidget(new ScrollingPage(inside, this), 1);
+    page->hold(inside);
+    whole->addWidget(page, 1);
     trouble_->setObjectName("sessionTrouble");
     trouble_->setContentsMargins(kStartPad, 0, kStartPad, 8);
     setTone(*trouble_, Tone::Warning);

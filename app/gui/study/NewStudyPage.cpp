@@ -27,7 +27,8 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     auto* whole = new QVBoxLayout(this);
     whole->setContentsMargins(0, 0, 0, 0);
     whole->setSpacing(0);
-    auto* inside = new QWidget(this);
+    auto* page = new ScrollingPage(this);
+    auto* inside = new QWidget(page->viewport());
     auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(kNewPad, kNewPad, kNewPad, kNewPad);
     column->setSpacing(12);
@@ -61,7 +62,8 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     form_->setMaximumWidth(scaledPx(kFormWide));
     column->addWidget(form_);
     column->addStretch();
-    whole->addWidget(new ScrollingPage(inside, this), 1);
+    page->hold(inside);
+    whole->addWidget(page, 1);
     auto* below = new QVBoxLayout;
     below->setContentsMargins(kNewPad, 12, kNewPad, 12);
     below->setSpacing(8);

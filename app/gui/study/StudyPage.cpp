@@ -21,15 +21,17 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
     : QWidget(parent),
       study_(study),
       pages_(new QStackedWidget(this)),
-      new_(new NewStudyPage(study, pages_)),
-      list_(new StudyList(study, pages_)) {
+      new_(new NewStudyPage(study, pages_)) {
     setObjectName("studyPage");
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->addWidget(pages_);
     pages_->addWidget(buildNone());
     pages_->addWidget(new_);
-    pages_->addWidget(new ScrollingPage(list_, pages_));
+    auto* list = new ScrollingPage(pages_);
+    list_ = new StudyList(study_, list->viewport());
+    list->hold(list_);
+    pages_->addWidget(list);
     connect(new_, &NewStudyPage::cancelled, this, [this] { pages_->setCurrentIndex(kNone); });
     connect(list_, &StudyList::sessionWanted, this, &StudyPage::sessionWanted);
     connect(&study_, &OpenStudy::opened, this, [this] {

@@ -37,7 +37,7 @@ private:
     OpenStudy& study_;
     QStackedWidget* pages_;
     NewStudyPage* new_;
-    StudyList* list_;
+    StudyList* list_ = nullptr;
     QLabel* trouble_ = nullptr;
     QPointer<PassphraseDialog> asks_;
 };

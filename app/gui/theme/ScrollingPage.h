@@ -11,8 +11,10 @@ namespace tacto::gui {
 class ScrollingPage final : public QScrollArea {
     Q_OBJECT
 public:
-    /// Takes the page.
-    ScrollingPage(QWidget* page, QWidget* parent);
+    explicit ScrollingPage(QWidget* parent);
+    /// Takes the page. One that was made with viewport() as its parent stays where it is; any other moves here, and
+    /// each widget in it takes its style anew.
+    void hold(QWidget* page);
     /// None of the page's: one that stands within another scrolls by itself.
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
 };

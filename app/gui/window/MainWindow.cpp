@@ -55,6 +55,22 @@ constexpr int kFrame_ms = 33;
 constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 constexpr int kDocksFrom = 960;      // narrower windows, as with large text, begin with the docks in a strip
 
+/// A workspace, made where it stands.
+template <typename Workspace, typename... Arguments>
+Workspace* makeIn(ScrollingPage& page, Arguments&&... arguments) {
+    auto* workspace = new Workspace(std::forward<Arguments>(arguments)..., page.viewport());
+    page.hold(workspace);
+    return workspace;
+}
+
+template <typename Workspace, typename... Arguments>
+Workspace* addPage(QStackedWidget& pages, Arguments&&... arguments) {
+    auto* page = new ScrollingPage(&pages);
+    auto* workspace = makeIn<Workspace>(*page, std::forward<Arguments>(arguments)...);
+    pages.addWidget(page);
+    return workspace;
+}
+
 enum LiveTab { kTouch, kScope };
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
 
@@ -140,10 +156,12 @@ MainWindow::~MainWindow() {
 void MainWindow::buildLive() {
     livePage_ = new TabbedPage(pages_);
     livePage_->setObjectName("livePage");
-    live_ = new LiveWorkspace(controller_, livePage_);
-    scope_ = new ScopeWorkspace(controller_, livePage_);
-    livePage_->addTab(new ScrollingPage(live_, livePage_), tr("&Touch"), live_->tools());
-    livePage_->addTab(new ScrollingPage(scope_, livePage_), tr("&Oscilloscope"), scope_->tools());
+    auto* touch = new ScrollingPage(livePage_->room());
+    live_ = makeIn<LiveWorkspace>(*touch, controller_);
+    livePage_->addTab(touch, tr("&Touch"), live_->tools());
+    auto* oscilloscope = new ScrollingPage(livePage_->room());
+    scope_ = makeIn<ScopeWorkspace>(*oscilloscope, controller_);
+    livePage_->addTab(oscilloscope, tr("&Oscilloscope"), scope_->tools());
     pages_->addWidget(livePage_);
     connect(live_, &LiveWorkspace::refusedRecording, banner_, &NoticeBanner::complain);
     connect(scope_, &ScopeWorkspace::openBenchWanted, this, &MainWindow::openSimulatedBench);
@@ -151,20 +169,14 @@ void MainWindow::buildLive() {
 
 void MainWindow::buildOthers() {
     if (closing_ != nullptr) return;
-    calibrate_ = new CalibrateWorkspace(controller_, calibrations_, pages_);
-    pages_->addWidget(new ScrollingPage(calibrate_, pages_));
-    safetyCheck_ = new ProtocolWorkspace(controller_, "load-safety", pages_);
-    pages_->addWidget(new ScrollingPage(safetyCheck_, pages_));
-    separability_ = new ProtocolWorkspace(controller_, "separability", pages_);
-    pages_->addWidget(new ScrollingPage(separability_, pages_));
-    pilot_ = new PilotWorkspace(controller_, pages_);
-    pages_->addWidget(new ScrollingPage(pilot_, pages_));
+    calibrate_ = addPage<CalibrateWorkspace>(*pages_, controller_, calibrations_);
+    safetyCheck_ = addPage<ProtocolWorkspace>(*pages_, controller_, "load-safety");
+    separability_ = addPage<ProtocolWorkspace>(*pages_, controller_, "separability");
+    pilot_ = addPage<PilotWorkspace>(*pages_, controller_);
     connect(pilot_, &PilotWorkspace::attentionWanted, this, [this] { showWorkspace(kPilot); });
     connect(pilot_, &PilotWorkspace::runningChanged, this, &MainWindow::noteBlind);
-    sessions_ = new SessionsWorkspace(controller_, pages_);
-    pages_->addWidget(new ScrollingPage(sessions_, pages_));
-    protocols_ = new ProtocolWorkspace(controller_, QString(), pages_);
-    pages_->addWidget(new ScrollingPage(protocols_, pages_));
+    sessions_ = addPage<SessionsWorkspace>(*pages_, controller_);
+    protocols_ = addPage<ProtocolWorkspace>(*pages_, controller_, QString());
     for (auto* runner : calibrate_->runners())
         connect(runner, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kCalibrate); });
     connect(safetyCheck_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSafetyCheck); });
