@@ -368,7 +368,28 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     if (made->unfinished_) made->session_->resumesFrom(made->unfinished_->parts.back().file, made->earlier_.chainHead);
     auto* raw = made.get();
     made->session_->stillApproved = [raw] { return raw->study_->stillApproved(); };
+    made->session_->care().skinReacted = [raw](const std::string& moment, int score) {
+        return raw->noteSkin(moment, score);
+    };
     return made;
+}
+
+/// In the ledger, which a withdrawal leaves. How severe it is and what it comes from is the investigator's to say: until
+/// then it counts as what it may be at worst.
+Result<void> PilotRun::noteSkin(const std::string& moment, int score) {
+    AdverseEvent event;
+    event.what = fmt::format("skin at the {} scored {} of 4 ({}); severity and relation as noted by the program, for "
+                             "the investigator to judge",
+                             settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes", score, moment);
+    event.severity = score;
+    event.relation = 5;
+    const auto& session = begun_->session.id;
+    const auto noted = study_->adverseEvents();
+    if (!noted) return failure(noted);
+    const bool known = std::ranges::any_of(*noted, [&](const auto& each) {
+        return each.first == session && each.second.what == event.what;  // before it was broken off and resumed
+    });
+    return known ? Result<void>() : study_->adverseEvent(session, event);
 }
 
 Result<void> PilotRun::start(RunRequest hooks) {

@@ -15,6 +15,9 @@ constexpr double kChecksAgree = 0.2;  // two checks, 30 s apart
 constexpr double kBlocksAgree = 0.3;  // before a block, and on a resume
 constexpr int kSkinEnds = 2;          // erythema or oedema from which a session ends
 constexpr std::chrono::milliseconds kStopIn{10};
+constexpr int kStopTries = 3;  // while the other one's STOP is pressed
+
+double inMs(std::chrono::nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
 
 constexpr Word<int> kSkinScores[] = {{"0", 0}, {"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}};
 
@@ -82,6 +85,14 @@ std::string machineLacks(const DeviceSet& devices, const Profile& profile, Level
     return {};
 }
 
+PilotCare::PilotCare(PilotStage& stage) : stage_(stage) {
+    stage_.afterFault = [this]() -> Result<void> {
+        // Where nothing was measured before, the checklist is still to do it.
+        if (stage_.settings().unit == LevelUnit::Intensity || firstImpedance() == nullptr) return {};
+        return asAtFirst(fmt::format("fault {}", stage_.record().count(row::kFault)));
+    };
+}
+
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
 
 /// The impedance measured in the first part of the session that has one; null where none has.
@@ -116,44 +127,39 @@ Result<void> PilotCare::machine() {
     return gate(part() + " machine", missing.empty(), missing + ". Nothing was presented");
 }
 
-/// Pressed once, and seen off in time.
+/// Pressed once, and seen off in time. The other one's STOP proves nothing of this one: it is asked again.
 Result<void> PilotCare::stopTest(PromptTo by) {
     const auto name = fmt::format("{} {}", part(), nameOf(by));
-    if (auto armed = stage_.arm(); !armed) return armed;
-    auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
-    prompt.name = "stop-test";
-    PilotScreen screen;  // from here on a stop is theirs
-    screen.phase = "checklist";
-    screen.text = prompt.text;
-    stage_.participant().show(screen);
-    const auto asked = stage_.participant().ask(prompt);
-    constexpr auto kNoStop = std::chrono::nanoseconds::max();
-    const auto took = asked ? kNoStop : stage_.takeStop().value_or(kNoStop);
-    const bool pressed = took != kNoStop;
-    stage_.rest();
-    const double took_ms = pressed ? std::chrono::duration<double, std::milli>(took).count() : kNaN;
-    nlohmann::json body{{"by", nameOf(by)}, {"pressed", pressed}, {"off_ms", took_ms}};
-    if (auto kept = stage_.record().write(row::kStopTest, name, std::move(body)); !kept) return kept;
-    if (auto begun = stage_.bench().begin(stage_.bench().stops().mark()); !begun) return begun;
-    screen.text.clear();
-    stage_.participant().show(screen);  // the stop of the test is over
-    return gate(name + " stop", took <= kStopIn,
-                pressed ? fmt::format("the {}'s STOP took {:.1f} ms to switch off; at most 10 ms are accepted",
-                                      nameOf(by), took_ms)
-                        : fmt::format("the {}'s STOP was not pressed in its test", nameOf(by)));
-}
-
-Result<double> PilotCare::measureImpedance(const std::string& name) {
-    stage_.rest();
-    ArmRequest request;
-    request.declaredLoadConfirmed = true;
-    request.operatorConfirmed = true;
-    const auto found = stage_.bench().checkImpedance(request);
-    if (!found) return failure(found);
-    const double ohm = *found ? (*found)->value() : kNaN;
-    if (auto kept = stage_.record().write(row::kImpedance, name, {{"impedance_ohm", ohm}}); !kept) return failure(kept);
-    stage_.noteImpedance(ohm);
-    return ohm;
+    const auto other = by == PromptTo::Participant ? PromptTo::Operator : PromptTo::Participant;
+    std::optional<PilotStage::PressedStop> pressed;
+    bool theirs = false;
+    for (int asked = 0; asked < kStopTries && !theirs; ++asked) {
+        if (auto armed = stage_.arm(); !armed) return armed;
+        auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
+        prompt.name = "stop-test";
+        PilotScreen screen;  // from here on a stop is theirs
+        screen.phase = "checklist";
+        screen.text = prompt.text;
+        stage_.participant().show(screen);
+        const auto answered = stage_.participant().ask(prompt);
+        pressed = stage_.takeStop();
+        if (answered) pressed.reset();
+        theirs = pressed && pressed->participants == (by == PromptTo::Participant);
+        stage_.rest();
+        nlohmann::json body{{"by", nameOf(by)}, {"pressed", theirs}, {"off_ms", theirs ? inMs(pressed->took) : kNaN}};
+        if (pressed && !theirs) body["other"] = nameOf(other);
+        if (auto kept = stage_.record().write(row::kStopTest, name, std::move(body)); !kept) return kept;
+        if (auto begun = stage_.bench().begin(stage_.bench().stops().mark()); !begun) return begun;
+        screen.text.clear();
+        stage_.participant().show(screen);  // the stop of the test is over
+        if (!pressed) break;
+    }
+    return gate(name + " stop", theirs && pressed->took <= kStopIn,
+                theirs    ? fmt::format("the {}'s STOP took {:.1f} ms to switch off; at most 10 ms are accepted",
+                                        nameOf(by), inMs(pressed->took))
+                : pressed ? fmt::format("in the test of the {}'s STOP the {}'s was pressed, {} times", nameOf(by),
+                                        nameOf(other), kStopTries)
+                          : fmt::format("the {}'s STOP was not pressed in its test", nameOf(by)));
 }
 
 Result<void> PilotCare::electrodes() {
@@ -171,10 +177,10 @@ Result<void> PilotCare::electrodes() {
             return stage_.end(PilotEnd::Stopped,
                               "the electrodes were touched since the last answer, which ends a session");
     }
-    const auto first = measureImpedance(part() + " first");
+    const auto first = stage_.measureImpedance(part() + " first");
     if (!first) return failure(first);
     if (auto passed = stage_.pass(kBetweenChecks); !passed) return passed;
-    const auto second = measureImpedance(part() + " second");
+    const auto second = stage_.measureImpedance(part() + " second");
     if (!second) return failure(second);
     const double change = std::abs(*second - *first) / *first;
     if (auto held = gate(part() + " impedance", change <= kChecksAgree,
@@ -212,10 +218,13 @@ Result<void> PilotCare::massager() {
 Result<void> PilotCare::beforeBlock(int block) {
     if (stage_.settings().unit == LevelUnit::Intensity) return {};
     const auto name = fmt::format("block {}", block);
-    if (stage_.record().find(row::kImpedance, name) != nullptr) return {};
+    return stage_.record().find(row::kImpedance, name) != nullptr ? Result<void>() : asAtFirst(name);
+}
+
+Result<void> PilotCare::asAtFirst(const std::string& name) {
     const auto* begun = firstImpedance();
     const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;
-    const auto now = measureImpedance(name);
+    const auto now = stage_.measureImpedance(name);
     if (!now) return failure(now);
     return gate(name + " impedance", std::abs(*now - before) / before <= kBlocksAgree,
                 fmt::format("the electrodes measure {:.0f} ohm after {:.0f} ohm; a change of at most 30 % is accepted. "
@@ -231,7 +240,7 @@ Result<void> PilotCare::skin(const std::string& moment) {
         if (!said) return failure(said);
         const auto score = valueFor(kSkinScores, textOr(*said, "key"));
         if (!score)
-            return fail(ErrorCode::InvalidArgument, "{}: {} is no score; 0 to 4 is expected", what, said->dump());
+            return fail(ErrorCode::InvalidArgument, "{}: {} is no score; 0 to 4 is expected", what, dumpJson(*said));
         worst = std::max(worst, *score);
     }
     if (stage_.record().find(row::kGate, "skin " + moment) != nullptr) return {};
@@ -239,6 +248,9 @@ Result<void> PilotCare::skin(const std::string& moment) {
     if (worst >= kSkinEnds) {
         if (auto kept = stage_.record().write(row::kAdverseEvent, "skin " + moment, {{"score", worst}}); !kept)
             return kept;
+        if (skinReacted) {
+            if (auto told = skinReacted(moment, worst); !told) return told;
+        }
     }
     return gate(
         "skin " + moment, worst <= most,

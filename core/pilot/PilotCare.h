@@ -4,6 +4,7 @@
 // Thread-safety: one caller, the session's thread.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,10 @@ namespace tacto {
 
 class PilotCare {
 public:
-    /// `stage` outlives it.
-    explicit PilotCare(PilotStage& stage) : stage_(stage) {}
+    /// `stage` outlives it, and measures |Z| anew after a fault: within 30 % of the session's first, as before a block.
+    explicit PilotCare(PilotStage& stage);
+    PilotCare(const PilotCare&) = delete;
+    PilotCare& operator=(const PilotCare&) = delete;
 
     /// In every part: machine, both STOPs, and the electrodes, or with a massager the masking noise. The first part
     /// asks for the skin before and the electrodes' lot too; a later one whether electrodes or massager were left
@@ -27,6 +30,9 @@ public:
     [[nodiscard]] Result<void> checklist();
     /// |Z| before a block, within 30 % of the session's first; a massager has none. Errors: as checklist().
     [[nodiscard]] Result<void> beforeBlock(int block);
+    /// Told of a score that ends a session and is an adverse event: of the study, not of the session alone. Its error
+    /// is skin()'s.
+    std::function<Result<void>(const std::string& moment, int score)> skinReacted;
     /// `moment`: "before", "break 3", "after". Errors: Stopped where it ends the session.
     [[nodiscard]] Result<void> skin(const std::string& moment);
     /// Each condition felt once more without its name, and rated. After a second encoding also which of the two was
@@ -41,7 +47,8 @@ private:
     [[nodiscard]] Result<void> compareEncodings();
     [[nodiscard]] Result<void> electrodes();
     [[nodiscard]] Result<void> massager();
-    [[nodiscard]] Result<double> measureImpedance(const std::string& name);
+    /// |Z|, into the record as `name`; the session ends where it is not what it was at first.
+    [[nodiscard]] Result<void> asAtFirst(const std::string& name);
     /// Ends the session where the gate does not hold.
     [[nodiscard]] Result<void> gate(const std::string& name, bool holds, const std::string& sentence);
     [[nodiscard]] std::string part() const;

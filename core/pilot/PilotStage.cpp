@@ -18,6 +18,7 @@ constexpr Word<PilotEnd> kPilotEnds[] = {
 
 constexpr std::size_t kMaxStops = 3;   // of the participant: the third ends the session
 constexpr std::size_t kMaxFaults = 2;  // the second ends it
+constexpr int kArmingTries = 3;        // while the check pulse finds an electrode that lifted
 constexpr std::size_t kMaxLate = 5;    // presentations in a row that the bench could not begin in time
 constexpr Seconds kMinPause{2};        // from an answer to the next first train
 constexpr Seconds kDot{0.5};           // the dot is shown so long before it
@@ -106,9 +107,10 @@ Result<void> PilotStage::end(PilotEnd how, const std::string& why) {
     return fail(ErrorCode::Stopped, "{}", why);
 }
 
-std::optional<std::chrono::nanoseconds> PilotStage::takeStop() noexcept {
-    if (stoppedBy_.exchange(nullptr) == nullptr) return std::nullopt;
-    return std::chrono::nanoseconds(stopTook_.load());
+std::optional<PilotStage::PressedStop> PilotStage::takeStop() noexcept {
+    const char* by = stoppedBy_.exchange(nullptr);
+    if (by == nullptr) return std::nullopt;
+    return PressedStop{isParticipants(by), std::chrono::nanoseconds(stopTook_.load())};
 }
 
 // Presenting and asking
@@ -118,6 +120,10 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
     if (const auto* silent = record_.find(row::kNoAnswer, silentName(trial))) return replay(trial, *silent);
     for (std::size_t late = 0; late < kMaxLate;) {
         if (auto armed = ready(); !armed) return failure(armed);
+        if (trial.held && !participant_.holding()) {
+            if (auto held = hold(); !held) return failure(held);
+            continue;  // a stop may have come before they held: armed anew
+        }
         const auto number = record_.begun(trial.name) + 1;
         auto answer = attempt(trial, number);
         if (answer && *answer) return **answer;
@@ -260,46 +266,96 @@ Result<void> PilotStage::writeEarly(const StageTrial& trial) {
 
 Result<PilotStage::Json> PilotStage::ask(const char* kind, const std::string& name, const PilotPrompt& prompt) {
     return record_.once(kind, name, [&]() -> Result<Json> {
-        for (;;) {
-            bench_.attend(kAskingTakes);
-            auto said = participant_.ask(prompt);
-            if (said) {
-                if (!participant_.answersInRealTime()) {
-                    if (auto passed = pass(said->after); !passed) return failure(passed);
-                }
-                lastAnswer_ = bench_.clock().now();
-                Json body{{"asked", prompt.name}, {"to", nameOf(prompt.to)}, {"rt_s", said->after.count()}};
-                if (said->value) body["value"] = *said->value;
-                if (prompt.kind == PromptKind::Several)
-                    body["keys"] = said->keys;
-                else if (!said->keys.empty())
-                    body["key"] = said->key();
-                return body;
-            }
-            if (auto goesOn = recover(name, said.error()); !goesOn) return failure(goesOn);
+        const auto said = insist(prompt);
+        if (!said) return failure(said);
+        if (!participant_.answersInRealTime()) {
+            if (auto passed = pass(said->after); !passed) return failure(passed);
         }
+        lastAnswer_ = bench_.clock().now();
+        Json body{{"asked", prompt.name}, {"to", nameOf(prompt.to)}, {"rt_s", said->after.count()}};
+        if (said->value) body["value"] = *said->value;
+        if (prompt.kind == PromptKind::Several)
+            body["keys"] = said->keys;
+        else if (!said->keys.empty())
+            body["key"] = said->key();
+        return body;
     });
+}
+
+Result<PilotAnswer> PilotStage::insist(const PilotPrompt& prompt) {
+    for (;;) {
+        bench_.attend(kAskingTakes);
+        auto said = participant_.ask(prompt);
+        if (said) return said;
+        if (auto goesOn = recover(prompt.name, said.error()); !goesOn) return failure(goesOn);
+    }
+}
+
+Result<void> PilotStage::hold() {
+    const auto held = insist(holdPrompt());
+    return held ? Result<void>() : failure(held);
 }
 
 // Arming, and reaching the levels of a resumed session again
 
-Result<void> PilotStage::arm() {
-    if (armed_) return {};
+Result<ArmRequest> PilotStage::confirmed(const char* question) {
     ArmRequest request;
     request.declaredLoadConfirmed = true;
     request.operatorConfirmed = true;
-    if (bench_.outputIsReal()) {
-        const auto load = parseLoad(request.load);
-        request.confirmed = load ? bench_.armingText(*load) : std::string();
-        const auto asked =
-            participant_.ask(yesNoPrompt("arm", fmt::format("Arm {}?", request.confirmed), PromptTo::Operator));
-        if (!asked) return failure(asked);
-        if (asked->key() != "yes")
-            return fail(ErrorCode::NotArmed, "the operator did not confirm {}", request.confirmed);
+    if (!bench_.outputIsReal()) return request;
+    const auto load = parseLoad(request.load);
+    request.confirmed = load ? bench_.armingText(*load) : std::string();
+    const auto asked =
+        insist(yesNoPrompt("arm", fmt::format("{} {}?", question, request.confirmed), PromptTo::Operator));
+    if (!asked) return failure(asked);
+    if (asked->key() != "yes") return fail(ErrorCode::NotArmed, "the operator did not confirm {}", request.confirmed);
+    return request;
+}
+
+Result<void> PilotStage::arm() {
+    for (int tries = 1; !armed_; ++tries) {
+        const auto request = confirmed("Arm");
+        if (!request) return failure(request);
+        const auto armed = bench_.arm(*request);
+        armed_ = armed.has_value();
+        if (armed_) break;
+        if (auto goesOn = seatAgain("arming", armed.error(), tries); !goesOn) return goesOn;
+        rampDue_ = true;
+        if (!afterFault) continue;
+        if (auto measured = afterFault(); !measured) return measured;
     }
-    if (auto armed = bench_.arm(request); !armed) return armed;
-    armed_ = true;
     return {};
+}
+
+Result<void> PilotStage::seatAgain(const std::string& during, const Error& why, int tries) {
+    if (why.code != ErrorCode::NotArmed) return recover(during, why);
+    if (tries >= kArmingTries) return tl::unexpected<Error>(why);
+    if (auto kept = record_.write(row::kGate, during, {{"holds", false}, {"said", why.message}}); !kept) return kept;
+    return askToSee(why.message);
+}
+
+Result<void> PilotStage::askToSee(const std::string& why) {
+    const char* what = settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes";
+    const auto seen = insist(
+        goOnPrompt(fmt::format("Output is off: {}. See to the {}, then go on.", why, what), PromptTo::Operator));
+    return seen ? Result<void>() : failure(seen);
+}
+
+Result<double> PilotStage::measureImpedance(const std::string& name) {
+    for (int tries = 1;; ++tries) {
+        rest();
+        const auto request = confirmed("Measure the electrodes with");
+        if (!request) return failure(request);
+        const auto found = bench_.checkImpedance(*request);
+        if (!found) {
+            if (auto goesOn = seatAgain(name, found.error(), tries); !goesOn) return failure(goesOn);
+            continue;
+        }
+        const double ohm = *found ? (*found)->value() : kNaN;
+        if (auto kept = record_.write(row::kImpedance, name, {{"impedance_ohm", ohm}}); !kept) return failure(kept);
+        impedance_ = ohm;
+        return ohm;
+    }
 }
 
 Result<void> PilotStage::ready() {
@@ -325,17 +381,24 @@ Result<void> PilotStage::judged(double level, bool tooStrong, const std::string&
 
 Result<void> PilotStage::ramp() {
     const auto accepted = accepted_;
-    const auto part = std::to_string(record_.count(row::kResumed));
+    // Each ramp is presented: none takes the answers of another.
+    std::size_t number = 0;
+    const auto named = [&number](double level) { return fmt::format("ramp {} {}", number, level); };
+    while (!accepted.empty() && record_.begun(named(accepted.begin()->first)) > 0) ++number;
+    PilotScreen rest;  // levels rise no more: what was held may be let go
+    rest.phase = "ascending";
+    rest.text = "You can let go now.";
     for (const auto& [level, first] : accepted) {
         if (level >= tooStrong_ || (settled_ && level > *settled_)) break;
         StageTrial again;
-        again.name = fmt::format("ramp {} {}", part, level);
+        again.name = named(level);
         again.about = {{"ramp", true}};
         again.level = level;
         again.presentation = ascendingPresentation(levelOf(level), settings_.shortest);
         again.prompt = strengthPrompt();
         again.screen.state = ScreenState::Feel;
         again.screen.phase = "ascending";
+        again.held = true;
         again.drawnAs = first;  // A virtual participant says of a level what they said of it before
         const auto stimulated = stimulated_;
         const auto answer = trial(again);
@@ -349,6 +412,7 @@ Result<void> PilotStage::ramp() {
         }
         if (auto told = bench_.accept(levelOf(level)); !told) return told;
     }
+    if (!accepted.empty()) participant_.show(rest);
     return {};
 }
 
@@ -357,37 +421,51 @@ Result<void> PilotStage::ramp() {
 Result<void> PilotStage::recover(const std::string& during, const Error& why) {
     armed_ = false;
     if (end_ != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
+    if (why.code == ErrorCode::Device) return afterTheFault(during, why);
+    if (auto noted = noteStop(during, why); !noted) return noted;
+    return askToGoOn("Stopped. Nothing is on. Go on when you want to.");
+}
+
+Result<void> PilotStage::noteStop(const std::string& during, const Error& why) {
+    if (why.code != ErrorCode::Stopped) return tl::unexpected<Error>(why);
     const char* by = stoppedBy_.exchange(nullptr);
-    if (why.code == ErrorCode::Stopped) {
-        if (by == nullptr || !isParticipants(by)) {
-            const auto kept = record_.write(row::kOperatorStop, during, {{"why", why.message}});
-            return kept ? Result<void>(tl::unexpected<Error>(why)) : kept;
-        }
-        if (auto kept = record_.write(row::kParticipantStop, during, {{"by", by}}); !kept) return kept;
-        if (record_.count(row::kParticipantStop) >= kMaxStops)
-            return end(PilotEnd::Stopped, "the participant stopped for the third time, which ends the session");
-        return askToGoOn("Stopped. Nothing is on. Go on when you want to.");
+    if (by == nullptr || !isParticipants(by)) {
+        const auto kept = record_.write(row::kOperatorStop, during, {{"why", why.message}});
+        return kept ? Result<void>(tl::unexpected<Error>(why)) : kept;
     }
-    if (why.code == ErrorCode::Device) {
-        if (auto kept = record_.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
-        if (record_.count(row::kFault) >= kMaxFaults)
-            return end(PilotEnd::Stopped, "a second fault ends the session: " + why.message);
-        const char* what = settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes";
-        const auto seated = participant_.ask(goOnPrompt(
-            fmt::format("Output is off: {}. See to the {}, then go on.", why.message, what), PromptTo::Operator));
-        if (!seated) return failure(seated);
-        if (auto reset = bench_.resetFault(); !reset) return reset;
-        return askToGoOn("The output was off because of a fault. Go on when you want to.");
+    if (auto kept = record_.write(row::kParticipantStop, during, {{"by", by}}); !kept) return kept;
+    if (record_.count(row::kParticipantStop) < kMaxStops) return {};
+    return end(PilotEnd::Stopped, "the participant stopped for the third time, which ends the session");
+}
+
+/// Seated again, wanted again, measured again, reached again (ready()).
+Result<void> PilotStage::afterTheFault(const std::string& during, const Error& why) {
+    stoppedBy_.store(nullptr);
+    if (auto kept = record_.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
+    if (record_.count(row::kFault) >= kMaxFaults)
+        return end(PilotEnd::Stopped, "a second fault ends the session: " + why.message);
+    for (auto cause = why.message;;) {
+        if (auto seen = askToSee(cause); !seen) return seen;
+        const auto reset = bench_.resetFault();
+        if (reset) break;
+        cause = reset.error().message;  // it is still there
     }
-    return tl::unexpected<Error>(why);
+    if (auto wanted = askToGoOn("The output was off because of a fault. Go on when you want to."); !wanted)
+        return wanted;
+    rampDue_ = true;
+    return afterFault ? afterFault() : Result<void>();
 }
 
 Result<void> PilotStage::askToGoOn(const std::string& text) {
     PilotScreen screen;
     screen.text = text;
-    participant_.show(screen);
-    const auto asked = participant_.ask(goOnPrompt(text, PromptTo::Participant));
-    if (!asked) return failure(asked);
+    for (;;) {
+        participant_.show(screen);
+        const auto asked = participant_.ask(goOnPrompt(text, PromptTo::Participant));
+        if (asked) break;
+        // Nothing is on, and they press STOP once more: theirs counts, and they are asked again.
+        if (auto noted = noteStop("go on", asked.error()); !noted) return noted;
+    }
     if (auto begun = bench_.begin(bench_.stops().mark()); !begun) return begun;
     lastAnswer_ = bench_.clock().now();
     return record_.write(row::kContinue, "continue");

@@ -49,6 +49,7 @@ struct StageTrial {
     FeltPresentation felt;     ///< `named` and `inInterval`; the stage fills in the rest
     bool askedAgain = false;   ///< this is the second time: no answer is final
     bool stopAnswers = false;  ///< a participant's stop is its answer ("stop"), once they want to go on
+    bool held = false;         ///< levels rise: not presented while the participant does not hold
     std::string drawnAs;       ///< what the answer is drawn for; empty: `name`
 };
 
@@ -83,8 +84,15 @@ public:
     [[nodiscard]] Result<Json> ask(const char* kind, const std::string& name, const PilotPrompt& prompt);
     /// Arms, after the participant's own levels were reached again where the session was resumed.
     [[nodiscard]] Result<void> ready();
-    /// Arms and presents nothing: for the test of the STOPs.
+    /// Arms and presents nothing: for the test of the STOPs. Where the output is real, the operator confirms it by name.
     [[nodiscard]] Result<void> arm();
+    /// The participant holds, and lets go to stop. Waits until they do.
+    [[nodiscard]] Result<void> hold();
+    /// |Z|, with nothing armed before or after; into the record as `name`. NaN where the stimulator reads nothing back.
+    [[nodiscard]] Result<double> measureImpedance(const std::string& name);
+    /// Called once the participant wants to go on after a fault, before anything is presented: what was seated again is
+    /// measured anew. Its errors end the trial.
+    std::function<Result<void>()> afterFault;
     /// Output off. Nothing is presented until ready().
     void rest() noexcept;
     /// Lets time pass, in a break too. Errors: Stopped.
@@ -98,9 +106,13 @@ public:
     /// Writes the row and ends the session. The error is what the script is to throw; none for Complete.
     [[nodiscard]] Result<void> end(PilotEnd how, const std::string& why);
     [[nodiscard]] PilotEnd ended() const noexcept { return end_; }
-    /// A stop that was pressed since the last one was handled: how long it took until the output was told. For the test
-    /// of the STOPs; any other stop is handled where it interrupts.
-    [[nodiscard]] std::optional<std::chrono::nanoseconds> takeStop() noexcept;
+    /// A stop that was pressed since the last one was handled: by the participant or not, and how long it took until the
+    /// output was told. For the test of the STOPs; any other stop is handled where it interrupts.
+    struct PressedStop {
+        bool participants = false;
+        std::chrono::nanoseconds took{0};
+    };
+    [[nodiscard]] std::optional<PressedStop> takeStop() noexcept;
     /// Wakes the people's prompts: for the end of the script. Any thread.
     void cancel() noexcept;
 
@@ -114,7 +126,6 @@ public:
     [[nodiscard]] StimulusLevel levelOf(double level) const;
     /// |Z| measured last; NaN where none is known.
     [[nodiscard]] double impedance() const noexcept { return impedance_; }
-    void noteImpedance(double ohm) noexcept { impedance_ = ohm; }
     /// For how long trains were given, in this and earlier parts.
     [[nodiscard]] Seconds stimulated() const noexcept { return stimulated_; }
 
@@ -128,7 +139,17 @@ private:
     void given(const StageTrial& trial) noexcept;
     /// After a stop, a fault or a pause: nothing when the session goes on.
     [[nodiscard]] Result<void> recover(const std::string& during, const Error& why);
+    /// Writes who stopped; nothing when it may go on once the participant wants to.
+    [[nodiscard]] Result<void> noteStop(const std::string& during, const Error& why);
+    [[nodiscard]] Result<void> afterTheFault(const std::string& during, const Error& why);
     [[nodiscard]] Result<void> askToGoOn(const std::string& text);
+    /// Of what keeps it from being armed, which is no fault yet: nothing when it is to be tried again.
+    [[nodiscard]] Result<void> seatAgain(const std::string& during, const Error& why, int tries);
+    [[nodiscard]] Result<void> askToSee(const std::string& why);
+    /// Asks again after each stop, once the participant wants to go on.
+    [[nodiscard]] Result<PilotAnswer> insist(const PilotPrompt& prompt);
+    /// `question` names what would be armed; the operator's yes to it is part of the request.
+    [[nodiscard]] Result<ArmRequest> confirmed(const char* question);
     [[nodiscard]] Result<void> ramp();
 
     Bench& bench_;

@@ -97,11 +97,11 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     trial.screen.block = static_cast<int>(next.series);
     trial.screen.blocks = static_cast<int>(AscendingLimits::kSeries);
     trial.stopAnswers = true;
+    trial.held = true;
     const bool live = stage_.record().find(row::kAnswer, trial.name) == nullptr;
     if (live && liveSeries_ != next.series) {
         if (auto armed = stage_.ready(); !armed) return armed;
-        const auto held = stage_.participant().ask(holdPrompt());
-        if (!held) return failure(held);
+        if (auto held = stage_.hold(); !held) return held;
         // A series that was broken off goes on at the level that the ramp has reached again.
         const bool begins = liveSeries_ > 0 || limits.result().series.back().highest == 0;
         if (begins) {

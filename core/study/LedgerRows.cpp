@@ -103,6 +103,8 @@ public:
         if (session == nullptr) return unfit(row, "an unknown session");
         if (row.name == ledger::kSessionPart) {
             session->parts.push_back({textOr(row.body, "file"), std::chrono::sys_seconds(wholeSeconds(row.at))});
+            // The part before it is as long as it will ever be: it is never written again.
+            if (auto head = textOr(row.body, "head"); !head.empty()) state.heads[textOr(row.body, "after")] = std::move(head);
             return {};
         }
         if (row.name == ledger::kSessionEnded) return sessionEnded(row, *session);

@@ -9,6 +9,7 @@
 #include "core/bench/Bench.h"
 #include "core/session/SessionWriter.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/support/RealLookingStimulator.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -32,6 +33,8 @@ protected:
         parsed.push_back(DeviceUri::parse("sim:").value());
         auto devices = registry.open(parsed, needed, OpenContext{*clock_, seed_, load});
         ASSERT_TRUE(devices) << devices.error().message;
+        if (looksReal_ && devices->stimulator)
+            devices->stimulator = std::make_unique<RealLookingStimulator>(std::move(devices->stimulator));
         BenchConfig config;
         config.devices = std::move(*devices);
         config.clock = clock_;
@@ -47,7 +50,7 @@ protected:
         config.today = today_;
         config.person = person_;
         config.mode = person_ ? OutputMode::Person : OutputMode::BenchLoad;
-        config.virtualParticipant = person_.has_value();  // the devices are simulated
+        config.virtualParticipant = person_.has_value() && !looksReal_;  // the devices are simulated
         auto bench = Bench::create(std::move(config));
         ASSERT_TRUE(bench) << bench.error().message;
         bench_ = std::move(*bench);
@@ -66,6 +69,7 @@ protected:
     std::optional<std::chrono::sys_days> calibratedUntil_;
     std::chrono::sys_days (*today_)() = nullptr;
     std::optional<PersonSetup> person_;  ///< makes it a bench for a person
+    bool looksReal_ = false;             ///< what is opened next is taken for a device
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<Bench> bench_;
 };

@@ -130,6 +130,123 @@ TEST_F(PilotStageTest, TheirThirdStopEndsTheSession) {
     EXPECT_NE(state(), InterlockState::Armed);
 }
 
+TEST_F(PilotStageTest, ASecondPressWhileNothingIsOnCountsAndTheyAreAskedAgain) {
+    RecordProperty("hazard", "H2");
+    someone_.stops = 1;
+    someone_.stopsAtGoOn = 1;
+    const auto answer = stage_->trial(trial());
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_THAT(someone_.asked, ElementsAre("strength", "go-on", "go-on", "strength"));
+    EXPECT_THAT(kinds(), ElementsAre("trial-begin", "participant-stop", "participant-stop", "continue", "trial-begin",
+                                     "answer"));
+}
+
+TEST_F(PilotStageTest, ThreePressesOfStopEndTheSessionWhereverTheyCome) {
+    RecordProperty("hazard", "H2");
+    someone_.stops = 1;
+    someone_.stopsAtGoOn = 2;
+    EXPECT_FALSE(stage_->trial(trial()));
+    EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 3U) << "those of the one presentation";
+}
+
+TEST_F(PilotStageTest, RisingLevelsAreNotPresentedWhileTheParticipantDoesNotHold) {
+    RecordProperty("hazard", "H6");
+    auto rising = trial("ascending 1");
+    rising.held = true;
+    someone_.holds = false;
+    someone_.letsGo = true;
+    someone_.stops = 1;  // at the prompt that asks them to hold
+    const auto answer = stage_->trial(rising);
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_THAT(someone_.asked, ElementsAre("hold", "go-on", "hold", "strength"));
+    EXPECT_EQ(answer->attempt, 1U) << "nothing had been presented";
+}
+
+/// Of a session in which 0.5 and 1 mA were accepted before an electrode lifts at 20 s, for 10 s.
+class PilotStageFaultTest : public PilotStageTest {
+protected:
+    void reachOne(const std::string& fault) {
+        more_ = "&fault=" + fault;
+        begin();
+        someone_.letsGo = true;
+        someone_.holds = false;
+        for (const double level : {0.5, 1.0}) {
+            const auto made = rising(level);
+            ASSERT_TRUE(stage_->trial(made));
+            ASSERT_TRUE(stage_->judged(level, false, made.name, false));
+        }
+        stage_->afterFault = [this]() -> Result<void> {
+            ++measured_;
+            EXPECT_NE(state(), InterlockState::Armed);
+            return {};
+        };
+        someone_.asked.clear();
+        operatorTakesTime();
+    }
+    void passUntil(double s) { ASSERT_TRUE(stage_->pass(Seconds(s - toSeconds(clock_->now())))); }
+    [[nodiscard]] StageTrial rising(double level) const {
+        auto made = trial(fmt::format("ascending {}", level), level);
+        made.held = true;
+        return made;
+    }
+    [[nodiscard]] std::vector<std::string> answered() const {
+        std::vector<std::string> all;
+        for (const auto& each : rows())
+            if (each.name == row::kAnswer) all.push_back(each.body["name"]);
+        return all;
+    }
+    int measured_ = 0;
+};
+
+TEST_F(PilotStageFaultTest, TheyHoldAgainAndTheLevelsAreReachedAgainStepByStep) {
+    RecordProperty("hazard", "H3");
+    reachOne("open@20.2s..24s");
+    passUntil(19);
+    const auto answer = stage_->trial(rising(1.5));
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(record_->count(row::kFault), 1U);
+    EXPECT_EQ(measured_, 1);
+    EXPECT_THAT(answered(), ElementsAre("ascending 0.5", "ascending 1", "ramp 0 0.5", "ramp 0 1", "ascending 1.5"));
+    EXPECT_THAT(someone_.asked, ElementsAre("go-on", "go-on", "hold", "strength", "strength", "hold", "strength"))
+        << "the operator, then the participant";
+}
+
+TEST_F(PilotStageFaultTest, ASecondOneEndsTheSession) {
+    RecordProperty("hazard", "H3");
+    reachOne("open@20.2s..24s&fault=open@120s");
+    passUntil(19);
+    ASSERT_TRUE(stage_->trial(rising(1.5)));
+    ASSERT_LT(toSeconds(clock_->now()), 110);
+    passUntil(118.9);
+    EXPECT_FALSE(stage_->trial(rising(1.5)) && stage_->trial(rising(2)));
+    EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
+    EXPECT_EQ(record_->count(row::kFault), 2U);
+}
+
+TEST_F(PilotStageFaultTest, AnElectrodeThatIsOpenWhenArmingIsSeatedAgainAndIsNoFault) {
+    RecordProperty("hazard", "H3");
+    reachOne("open@20s..25s");
+    stage_->rest();
+    passUntil(21);
+    const auto answer = stage_->trial(rising(1.5));
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(record_->count(row::kFault), 0U);
+    EXPECT_GE(measured_, 1);
+    EXPECT_THAT(answered(), ElementsAre("ascending 0.5", "ascending 1", "ramp 0 0.5", "ramp 0 1", "ascending 1.5"));
+}
+
+TEST_F(PilotStageFaultTest, OneThatStaysOpenBreaksTheSessionOff) {
+    RecordProperty("hazard", "H3");
+    reachOne("open@20s");
+    stage_->rest();
+    passUntil(21);
+    const auto answer = stage_->trial(rising(1.5));
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().code, ErrorCode::NotArmed);
+    EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished) << "it may be resumed";
+}
+
 TEST_F(PilotStageTest, AnOperatorsStopBreaksTheSessionOff) {
     RecordProperty("hazard", "H2");
     someone_.stops = 1;

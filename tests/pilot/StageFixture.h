@@ -17,24 +17,36 @@ class Someone final : public PilotParticipant {
 public:
     void show(const PilotScreen& screen) override {
         shown.push_back(screen);
+        if (screen.state == ScreenState::Rest && letsGo) holds = false;
         if (onShow) onShow();
     }
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
+        if (onAsk) onAsk(prompt);
         asked.push_back(prompt.name);
-        if (prompt.kind != PromptKind::GoOn && stops > 0) {
+        texts.push_back(prompt.text);
+        const bool goesOn = prompt.kind == PromptKind::GoOn;
+        if (prompt.name == "stop-test") return stoppedBy_(testPresses > 0 ? testedBy : nameOf(prompt.to).data());
+        if (!goesOn && stops > 0) {
             --stops;
-            stop(stoppedBy);
-            return fail(ErrorCode::Stopped, "stopped by the {}", stoppedBy);
+            return stoppedBy_(stoppedBy);
         }
+        if (goesOn && prompt.to == PromptTo::Participant && stopsAtGoOn > 0) {
+            --stopsAtGoOn;
+            return stoppedBy_("participant");
+        }
+        if (prompt.kind == PromptKind::Hold) holds = true;
         PilotAnswer answer;
-        answer.keys.push_back(prompt.targets.front().key);
+        const auto told = answers.find(prompt.name);
+        answer.keys.push_back(told != answers.end()      ? told->second
+                              : prompt.targets.empty() ? "as asked"
+                                                       : prompt.targets.front().key);
         answer.after = Seconds(0.5);
         return answer;
     }
     void delivered(const FeltPresentation& felt) override { drawn.push_back(felt.drawnFor); }
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
     void cancel() noexcept override {}
-    [[nodiscard]] bool holding() const noexcept override { return true; }
+    [[nodiscard]] bool holding() const noexcept override { return holds; }
     [[nodiscard]] Result<void> ready() const override { return {}; }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
 
@@ -42,8 +54,23 @@ public:
     std::vector<std::string> drawn;
     std::vector<PilotScreen> shown;
     std::function<void()> onShow;
+    std::function<void(const PilotPrompt&)> onAsk;
+    std::vector<std::string> texts;
+    std::map<std::string, std::string> answers;  // by the prompt's name; else its first target
     int stops = 0;
     const char* stoppedBy = "participant";
+    int stopsAtGoOn = 0;
+    int testPresses = 0;  // of `testedBy`, in tests of a STOP, before it is pressed by who is asked
+    const char* testedBy = "participant";
+    bool holds = true;
+    bool letsGo = false;  // as soon as they may
+
+private:
+    [[nodiscard]] tl::unexpected<Error> stoppedBy_(const char* by) {
+        if (testPresses > 0) --testPresses;
+        stop(by);
+        return fail(ErrorCode::Stopped, "stopped by the {}", by);
+    }
 };
 
 class PilotStageTest : public BenchFixture {
@@ -64,7 +91,7 @@ protected:
         ++part_;
         writer_ = SessionWriter::create(file(), {}, *clockOfFile_).value();
         session_ = writer_.get();
-        open({"sim:stimulator?mode=current&step=0.5mA"}, {Role::Stimulator});
+        open({"sim:stimulator?mode=current&step=0.5mA" + more_}, {Role::Stimulator});
         ASSERT_TRUE(bench_);
         record_ = std::make_unique<PilotRecord>(*writer_, *clock_, earlier);
         PilotSettings settings;
@@ -90,6 +117,14 @@ protected:
         }
         return all;
     }
+    /// To see to the electrodes: six seconds. A bench that has faulted lets no time pass.
+    void operatorTakesTime() {
+        someone_.onAsk = [this](const PilotPrompt& prompt) {
+            const Seconds time(6);
+            if (prompt.to != PromptTo::Operator || bench_->wait(time)) return;
+            std::static_pointer_cast<VirtualClock>(clock_)->advanceTo(clock_->now() + toInstant(time));
+        };
+    }
     [[nodiscard]] StageTrial trial(const std::string& name = "test 1", double level = 0.5) const {
         StageTrial made;
         made.name = name;
@@ -104,6 +139,7 @@ protected:
     ScratchDir dir_;
     std::shared_ptr<VirtualClock> clockOfFile_;
     int part_ = 0;
+    std::string more_;  // further keys of the stimulator's address
     Someone someone_;
     std::unique_ptr<SessionWriter> writer_;
     std::unique_ptr<PilotRecord> record_;
