@@ -367,11 +367,24 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         std::make_unique<PilotSession>(made->run_->bench(), *people, *made->record_, made->settings_, truth, parts);
     if (made->unfinished_) made->session_->resumesFrom(made->unfinished_->parts.back().file, made->earlier_.chainHead);
     auto* raw = made.get();
-    made->session_->stillApproved = [raw] { return raw->study_->stillApproved(); };
+    made->session_->mayGoOn = [raw] { return raw->mayGoOn(); };
     made->session_->care().skinReacted = [raw](const std::string& moment, int score) {
         return raw->noteSkin(moment, score);
     };
     return made;
+}
+
+/// Still approved, and within the time that a session may take, from its first part on.
+Result<void> PilotRun::mayGoOn() const {
+    if (auto approved = study_->stillApproved(); !approved) return approved;
+    const double most_min = study_->settings().sessionMax_min;
+    const double taken_min = std::chrono::duration<double, std::ratio<60>>(SystemTime::real().wall() -
+                                                                           begun_->session.parts.front().begun)
+                                 .count();
+    if (taken_min < most_min) return {};
+    return fail(kGateRefused,
+                "the session has taken {:.0f} min; the study allows {:.0f} min, so no further block begins", taken_min,
+                most_min);
 }
 
 /// In the ledger, which a withdrawal leaves. How severe it is and what it comes from is the investigator's to say: until

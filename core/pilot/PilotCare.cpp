@@ -91,6 +91,10 @@ PilotCare::PilotCare(PilotStage& stage) : stage_(stage) {
         if (stage_.settings().unit == LevelUnit::Intensity || firstImpedance() == nullptr) return {};
         return asAtFirst(fmt::format("fault {}", stage_.record().count(row::kFault)));
     };
+    stage_.afterCare = [this]() -> Result<void> {
+        if (auto looked = skin("after"); !looked) return looked;
+        return sideEffects("after");
+    };
 }
 
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }

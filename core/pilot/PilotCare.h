@@ -19,6 +19,7 @@ namespace tacto {
 class PilotCare {
 public:
     /// `stage` outlives it, and measures |Z| anew after a fault: within 30 % of the session's first, as before a block.
+    /// A session that is stopped for good asks for skin and side effects all the same.
     explicit PilotCare(PilotStage& stage);
     PilotCare(const PilotCare&) = delete;
     PilotCare& operator=(const PilotCare&) = delete;

@@ -52,12 +52,12 @@ Result<void> PilotSession::begin(bool withTrials) {
 
 Result<void> PilotSession::beforeBlock(int block) {
     const bool done = stage_.record().find(row::kImpedance, fmt::format("block {}", block)) != nullptr;
-    if (!done && stillApproved) {
-        const auto approved = stillApproved();
-        if (!approved) {
+    if (!done && mayGoOn) {
+        const auto may = mayGoOn();
+        if (!may) {
             auto kept = stage_.record().write(row::kGate, fmt::format("block {} approval", block),
-                                              {{"holds", false}, {"said", approved.error().message}});
-            return kept ? stage_.end(PilotEnd::Stopped, approved.error().message) : kept;
+                                              {{"holds", false}, {"said", may.error().message}});
+            return kept ? stage_.end(PilotEnd::Stopped, may.error().message) : kept;
         }
     }
     return care_.beforeBlock(block);

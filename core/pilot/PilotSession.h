@@ -32,9 +32,9 @@ public:
     /// This part continues the session of `part`; begin() then states it in the first row.
     void resumesFrom(std::string part, std::string chainHead);
 
-    /// Asks before each block whether the study is still approved. Empty: nothing is asked.
-    std::function<Result<void>()> stillApproved;
-    /// Approval and electrodes. Errors: Stopped with the gate's sentence, when the session has ended.
+    /// Asks before each block whether the study is still approved and its time not over. Empty: nothing is asked.
+    std::function<Result<void>()> mayGoOn;
+    /// Approval, time and electrodes. Errors: Stopped with the gate's sentence, when the session has ended.
     [[nodiscard]] Result<void> beforeBlock(int block);
 
     [[nodiscard]] PilotStage& stage() noexcept { return stage_; }

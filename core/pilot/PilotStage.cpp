@@ -101,6 +101,11 @@ Result<void> PilotStage::pass(Seconds time) {
 
 Result<void> PilotStage::end(PilotEnd how, const std::string& why) {
     rest();
+    if (how == PilotEnd::Stopped && afterCare && record_.count(row::kTrialBegin) > 0 && !std::exchange(caring_, true)) {
+        // After a stop the bench lets no time pass until there is an order anew.
+        if (bench_.begin(bench_.stops().mark())) static_cast<void>(afterCare());
+        if (end_ != PilotEnd::Unfinished) return fail(ErrorCode::Stopped, "{}", why);  // care has ended it
+    }
     end_ = how;
     if (auto kept = record_.write(row::kSessionEnd, "end", {{"state", nameOf(how)}, {"why", why}}); !kept) return kept;
     if (how == PilotEnd::Complete) return {};

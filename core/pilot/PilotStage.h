@@ -93,6 +93,9 @@ public:
     /// Called once the participant wants to go on after a fault, before anything is presented: what was seated again is
     /// measured anew. Its errors end the trial.
     std::function<Result<void>()> afterFault;
+    /// Called with the output off before a session in which something was presented ends for good, however it ends but
+    /// for its own last question: who was stimulated is looked after. Its errors change nothing.
+    std::function<Result<void>()> afterCare;
     /// Output off. Nothing is presented until ready().
     void rest() noexcept;
     /// Lets time pass, in a break too. Errors: Stopped.
@@ -162,6 +165,7 @@ private:
     std::atomic<std::chrono::nanoseconds::rep> stopTook_{0};
     bool armed_ = false;
     bool rampDue_ = false;
+    bool caring_ = false;
     std::map<double, std::string> accepted_;                      // Level and the trial in which it was accepted first
     double tooStrong_ = std::numeric_limits<double>::infinity();  // Lowest so far
     std::optional<double> settled_;

@@ -91,6 +91,37 @@ TEST_F(PilotCareTest, ASkinThatReactsIsReportedAndEndsTheSession) {
     ASSERT_THAT(bodies(row::kAdverseEvent), SizeIs(1));
 }
 
+TEST_F(PilotCareTest, ASessionThatTheParticipantEndsAsksForSkinAndSideEffects) {
+    RecordProperty("hazard", "H12");
+    PilotCare care(*stage_);
+    someone_.answers = {{"erythema", "1"}, {"oedema", "0"}};
+    someone_.stops = 1;
+    someone_.stopsAtGoOn = 2;
+    EXPECT_FALSE(stage_->trial(trial()));
+    EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
+    EXPECT_THAT(bodies(row::kSkin), SizeIs(2));
+    EXPECT_THAT(bodies(row::kSideEffect), SizeIs(testing::Ge(1U)));
+    EXPECT_THAT(bodies(row::kSessionEnd), SizeIs(1));
+    EXPECT_EQ(rows().back().name, row::kSessionEnd) << "the end comes last";
+}
+
+TEST_F(PilotCareTest, ASkinThatEndsItLeavesTheSideEffectsToBeAsked) {
+    RecordProperty("hazard", "H12");
+    PilotCare care(*stage_);
+    ASSERT_TRUE(stage_->trial(trial()));
+    someone_.answers = {{"erythema", "2"}, {"oedema", "0"}};
+    EXPECT_FALSE(care.skin("after"));
+    EXPECT_THAT(bodies(row::kSideEffect), SizeIs(testing::Ge(1U)));
+    EXPECT_THAT(bodies(row::kSessionEnd), SizeIs(1));
+}
+
+TEST_F(PilotCareTest, WhereNothingWasPresentedNobodyIsAskedAfterwards) {
+    PilotCare care(*stage_);
+    someone_.answers = {{"erythema", "1"}, {"oedema", "0"}};
+    ASSERT_FALSE(care.checklist());
+    EXPECT_THAT(bodies(row::kSideEffect), SizeIs(0));
+}
+
 TEST_F(PilotCareTest, ASkinThatIsRedBeforeBeginsNothing) {
     RecordProperty("hazard", "H12");
     PilotCare care(*stage_);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/gui/theme/Theme.h"
+#include "core/encoding/Encoder.h"
 
 namespace tacto::gui {
 
@@ -147,8 +148,17 @@ void DrivePanel::follow(DriveSource driving) {
 
 QString DrivePanel::outputText(const Telemetry& telemetry) const {
     if (chosen() == DriveSource::Off || !std::isfinite(telemetry.amplitude_v)) return tr("Off");
-    return tr("%1 every %2")
-        .arg(quantityText(telemetry.amplitude_v, "V", 3), quantityText(telemetry.interval_s, "s", 3));
+    const auto every = quantityText(telemetry.interval_s, "s", 3);
+    if (vibrates()) {
+        const double share = Encoder(controller_.profile().encoding).massagerIntensity(Volts(telemetry.amplitude_v));
+        return tr("%1 of the strength every %2").arg(quantityText(100 * share, "%", 2), every);
+    }
+    return tr("%1 every %2").arg(quantityText(telemetry.amplitude_v, "V", 3), every);
+}
+
+bool DrivePanel::vibrates() const {
+    const auto open = controller_.open();
+    return open && !open->source;
 }
 
 QString DrivePanel::words(const Telemetry& telemetry) const {
@@ -161,6 +171,7 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
     if (state == InterlockState::Paused || (armed && telemetry.paused))
         return tr("Paused: nothing is delivered until resumed.");
     if (!armed) return tr("Nothing is delivered until the output is armed.");
+    if (std::isfinite(telemetry.amplitude_v) && vibrates()) return tr("The massager vibrates; nothing of it is read back.");
     if (std::isfinite(telemetry.amplitude_v)) {
         const double amps = telemetry.amplitude_v / telemetry.impedance_ohm;
         return std::isfinite(amps)

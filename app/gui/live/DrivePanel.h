@@ -45,6 +45,7 @@ private:
     void drive();
     void follow(DriveSource driving);
     [[nodiscard]] QString outputText(const Telemetry& telemetry) const;
+    [[nodiscard]] bool vibrates() const;  ///< a massager in place of the electrodes
     [[nodiscard]] QString words(const Telemetry& telemetry) const;
     void followFinger(const Telemetry& telemetry);
 

@@ -30,6 +30,8 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     trail_ = new QCPCurve(xAxis, yAxis);
     now_ = addGraph();
     now_->setLineStyle(QCPGraph::lsNone);
+    addLayer("now", layer("main"));
+    now_->setLayer("now");  // seen also where it stands on a condition
     setMinimumSize(fontMetrics().height() * 10, fontMetrics().height() * 9);
     setOrigin(false, true);
     colour();
@@ -82,7 +84,7 @@ void TactilePlane::colour() {
     }
     watermark_->setFont(textFont(TextSize::Large, QFont::Bold));
     trail_->setPen(QPen(c.frame, 1.5));
-    now_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, c.text, c.text, 11));
+    now_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(c.base, 2), QBrush(c.text), 11));
 }
 
 void TactilePlane::changeEvent(QEvent* event) {

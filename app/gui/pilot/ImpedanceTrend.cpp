@@ -27,7 +27,7 @@ ImpedanceTrend::ImpedanceTrend(QWidget* parent)
     row->addStretch();
     row->addWidget(now_);
     column->addLayout(row);
-    title_->setText(tr("Impedance, read back with every train"));
+    title_->setText(tr("Impedance, read back in each trial"));
     now_->setObjectName("impedanceNow");
     for (auto* label : {title_, now_}) setTextSize(*label, TextSize::Body, true);
     column->addWidget(plot_, 1);

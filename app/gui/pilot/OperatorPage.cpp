@@ -235,7 +235,8 @@ void OperatorPage::closeQuestion(quint64 id) {
 }
 
 void OperatorPage::refresh(const Telemetry& telemetry) {
-    if (screen_.phase == "test") trend_->note(screen_.trial, telemetry.impedance_ohm);
+    // Once it is over: a figure that changes with each train tells an operator who is blind how they come.
+    if (screen_.phase == "test" && theirs_) trend_->note(screen_.trial, telemetry.impedance_ohm);
     const double gone = double(phaseSince_.nsecsElapsed()) * 1e-9;
     if (theirs_) {
         if (!theirs_->within) return phase_->setPhase(PhaseBar::kAnswer);

@@ -13,7 +13,14 @@
 namespace tacto::gui {
 
 namespace {
+
+constexpr const char* kAbort = "operator (abort)";
 constexpr int kOnePress_ms = 100;
+
+/// An operator who aborts or closes the window, or a screen that goes, has tested no STOP.
+bool isPressOfStop(std::string_view by) {
+    return by.starts_with("operator (") && by != kAbort && by != "operator (signal)";
+}
 }
 
 SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent)
@@ -167,13 +174,15 @@ void SessionConduct::run() {
         seats.people = &desk_;
         seats.codeConfirmed = codeConfirmed_;
         seats.begun = [this](std::shared_ptr<const Clock> clock) { desk_.begin(std::move(clock)); };
-        seats.takesStop = [this](const char* by) { return desk_.testsOperatorsStop() && desk_.stopBy(by); };
+        seats.takesStop = [this](const char* by) {
+            return isPressOfStop(by) && desk_.testsOperatorsStop() && desk_.stopBy(by);
+        };
     }
     run_ = controller_.runPilot(order_, seats, mark_);
 }
 
 void SessionConduct::abort() {
-    controller_.stop("operator (abort)");
+    controller_.stop(kAbort);
     if (confirming_) desk_.cancel();
 }
 

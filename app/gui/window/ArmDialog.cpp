@@ -125,11 +125,17 @@ void ArmDialog::sayFirst() {
         text = tr("The fingertip drives: the first train follows as soon as it feels something.");
     if (source == DriveSource::Manual) {
         const auto& wanted = controller_.lastDrive();
-        const auto first = Encoder(controller_.profile().encoding).encode(wanted.roughness, wanted.pressure);
-        text = first ? tr("Drive is by hand: the first train follows at once, %1 every %2.")
-                           .arg(quantityText(first->amplitude.value(), "V", 3),
-                                quantityText(first->interval.count(), "s", 3))
-                     : tr("Drive is by hand, and asks for nothing that can be delivered.");
+        const Encoder encoder(controller_.profile().encoding);
+        const auto first = encoder.encode(wanted.roughness, wanted.pressure);
+        const auto every = first ? quantityText(first->interval.count(), "s", 3) : QString();
+        if (!first)
+            text = tr("Drive is by hand, and asks for nothing that can be delivered.");
+        else if (massager_)
+            text = tr("Drive is by hand: the first burst follows at once, at %1 of the strength, every %2.")
+                       .arg(quantityText(100 * encoder.massagerIntensity(first->amplitude), "%", 2), every);
+        else
+            text = tr("Drive is by hand: the first train follows at once, %1 every %2.")
+                       .arg(quantityText(first->amplitude.value(), "V", 3), every);
     }
     setTone(*first_, source == DriveSource::Off ? Tone::Quiet : Tone::Warning);
     if (first_->text() != text) first_->setText(text);

@@ -135,6 +135,7 @@ void DockColumn::setCollapsed(bool collapsed) {
 void DockColumn::show(FoldingDock& dock) {
     dock.fold(false);
     setCollapsed(false);
+    if (!hidden_.empty()) return;
     dock.show();
     dock.raise();
 }
@@ -151,8 +152,20 @@ void DockColumn::reset() {
     share();
 }
 
-void DockColumn::setHidden(bool hidden) {
-    hidden_ = hidden;
+void DockColumn::setHidden(Hidden why, bool hidden) {
+    if (hidden)
+        hidden_.insert(why);
+    else
+        hidden_.erase(why);
+    for (auto* dock : docks_) {
+        dock->toggleViewAction()->setEnabled(hidden_.empty());
+        if (hidden_.empty() || !dock->isFloating() || !dock->isVisible()) continue;
+        dock->hide();
+        putAway_.push_back(dock);
+    }
+    if (hidden_.empty()) {
+        for (auto* dock : std::exchange(putAway_, {})) dock->show();
+    }
     apply();
 }
 
@@ -163,9 +176,9 @@ void DockColumn::refresh() {
 
 void DockColumn::apply() {
     for (auto* dock : docks_) {
-        if (!dock->isFloating()) dock->setVisible(!collapsed_ && !hidden_);
+        if (!dock->isFloating()) dock->setVisible(!collapsed_ && hidden_.empty());
     }
-    strip_->setVisible(collapsed_ && !hidden_);
+    strip_->setVisible(collapsed_ && hidden_.empty());
     toggle_->setChecked(!collapsed_);
     QTimer::singleShot(0, this, &DockColumn::share);  // once they are laid out
 }

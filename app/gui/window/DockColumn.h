@@ -8,6 +8,7 @@
 #include <QAction>
 #include <QMainWindow>
 #include <QToolBar>
+#include <set>
 #include <vector>
 
 #include "app/gui/window/FoldingDock.h"
@@ -33,12 +34,16 @@ public:
     void setCollapsed(bool collapsed);
     [[nodiscard]] bool collapsed() const { return collapsed_; }
     [[nodiscard]] const std::vector<FoldingDock*>& docks() const { return docks_; }
-    /// Opens the column with this dock unfolded.
+    /// Opens the column with this dock unfolded; once it is hidden no more.
     void show(FoldingDock& dock);
     /// As at the first start: in their places, open where work is live.
     void reset();
-    /// While the plot has the whole window: neither docks nor strip.
-    void setHidden(bool hidden);
+    /// Why neither docks nor strip are shown, floating docks included. Either is reason enough.
+    enum class Hidden {
+        PlotOnly,
+        Blind,  ///< they would tell the operator what is delivered
+    };
+    void setHidden(Hidden why, bool hidden);
     /// The key figures, as often as telemetry is read.
     void refresh();
     /// Collapses and opens the column; has a key.
@@ -60,7 +65,8 @@ private:
     View view_;
     bool entering_ = false;  // the view sets the folds, not the operator: they are not remembered
     bool collapsed_ = false;
-    bool hidden_ = false;
+    std::set<Hidden> hidden_;
+    std::vector<FoldingDock*> putAway_;  // floating ones, hidden meanwhile
 };
 
 }  // namespace tacto::gui

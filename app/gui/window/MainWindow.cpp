@@ -282,7 +282,7 @@ void MainWindow::focusWorkspace() {
 void MainWindow::showPlotOnly(bool only) {
     rail_->setVisible(!only);
     statusBar()->setVisible(!only);
-    docks_->setHidden(only);
+    docks_->setHidden(DockColumn::Hidden::PlotOnly, only);
 }
 
 void MainWindow::resetLayout() {
@@ -298,7 +298,8 @@ void MainWindow::showScope() {
 
 void MainWindow::noteChange() {
     const auto open = controller_.open();
-    setWindowTitle(open && open->simulated() ? tr("Tactoscope – simulated") : tr("Tactoscope"));
+    // The program's name comes last: Qt adds it to a title that ends otherwise.
+    setWindowTitle(open && open->simulated() ? tr("Simulated – Tactoscope") : tr("Tactoscope"));
 }
 
 void MainWindow::askToArm() { arming_->ask(ArmDialog::Purpose::Arm); }
@@ -312,7 +313,7 @@ void MainWindow::noteBlind() {
     const bool pauses = pilot_->running() && pilot_->participantWindow() != nullptr;
     safety_->setPauseInstead(pauses ? [this](bool pause) { pilot_->pauseSession(pause); }
                                     : std::function<void(bool)>());
-    docks_->setHidden(blind);
+    docks_->setHidden(DockColumn::Hidden::Blind, blind);
     safety_->setBlind(blind);
 }
 
@@ -398,6 +399,9 @@ void MainWindow::restore() {
     if (!restoreState(settings.value("state").toByteArray())) {
         QTimer::singleShot(0, this, [this] { docks_->reset(); });  // once the window is laid out
     }
+    // One that was left with the plot only begins whole.
+    rail_->show();
+    statusBar()->show();
     // A state that was damaged must not hide STOP.
     if (auto* top = findChild<QToolBar*>("safetyToolBar")) {
         addToolBar(Qt::TopToolBarArea, top);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/live/StripPlots.h"
+#include "app/gui/live/TactilePlane.h"
 #include "app/gui/live/TaxelMap.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Person.h"
@@ -275,6 +276,21 @@ TEST(TaxelMap, IsBluerWhereItIsPressed) {
     const auto fresh = map.grab().toImage();
     map.setStale(true);
     EXPECT_NE(map.grab().toImage(), fresh) << "old values are marked";
+}
+
+TEST(Plane, ThePresentPointIsSeenWhereItStandsOnACondition) {
+    gui::TactilePlane plane;
+    plane.resize(400, 400);
+    plane.setConditions({{"rough-high", 1, 1}});
+    plane.setVisible(true);
+    const auto atTheMark = [&plane] {
+        plane.replot();
+        const QPointF at(plane.xAxis->coordToPixel(1), plane.yAxis->coordToPixel(1));
+        return plane.grab().toImage().pixelColor((at * plane.devicePixelRatioF()).toPoint());
+    };
+    const auto without = atTheMark();
+    plane.show(Series(1, 10), 0, 1, 1, true);
+    EXPECT_NE(atTheMark(), without);
 }
 
 }  // namespace

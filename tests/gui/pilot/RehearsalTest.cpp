@@ -108,6 +108,20 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     shot(window, "pilot-stopped");
 }
 
+TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
+    RecordProperty("hazard", "H2");
+    begin(true);
+    auto* theirs = pilot->participantWindow();
+    ASSERT_NE(theirs, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
+    const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
+    ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
+    click(*find<QPushButton>(*strip, "End the session"));
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+    EXPECT_NE(find<QPushButton>(*pilot, "Go on with the session"), nullptr) << headline();
+}
+
 TEST_F(RehearsalInTheWindow, ClosingTheParticipantsWindowIsAStop) {
     RecordProperty("hazard", "H2");
     begin(true);

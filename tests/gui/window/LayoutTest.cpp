@@ -12,6 +12,7 @@
 #include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/window/DockColumn.h"
 #include "app/gui/window/FoldingDock.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
@@ -65,6 +66,45 @@ TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     key(Qt::Key_F11);
     EXPECT_IN_TIME(comesTrue([this] { return bar("workspaces").isVisible(); }));
     EXPECT_TRUE(window.statusBar()->isVisible());
+}
+
+TEST_F(Layout, WhatABlindSessionHidesNoKeyAndNoMenuBringsBack) {
+    RecordProperty("hazard", "H9");
+    using Hidden = gui::DockColumn::Hidden;
+    open();
+    auto& docks = *window.findChild<gui::DockColumn*>();
+    dock("driveDock").setFloating(true);
+    dock("driveDock").show();
+    docks.setHidden(Hidden::Blind, true);
+    const auto shows = [this] {
+        return std::ranges::any_of(window.findChildren<QDockWidget*>(), &QDockWidget::isVisible) ||
+               bar("dockStrip").isVisible();
+    };
+    EXPECT_FALSE(shows());
+    key(Qt::Key_F11);
+    key(Qt::Key_F11);
+    EXPECT_FALSE(shows()) << "F11 twice";
+    key(Qt::Key_D, Qt::ControlModifier);
+    key(Qt::Key_D, Qt::ControlModifier);
+    EXPECT_FALSE(shows()) << "Ctrl+D twice";
+    for (auto* each : docks.docks()) docks.show(*each);
+    EXPECT_FALSE(shows()) << "the View menu";
+    window.resetLayout();
+    EXPECT_FALSE(shows()) << "View > Reset layout";
+    docks.setHidden(Hidden::Blind, false);
+    EXPECT_TRUE(dock("exposureDock").isVisible());
+    EXPECT_TRUE(dock("driveDock").isVisible()) << "in the window of its own";
+}
+
+TEST_F(Layout, AWindowThatWasClosedWithThePlotAloneBeginsWhole) {
+    open();
+    key(Qt::Key_F11);
+    EXPECT_FALSE(bar("workspaces").isVisible());
+    ASSERT_TRUE(window.close());
+    gui::MainWindow next(simulatedRegistry);
+    next.show();
+    EXPECT_TRUE(next.findChild<QToolBar*>("workspaces")->isVisible());
+    EXPECT_TRUE(next.statusBar()->isVisible());
 }
 
 TEST_F(Layout, DocksCollapseToAStripThatKeepsTheirKeyFigures) {
@@ -197,6 +237,22 @@ TEST_F(Layout, ArmingSaysWhatTheFirstTrainIs) {
     window.controller().drive(DriveSource::Sensor);
     EXPECT_IN_TIME(comesTrue(
         [this] { return window.findChild<QLabel*>("firstOutput")->text().startsWith("The fingertip drives"); }));
+}
+
+TEST_F(Layout, OfAMassagerTheFirstOutputIsAStrength) {
+    RecordProperty("hazard", "H12");
+    gui::LiveOrder order;
+    order.uris.push_back(*DeviceUri::parse("sim:massager"));
+    order.needed = {Role::Massager};
+    order.profile = window.controller().profile();
+    window.controller().openLive(order);
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
+    window.controller().drive(DriveSource::Manual, 1, 1);
+    click(*window.findChild<QPushButton*>("armButton"));
+    EXPECT_IN_TIME(comesTrue([this] {
+        const auto* first = window.findChild<QLabel*>("firstOutput");
+        return first != nullptr && first->text().startsWith("Drive is by hand: the first burst follows at once, at 100");
+    }));
 }
 
 TEST_F(Layout, ResetPutsEverythingBack) {
