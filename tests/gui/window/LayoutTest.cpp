@@ -248,7 +248,9 @@ TEST_F(Layout, OfAMassagerTheFirstOutputIsAStrength) {
     window.controller().openLive(order);
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
     window.controller().drive(DriveSource::Manual, 1, 1);
-    click(*window.findChild<QPushButton*>("armButton"));
+    auto* arm = window.findChild<QPushButton*>("armButton");
+    ASSERT_IN_TIME(comesTrue([arm] { return arm->isEnabled(); }));
+    click(*arm);
     EXPECT_IN_TIME(comesTrue([this] {
         const auto* first = window.findChild<QLabel*>("firstOutput");
         return first != nullptr && first->text().startsWith("Drive is by hand: the first burst follows at once, at 100");
