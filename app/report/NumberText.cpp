@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/Printable.h"
 #include "core/base/QuantityText.h"
 
 namespace tacto {
@@ -180,14 +181,12 @@ QString quantityText(double value, const QString& unit, const ColumnFormat& form
 }
 
 QString visible(QString text) {
-    for (auto& c : text) {
-        const char16_t u = c.unicode();
-        const bool control = (u < 0x20 && u != '\n' && u != '\t') || (u >= 0x7f && u < 0xa0);
-        const bool turns = u == 0x061c || (u >= 0x200b && u <= 0x200f) || (u >= 0x2028 && u <= 0x202e) ||
-                           (u >= 0x2060 && u <= 0x206f) || u == 0xfeff;
-        if (control || turns) c = QChar::ReplacementCharacter;
+    auto codes = text.toUcs4();
+    for (auto& code : codes) {
+        const bool movesCursor = isControl(code) && code != '\n' && code != '\t';
+        if (movesCursor || isHidden(code)) code = QChar::ReplacementCharacter;
     }
-    return text;
+    return QString::fromUcs4(reinterpret_cast<const char32_t*>(codes.constData()), codes.size());
 }
 
 QString cellText(const QJsonValue& value, const QString& unit) {

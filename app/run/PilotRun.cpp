@@ -183,9 +183,7 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
     if (!unfinished_) return {};
     const auto wanted = textOf(order, "unfinished");
     if (wanted == "end") {
-        if (auto ended = study_->endSession(unfinished_->id, StudySessionState::Stopped, ""); !ended) return ended;
-        remarks_.push_back(fmt::format("Session {} of {} was ended as stopped.", unfinished_->number, who_.code));
-        unfinished_.reset();
+        toEnd_ = std::exchange(unfinished_, std::nullopt);
         return {};
     }
     if (wanted != "resume")
@@ -321,6 +319,11 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
 
 Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, const DeviceSet& devices) {
     request_.devicesSimulated = std::ranges::all_of(devices.identities(), &DeviceIdentity::simulated);
+    if (toEnd_) {  // Not before every gate lets another begin: until then it can be gone on with
+        if (auto may = study_->mayBegin(request_); !may) return failure(may);
+        if (auto ended = study_->endSession(toEnd_->id, StudySessionState::Stopped, ""); !ended) return failure(ended);
+        remarks_.push_back(fmt::format("Session {} of {} was ended as stopped.", toEnd_->number, who_.code));
+    }
     auto begun = unfinished_ ? study_->continueSession(unfinished_->id, request_) : study_->beginSession(request_);
     if (!begun) return failure(begun);
     begun_ = std::move(*begun);

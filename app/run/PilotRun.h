@@ -73,6 +73,7 @@ private:
     std::optional<Study> study_;
     Participant who_;
     bool inWindow_ = false;
+    std::optional<StudySession> toEnd_;       // To be ended once another may begin
     std::optional<StudySession> unfinished_;  // That is gone on with
     std::optional<BegunSession> begun_;
     SessionRequest request_;

@@ -35,16 +35,15 @@ Character firstOf(std::string_view text) {
     return {code, bytes};
 }
 
-bool isControl(char32_t code) { return code < 0x20 || (code >= 0x7f && code < 0xa0); }
+}  // namespace
 
-/// Turns the reading direction, separates lines, or has no width.
-bool isHidden(char32_t code) {
+bool isControl(char32_t code) noexcept { return code < 0x20 || (code >= 0x7f && code < 0xa0); }
+
+bool isHidden(char32_t code) noexcept {
     return code == 0x61c || (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
            (code >= 0x2060 && code <= 0x206f) || code == 0xfeff || (code >= 0xfff9 && code <= 0xfffb) ||
            (code >= 0xe0000 && code <= 0xe007f);
 }
-
-}  // namespace
 
 std::string printable(std::string_view text, Newlines newlines) {
     std::string out;

@@ -16,6 +16,11 @@ enum class Newlines { Escape, Keep };
 /// turn the reading direction or cannot be seen as "\u202e". Everything else stays as it is.
 [[nodiscard]] std::string printable(std::string_view text, Newlines newlines = Newlines::Escape);
 
+/// What printable() spells out: C0, DEL and C1.
+[[nodiscard]] bool isControl(char32_t code) noexcept;
+/// The others that it spells out: they turn the reading direction, separate lines or have no width.
+[[nodiscard]] bool isHidden(char32_t code) noexcept;
+
 /// The number of code points in a UTF-8 text.
 [[nodiscard]] std::size_t charactersOf(std::string_view utf8) noexcept;
 

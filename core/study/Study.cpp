@@ -277,6 +277,12 @@ Result<void> Study::amend(StudySettings settings, std::string_view reference) {
 
 const std::vector<StudyAmendment>& Study::amendments() const noexcept { return state_->known.amendments; }
 
+Result<void> Study::mayBegin(const SessionRequest& request) const {
+    if (auto may = state_->changeable(); !may) return may;
+    const auto participant = state_->find(request.code);
+    return participant ? state_->gates(request, *participant, false) : failure(participant);
+}
+
 Result<BegunSession> Study::beginSession(const SessionRequest& request) {
     if (auto may = state_->changeable(); !may) return failure(may);
     const auto participant = state_->find(request.code);

@@ -177,6 +177,8 @@ public:
     /// In their order; also without the key.
     [[nodiscard]] const std::vector<StudyAmendment>& amendments() const noexcept;
 
+    /// Whether every gate would let a session begin, were none unfinished. Nothing is changed.
+    [[nodiscard]] Result<void> mayBegin(const SessionRequest& request) const;
     /// Asks every gate, then books the session. Nothing is made when one refuses.
     [[nodiscard]] Result<BegunSession> beginSession(const SessionRequest& request);
     /// A new part of an unfinished session; the same gates, but for the gap. Errors: NotFound; kGateRefused for one

@@ -110,5 +110,14 @@ TEST(NumberText, GivesProportionsAsPercentages) {
     EXPECT_EQ(plain(proportionText({0.99, 0.9455, 0.9982})), "99.0 % (94.5 to 99.8 %)");
 }
 
+TEST(NumberText, WhatCannotBeSeenOrTurnsTheReadingDirectionIsNotShown) {
+    RecordProperty("hazard", "H10");
+    const auto shown = [](char32_t code) { return visible("a" + QString::fromUcs4(&code, 1) + "b"); };
+    for (const char32_t code : {U'\u202e', U'\u200b', U'\ufff9', U'\U000e0041', U'\u0007', U'\u009b'})
+        EXPECT_EQ(shown(code), QString("a") + QChar(QChar::ReplacementCharacter) + "b") << std::uint32_t(code);
+    for (const char32_t code : {U'\n', U'\t', U'Ω', U'\U0001f600'})
+        EXPECT_EQ(shown(code), "a" + QString::fromUcs4(&code, 1) + "b") << std::uint32_t(code);
+}
+
 }  // namespace
 }  // namespace tacto

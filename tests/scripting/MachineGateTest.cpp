@@ -257,11 +257,13 @@ TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
     }
     Somebody person;
     auto registry = labRegistry();
-    const auto prepare = [&] {
+    const auto prepare = [&](const std::map<std::string, std::string>& more = {}) {
+        auto given = more;
+        given["participant"] = code;
         RunOrder order;
         order.script = script;
         order.declaration = readDeclaration(script).value();
-        order.settings = applySettings(order.declaration, {{"participant", code}}).value();
+        order.settings = applySettings(order.declaration, given).value();
         order.uris = {DeviceUri::parse(std::string("lab:stimulator?") + kSource).value()};
         order.limits = limits_;
         PilotOrder pilot;
@@ -286,6 +288,15 @@ TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
     EXPECT_EQ((*accepted)->run().bench().mode(), OutputMode::Person);
     accepted->reset();
     EXPECT_EQ(sessions(), 1U);
+
+    // Another may not begin so soon, so the one that is unfinished is not ended for it.
+    const auto ends = prepare({{"unfinished", "end"}});
+    ASSERT_FALSE(ends);
+    EXPECT_EQ(ends.error().code, kGateRefused);
+    EXPECT_THAT(ends.error().message, HasSubstr("20 h"));
+    const auto left = Study::open(at, nullptr, Study::Access::Read).value().sessions();
+    ASSERT_EQ(left.size(), 1U);
+    EXPECT_EQ(left[0].state, StudySessionState::Unfinished);
 }
 
 TEST_F(MachineGate, APersonAtAMassagerPassesEveryGateButThoseOfCurrent) {

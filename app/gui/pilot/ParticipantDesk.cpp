@@ -169,9 +169,9 @@ void ParticipantDesk::noteEarly(const std::string& key) {
 
 void ParticipantDesk::setHolding(bool holding) { holding_ = holding; }
 
-bool ParticipantDesk::testsOperatorsStop() const {
+bool ParticipantDesk::testsStopOf(PromptTo whose) const {
     const std::scoped_lock lock(mutex_);
-    return open_ && open_->name == "stop-test" && open_->to == PromptTo::Operator;
+    return open_ && open_->name == "stop-test" && open_->to == whose;
 }
 
 bool ParticipantDesk::stopBy(const char* by) {

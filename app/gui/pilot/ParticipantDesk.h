@@ -59,8 +59,8 @@ public:
     /// Output off, and the question that waits ends with Stopped; where none waits, the next one, unless the session
     /// shows something before. False where no session listens. Any thread.
     bool stopBy(const char* by);
-    /// Whether the operator's STOP is what the open question waits for: a test of it, which ends no session.
-    [[nodiscard]] bool testsOperatorsStop() const;
+    /// Whether that person's STOP is what the open question waits for: a test of it, which ends no session.
+    [[nodiscard]] bool testsStopOf(PromptTo whose) const;
 
 signals:
     void screenChanged(const tacto::PilotScreen& screen);

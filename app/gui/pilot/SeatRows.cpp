@@ -32,6 +32,14 @@ void SeatRows::writeTo(PilotStart& start) const {
     start.blind = blind_->isChecked();
 }
 
+void SeatRows::setBlind(bool study) {
+    blind_->setChecked(study);
+    blind_->setEnabled(!study);
+    blind_->setToolTip(study ? QObject::tr("Blind is what the study’s approval says; an amendment changes it.")
+                             : QObject::tr("The operator sees no condition, level or answer until the session has "
+                                           "ended."));
+}
+
 void SeatRows::showFor(bool person) {
     form_.setRowVisible(screen_, person);
     form_.setRowVisible(keys_, person);

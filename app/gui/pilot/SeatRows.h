@@ -23,7 +23,8 @@ public:
     void writeTo(PilotStart& start) const;
     /// Screen and keys are a person's.
     void showFor(bool person);
-    void setBlind(bool blind) { blind_->setChecked(blind); }
+    /// A blind study's sessions are blind: that is part of its approval.
+    void setBlind(bool study);
     /// What that means, to be placed below the form.
     [[nodiscard]] QLabel* about() const { return about_; }
 

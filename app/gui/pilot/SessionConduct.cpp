@@ -175,7 +175,7 @@ void SessionConduct::run() {
         seats.codeConfirmed = codeConfirmed_;
         seats.begun = [this](std::shared_ptr<const Clock> clock) { desk_.begin(std::move(clock)); };
         seats.takesStop = [this](const char* by) {
-            return isPressOfStop(by) && desk_.testsOperatorsStop() && desk_.stopBy(by);
+            return isPressOfStop(by) && desk_.testsStopOf(PromptTo::Operator) && desk_.stopBy(by);
         };
     }
     run_ = controller_.runPilot(order_, seats, mark_);
@@ -199,10 +199,11 @@ bool SessionConduct::stopAsParticipant(const char* by) {
         desk_.cancel();
         return true;
     }
+    const bool tested = desk_.testsStopOf(PromptTo::Participant);
     const bool heard = desk_.stopBy(by);
     if (!heard) controller_.stop(by);  // the session has not begun, or is over
     if (window_) window_->noteStop();
-    ++participantStops_;
+    if (!tested) ++participantStops_;
     emit changed();
     return heard;
 }
