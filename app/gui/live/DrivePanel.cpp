@@ -45,9 +45,9 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     off_->setChecked(true);
     layout->addLayout(row);
     auto* grid = new QGridLayout;
-    roughness_ = addIndex(*grid, 0, tr("&R"), tr("Roughness R"),
+    roughness_ = addIndex(*grid, 0, tr("R"), tr("Roughness R"),
                           tr("Roughness, 0 smooth to 1 rough. Arrows step by 0.01, Page up and down by 0.1."));
-    pressure_ = addIndex(*grid, 1, tr("&P"), tr("Pressure P"),
+    pressure_ = addIndex(*grid, 1, tr("P"), tr("Pressure P"),
                          tr("Pressure, 0 light to 1 firm. Arrows step by 0.01, Page up and down by 0.1."));
     layout->addLayout(grid);
     output_ = new QLabel(this);

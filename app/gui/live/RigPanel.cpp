@@ -48,7 +48,7 @@ QWidget* RigPanel::buildSurfaces() {
     form->addRow(tr("Sp&eed"), speed_);
     force_ = spin(0.05, 10, 0.1, 2, 1, QStringLiteral("\u202fN"));
     force_->setToolTip(tr("How hard the finger presses."));
-    form->addRow(tr("F&orce"), force_);
+    form->addRow(tr("Force"), force_);
     connect(material_, &QComboBox::currentIndexChanged, this, &RigPanel::present);
     return group;
 }
@@ -83,7 +83,7 @@ void RigPanel::begin(double speed, bool recording) {
     recording_ = recording;
     surfaces_->setVisible(live && open && open->surfaces);
     pace_->setVisible(live && open && open->paced);
-    paceLabel_->setText(recording ? tr("Replay spee&d") : tr("&Time runs at"));
+    paceLabel_->setText(recording ? tr("Replay spee&d") : tr("Ti&me runs at"));
     again_->setVisible(false);
     const QSignalBlocker quietMaterial(material_), quietPace(paceBox_), quietSpeed(speed_), quietForce(force_);
     // Until the user chooses, the finger does what its device was opened with; there is no way back to that.

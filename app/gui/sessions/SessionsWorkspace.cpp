@@ -121,7 +121,7 @@ QWidget* SessionsWorkspace::buildSessionActions() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
     row->setContentsMargins(kListMargin, kAroundActions, kListMargin, kAroundActions);
-    auto* report = actions_.add(*row, "report", tr("Re&port"), tr("The report as PDF, from the session alone."),
+    auto* report = actions_.add(*row, "report", tr("Rep&ort"), tr("The report as PDF, from the session alone."),
                                 [this] { makeReport(); });
     report->setIcon(icon("report", Ink::Primary));
     makePrimary(*report);
