@@ -319,6 +319,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
 
 Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, const DeviceSet& devices) {
     request_.devicesSimulated = std::ranges::all_of(devices.identities(), &DeviceIdentity::simulated);
+    if (auto noted = study_->noteExclusions(request_); !noted) return failure(noted);
     if (toEnd_) {  // Not before every gate lets another begin: until then it can be gone on with
         if (auto may = study_->mayBegin(request_); !may) return failure(may);
         if (auto ended = study_->endSession(toEnd_->id, StudySessionState::Stopped, ""); !ended) return failure(ended);

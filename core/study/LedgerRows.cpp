@@ -90,6 +90,11 @@ public:
         auto* participant = state.participant(textOr(row.body, "participant"));
         if (participant == nullptr) return unfit(row, "an unknown participant");
         if (row.name == ledger::kConsent) return consent(row, *participant);
+        if (row.name == ledger::kExcluded) {
+            if (const auto content = opened(row, participant->id); !content) return failure(content);
+            state.excluded[participant->id] = std::chrono::sys_seconds(wholeSeconds(row.at));
+            return {};
+        }
         if (row.name == ledger::kLeft) {
             participant->state = ParticipantState::Left;
             return {};
@@ -104,7 +109,8 @@ public:
         if (row.name == ledger::kSessionPart) {
             session->parts.push_back({textOr(row.body, "file"), std::chrono::sys_seconds(wholeSeconds(row.at))});
             // The part before it is as long as it will ever be: it is never written again.
-            if (auto head = textOr(row.body, "head"); !head.empty()) state.heads[textOr(row.body, "after")] = std::move(head);
+            auto head = textOr(row.body, "head");
+            if (!head.empty()) state.heads[textOr(row.body, "after")] = std::move(head);
             return {};
         }
         if (row.name == ledger::kSessionEnded) return sessionEnded(row, *session);

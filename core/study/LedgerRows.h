@@ -6,6 +6,7 @@
 //   session-begun         {session, file, participant, number, protocol, script_sha256, sealed}
 //   session-part          {session, file, participant, after, head}
 //   session-ended         {session, participant, state, file, head}
+//   excluded              {participant, sealed}              of that day
 //   adverse-event, exported   {session, sealed under the study's key}
 //
 // Thread-safety: values.
@@ -29,6 +30,7 @@ inline constexpr const char* kStudy = "study";
 inline constexpr const char* kAmendment = "amendment";
 inline constexpr const char* kEnrolled = "enrolled";
 inline constexpr const char* kConsent = "consent";
+inline constexpr const char* kExcluded = "excluded";
 inline constexpr const char* kLeft = "left";
 inline constexpr const char* kWithdrawn = "withdrawn";
 inline constexpr const char* kSessionBegun = "session-begun";
@@ -45,6 +47,7 @@ struct LedgerState {
     std::vector<StudyAmendment> amendments;  ///< in order
     std::size_t adverseEventRows = 0;        ///< also without the key
     std::vector<Participant> participants;
+    std::map<std::string, std::chrono::sys_seconds> excluded;         ///< participant to their last yes
     std::vector<StudySession> sessions;                               ///< without `answered`
     std::map<std::string, std::string> heads;                         ///< of ended files: file to chain head
     std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< with the key only

@@ -277,6 +277,18 @@ Result<void> Study::amend(StudySettings settings, std::string_view reference) {
 
 const std::vector<StudyAmendment>& Study::amendments() const noexcept { return state_->known.amendments; }
 
+Result<void> Study::noteExclusions(const SessionRequest& request) {
+    auto items = nlohmann::json::array();
+    for (const auto& answer : request.exclusions)
+        if (answer.yes) items.push_back(answer.key);
+    if (items.empty()) return {};
+    if (auto may = state_->changeable(); !may) return may;
+    const auto participant = state_->find(request.code);
+    if (!participant) return failure(participant);
+    if (participant->virtualSeed) return {};
+    return state_->appendOf(*participant, ledger::kExcluded, nlohmann::json::object(), {{"items", std::move(items)}});
+}
+
 Result<void> Study::mayBegin(const SessionRequest& request) const {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(request.code);

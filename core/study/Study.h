@@ -177,6 +177,9 @@ public:
     /// In their order; also without the key.
     [[nodiscard]] const std::vector<StudyAmendment>& amendments() const noexcept;
 
+    /// What was answered with yes, sealed for the participant; with it their day is over, whatever is answered later.
+    /// Nothing where every answer is no, and for a virtual participant.
+    [[nodiscard]] Result<void> noteExclusions(const SessionRequest& request);
     /// Whether every gate would let a session begin, were none unfinished. Nothing is changed.
     [[nodiscard]] Result<void> mayBegin(const SessionRequest& request) const;
     /// Asks every gate, then books the session. Nothing is made when one refuses.

@@ -173,6 +173,12 @@ Result<void> StudyBook::gates(const SessionRequest& request, Participant partici
     if (!request.codeConfirmed) {
         return fail(kGateRefused, "the participant has not confirmed that the code {} is theirs", participant.code);
     }
+    if (const auto yes = known.excluded.find(participant.id);
+        yes != known.excluded.end() && localDay(yes->second) == today()) {
+        return fail(kGateRefused, "{} answered yes to the exclusion checklist today; a session begins tomorrow at the "
+                                  "earliest",
+                    participant.code);
+    }
     if (auto holds = exclusionGate(request.exclusions); !holds) return holds;
     return simulationGate(settings, participant, request.devicesSimulated);
 }

@@ -132,6 +132,48 @@ TEST_F(GateOfASession, EachRefusesWithItsSentence) {
     EXPECT_TRUE(study.stillApproved());
 }
 
+TEST_F(GateOfASession, AYesEndsThePersonsDayWhateverIsAnsweredLater) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = study.enrol({}).value().code;
+    ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
+    auto request = test::someRequest(code);
+    request.devicesSimulated = false;
+    auto yes = request;
+    yes.exclusions.front().yes = true;
+    const auto before = study.ledgerHead();
+    ASSERT_TRUE(study.noteExclusions(request));
+    EXPECT_EQ(study.ledgerHead(), before) << "nothing was answered with yes";
+    ASSERT_TRUE(study.noteExclusions(yes));
+    expectRefused(study, request, "answered yes to the exclusion checklist today");
+    EXPECT_EQ(everythingBelow(folder()).find(yes.exclusions.front().key), std::string::npos);
+    time.now += std::chrono::hours(24);
+    EXPECT_TRUE(study.mayBegin(request));
+    EXPECT_TRUE(study.beginSession(request));
+}
+
+TEST_F(Desk, APartOfAResumedSessionIsWhatItWasWhenItWasGoneOnWith) {
+    RecordProperty("hazard", "H8");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto first = study.beginSession(test::someRequest(code)).value();
+    static_cast<void>(record(first));
+    const auto second = study.continueSession(first.session.id, test::someRequest(code));
+    ASSERT_TRUE(second) << second.error().message;
+    static_cast<void>(record(*second));
+    EXPECT_TRUE(study.stillApproved());
+    const auto kept = scratch.path() / "kept";
+    std::filesystem::copy_file(first.path, kept);
+    std::filesystem::copy_file(second->path, first.path, std::filesystem::copy_options::overwrite_existing);
+    const auto exchanged = study.stillApproved();
+    ASSERT_FALSE(exchanged);
+    EXPECT_NE(exchanged.error().message.find("is not the one that the ledger notes"), std::string::npos);
+    std::filesystem::remove(first.path);
+    EXPECT_FALSE(study.stillApproved()) << "gone";
+    std::filesystem::copy_file(kept, first.path);
+    EXPECT_TRUE(study.stillApproved());
+}
+
 TEST_F(Desk, TheNextSessionWaitsForTheGap) {
     RecordProperty("hazard", "H12");
     auto study = make();
