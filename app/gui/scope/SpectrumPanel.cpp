@@ -104,6 +104,8 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     plot_->setToolTip(
         tr("The height of a line is the RMS of a sine of that frequency. The wheel zooms the frequency."));
     addPlotMenu(*plot_, "spectrum");
+    watermark_ = addWatermark(*plot_->axisRect());
+    watermark_->setVisible(false);
     plot_->yAxis->setScaleType(QCPAxis::stLogarithmic);
     auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
     ticker->setSubTickCount(0);
@@ -362,6 +364,7 @@ void SpectrumPanel::showModel() {
     const auto* its = model_->lane(key);
     const double zero = model_->zero_s();
     const auto& view = model_->viewport();
+    watermark_->setVisible(model_->shown() && model_->shown()->capture->simulated);
     show(model_->trace(key), view.left_s + zero, view.right_s() + zero,
          its == nullptr ? colours().text : laneColour(*model_, *its));
 }

@@ -91,6 +91,7 @@ private:
     QLabel* note_;
     QCustomPlot* plot_;
     QCPGraph* graph_;
+    QCPItemText* watermark_;
     QCPGraph* peaks_;
     std::vector<QCPItemText*> names_;  // as many as there may be; owned by the plot
     Spectrum spectrum_;

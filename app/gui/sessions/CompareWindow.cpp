@@ -89,6 +89,8 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     putLegendAbove(*streams_);
     column->addWidget(streams_, 1);
     tabs->addTab(page, tr("&Streams"));
+    const bool simulated = sessions_[0]->about.simulated || sessions_[1]->about.simulated;
+    for (const auto* plot : {plane_, streams_}) addWatermark(*plot->axisRect())->setVisible(simulated);
     const auto found = differencesOf(*sessions_[0], *sessions_[1]);
     auto* said = new QTextBrowser(tabs);
     said->setObjectName("differences");

@@ -5,11 +5,14 @@
 
 #include "app/gui/sessions/SessionOverview.h"
 #include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/RecordTable.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
 #include "core/base/JsonFields.h"
+#include "core/base/QuantityText.h"
 #include "core/dsp/RoughnessFlags.h"
 
 namespace tacto::gui {
@@ -26,10 +29,20 @@ QTableWidget* makeTable(QWidget* parent, const QString& name) {
     table->setSelectionBehavior(QAbstractItemView::SelectRows);
     table->setSelectionMode(QAbstractItemView::SingleSelection);
     table->verticalHeader()->hide();
-    table->setAlternatingRowColors(true);
+    table->horizontalHeader()->setHighlightSections(false);
     table->setWordWrap(false);
     return table;
 }
+
+using As = RecordColumn::As;
+using nlohmann::json;
+
+void fill(QTableWidget& table, const std::vector<RecordColumn>& columns, const json& records) {
+    fillRecordTable(table, columns, records);
+    table.resizeColumnsToContents();
+}
+
+std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::string("–") : writtenUnit(unit); }
 
 }  // namespace
 
@@ -44,14 +57,19 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     trials_ = makeTable(this, tr("Trials"));
     auto* split = new QSplitter(Qt::Vertical, this);
     streams_ = makeTable(split, tr("Streams"));
+    streams_->setObjectName("streamsTable");
     plot_ = new QCustomPlot(split);
     plot_->setAccessibleName(tr("The chosen stream"));
+    plot_->setObjectName("chosenStream");
     plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
     plot_->axisRect()->setRangeZoom(Qt::Horizontal);
     plot_->axisRect()->setRangeDrag(Qt::Horizontal);
     plot_->xAxis->setLabel(tr("time (s)"));
     addPlotMenu(*plot_, "stream");
-    stylePlot(*plot_);
+    putLegendAbove(*plot_);
+    watermark_ = addWatermark(*plot_->axisRect());
+    watermark_->setVisible(false);
+    colour();
     split->addWidget(streams_);
     split->addWidget(plot_);
     captures_ = makeTable(this, tr("Captures"));
@@ -131,54 +149,54 @@ QString SessionDetails::aboutHtml() const {
     return html + "</table>";
 }
 
-void SessionDetails::fill(QTableWidget& table, const QStringList& header, const QList<QStringList>& rows) {
-    table.clear();
-    table.setColumnCount(int(header.size()));
-    table.setHorizontalHeaderLabels(header);
-    table.setRowCount(int(rows.size()));
-    for (int r = 0; r < int(rows.size()); ++r) {
-        for (int c = 0; c < int(rows[r].size()); ++c) {
-            auto* item = new QTableWidgetItem(rows[r][c]);
-            item->setToolTip(rows[r][c]);
-            table.setItem(r, c, item);
-        }
-    }
-    table.resizeColumnsToContents();
-    table.horizontalHeader()->setStretchLastSection(true);
-}
-
 void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
     session_ = std::move(session);
     overview_->show(session_);
     about_->setHtml(aboutHtml());
-    QList<QStringList> rows;
-    for (const auto& trial : session_->trials) {
-        const auto number = [&](const char* key, const char* unit) {
-            const auto at = trial.measured.find(key);
-            return quantityText(at != trial.measured.end() && at->is_number() ? at->get<double>() : std::nan(""), unit,
-                                4);
-        };
-        rows << QStringList{QString::number(trial.number),  quantityText(toSeconds(trial.at), "s", 4),
-                            conditionText(trial.condition), number("amplitude_v", "V"),
-                            number("interval_s", "s"),      number("width_s", "s")};
+    const auto known = [](double value) { return std::isfinite(value) && value > 0 ? json(value) : json(nullptr); };
+    auto trials = json::array(), streams = json::array(), captures = json::array();
+    for (const auto& trial : session_->trials)
+        trials.push_back({{"number", trial.number},
+                          {"at", toSeconds(trial.at)},
+                          {"condition", conditionText(trial.condition).toStdString()},
+                          {"measured", trial.measured}});
+    for (const auto& stream : session_->streams)
+        streams.push_back({{"name", stream.stream.name},
+                           {"unit", shownUnitText(stream.stream.unit)},
+                           {"rate", known(stream.stream.rate_hz)},
+                           {"samples", stream.samples},
+                           {"channels", stream.stream.columns.size()}});
+    for (const auto& capture : session_->captures)
+        captures.push_back({{"number", captures.size() + 1},
+                            {"trial", capture.trial ? json(*capture.trial) : json(nullptr)},
+                            {"at", toSeconds(capture.at)},
+                            {"samples", capture.samples},
+                            {"rate", known(capture.rate_hz)}});
+    std::vector<RecordColumn> ofTrials{{tr("Trial"), "number", As::Number},
+                                       {tr("At"), "at", As::Number, "s"},
+                                       {tr("Condition"), "condition"}};
+    for (const auto& column : {RecordColumn{tr("Amplitude"), "measured.amplitude_v", As::Number, "V"},
+                               RecordColumn{tr("Interval"), "measured.interval_s", As::Number, "s"},
+                               RecordColumn{tr("Width"), "measured.width_s", As::Number, "s"}}) {
+        // A procedure that measures none of it has no column of dashes.
+        if (std::ranges::any_of(trials, [&](const json& trial) { return memberAt(trial, column.at).is_number(); }))
+            ofTrials.push_back(column);
     }
-    fill(*trials_, {tr("Trial"), tr("At"), tr("Condition"), tr("Amplitude"), tr("Interval"), tr("Width")}, rows);
-    rows.clear();
-    for (const auto& stream : session_->streams) {
-        rows << QStringList{qtext(stream.stream.name), qtext(stream.stream.unit),
-                            quantityText(stream.stream.rate_hz, "Hz", 4), QString::number(stream.samples),
-                            QString::number(stream.stream.columns.size())};
-    }
-    fill(*streams_, {tr("Stream"), tr("Unit"), tr("Rate"), tr("Samples"), tr("Channels")}, rows);
+    fill(*trials_, ofTrials, trials);
+    fill(*streams_, {{tr("Stream"), "name"},
+                     {tr("Unit"), "unit"},
+                     {tr("Rate"), "rate", As::Number, "Hz"},
+                     {tr("Samples"), "samples", As::Number},
+                     {tr("Channels"), "channels", As::Number}},
+         streams);
     plot_->clearGraphs();
     plot_->replot();
-    rows.clear();
-    for (const auto& capture : session_->captures) {
-        rows << QStringList{QString::number(rows.size() + 1), capture.trial ? QString::number(*capture.trial) : "–",
-                            quantityText(toSeconds(capture.at), "s", 4), QString::number(capture.samples),
-                            quantityText(capture.rate_hz, "S/s", 3)};
-    }
-    fill(*captures_, {tr("Capture"), tr("Trial"), tr("At"), tr("Samples"), tr("Rate")}, rows);
+    fill(*captures_, {{tr("Capture"), "number", As::Number},
+                      {tr("Trial"), "trial", As::Number},
+                      {tr("At"), "at", As::Number, "s"},
+                      {tr("Samples"), "samples", As::Number},
+                      {tr("Rate"), "rate", As::Number, "S/s"}},
+         captures);
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
 }
 
@@ -201,19 +219,28 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         }
         auto* graph = plot_->addGraph();
         graph->setData(x, y, true);
-        const QColor of[] = {colours().voltage, colours().current, colours().third, colours().amber};
-        graph->setPen(QPen(of[c % 4]));
+        graph->setName(qtext(info.stream.columns[c]));
     }
+    watermark_->setVisible(session_ && session_->about.simulated);
+    plot_->legend->setVisible(columns > 1);
     plot_->yAxis->setLabel(info.stream.unit.empty()
                                ? qtext(info.stream.name)
                                : QString("%1 (%2)").arg(qtext(info.stream.name), qtext(info.stream.unit)));
     plot_->rescaleAxes();
+    colour();
+    fitLegend(*plot_);
     plot_->replot();
 }
 
+void SessionDetails::colour() {
+    stylePlot(*plot_);
+    const QColor of[] = {colours().voltage, colours().current, colours().third, colours().amber};
+    for (int i = 0; i < plot_->graphCount(); ++i) plot_->graph(i)->setPen(QPen(of[i % 4]));
+}
+
 void SessionDetails::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange && plot_ != nullptr) {
-        stylePlot(*plot_);
+    if (event->type() == QEvent::PaletteChange && watermark_ != nullptr) {
+        colour();
         plot_->replot(QCustomPlot::rpQueuedReplot);
     }
     QTabWidget::changeEvent(event);

@@ -39,7 +39,7 @@ protected:
 
 private:
     [[nodiscard]] QString aboutHtml() const;
-    void fill(QTableWidget& table, const QStringList& header, const QList<QStringList>& rows);
+    void colour();
     std::shared_ptr<const ReadSession> session_;
     const ShippedLimits& limits_;
     SessionOverview* overview_;
@@ -47,6 +47,7 @@ private:
     QTableWidget* trials_;
     QTableWidget* streams_;
     QCustomPlot* plot_;
+    QCPItemText* watermark_ = nullptr;
     QTableWidget* captures_;
 };
 

@@ -179,19 +179,26 @@ ColumnText columnText(const RecordColumn& column, const json& records) {
     return out;
 }
 
-QTableWidget* makeRecordTable(const std::vector<RecordColumn>& columns, const json& records, QWidget* parent) {
-    auto* table = new QTableWidget(int(records.size()), int(columns.size()), parent);
+void fillRecordTable(QTableWidget& table, const std::vector<RecordColumn>& columns, const json& records) {
+    table.clear();
+    table.setColumnCount(int(columns.size()));
+    table.setRowCount(int(records.size()));
     for (int c = 0; c < int(columns.size()); ++c) {
         const auto& column = columns[std::size_t(c)];
         const auto text = columnText(column, records);
         auto* header = new QTableWidgetItem(text.header);
         header->setTextAlignment((text.right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
-        table->setHorizontalHeaderItem(c, header);
-        for (int r = 0; r < table->rowCount(); ++r) {
-            putText(*table, r, c, text.cells[r], text.right);
-            if (!text.right) table->item(r, c)->setToolTip(text.cells[r]);
+        table.setHorizontalHeaderItem(c, header);
+        for (int r = 0; r < table.rowCount(); ++r) {
+            putText(table, r, c, text.cells[r], text.right);
+            if (!text.right) table.item(r, c)->setToolTip(text.cells[r]);
         }
     }
+}
+
+QTableWidget* makeRecordTable(const std::vector<RecordColumn>& columns, const json& records, QWidget* parent) {
+    auto* table = new QTableWidget(parent);
+    fillRecordTable(*table, columns, records);
     layOutRecordTable(*table);
     return table;
 }

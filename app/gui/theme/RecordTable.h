@@ -39,6 +39,8 @@ struct ColumnText {
 /// is left and elides. Takes `parent`.
 [[nodiscard]] QTableWidget* makeRecordTable(const std::vector<RecordColumn>& columns, const nlohmann::json& records,
                                             QWidget* parent);
+/// Headers and cells of a table that scrolls in its own place and has other rows now.
+void fillRecordTable(QTableWidget& table, const std::vector<RecordColumn>& columns, const nlohmann::json& records);
 /// The same room for a table that is filled by hand, with putText().
 void layOutRecordTable(QTableWidget& table);
 void putText(QTableWidget& table, int row, int column, const QString& text, bool right);

@@ -15,6 +15,7 @@
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/sessions/Background.h"
 #include "app/gui/sessions/CompareWindow.h"
+#include "app/gui/sessions/SessionDetails.h"
 #include "app/gui/sessions/SessionExport.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "core/acquisition/Recording.h"
@@ -27,6 +28,13 @@ namespace tacto::test {
 namespace {
 
 using testing::HasSubstr;
+
+/// Whether its watermark is seen.
+bool saysSimulated(const QCustomPlot& plot) {
+    for (int i = 0; i < plot.itemCount(); ++i)
+        if (plot.item(i)->objectName() == "watermark") return plot.item(i)->visible();
+    return false;
+}
 
 class Recorded : public testing::Test {
 protected:
@@ -242,7 +250,28 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
         return std::any_of(plots.begin(), plots.end(), [](const auto* plot) { return plot->plottableCount() >= 2; });
     };
     EXPECT_IN_TIME(comesTrue(drawn)) << "a stream of both, over each other";
+    for (const auto* plot : both->findChildren<QCustomPlot*>()) EXPECT_TRUE(saysSimulated(*plot));
     both->close();
+}
+
+TEST_F(Recorded, AStreamOfASimulatedSessionSaysSoAndNamesItsTraces) {
+    RecordProperty("hazard", "H9");
+    gui::SessionsWorkspace workspace(controller);
+    workspace.resize(1200, 700);
+    workspace.show();
+    ASSERT_TRUE(workspace.openSession(QString::fromStdString(session.string())));
+    auto* details = workspace.findChild<gui::SessionDetails*>();
+    auto* streams = details->findChild<QTableWidget*>("streamsTable");
+    ASSERT_IN_TIME(comesTrue([&] { return streams->rowCount() > 0; }));
+    details->setCurrentIndex(2);
+    const auto* plot = details->findChild<QCustomPlot*>("chosenStream");
+    for (int row = 0; row < streams->rowCount(); ++row) {
+        streams->setCurrentCell(row, 0);
+        ASSERT_IN_TIME(comesTrue([&] { return plot->graphCount() > 0; }));
+        EXPECT_TRUE(saysSimulated(*plot));
+        EXPECT_EQ(plot->legend->visible(), plot->graphCount() > 1);
+    }
+    shot(workspace, "sessions-stream");
 }
 
 TEST_F(Recorded, ItsReportOpensInTheProgram) {

@@ -11,6 +11,7 @@
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/ScopeModel.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/scope/SpectrumPanel.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
@@ -182,6 +183,7 @@ TEST_F(Window, EveryPlotOfSimulatedDataSaysSo) {
         if (tab == 1) {
             auto* scope = window.findChild<gui::ScopeWorkspace*>();
             ASSERT_IN_TIME(comesTrue([&] { return scope->model().shown() != nullptr; }));
+            scope->findChild<gui::SpectrumPanel*>()->setVisible(true);
         }
         QTest::qWait(200);
         for (auto* plot : window.findChildren<QCustomPlot*>()) {
@@ -193,7 +195,7 @@ TEST_F(Window, EveryPlotOfSimulatedDataSaysSo) {
             EXPECT_GE(marked, 1) << plot->metaObject()->className();
         }
     }
-    EXPECT_GE(plots, 3) << "strips, plane and oscilloscope";
+    EXPECT_GE(plots, 4) << "strips, plane, oscilloscope and spectrum";
 }
 
 TEST_F(Window, TheLastMessageOpensTheLogOfAllOfThem) {
