@@ -154,6 +154,16 @@ QString wordsText(As as, const json& value) {
     }
 }
 
+/// As many lines as the longest title has.
+void fitHeader(QTableWidget& table) {
+    auto* header = table.horizontalHeader();
+    setTextSize(*header, TextSize::Small);
+    int lines = 1;
+    for (int c = 0; c < table.columnCount(); ++c)
+        lines = std::max(lines, int(table.horizontalHeaderItem(c)->text().count('\n')) + 1);
+    header->setFixedHeight(lines * QFontMetrics(textFont(TextSize::Small)).height() + kHeaderPad);
+}
+
 }  // namespace
 
 const json& memberAt(const json& record, const std::string& path) {
@@ -194,6 +204,7 @@ void fillRecordTable(QTableWidget& table, const std::vector<RecordColumn>& colum
             if (!text.right) table.item(r, c)->setToolTip(text.cells[r]);
         }
     }
+    fitHeader(table);
 }
 
 QTableWidget* makeRecordTable(const std::vector<RecordColumn>& columns, const json& records, QWidget* parent) {
@@ -222,12 +233,11 @@ void layOutRecordTable(QTableWidget& table) {
     auto* header = table.horizontalHeader();
     header->setHighlightSections(false);
     header->setSectionsClickable(false);
-    setTextSize(*header, TextSize::Small);
+    fitHeader(table);
     const int longest = table.fontMetrics().averageCharWidth() * kLongestText;
     table.resizeColumnsToContents();
-    int lines = 1, width = 2 * table.frameWidth();
+    int width = 2 * table.frameWidth();
     for (int c = 0; c < table.columnCount(); ++c) {
-        lines = std::max(lines, int(table.horizontalHeaderItem(c)->text().count('\n')) + 1);
         if (table.columnWidth(c) > longest) table.setColumnWidth(c, longest);
         width += table.columnWidth(c);
     }
@@ -237,7 +247,6 @@ void layOutRecordTable(QTableWidget& table) {
     header->setStretchLastSection(words);
     table.setMaximumWidth(words ? QWIDGETSIZE_MAX : width);
     table.resizeRowsToContents();
-    header->setFixedHeight(lines * QFontMetrics(textFont(TextSize::Small)).height() + kHeaderPad);
     int height = header->height() + 2 * table.frameWidth();
     for (int row = 0; row < table.rowCount(); ++row) height += table.rowHeight(row);
     table.setFixedHeight(height);
