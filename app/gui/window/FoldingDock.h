@@ -13,7 +13,7 @@ namespace tacto::gui {
 class FoldingDock : public QDockWidget {
     Q_OBJECT
 public:
-    static constexpr int kWidth = 228;  ///< at least, at the usual size of text
+    static constexpr int kWidth = 231;  ///< at least, at the usual size of text
     /// `name` is the object's, by which its place is remembered.
     FoldingDock(const QString& title, const QString& iconName, const QString& name, QWidget* parent);
     /// In its column. On a low screen every dock scrolls: none makes the window larger than the screen.
