@@ -382,22 +382,23 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
 Result<void> PilotRun::mayGoOn() const {
     if (auto approved = study_->stillApproved(); !approved) return approved;
     const double most_min = study_->settings().sessionMax_min;
-    const double taken_min = std::chrono::duration<double, std::ratio<60>>(SystemTime::real().wall() -
-                                                                           begun_->session.parts.front().begun)
-                                 .count();
+    const double taken_min =
+        std::chrono::duration<double, std::ratio<60>>(SystemTime::real().wall() - begun_->session.parts.front().begun)
+            .count();
     if (taken_min < most_min) return {};
     return fail(kGateRefused,
                 "the session has taken {:.0f} min; the study allows {:.0f} min, so no further block begins", taken_min,
                 most_min);
 }
 
-/// In the ledger, which a withdrawal leaves. How severe it is and what it comes from is the investigator's to say: until
-/// then it counts as what it may be at worst.
+/// In the ledger, which a withdrawal leaves. How severe it is and what it comes from is the investigator's to say:
+/// until then it counts as what it may be at worst.
 Result<void> PilotRun::noteSkin(const std::string& moment, int score) {
     AdverseEvent event;
-    event.what = fmt::format("skin at the {} scored {} of 4 ({}); severity and relation as noted by the program, for "
-                             "the investigator to judge",
-                             settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes", score, moment);
+    event.what = fmt::format(
+        "skin at the {} scored {} of 4 ({}); severity and relation as noted by the program, for "
+        "the investigator to judge",
+        settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes", score, moment);
     event.severity = score;
     event.relation = 5;
     const auto& session = begun_->session.id;

@@ -156,6 +156,12 @@ Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body
         return fail(ErrorCode::ParseError,
                     "the record has {} at {} {}, and the script now asks for {}: it cannot be gone on with", trial.name,
                     unit, stored, trial.level);
+    const double interval_s = numberOr(body, "interval_s");
+    if (body.contains("interval_s") && !(std::abs(interval_s - trial.presentation.interval.count()) < 1e-6))
+        return fail(ErrorCode::ParseError,
+                    "the record has {} at an interval of {} s, and the script now asks for {} s: it cannot be gone on "
+                    "with",
+                    trial.name, interval_s, trial.presentation.interval.count());
     feel(trial);
     given(trial);
     const auto response = textOr(body, "response");
@@ -341,8 +347,8 @@ Result<void> PilotStage::seatAgain(const std::string& during, const Error& why, 
 
 Result<void> PilotStage::askToSee(const std::string& why) {
     const char* what = settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes";
-    const auto seen = insist(
-        goOnPrompt(fmt::format("Output is off: {}. See to the {}, then go on.", why, what), PromptTo::Operator));
+    const auto seen =
+        insist(goOnPrompt(fmt::format("Output is off: {}. See to the {}, then go on.", why, what), PromptTo::Operator));
     return seen ? Result<void>() : failure(seen);
 }
 

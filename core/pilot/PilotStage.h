@@ -84,7 +84,8 @@ public:
     [[nodiscard]] Result<Json> ask(const char* kind, const std::string& name, const PilotPrompt& prompt);
     /// Arms, after the participant's own levels were reached again where the session was resumed.
     [[nodiscard]] Result<void> ready();
-    /// Arms and presents nothing: for the test of the STOPs. Where the output is real, the operator confirms it by name.
+    /// Arms and presents nothing: for the test of the STOPs. Where the output is real, the operator confirms it by
+    /// name.
     [[nodiscard]] Result<void> arm();
     /// The participant holds, and lets go to stop. Waits until they do.
     [[nodiscard]] Result<void> hold();
@@ -109,8 +110,8 @@ public:
     /// Writes the row and ends the session. The error is what the script is to throw; none for Complete.
     [[nodiscard]] Result<void> end(PilotEnd how, const std::string& why);
     [[nodiscard]] PilotEnd ended() const noexcept { return end_; }
-    /// A stop that was pressed since the last one was handled: by the participant or not, and how long it took until the
-    /// output was told. For the test of the STOPs; any other stop is handled where it interrupts.
+    /// A stop that was pressed since the last one was handled: by the participant or not, and how long it took until
+    /// the output was told. For the test of the STOPs; any other stop is handled where it interrupts.
     struct PressedStop {
         bool participants = false;
         std::chrono::nanoseconds took{0};

@@ -175,8 +175,9 @@ Result<void> StudyBook::gates(const SessionRequest& request, Participant partici
     }
     if (const auto yes = known.excluded.find(participant.id);
         yes != known.excluded.end() && localDay(yes->second) == today()) {
-        return fail(kGateRefused, "{} answered yes to the exclusion checklist today; a session begins tomorrow at the "
-                                  "earliest",
+        return fail(kGateRefused,
+                    "{} answered yes to the exclusion checklist today; a session begins tomorrow at the "
+                    "earliest",
                     participant.code);
     }
     if (auto holds = exclusionGate(request.exclusions); !holds) return holds;

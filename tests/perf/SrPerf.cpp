@@ -1,5 +1,5 @@
-// Opening a .sr of 45 million samples against unpacking it: libzip reading the same entries into one buffer, and checking
-// them, in turns with ours inside one benchmark. "times_unzip" must be at most 2. "memory_of_samples" is the
+// Opening a .sr of 45 million samples against unpacking it: libzip reading the same entries into one buffer, and
+// checking them, in turns with ours inside one benchmark. "times_unzip" must be at most 2. "memory_of_samples" is the
 // most memory held while it opens, over that of the samples: at most 1.25.
 #include <benchmark/benchmark.h>
 #include <chrono>

@@ -109,6 +109,19 @@ TEST_F(PilotStageTest, AnAnswerToAnotherLevelIsNotTaken) {
     EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
 }
 
+TEST_F(PilotStageTest, AnAnswerToAnotherIntervalIsNotTaken) {
+    RecordProperty("hazard", "H9");
+    ASSERT_TRUE(stage_->trial(trial()));
+    const auto earlier = rows();
+    begin(earlier);
+    auto other = trial();
+    other.presentation = ascendingPresentation(Milliamps(0.5), Seconds(0.6));
+    const auto answer = stage_->trial(other);
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
+    EXPECT_NE(answer.error().message.find("at an interval of 0.5 s"), std::string::npos) << answer.error().message;
+}
+
 TEST_F(PilotStageTest, AParticipantsStopVoidsTheTrialWhichIsRepeatedAfterTheirGoOn) {
     RecordProperty("hazard", "H2");
     someone_.stops = 1;

@@ -37,7 +37,7 @@ public:
         if (prompt.kind == PromptKind::Hold) holds = true;
         PilotAnswer answer;
         const auto told = answers.find(prompt.name);
-        answer.keys.push_back(told != answers.end()      ? told->second
+        answer.keys.push_back(told != answers.end()    ? told->second
                               : prompt.targets.empty() ? "as asked"
                                                        : prompt.targets.front().key);
         answer.after = Seconds(0.5);

@@ -171,7 +171,8 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
     if (state == InterlockState::Paused || (armed && telemetry.paused))
         return tr("Paused: nothing is delivered until resumed.");
     if (!armed) return tr("Nothing is delivered until the output is armed.");
-    if (std::isfinite(telemetry.amplitude_v) && vibrates()) return tr("The massager vibrates; nothing of it is read back.");
+    if (std::isfinite(telemetry.amplitude_v) && vibrates())
+        return tr("The massager vibrates; nothing of it is read back.");
     if (std::isfinite(telemetry.amplitude_v)) {
         const double amps = telemetry.amplitude_v / telemetry.impedance_ohm;
         return std::isfinite(amps)

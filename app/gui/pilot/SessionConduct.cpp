@@ -21,7 +21,7 @@ constexpr int kOnePress_ms = 100;
 bool isPressOfStop(std::string_view by) {
     return by.starts_with("operator (") && by != kAbort && by != "operator (signal)";
 }
-}
+}  // namespace
 
 SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent)
     : QObject(parent), controller_(controller), page_(page) {

@@ -79,7 +79,8 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     auto* title = new QLabel(tr("Exclusion checklist: ask each, today"), asks_);
     setTextSize(*title, TextSize::Body, true);
     asks->addWidget(title);
-    asks->addWidget(explanation(tr("A yes ends the day, whatever is answered later. Which one it was is sealed."), asks_));
+    asks->addWidget(
+        explanation(tr("A yes ends the day, whatever is answered later. Which one it was is sealed."), asks_));
     asks->addWidget(checklist_);
     asks->addStretch();
     column->addStretch();

@@ -172,9 +172,8 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
                             {"at", toSeconds(capture.at)},
                             {"samples", capture.samples},
                             {"rate", known(capture.rate_hz)}});
-    std::vector<RecordColumn> ofTrials{{tr("Trial"), "number", As::Number},
-                                       {tr("At"), "at", As::Number, "s"},
-                                       {tr("Condition"), "condition"}};
+    std::vector<RecordColumn> ofTrials{
+        {tr("Trial"), "number", As::Number}, {tr("At"), "at", As::Number, "s"}, {tr("Condition"), "condition"}};
     for (const auto& column : {RecordColumn{tr("Amplitude"), "measured.amplitude_v", As::Number, "V"},
                                RecordColumn{tr("Interval"), "measured.interval_s", As::Number, "s"},
                                RecordColumn{tr("Width"), "measured.width_s", As::Number, "s"}}) {
@@ -183,19 +182,21 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
             ofTrials.push_back(column);
     }
     fill(*trials_, ofTrials, trials);
-    fill(*streams_, {{tr("Stream"), "name"},
-                     {tr("Unit"), "unit"},
-                     {tr("Rate"), "rate", As::Number, "Hz"},
-                     {tr("Samples"), "samples", As::Number},
-                     {tr("Channels"), "channels", As::Number}},
+    fill(*streams_,
+         {{tr("Stream"), "name"},
+          {tr("Unit"), "unit"},
+          {tr("Rate"), "rate", As::Number, "Hz"},
+          {tr("Samples"), "samples", As::Number},
+          {tr("Channels"), "channels", As::Number}},
          streams);
     plot_->clearGraphs();
     plot_->replot();
-    fill(*captures_, {{tr("Capture"), "number", As::Number},
-                      {tr("Trial"), "trial", As::Number},
-                      {tr("At"), "at", As::Number, "s"},
-                      {tr("Samples"), "samples", As::Number},
-                      {tr("Rate"), "rate", As::Number, "S/s"}},
+    fill(*captures_,
+         {{tr("Capture"), "number", As::Number},
+          {tr("Trial"), "trial", As::Number},
+          {tr("At"), "at", As::Number, "s"},
+          {tr("Samples"), "samples", As::Number},
+          {tr("Rate"), "rate", As::Number, "S/s"}},
          captures);
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
 }

@@ -18,10 +18,7 @@ constexpr int kNonePad = 16;
 }
 
 StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
-    : QWidget(parent),
-      study_(study),
-      pages_(new QStackedWidget(this)),
-      new_(new NewStudyPage(study, pages_)) {
+    : QWidget(parent), study_(study), pages_(new QStackedWidget(this)), new_(new NewStudyPage(study, pages_)) {
     setObjectName("studyPage");
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);

@@ -262,7 +262,8 @@ TEST_F(Layout, OfAMassagerTheFirstOutputIsAStrength) {
     click(*arm);
     EXPECT_IN_TIME(comesTrue([this] {
         const auto* first = window.findChild<QLabel*>("firstOutput");
-        return first != nullptr && first->text().startsWith("Drive is by hand: the first burst follows at once, at 100");
+        return first != nullptr &&
+               first->text().startsWith("Drive is by hand: the first burst follows at once, at 100");
     }));
 }
 
