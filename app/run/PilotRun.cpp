@@ -319,7 +319,6 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
 
 Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, const DeviceSet& devices) {
     request_.devicesSimulated = std::ranges::all_of(devices.identities(), &DeviceIdentity::simulated);
-    if (auto noted = study_->noteExclusions(request_); !noted) return failure(noted);
     if (toEnd_) {  // Not before every gate lets another begin: until then it can be gone on with
         if (auto may = study_->mayBegin(request_); !may) return failure(may);
         if (auto ended = study_->endSession(toEnd_->id, StudySessionState::Stopped, ""); !ended) return failure(ended);
@@ -347,6 +346,10 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         if (auto held = exclusionGate(*answers); !held) return failure(held);
     }
     if (auto opened = made->openStudy(order, pilot); !opened) return failure(opened);
+    SessionRequest answered;  // whatever refuses afterwards
+    answered.code = made->who_.code;
+    answered.exclusions = pilot.exclusions;
+    if (auto noted = made->study_->noteExclusions(answered); !noted) return failure(noted);
     if (auto chosen = made->chooseSession(order); !chosen) return failure(chosen);
     made->fitOrder(order, pilot);
     const VirtualObserver* truth = nullptr;

@@ -45,7 +45,7 @@ public:
     virtual void delivered(const FeltPresentation& felt) = 0;
     /// Presses since the last show() that came before targets; empties the list.
     [[nodiscard]] virtual std::vector<EarlyPress> takeEarly() = 0;
-    /// Makes a waiting ask() return Stopped, and every later one until the next show().
+    /// Makes a waiting ask() return Stopped, and every later one: the session is over.
     virtual void cancel() noexcept = 0;
 
     /// While levels rise: whether the participant still holds the key, pedal or target. From Hold's answer on until

@@ -89,11 +89,12 @@ PilotCare::PilotCare(PilotStage& stage) : stage_(stage) {
     stage_.afterFault = [this]() -> Result<void> {
         // Where nothing was measured before, the checklist is still to do it.
         if (stage_.settings().unit == LevelUnit::Intensity || firstImpedance() == nullptr) return {};
-        return asAtFirst(fmt::format("fault {}", stage_.record().count(row::kFault)));
+        return asAtFirst(fmt::format("seated again, {}", stage_.record().count(row::kImpedance)));
     };
     stage_.afterCare = [this]() -> Result<void> {
-        if (auto looked = skin("after"); !looked) return looked;
-        return sideEffects("after");
+        const auto looked = skin("after");
+        const auto asked = sideEffects("after");  // whatever the skin says
+        return looked ? asked : looked;
     };
 }
 
@@ -147,6 +148,10 @@ Result<void> PilotCare::stopTest(PromptTo by) {
         stage_.participant().show(screen);
         const auto answered = stage_.participant().ask(prompt);
         pressed = stage_.takeStop();
+        if (!answered && !pressed) {  // broken off by someone else: no test
+            stage_.rest();
+            return failure(answered);
+        }
         if (answered) pressed.reset();
         theirs = pressed && pressed->participants == (by == PromptTo::Participant);
         stage_.rest();
@@ -247,11 +252,15 @@ Result<void> PilotCare::skin(const std::string& moment) {
             return fail(ErrorCode::InvalidArgument, "{}: {} is no score; 0 to 4 is expected", what, dumpJson(*said));
         worst = std::max(worst, *score);
     }
-    if (stage_.record().find(row::kGate, "skin " + moment) != nullptr) return {};
+    if (const auto* judged = stage_.record().find(row::kGate, "skin " + moment)) {
+        return flagOr(*judged, "holds") ? Result<void>() : stage_.end(PilotEnd::Stopped, textOr(*judged, "said"));
+    }
     const int most = moment == "before" ? 0 : kSkinEnds - 1;
     if (worst >= kSkinEnds) {
-        if (auto kept = stage_.record().write(row::kAdverseEvent, "skin " + moment, {{"score", worst}}); !kept)
-            return kept;
+        if (stage_.record().find(row::kAdverseEvent, "skin " + moment) == nullptr) {
+            auto kept = stage_.record().write(row::kAdverseEvent, "skin " + moment, {{"score", worst}});
+            if (!kept) return kept;
+        }
         if (skinReacted) {
             if (auto told = skinReacted(moment, worst); !told) return told;
         }

@@ -46,19 +46,24 @@ Result<void> PilotSession::begin(bool withTrials) {
                                  {{"part", resumedPart_}, {"chain_head", resumedHead_}});
         if (!kept) return kept;
     }
+    // Stopped for good, and killed before the study knew.
+    if (const auto* ended = record.find(row::kSessionEnd, "end");
+        ended != nullptr && textOr(*ended, "state") == nameOf(PilotEnd::Stopped)) {
+        return stage_.end(PilotEnd::Stopped, textOr(*ended, "why"));
+    }
     if (auto planned = identification_.plan(withTrials); !planned) return planned;
     return care_.checklist();
 }
 
 Result<void> PilotSession::beforeBlock(int block) {
-    const bool done = stage_.record().find(row::kImpedance, fmt::format("block {}", block)) != nullptr;
-    if (!done && mayGoOn) {
+    const auto name = fmt::format("block {} approval", block);
+    auto& record = stage_.record();
+    if (mayGoOn && record.find(row::kGate, name) == nullptr) {
         const auto may = mayGoOn();
-        if (!may) {
-            auto kept = stage_.record().write(row::kGate, fmt::format("block {} approval", block),
-                                              {{"holds", false}, {"said", may.error().message}});
-            return kept ? stage_.end(PilotEnd::Stopped, may.error().message) : kept;
-        }
+        const auto said = may ? std::string() : may.error().message;
+        if (auto kept = record.write(row::kGate, name, {{"holds", may.has_value()}, {"said", said}}); !kept)
+            return kept;
+        if (!may) return stage_.end(PilotEnd::Stopped, said);
     }
     return care_.beforeBlock(block);
 }

@@ -18,14 +18,18 @@ constexpr Word<PilotEnd> kPilotEnds[] = {
 
 constexpr std::size_t kMaxStops = 3;   // of the participant: the third ends the session
 constexpr std::size_t kMaxFaults = 2;  // the second ends it
-constexpr int kArmingTries = 3;        // while the check pulse finds an electrode that lifted
+constexpr int kArmingTries = 3;        // while the check pulse finds an electrode that lifted, or a fault lasts
 constexpr std::size_t kMaxLate = 5;    // presentations in a row that the bench could not begin in time
 constexpr Seconds kMinPause{2};        // from an answer to the next first train
 constexpr Seconds kDot{0.5};           // the dot is shown so long before it
 /// Until when a bench in person mode may wait for an answer: prompts of trials are shorter.
 constexpr Seconds kAskingTakes{60};
 
+constexpr const char* kStopAnswer = "stop";      // to a presentation that they stopped
 constexpr const char* kVibration = "vibration";  // member of an answer: what the motor did
+
+/// The check pulse found no load that the bench is armed on.
+bool isUnseated(const Error& why) { return why.code == ErrorCode::NotArmed || why.code == ErrorCode::LimitExceeded; }
 
 bool isParticipants(std::string_view by) { return by.starts_with("participant"); }
 
@@ -101,14 +105,15 @@ Result<void> PilotStage::pass(Seconds time) {
 
 Result<void> PilotStage::end(PilotEnd how, const std::string& why) {
     rest();
-    if (how == PilotEnd::Stopped && afterCare && record_.count(row::kTrialBegin) > 0 && !std::exchange(caring_, true)) {
-        // After a stop the bench lets no time pass until there is an order anew.
-        if (bench_.begin(bench_.stops().mark())) static_cast<void>(afterCare());
-        if (end_ != PilotEnd::Unfinished) return fail(ErrorCode::Stopped, "{}", why);  // care has ended it
-    }
+    if (end_ != PilotEnd::Unfinished) return fail(ErrorCode::Stopped, "{}", why);  // it ends once
     end_ = how;
+    // Before anything is asked: killed meanwhile, it is over all the same.
     if (auto kept = record_.write(row::kSessionEnd, "end", {{"state", nameOf(how)}, {"why", why}}); !kept) return kept;
     if (how == PilotEnd::Complete) return {};
+    if (afterCare && record_.count(row::kTrialBegin) > 0) {
+        participant_.show({});  // the stop that ended it stops no question after it
+        static_cast<void>(afterCare());
+    }
     return fail(ErrorCode::Stopped, "{}", why);
 }
 
@@ -136,14 +141,13 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
             ++late;
             continue;
         }
-        const auto before = record_.count(row::kContinue);
+        const auto stops = record_.count(row::kParticipantStop);
         if (auto goesOn = recover(trial.name, answer.error()); !goesOn) return failure(goesOn);
-        if (!trial.stopAnswers || record_.count(row::kContinue) == before) continue;
-        Json body = trial.about;
-        body["response"] = "stop";
-        body["attempt"] = number;
+        if (!trial.stopAnswers || record_.count(row::kParticipantStop) == stops) continue;
+        Json body = about(trial, number);
+        body["response"] = kStopAnswer;
         if (auto kept = record_.write(row::kAnswer, trial.name, std::move(body)); !kept) return failure(kept);
-        return StageAnswer{"stop", kNaN, number, true, false, {}};
+        return StageAnswer{kStopAnswer, kNaN, number, true, false, {}};
     }
     return fail(ErrorCode::Timeout, "{}: the bench could not begin a presentation in time {} times in a row",
                 trial.name, kMaxLate);
@@ -162,9 +166,11 @@ Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body
                     "the record has {} at an interval of {} s, and the script now asks for {} s: it cannot be gone on "
                     "with",
                     trial.name, interval_s, trial.presentation.interval.count());
-    feel(trial);
-    given(trial);
     const auto response = textOr(body, "response");
+    if (response != kStopAnswer) {
+        feel(trial);
+        given(trial);
+    }
     StageAnswer answer{
         response, numberOr(body, "rt_s"), countOr(body, "attempt"), !response.empty() || !trial.asks, true, {}};
     if (const auto found = body.find(kVibration); found != body.end()) answer.vibration = burstFiguresFrom(*found);
@@ -183,12 +189,17 @@ void PilotStage::feel(const StageTrial& trial) {
 
 void PilotStage::given(const StageTrial& trial) noexcept { stimulated_ += lengthOf(trial); }
 
+PilotStage::Json PilotStage::about(const StageTrial& trial, std::size_t attempt) const {
+    Json body = trial.about;
+    body["attempt"] = attempt;
+    body[nameOf(settings_.unit)] = trial.level;
+    body["interval_s"] = trial.presentation.interval.count();
+    return body;
+}
+
 Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, std::size_t number) {
     if (auto there = participant_.ready(); !there) return failure(there);
-    Json about = trial.about;
-    about["attempt"] = number;
-    about[nameOf(settings_.unit)] = trial.level;
-    about["interval_s"] = trial.presentation.interval.count();
+    Json about = this->about(trial, number);
     if (auto kept = record_.write(row::kTrialBegin, trial.name, about); !kept) return failure(kept);
 
     auto screen = trial.screen;
@@ -279,7 +290,8 @@ Result<PilotStage::Json> PilotStage::ask(const char* kind, const std::string& na
     return record_.once(kind, name, [&]() -> Result<Json> {
         const auto said = insist(prompt);
         if (!said) return failure(said);
-        if (!participant_.answersInRealTime()) {
+        // After its end a bench that has faulted, or was stopped, lets no time pass.
+        if (!participant_.answersInRealTime() && end_ == PilotEnd::Unfinished) {
             if (auto passed = pass(said->after); !passed) return failure(passed);
         }
         lastAnswer_ = bench_.clock().now();
@@ -316,6 +328,7 @@ Result<ArmRequest> PilotStage::confirmed(const char* question) {
     if (!bench_.outputIsReal()) return request;
     const auto load = parseLoad(request.load);
     request.confirmed = load ? bench_.armingText(*load) : std::string();
+    participant_.show({});  // what is held may be let go: it is the operator's turn
     const auto asked =
         insist(yesNoPrompt("arm", fmt::format("{} {}?", question, request.confirmed), PromptTo::Operator));
     if (!asked) return failure(asked);
@@ -330,7 +343,9 @@ Result<void> PilotStage::arm() {
         const auto armed = bench_.arm(*request);
         armed_ = armed.has_value();
         if (armed_) break;
+        const bool unseated = isUnseated(armed.error());
         if (auto goesOn = seatAgain("arming", armed.error(), tries); !goesOn) return goesOn;
+        if (!unseated) continue;
         rampDue_ = true;
         if (!afterFault) continue;
         if (auto measured = afterFault(); !measured) return measured;
@@ -339,7 +354,7 @@ Result<void> PilotStage::arm() {
 }
 
 Result<void> PilotStage::seatAgain(const std::string& during, const Error& why, int tries) {
-    if (why.code != ErrorCode::NotArmed) return recover(during, why);
+    if (!isUnseated(why)) return recover(during, why);
     if (tries >= kArmingTries) return tl::unexpected<Error>(why);
     if (auto kept = record_.write(row::kGate, during, {{"holds", false}, {"said", why.message}}); !kept) return kept;
     return askToSee(why.message);
@@ -347,6 +362,7 @@ Result<void> PilotStage::seatAgain(const std::string& during, const Error& why, 
 
 Result<void> PilotStage::askToSee(const std::string& why) {
     const char* what = settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes";
+    participant_.show({});
     const auto seen =
         insist(goOnPrompt(fmt::format("Output is off: {}. See to the {}, then go on.", why, what), PromptTo::Operator));
     return seen ? Result<void>() : failure(seen);
@@ -396,9 +412,6 @@ Result<void> PilotStage::ramp() {
     std::size_t number = 0;
     const auto named = [&number](double level) { return fmt::format("ramp {} {}", number, level); };
     while (!accepted.empty() && record_.begun(named(accepted.begin()->first)) > 0) ++number;
-    PilotScreen rest;  // levels rise no more: what was held may be let go
-    rest.phase = "ascending";
-    rest.text = "You can let go now.";
     for (const auto& [level, first] : accepted) {
         if (level >= tooStrong_ || (settled_ && level > *settled_)) break;
         StageTrial again;
@@ -423,14 +436,18 @@ Result<void> PilotStage::ramp() {
         }
         if (auto told = bench_.accept(levelOf(level)); !told) return told;
     }
-    if (!accepted.empty()) participant_.show(rest);
+    if (accepted.empty()) return {};
+    PilotScreen letGo;  // levels rise no more
+    letGo.phase = "ascending";
+    letGo.text = "You can let go now.";
+    participant_.show(letGo);
     return {};
 }
 
 // After a stop or a fault
 
 Result<void> PilotStage::recover(const std::string& during, const Error& why) {
-    armed_ = false;
+    rest();
     if (end_ != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
     if (why.code == ErrorCode::Device) return afterTheFault(during, why);
     if (auto noted = noteStop(during, why); !noted) return noted;
@@ -455,10 +472,12 @@ Result<void> PilotStage::afterTheFault(const std::string& during, const Error& w
     if (auto kept = record_.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
     if (record_.count(row::kFault) >= kMaxFaults)
         return end(PilotEnd::Stopped, "a second fault ends the session: " + why.message);
-    for (auto cause = why.message;;) {
+    auto cause = why.message;
+    for (int tries = 1;; ++tries) {
         if (auto seen = askToSee(cause); !seen) return seen;
         const auto reset = bench_.resetFault();
         if (reset) break;
+        if (tries >= kArmingTries) return reset;
         cause = reset.error().message;  // it is still there
     }
     if (auto wanted = askToGoOn("The output was off because of a fault. Go on when you want to."); !wanted)
@@ -472,12 +491,13 @@ Result<void> PilotStage::askToGoOn(const std::string& text) {
     screen.text = text;
     for (;;) {
         participant_.show(screen);
+        const auto mark = bench_.stops().mark();  // a stop from here on is one after their "go on"
         const auto asked = participant_.ask(goOnPrompt(text, PromptTo::Participant));
-        if (asked) break;
+        const auto begun = asked ? bench_.begin(mark) : Result<void>(failure(asked));
+        if (begun) break;
         // Nothing is on, and they press STOP once more: theirs counts, and they are asked again.
-        if (auto noted = noteStop("go on", asked.error()); !noted) return noted;
+        if (auto noted = noteStop("go on", begun.error()); !noted) return noted;
     }
-    if (auto begun = bench_.begin(bench_.stops().mark()); !begun) return begun;
     lastAnswer_ = bench_.clock().now();
     return record_.write(row::kContinue, "continue");
 }

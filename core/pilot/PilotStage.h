@@ -94,8 +94,8 @@ public:
     /// Called once the participant wants to go on after a fault, before anything is presented: what was seated again is
     /// measured anew. Its errors end the trial.
     std::function<Result<void>()> afterFault;
-    /// Called with the output off before a session in which something was presented ends for good, however it ends but
-    /// for its own last question: who was stimulated is looked after. Its errors change nothing.
+    /// Called with the output off once a session in which something was presented was stopped for good: who was
+    /// stimulated is looked after. Its errors change nothing.
     std::function<Result<void>()> afterCare;
     /// Output off. Nothing is presented until ready().
     void rest() noexcept;
@@ -107,7 +107,7 @@ public:
     [[nodiscard]] Result<void> judged(double level, bool tooStrong, const std::string& trial, bool replayed);
     /// Nothing is presented above `level` from now on: the top of a resumed session's ramp.
     void settle(double level) noexcept { settled_ = level; }
-    /// Writes the row and ends the session. The error is what the script is to throw; none for Complete.
+    /// Writes the row and ends the session, once. The error is what the script is to throw; none for Complete.
     [[nodiscard]] Result<void> end(PilotEnd how, const std::string& why);
     [[nodiscard]] PilotEnd ended() const noexcept { return end_; }
     /// A stop that was pressed since the last one was handled: by the participant or not, and how long it took until
@@ -135,6 +135,7 @@ public:
 
 private:
     [[nodiscard]] Result<StageAnswer> replay(const StageTrial& trial, const Json& row);
+    [[nodiscard]] Json about(const StageTrial& trial, std::size_t attempt) const;
     [[nodiscard]] Result<std::optional<StageAnswer>> attempt(const StageTrial& trial, std::size_t number);
     [[nodiscard]] Result<Presented> present(const Presentation& presentation, const PilotScreen& screen);
     [[nodiscard]] std::function<void(Seconds)> passing(const PilotScreen& screen);
@@ -166,7 +167,6 @@ private:
     std::atomic<std::chrono::nanoseconds::rep> stopTook_{0};
     bool armed_ = false;
     bool rampDue_ = false;
-    bool caring_ = false;
     std::map<double, std::string> accepted_;                      // Level and the trial in which it was accepted first
     double tooStrong_ = std::numeric_limits<double>::infinity();  // Lowest so far
     std::optional<double> settled_;

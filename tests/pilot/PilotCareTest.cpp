@@ -1,5 +1,6 @@
 // The gates that only the running bench can ask.
 #include "core/pilot/PilotCare.h"
+#include "core/pilot/PilotSession.h"
 #include "tests/pilot/StageFixture.h"
 
 namespace tacto::test {
@@ -102,7 +103,46 @@ TEST_F(PilotCareTest, ASessionThatTheParticipantEndsAsksForSkinAndSideEffects) {
     EXPECT_THAT(bodies(row::kSkin), SizeIs(2));
     EXPECT_THAT(bodies(row::kSideEffect), SizeIs(testing::Ge(1U)));
     EXPECT_THAT(bodies(row::kSessionEnd), SizeIs(1));
-    EXPECT_EQ(rows().back().name, row::kSessionEnd) << "the end comes last";
+}
+
+TEST_F(PilotCareTest, AThirdStopDuringAPresentationIsFollowedByTheQuestionsToo) {
+    RecordProperty("hazard", "H12");
+    PilotCare care(*stage_);
+    someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
+    someone_.onShow = [this] {
+        if (someone_.shown.back().state == ScreenState::Feel) someone_.press("participant");
+    };
+    EXPECT_FALSE(stage_->trial(trial()));
+    EXPECT_EQ(record_->count(row::kParticipantStop), 3U);
+    EXPECT_EQ(record_->count(row::kOperatorStop), 0U);
+    EXPECT_THAT(bodies(row::kSkin), SizeIs(2));
+    EXPECT_THAT(bodies(row::kSideEffect), SizeIs(testing::Ge(1U)));
+}
+
+TEST_F(PilotCareTest, ASessionThatWasStoppedGoesOnWithNothingButItsQuestions) {
+    RecordProperty("hazard", "H12");
+    {
+        PilotCare care(*stage_);
+        ASSERT_TRUE(stage_->trial(trial()));
+        someone_.answers = {{"erythema", "2"}, {"oedema", "0"}};
+        EXPECT_FALSE(care.skin("break 3"));
+    }
+    // As if it had died when it asked for the skin afterwards.
+    std::vector<SessionRow> earlier;
+    for (const auto& each : rows()) {
+        earlier.push_back(each);
+        if (each.name == row::kSessionEnd) break;
+    }
+    begin(earlier);
+    PilotSession session(*bench_, someone_, *record_, PilotSettings{}, nullptr, 2);
+    session.resumesFrom("part 1", "head");
+    const auto begun = session.begin(false);
+    ASSERT_FALSE(begun);
+    EXPECT_THAT(begun.error().message, HasSubstr("the skin scores 2 (break 3)"));
+    EXPECT_EQ(session.stage().ended(), PilotEnd::Stopped);
+    EXPECT_THAT(bodies(row::kSkin), SizeIs(2)) << "of afterwards";
+    EXPECT_THAT(bodies(row::kStopTest), SizeIs(0)) << "nothing is armed";
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
 }
 
 TEST_F(PilotCareTest, ASkinThatEndsItLeavesTheSideEffectsToBeAsked) {

@@ -200,7 +200,7 @@ protected:
     void passUntil(double s) { ASSERT_TRUE(stage_->pass(Seconds(s - toSeconds(clock_->now())))); }
     [[nodiscard]] StageTrial rising(double level) const {
         auto made = trial(fmt::format("ascending {}", level), level);
-        made.held = true;
+        made.held = made.stopAnswers = true;
         return made;
     }
     [[nodiscard]] std::vector<std::string> answered() const {
@@ -218,6 +218,7 @@ TEST_F(PilotStageFaultTest, TheyHoldAgainAndTheLevelsAreReachedAgainStepByStep) 
     passUntil(19);
     const auto answer = stage_->trial(rising(1.5));
     ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(answer->response, "nothing") << "a fault is no stop of the participant";
     EXPECT_EQ(record_->count(row::kFault), 1U);
     EXPECT_EQ(measured_, 1);
     EXPECT_THAT(answered(), ElementsAre("ascending 0.5", "ascending 1", "ramp 0 0.5", "ramp 0 1", "ascending 1.5"));
@@ -247,6 +248,34 @@ TEST_F(PilotStageFaultTest, AnElectrodeThatIsOpenWhenArmingIsSeatedAgainAndIsNoF
     EXPECT_EQ(record_->count(row::kFault), 0U);
     EXPECT_GE(measured_, 1);
     EXPECT_THAT(answered(), ElementsAre("ascending 0.5", "ascending 1", "ramp 0 0.5", "ramp 0 1", "ascending 1.5"));
+}
+
+TEST_F(PilotStageFaultTest, OneThatLastsIsNotAskedAboutForEver) {
+    RecordProperty("hazard", "H3");
+    reachOne("unplug@20.2s");
+    passUntil(19);
+    someone_.asked.clear();
+    EXPECT_FALSE(stage_->trial(rising(1.5)));
+    EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished) << "it may be resumed";
+    EXPECT_EQ(std::ranges::count(someone_.asked, "go-on"), 3);
+}
+
+TEST_F(PilotStageTest, AStopInASeriesIsReplayedAsTheStopThatItWas) {
+    RecordProperty("hazard", "H8");
+    auto made = trial("ascending 1", 0.5);
+    made.stopAnswers = true;
+    someone_.stops = 1;
+    const auto answer = stage_->trial(made);
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(answer->response, "stop");
+    const auto stimulated = stage_->stimulated();
+    const auto earlier = rows();
+    begin(earlier);
+    const auto again = stage_->trial(made);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->response, "stop");
+    EXPECT_TRUE(again->replayed);
+    EXPECT_EQ(stage_->stimulated(), stimulated);
 }
 
 TEST_F(PilotStageFaultTest, OneThatStaysOpenBreaksTheSessionOff) {

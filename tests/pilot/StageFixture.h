@@ -17,10 +17,13 @@ class Someone final : public PilotParticipant {
 public:
     void show(const PilotScreen& screen) override {
         shown.push_back(screen);
+        stopped_ = false;
         if (screen.state == ScreenState::Rest && letsGo) holds = false;
         if (onShow) onShow();
     }
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
+        // As at a desk: a stop that came between questions is the answer to the next one.
+        if (stopped_) return fail(ErrorCode::Stopped, "stopped before it was asked");
         if (onAsk) onAsk(prompt);
         asked.push_back(prompt.name);
         texts.push_back(prompt.text);
@@ -55,6 +58,11 @@ public:
     std::vector<PilotScreen> shown;
     std::function<void()> onShow;
     std::function<void(const PilotPrompt&)> onAsk;
+    void press(const char* by) {
+        stopped_ = true;
+        stop(by);
+    }
+
     std::vector<std::string> texts;
     std::map<std::string, std::string> answers;  // by the prompt's name; else its first target
     int stops = 0;
@@ -66,9 +74,10 @@ public:
     bool letsGo = false;  // as soon as they may
 
 private:
+    bool stopped_ = false;
     [[nodiscard]] tl::unexpected<Error> stoppedBy_(const char* by) {
         if (testPresses > 0) --testPresses;
-        stop(by);
+        press(by);
         return fail(ErrorCode::Stopped, "stopped by the {}", by);
     }
 };

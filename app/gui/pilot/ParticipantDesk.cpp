@@ -33,7 +33,7 @@ void ParticipantDesk::show(const PilotScreen& screen) {
     if (screen.state == ScreenState::Rest) holding_ = false;
     {
         const std::scoped_lock lock(mutex_);
-        cancelled_ = stopped_ = false;
+        stopped_ = false;
     }
     emit screenChanged(screen);
 }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kAbort = "operator (abort)";
 constexpr int kOnePress_ms = 100;
+constexpr std::chrono::seconds kOneTest{1};
 
 /// An operator who aborts or closes the window, or a screen that goes, has tested no STOP.
 bool isPressOfStop(std::string_view by) {
@@ -174,8 +175,15 @@ void SessionConduct::run() {
         seats.people = &desk_;
         seats.codeConfirmed = codeConfirmed_;
         seats.begun = [this](std::shared_ptr<const Clock> clock) { desk_.begin(std::move(clock)); };
+        testedAt_ = SteadyTime();
         seats.takesStop = [this](const char* by) {
-            return isPressOfStop(by) && desk_.testsStopOf(PromptTo::Operator) && desk_.stopBy(by);
+            if (!isPressOfStop(by)) return false;
+            // One press, held or doubled, comes several times. What it tested is off already, and a question comes
+            // next.
+            if (std::chrono::steady_clock::now() - testedAt_.load() < kOneTest) return true;
+            if (!desk_.testsStopOf(PromptTo::Operator) || !desk_.stopBy(by)) return false;
+            testedAt_ = std::chrono::steady_clock::now();
+            return true;
         };
     }
     run_ = controller_.runPilot(order_, seats, mark_);

@@ -10,10 +10,12 @@
 
 #include <QElapsedTimer>
 #include <QObject>
+#include <atomic>
 #include <memory>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/controller/SideWork.h"
+#include "app/gui/pilot/InputTime.h"
 #include "app/gui/pilot/ParticipantDesk.h"
 #include "app/gui/pilot/PilotStart.h"
 
@@ -98,8 +100,9 @@ private:
     bool running_ = false;
     std::uint64_t run_ = 0;
     bool seenFault_ = false;
-    bool paused_ = false;      ///< by a break
-    QElapsedTimer stoppedAt_;  ///< by the participant
+    bool paused_ = false;                 ///< by a break
+    QElapsedTimer stoppedAt_;             ///< by the participant
+    std::atomic<SteadyTime> testedAt_{};  ///< the operator's STOP; any thread
     int participantStops_ = 0, faults_ = 0;
     PilotScreen screen_;
 };

@@ -10,6 +10,7 @@
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/ParticipantWindow.h"
+#include "core/study/Study.h"
 #include "app/gui/pilot/PilotWorkspace.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
@@ -120,6 +121,10 @@ TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
     click(*find<QPushButton>(*strip, "End the session"));
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_NE(find<QPushButton>(*pilot, "Go on with the session"), nullptr) << headline();
+    const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
+    ASSERT_TRUE(study) << study.error().message;
+    ASSERT_EQ(study->sessions().size(), 1U);
+    EXPECT_EQ(study->sessions()[0].state, StudySessionState::Unfinished) << "it may be gone on with";
 }
 
 TEST_F(RehearsalInTheWindow, ClosingTheParticipantsWindowIsAStop) {
