@@ -16,7 +16,6 @@ namespace {
 
 constexpr const char* kAbort = "operator (abort)";
 constexpr int kOnePress_ms = 100;
-constexpr std::chrono::seconds kOneTest{1};
 
 /// An operator who aborts or closes the window, or a screen that goes, has tested no STOP.
 bool isPressOfStop(std::string_view by) {
@@ -178,9 +177,9 @@ void SessionConduct::run() {
         testedAt_ = SteadyTime();
         seats.takesStop = [this](const char* by) {
             if (!isPressOfStop(by)) return false;
-            // One press, held or doubled, comes several times. What it tested is off already, and a question comes
-            // next.
-            if (std::chrono::steady_clock::now() - testedAt_.load() < kOneTest) return true;
+            // StopKeys hears one press several times. What it tested is off already, and a question comes next.
+            const auto since = std::chrono::steady_clock::now() - testedAt_.load();
+            if (since < std::chrono::milliseconds(kOnePress_ms)) return true;
             if (!desk_.testsStopOf(PromptTo::Operator) || !desk_.stopBy(by)) return false;
             testedAt_ = std::chrono::steady_clock::now();
             return true;

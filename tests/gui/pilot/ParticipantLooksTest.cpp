@@ -171,6 +171,7 @@ TEST_F(ParticipantLooks, TargetsHave20mmAndNothingIsCutInBothThemesAndSizes) {
                     }
                     desk.cancel();
                     EXPECT_FALSE(answered());
+                    desk.begin(nullptr);  // another session's
                     desk.show(testScreen(ScreenState::Rest));
                 }
             }

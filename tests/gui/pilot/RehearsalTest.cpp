@@ -10,8 +10,8 @@
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/ParticipantWindow.h"
-#include "core/study/Study.h"
 #include "app/gui/pilot/PilotWorkspace.h"
+#include "core/study/Study.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
@@ -102,6 +102,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     ASSERT_IN_TIME(comesTrue(
         [&] { return !runs() || (strip->isVisible() && find<QPushButton>(*strip, "0") != nullptr); }, 20'000));
     ASSERT_IN_TIME(runs()) << headline();
+    QTest::qWait(150);  // another press than that of the test
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_EQ(pilot->participantWindow(), nullptr);
