@@ -3,6 +3,7 @@
 #include <QAbstractItemView>
 #include <QApplication>
 #include <QFileDialog>
+#include <QFileIconProvider>
 #include <QGridLayout>
 #include <QLabel>
 #include <QScreen>
@@ -14,10 +15,26 @@ namespace {
 
 using Wants = FileQuestion::Wants;
 
+/// By what a file is called. Qt's own provider opens each one to see what it is, and a process that closes any
+/// descriptor of a file loses its locks on it: those by which SQLite keeps other programs from the index of a session
+/// that is being recorded (hazard H8).
+class UnopenedFiles final : public QFileIconProvider {
+public:
+    using QFileIconProvider::icon;
+    [[nodiscard]] QIcon icon(const QFileInfo& info) const override { return icon(info.isDir() ? Folder : File); }
+    [[nodiscard]] QString type(const QFileInfo& info) const override {
+        if (info.isDir()) return QObject::tr("Folder");
+        return info.suffix().isEmpty() ? QObject::tr("File") : QObject::tr("%1 file").arg(info.suffix());
+    }
+};
+
 /// Qt's own file dialog without the questions that it asks in modal boxes: those stand in its last line.
 class FileChooser final : public QFileDialog {
 public:
-    FileChooser(QWidget* parent, const FileQuestion& question) : QFileDialog(parent, question.title) {
+    // It begins in a folder that holds folders alone: what it lists before it has a provider of its own, it opens.
+    FileChooser(QWidget* parent, const FileQuestion& question) : QFileDialog(parent, question.title, QDir::rootPath()) {
+        static UnopenedFiles files;
+        setIconProvider(&files);
         setObjectName("fileChooser");
         // The desktop's own dialog keeps its keys to itself, Esc and Pause too.
         setOptions(DontUseNativeDialog | DontConfirmOverwrite);
@@ -27,7 +44,7 @@ public:
         setOption(ShowDirsOnly, question.wants == Wants::Folder);
         setAcceptMode(question.wants == Wants::NewFile ? AcceptSave : AcceptOpen);
         if (!question.filters.isEmpty()) setNameFilters(question.filters);
-        if (!question.folder.isEmpty()) setDirectory(question.folder);
+        setDirectory(!question.folder.isEmpty() ? question.folder : lastFolder());
         if (!question.suffix.isEmpty()) setDefaultSuffix(question.suffix);
         if (!question.name.isEmpty()) selectFile(question.name);
         // It chooses. Deleting files is not its work, and would ask in a box of its own.
@@ -52,10 +69,15 @@ public:
         const bool replaces = acceptMode() == AcceptSave && file.isFile();
         if (replaces && std::exchange(replaces_, file.absoluteFilePath()) != file.absoluteFilePath())
             return say(QObject::tr("⚠ %1 exists. Press Save again to replace it.").arg(file.fileName()));
+        lastFolder() = directory().absolutePath();
         QFileDialog::accept();
     }
 
 private:
+    static QString& lastFolder() {
+        static QString folder = QDir::currentPath();
+        return folder;
+    }
     void say(const QString& what) {
         says_->setText(what);
         says_->show();

@@ -1,0 +1,79 @@
+// The program's file chooser beside a session that is being recorded.
+#include <QFileDialog>
+#include <QPointer>
+#include <QTemporaryDir>
+#include <QTest>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "app/gui/theme/Dialogs.h"
+#include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
+
+namespace tacto::test {
+namespace {
+
+/// Whether another process would find the first byte of the file locked.
+bool isLocked(const QByteArray& path) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const int file = ::open(path.constData(), O_RDWR);
+        struct flock lock {};
+        lock.l_type = F_WRLCK;
+        lock.l_whence = SEEK_SET;
+        lock.l_len = 1;
+        const bool asked = file >= 0 && ::fcntl(file, F_GETLK, &lock) == 0;
+        ::_exit(asked && lock.l_type != F_UNLCK ? 1 : 0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) && WEXITSTATUS(status) == 1;
+}
+
+/// A process that closes any descriptor of a file loses its locks on it, SQLite's among them: then the next program
+/// that opens the session cuts its index off under the writer, which ends by SIGBUS.
+TEST(FileChooser, OpensNoneOfTheFilesThatItLists) {
+    RecordProperty("hazard", "H8");
+    const QTemporaryDir folder;
+    for (const char* name : {"session.tacto", "session.tacto-wal", "session.tacto-shm", "capture.csv", "nameless"}) {
+        QFile file(folder.filePath(name));
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        file.write("something to look at\n");
+    }
+    const auto path = folder.filePath("session.tacto-shm").toUtf8();
+    const int held = ::open(path.constData(), O_RDWR);
+    ASSERT_GE(held, 0);
+    struct flock lock {};
+    lock.l_type = F_RDLCK;
+    lock.l_whence = SEEK_SET;
+    lock.l_len = 1;
+    ASSERT_EQ(::fcntl(held, F_SETLK, &lock), 0);
+    ASSERT_TRUE(isLocked(path));
+
+    QWidget asking;
+    asking.show();
+    for (const auto& shown : {folder.path(), QString()}) {  // and once more, where the last one ended
+        gui::FileQuestion question;
+        question.title = "Open";
+        question.folder = shown;
+        gui::askForFile(asking, question, [](const QString&) {});
+        const QPointer dialog = asking.findChild<QFileDialog*>();
+        ASSERT_NE(dialog, nullptr);
+        dialog->setFilter(QDir::AllEntries | QDir::Hidden);
+        ASSERT_IN_TIME(comesTrue([&] { return dialog->isVisible(); }));
+        for (const auto view : {QFileDialog::Detail, QFileDialog::List}) {
+            dialog->setViewMode(view);
+            QTest::qWait(500);  // the chooser looks at files on a thread of its own
+        }
+        EXPECT_TRUE(isLocked(path)) << shown.toStdString();
+        dialog->selectFile(folder.filePath("capture.csv"));
+        static_cast<QDialog*>(dialog.data())->done(QDialog::Accepted);
+        ASSERT_IN_TIME(comesTrue([&] { return dialog.isNull(); }));
+    }
+    ::close(held);
+}
+
+}  // namespace
+}  // namespace tacto::test
