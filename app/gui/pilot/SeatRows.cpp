@@ -18,9 +18,9 @@ SeatRows::SeatRows(QFormLayout& form, QWidget& parent)
     keys_->addItem(QObject::tr("right hand: U I, J K, M and comma"), int(KeySet::RightHand));
     keys_->setToolTip(QObject::tr("Touch and mouse work with each of them."));
     form.addRow(QObject::tr("Their keys"), keys_);
-    blind_->setChecked(true);
     blind_->setObjectName("blind");
-    blind_->setToolTip(QObject::tr("The operator sees no condition, level or answer until the session has ended."));
+    setBlind(false);
+    blind_->setChecked(true);
     form.addRow(blind_);
     about_->setWordWrap(true);
     about_->setObjectName("seatsAbout");
