@@ -5,6 +5,7 @@
 #include "app/run/KnownCalibration.h"
 #include "app/run/OpenDevices.h"
 #include "app/run/ScopeStatement.h"
+#include "core/base/JsonText.h"
 #include "core/bench/ProfileReach.h"
 #include "core/devices/ReplayedDevice.h"
 #include "core/safety/UnitFolders.h"
@@ -62,7 +63,7 @@ SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order) {
     }
     // Without a device nothing is measured: what such a protocol says is predicted.
     about.simulated = about.simulated || (!about.protocol.empty() && devices.identities().empty());
-    about.profileJson = toJson(order.profile).dump();
+    about.profileJson = dumpJson(toJson(order.profile));
     const auto& limits = order.limits;
     for (std::size_t i = 0; i < limits.sets.size(); ++i)
         about.limitSets.push_back({limits.sets[i].id, limits.sha256[i], limits.from[i]});

@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 
 #include "app/scripting/engine/DeclarationReader.h"
+#include "core/base/JsonText.h"
 #include "core/base/Text.h"
 
 int main(int argc, char** argv) {
@@ -32,7 +33,7 @@ int main(int argc, char** argv) {
     char block[65536];
     for (std::size_t got = 0; (got = std::fread(block, 1, sizeof block, stdin)) > 0;) source.text.append(block, got);
     const auto declared = declareHere(source, std::chrono::milliseconds(static_cast<std::int64_t>(*limit)));
-    const auto answer = answerOf(declared).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    const auto answer = dumpJson(answerOf(declared), -1, true);
     const bool written = std::fwrite(answer.data(), 1, answer.size(), stdout) == answer.size();
     const bool flushed = std::fflush(stdout) == 0;
     // A script that did not end when asked to may still run: nothing is torn down under it.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "core/base/JsonText.h"
+
 namespace tacto {
 
 namespace {
@@ -88,7 +90,7 @@ std::string HostParameter::defaultText() const {
     if (usual.is_null()) return {};
     const auto value = usual.is_number()   ? fmt::format("{}", usual.get<double>())
                        : usual.is_string() ? fmt::format("\"{}\"", usual.get<std::string>())
-                                           : usual.dump();
+                                           : dumpJson(usual);
     return unit.empty() || !usual.is_number() ? value : fmt::format("{} {}", value, unit);
 }
 

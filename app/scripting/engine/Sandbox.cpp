@@ -6,6 +6,7 @@
 
 #include "app/scripting/engine/HostBridge.h"
 #include "app/scripting/engine/JsValue.h"
+#include "core/base/JsonText.h"
 
 namespace tacto {
 
@@ -216,7 +217,7 @@ std::optional<ScriptError> Sandbox::load() {
 }
 
 std::optional<ScriptError> Sandbox::run(const nlohmann::json& parameters) {
-    const std::string given = parameters.dump(-1, ' ', true);  // ASCII: a JavaScript literal whatever it holds
+    const std::string given = dumpJson(parameters, -1, true);  // ASCII: a JavaScript literal whatever it holds
     return engine_->evaluate(QStringLiteral("run(") + QString::fromStdString(given) + QLatin1Char(')'), kStartFile);
 }
 
@@ -262,8 +263,7 @@ ScriptError Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList
     if (!thrown.isError()) {
         error.reason = thrown.toString().toStdString();
         if (thrown.isObject() && !thrown.isCallable()) {
-            if (auto plain = toJson(thrown))
-                error.reason = plain->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+            if (auto plain = toJson(thrown)) error.reason = dumpJson(*plain);
         }
         return error;
     }

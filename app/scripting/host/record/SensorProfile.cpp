@@ -6,6 +6,7 @@
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/record/CalibratedOutput.h"
 #include "app/scripting/host/record/RecordObject.h"
+#include "core/base/JsonText.h"
 #include "core/calibration/CalibrationStore.h"
 
 namespace tacto::host::record {
@@ -82,7 +83,7 @@ Result<Json> keepProfile(ScriptSession& session, const Arguments& arguments) {
     Json out = {{"name", profile.name}, {"file", nullptr}, {"profile", toJson(profile)}};
     if (!arguments.flag("options.store")) return out;
     const auto stem = "fingertip-" + fileWord(identity.serial.empty() ? identity.name : identity.serial) + "-" + day;
-    auto path = writeNew(calibrationFile().parent_path() / "profiles", stem, out["profile"].dump(2) + "\n");
+    auto path = writeNew(calibrationFile().parent_path() / "profiles", stem, dumpJson(out["profile"], 2) + "\n");
     if (!path) return failure(path);
     out["file"] = path->string();
     return out;
