@@ -4,6 +4,7 @@
 
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/JsonFields.h"
+#include "core/base/RecordFields.h"
 
 namespace tacto {
 
@@ -13,6 +14,25 @@ namespace {
 
 constexpr const char* kNotMeasured =
     "Not measured: no accelerometer was read on the motor. What it did is not known, only what it was told.";
+
+const RecordFields<BurstFigures>& burstFields() {
+    static const auto fields = [] {
+        using F = BurstFigures;
+        RecordFields<F> all;
+        all.number("bursts", &F::bursts);
+        all.number("moved", &F::moved);
+        all.number("missed", &F::missed);
+        all.number("strength_m_s2", &F::strength_m_s2);
+        all.number("strength_u_m_s2", &F::strengthUncertainty_m_s2);
+        all.number("latency_s", &F::latency_s);
+        all.number("rise_s", &F::rise_s);
+        all.number("interval_s", &F::interval_s);
+        all.number("interval_u_s", &F::intervalUncertainty_s);
+        all.number("noise_m_s2", &F::noise_m_s2);
+        return all;
+    }();
+    return fields;
+}
 
 bool wasRead(const VibrationTrial& trial) { return trial.measured.bursts > trial.measured.missed; }
 
@@ -105,31 +125,11 @@ json toJson(const VibrationSeparability& found) {
             {"pairs", std::move(pairs)},  {"accuracy", found.measured ? toJson(found.accuracy) : json(nullptr)}};
 }
 
-json toJson(const BurstFigures& figures) {
-    return {{"bursts", figures.bursts},
-            {"moved", figures.moved},
-            {"missed", figures.missed},
-            {"strength_m_s2", numberOrNull(figures.strength_m_s2)},
-            {"strength_u_m_s2", numberOrNull(figures.strengthUncertainty_m_s2)},
-            {"latency_s", numberOrNull(figures.latency_s)},
-            {"rise_s", numberOrNull(figures.rise_s)},
-            {"interval_s", numberOrNull(figures.interval_s)},
-            {"interval_u_s", numberOrNull(figures.intervalUncertainty_s)},
-            {"noise_m_s2", numberOrNull(figures.noise_m_s2)}};
-}
+json toJson(const BurstFigures& figures) { return burstFields().write(figures); }
 
 BurstFigures burstFiguresFrom(const json& said) {
     BurstFigures out;
-    out.bursts = countOr(said, "bursts");
-    out.moved = countOr(said, "moved");
-    out.missed = countOr(said, "missed");
-    out.strength_m_s2 = numberOr(said, "strength_m_s2");
-    out.strengthUncertainty_m_s2 = numberOr(said, "strength_u_m_s2");
-    out.latency_s = numberOr(said, "latency_s");
-    out.rise_s = numberOr(said, "rise_s");
-    out.interval_s = numberOr(said, "interval_s");
-    out.intervalUncertainty_s = numberOr(said, "interval_u_s");
-    out.noise_m_s2 = numberOr(said, "noise_m_s2");
+    static_cast<void>(burstFields().read(said, out, {.lenient = true}));  // what cannot be read is not known
     return out;
 }
 

@@ -113,5 +113,16 @@ TEST(VibrationSeparability, FiguresComeBackFromARow) {
     EXPECT_EQ(back.moved, 3U);
 }
 
+TEST(VibrationSeparability, WhatADamagedRowDoesNotSayIsNotKnown) {
+    RecordProperty("hazard", "H9");
+    for (const nlohmann::json& said : {nlohmann::json(nullptr), nlohmann::json::array({1}),
+                                       nlohmann::json{{"moved", -1}, {"strength_m_s2", "2"}, {"more", 1}}}) {
+        const auto back = burstFiguresFrom(said);
+        EXPECT_EQ(back.moved, 0U) << said;
+        EXPECT_TRUE(std::isnan(back.strength_m_s2)) << said;
+    }
+    EXPECT_EQ(burstFiguresFrom({{"more", 1}, {"moved", 2}}).moved, 2U);
+}
+
 }  // namespace
 }  // namespace tacto
