@@ -67,18 +67,7 @@ QString uncertainText(double value, double expanded, const QString& unit) {
 }
 
 QString settingText(double value, const QString& unit) {
-    if (!std::isfinite(value)) return kMissing;
-    const QString shown = shownUnit(unit);
-    const Split split = splitUnit(shown);
-    const auto brief = [](double v) { return QString::number(v, 'g', 6).replace('-', kMinus); };
-    if (split.base.isEmpty() || value == 0) {
-        const int exponent = decimalExponent(value, 6);
-        if (exponent < -4 || exponent > 14) return quantityText(value, unit, 3);
-        return withUnit(exponent < 6 ? brief(value) : QString::number(value, 'f', 0).replace('-', kMinus), shown);
-    }
-    const double si = value * split.factor;
-    const UnitPrefix prefix = prefixOf(decimalExponent(si, 6));
-    return withUnit(brief(si * std::pow(10.0, -prefix.exponent)), prefix.symbol + split.base);
+    return onPage(exactText(value, unit.toStdString()), !unit.isEmpty());
 }
 
 QString toleranceText(double value, const QString& unit) {

@@ -107,6 +107,9 @@ std::string scaledText(double value, std::string_view unit, int digits) {
 }
 
 std::string exactText(double value, std::string_view unit) {
+    const std::string written = writtenUnit(unit);
+    const bool isWhole = value == std::floor(value) && std::abs(value) < 1e15;
+    if (value == 0 || (isWhole && partsOfUnit(written).base.empty())) return withUnit(fixedText(value, 0), written);
     std::string text = scaledText(value, unit, 6);
     const auto end = text.find_first_not_of("-0123456789.");
     auto number = text.substr(0, end);

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -70,6 +71,10 @@ TEST(QuantityText, PadsNothingThatWasSet) {
     EXPECT_EQ(exactText(0.5, "s"), "500 ms");
     EXPECT_EQ(exactText(2.5, "%"), "2.5 %");
     EXPECT_EQ(exactText(40, ""), "40");
+    EXPECT_EQ(exactText(12'345'678, ""), "12345678");
+    EXPECT_EQ(exactText(-0.0, "mA"), "0 mA");
+    EXPECT_EQ(exactText(2e-5, ""), "2 × 10⁻⁵");
+    EXPECT_EQ(exactText(std::nan(""), "V"), "–");
 }
 
 TEST(QuantityText, KnowsUnitsAndTheirPrefixes) {

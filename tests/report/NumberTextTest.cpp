@@ -48,7 +48,7 @@ TEST(NumberText, SaysThatAnUncertaintyIsUnknown) {
 
 TEST(NumberText, WritesNoNumberWithAnE) {
     EXPECT_EQ(plain(quantityText(-1.679e-5, "", 3)), "−1.68 × 10⁻⁵");
-    EXPECT_EQ(plain(settingText(2e-5, "")), "2.00 × 10⁻⁵");
+    EXPECT_EQ(plain(settingText(2e-5, "")), "2 × 10⁻⁵");
     EXPECT_EQ(plain(settingText(12'000'000, "")), "12000000");
 }
 
