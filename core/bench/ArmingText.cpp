@@ -29,15 +29,9 @@ LoadRange rangeOf(const Profile& profile, OutputMode mode, const Load& load) {
 
 /// The largest peaks that the encoding can ask for at any |Z| in the range.
 std::string mostOf(const SourceTraits& source, const EncodingProfile& encoding, const LoadRange& range) {
-    PulseTrain unit = encoding.train;  // |Z| is that of a pulse of any height
-    if (source.drive == Drive::Current)
-        unit.amplitude = Milliamps(1);
-    else
-        unit.amplitude = Volts(1);
-    const auto leading = segmentsOf(unit, source.gap).items[0];
     double volts = encoding.amplitudeMax.value();
-    const double low = effectiveImpedance(range.min, leading).value();
-    const double high = effectiveImpedance(range.max, leading).value();
+    const double low = impedanceOf(range.min, encoding.train, source).value();
+    const double high = impedanceOf(range.max, encoding.train, source).value();
     // An encoding that holds charge or energy follows the impedance up, at most to twice what it was: see
     // heldAmplitude().
     if (encoding.hold != Hold::Voltage && std::isfinite(high / low)) volts *= std::min(2.0, high / low);

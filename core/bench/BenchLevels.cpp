@@ -13,15 +13,6 @@ constexpr Milliamps kContinuousStep{0.1};  // of a source without a grid (choice
 constexpr Instant kAnswerTimeout = std::chrono::milliseconds(500);
 constexpr Instant kLevelLook = std::chrono::milliseconds(1);
 
-/// The first limit that forbids the train at that interval, by its name; empty when none does.
-std::string forbiddenBy(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
-    for (const auto& row : exposureTable(setup, train, interval)) {
-        if (row.action != LimitAction::Refuse || row.within) continue;
-        return fmt::format("{} ({})", titleOf(row.quantity), row.set.view());
-    }
-    return {};
-}
-
 }  // namespace
 
 Result<void> BenchLevels::checkPerson() const {

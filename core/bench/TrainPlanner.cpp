@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tacto {
+#include "core/safety/SourceTrain.h"
 
-DeviceGrid gridOf(const SourceTraits& source) noexcept {
-    return {.amplitudeStep = source.amplitudeStep,
-            .amplitudeMax = source.amplitudeMax,
-            .widthStep = source.widthStep,
-            .widthMin = source.widthMin,
-            .widthMax = source.widthMax,
-            .pulsesMax = source.pulsesMax};
-}
+namespace tacto {
 
 namespace {
 

@@ -90,7 +90,4 @@ private:
 [[nodiscard]] Result<PulseTrain> levelTrain(const EncodingProfile& profile, const SourceTraits& source,
                                             const KnownLines& calibration, Milliamps level);
 
-/// The grid of a device as core/encoding rounds to it.
-[[nodiscard]] DeviceGrid gridOf(const SourceTraits& source) noexcept;
-
 }  // namespace tacto

@@ -71,4 +71,19 @@ std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain&
     return rows;
 }
 
+bool forbids(const ExposureRow& row) noexcept {
+    return row.action == LimitAction::Refuse && row.evaluated && !row.within;
+}
+
+const ExposureRow* firstForbidding(std::span<const ExposureRow> rows) noexcept {
+    const auto found = std::ranges::find_if(rows, forbids);
+    return found == rows.end() ? nullptr : &*found;
+}
+
+std::string forbiddenBy(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
+    const auto rows = exposureTable(setup, train, interval);
+    const auto* row = firstForbidding(rows);
+    return row == nullptr ? std::string() : fmt::format("{} ({})", titleOf(row->quantity), row->set.view());
+}
+
 }  // namespace tacto

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/base/Words.h"
-#include "core/encoding/Rounding.h"
+#include "core/safety/SourceTrain.h"
 
 namespace tacto {
 
@@ -24,18 +24,12 @@ LoadRange LoadRange::between(Ohms low, Ohms high) {
 }
 
 PulseTrain checkTrainOf(const GateSetup& setup) {
-    PulseTrain train = setup.check;
     const SourceTraits& source = setup.source;
     const bool current = source.drive == Drive::Current;
     const double wanted = current ? source.checkCurrent.value() : source.checkVoltage.value();
     double amplitude = towardZero(wanted, source.amplitudeStep);
     if (amplitude < source.amplitudeStep) amplitude = source.amplitudeStep;  // The device's smallest
-    if (current) {
-        train.amplitude = Milliamps(amplitude);
-    } else {
-        train.amplitude = Volts(amplitude);
-    }
-    return train;
+    return trainAt(setup.check, source.drive, amplitude);
 }
 
 }  // namespace tacto

@@ -6,6 +6,7 @@
 
 #include "core/base/NaN.h"
 #include "core/safety/ExposureRun.h"
+#include "core/safety/SourceTrain.h"
 
 namespace tacto {
 
@@ -166,6 +167,10 @@ double commandVoltage(const PulseTrain& train, const Load& load, const SourceTra
     const double amplitude = siValue(train.amplitude);
     if (!isCurrent(train.amplitude) || amplitude == 0) return amplitude;
     return amplitude * effectiveImpedance(steadyLoad(load), segmentsOf(train, source.gap).items[0]).value();
+}
+
+Ohms impedanceOf(const Load& load, const PulseTrain& train, const SourceTraits& source) noexcept {
+    return effectiveImpedance(load, segmentsOf(trainAt(train, source.drive, 1), source.gap).items[0]);
 }
 
 TrainExposure worse(const TrainExposure& a, const TrainExposure& b) noexcept {

@@ -12,6 +12,7 @@
 // Thread-safety: pure functions. Nothing here allocates, except exposureTable().
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/safety/GateSetup.h"
@@ -64,6 +65,9 @@ struct Carried {
 /// A of science.md section 4, V: the amplitude, or of a current I·|Z| of `load` at the end of the leading phase.
 [[nodiscard]] double commandVoltage(const PulseTrain& train, const Load& load, const SourceTraits& source) noexcept;
 
+/// |Z| of `load` at the end of the leading phase of the source's pulses, the same whatever `train`'s amplitude is.
+[[nodiscard]] Ohms impedanceOf(const Load& load, const PulseTrain& train, const SourceTraits& source) noexcept;
+
 /// The larger of both, quantity by quantity (NaN wins: it must not be hidden).
 [[nodiscard]] TrainExposure worse(const TrainExposure& a, const TrainExposure& b) noexcept;
 
@@ -80,5 +84,12 @@ struct Carried {
 /// the stimulator may make of it (DeliveryBounds.h), without the meter; then the in-train
 /// RMS without a limit. What a report and a preview show. Density rows without an area read not evaluated.
 [[nodiscard]] std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain& train, Seconds interval);
+
+/// Whether the gate refuses a train for this row. One that is not evaluated refuses none, as in the gate.
+[[nodiscard]] bool forbids(const ExposureRow& row) noexcept;
+/// The first row of a table that forbids; null where none does.
+[[nodiscard]] const ExposureRow* firstForbidding(std::span<const ExposureRow> rows) noexcept;
+/// Its quantity and limit set in a few words; empty where no row of the train's table forbids.
+[[nodiscard]] std::string forbiddenBy(const GateSetup& setup, const PulseTrain& train, Seconds interval);
 
 }  // namespace tacto

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/NaN.h"
+#include "core/safety/SafetyGate.h"
+#include "core/safety/SourceTrain.h"
 #include "core/safety/TrainExposure.h"
 #include "tests/safety/GateFixtures.h"
 #include "tests/safety/IndependentBody.h"
@@ -260,6 +262,48 @@ TEST(ExposureTable, ListsEveryLimitAndSaysWhatWasNotEvaluated) {
         std::find_if(rows.begin(), rows.end(), [](const auto& r) { return r.quantity == Quantity::CurrentDensity; });
     EXPECT_FALSE(density->within) << "5.66 mA/cm² is above the warning at 2";
     EXPECT_EQ(density->action, LimitAction::Warn);
+}
+
+TEST(ExposureTable, TheFirstRowThatForbidsIsTheOneThatTheGateNames) {
+    RecordProperty("hazard", "H1");
+    ExposureRow row;
+    EXPECT_FALSE(forbids(row)) << "without an area the gate judges no density";
+    row.evaluated = true;
+    EXPECT_TRUE(forbids(row));
+    row.action = LimitAction::Warn;
+    EXPECT_FALSE(forbids(row));
+    row.action = LimitAction::Refuse;
+    row.within = true;
+    EXPECT_FALSE(forbids(row));
+
+    GateSetup setup = benchSetup(Load::resistor(Ohms(1000)));
+    setup.limits = shippedLimits();
+    EXPECT_EQ(firstForbidding(exposureTable(setup, volts(40), Seconds(0.5))), nullptr);
+    EXPECT_EQ(forbiddenBy(setup, volts(40), Seconds(0.5)), "");
+    setup.load = LoadRange::declared(Load::resistor(Ohms(100)));
+    const auto rows = exposureTable(setup, volts(40), Seconds(0.5));
+    const auto* first = firstForbidding(rows);
+    ASSERT_NE(first, nullptr);
+    EXPECT_TRUE(std::none_of(rows.data(), first, forbids));
+    EXPECT_TRUE(forbiddenBy(setup, volts(40), Seconds(0.5)).starts_with(titleOf(first->quantity)));
+    VirtualClock clock;
+    SafetyGate gate(clock);
+    ASSERT_TRUE(gate.configure(setup));
+    const auto refused = gate.approve(TrainRequest{volts(40), Seconds(0.5), Instant(0)});
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().message.starts_with(titleOf(first->quantity))) << refused.error().message;
+}
+
+TEST(ExposureTable, TheImpedanceIsThatOfAPulseOfAnyHeight) {
+    const auto skin = Load::skin(Ohms(500), Ohms(10'000), Nanofarads(30));
+    for (const auto drive : {Drive::Current, Drive::Voltage}) {
+        SourceTraits source;
+        source.drive = drive;
+        const auto ohms = impedanceOf(skin, volts(40), source);
+        const auto higher = segmentsOf(trainAt(volts(3), drive, 7), source.gap).items[0];
+        EXPECT_NEAR(ohms.value(), effectiveImpedance(skin, higher).value(), 1e-6);
+        EXPECT_GT(ohms, Ohms(500));
+    }
 }
 
 /// What trains of `range` really put into a second, one per `interval`, at the phase width and gap that lie `share` of

@@ -6,6 +6,7 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/safety/TrainExposure.h"
 
 namespace tacto::gui {
 
@@ -150,7 +151,7 @@ void ExposureTable::showSection(int line, const QString& title) {
 
 void ExposureTable::showRow(int line, const ExposureRow& row) {
     if (columnSpan(line, kQuantity) != 1) setSpan(line, kQuantity, 1, 1);
-    const bool broken = row.evaluated && !row.within && row.action == LimitAction::Refuse;
+    const bool broken = forbids(row);
     const auto title = rowTitle(row);
     auto* quantity = cell(line, kQuantity, title);
     quantity->setToolTip(row.set.empty() ? title : tr("%1, limit of %2").arg(title, titleOfSet(row)));

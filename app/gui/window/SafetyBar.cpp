@@ -12,6 +12,7 @@
 #include "app/gui/window/StateBlock.h"
 #include "app/gui/window/StopButton.h"
 #include "core/safety/TrainCheck.h"
+#include "core/safety/TrainExposure.h"
 
 namespace tacto::gui {
 
@@ -174,9 +175,7 @@ void SafetyBar::setParticipantsStop(const QString& words) { participantsStop_->s
 /// Whether a limit is broken, and nothing of how far it is.
 void SafetyBar::showBlind(const Telemetry& telemetry) {
     const auto rows = telemetry.exposure();
-    const auto broken = [](const ExposureRow& row) {
-        return row.evaluated && !row.within && row.action == LimitAction::Refuse;
-    };
+    const auto broken = [](const ExposureRow& row) { return forbids(row); };
     within_->setText(std::ranges::any_of(rows, broken) ? tr("⚠ Exposure at its limit")
                                                        : tr("✔ Exposure within limits"));
 }

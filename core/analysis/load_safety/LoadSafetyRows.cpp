@@ -6,6 +6,7 @@
 #include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
 #include "core/encoding/PulseTrain.h"
+#include "core/safety/TrainExposure.h"
 
 namespace tacto {
 
@@ -315,12 +316,7 @@ void addRefusals(std::vector<SafetyRow>& rows, const LoadRecord& record) {
 
 double expectedOhms(const LoadRecord& record, const LoadSafetyInput& input) {
     if (record.load.kind == LoadKind::Open || record.load.kind == LoadKind::Short) return kNaN;
-    PulseTrain train = input.train;
-    if (input.source.drive == Drive::Current)
-        train.amplitude = Milliamps(1);
-    else
-        train.amplitude = Volts(1);
-    return effectiveImpedance(record.load, segmentsOf(train, input.source.gap).items[0]).value();
+    return impedanceOf(record.load, input.train, input.source).value();
 }
 
 Reading readingOf(const LoadReading& reading, Quantity quantity, const LoadSafetyInput& input) {

@@ -5,6 +5,7 @@
 #include "core/analysis/load_safety/LoadSafetyRows.h"
 #include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
+#include "core/safety/SourceTrain.h"
 #include "core/safety/TrainExposure.h"
 
 namespace tacto {
@@ -54,15 +55,13 @@ struct Factors {
 
 /// Into `load` at `command_v`; a current source is programmed to A / |Z|.
 TrainExposure exposureAt(const LoadSafetyInput& input, const Load& load, double command_v, const Factors& factors) {
-    PulseTrain train = input.train;
+    double amplitude = factors.amplitude * command_v;
     if (input.source.drive == Drive::Current) {
         LoadRecord record;
         record.load = load;
-        const double ohm = expectedOhms(record, input);
-        train.amplitude = Milliamps(1e3 * factors.amplitude * command_v / ohm);
-    } else {
-        train.amplitude = Volts(factors.amplitude * command_v);
+        amplitude *= 1e3 / expectedOhms(record, input);
     }
+    PulseTrain train = trainAt(input.train, input.source.drive, amplitude);
     train.phaseWidth = Micros(factors.width * train.phaseWidth.count());
     const double area = input.area_cm2 ? *input.area_cm2 * factors.area : kNaN;
     return exposureOf(train, Seconds(input.interval_s * factors.interval), load, input.source, area);

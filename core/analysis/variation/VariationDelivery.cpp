@@ -5,7 +5,7 @@
 
 #include "core/base/Words.h"
 #include "core/electrode/LoadResponse.h"
-#include "core/encoding/Rounding.h"
+#include "core/safety/SourceTrain.h"
 #include "core/safety/TrainExposure.h"
 
 namespace tacto {
@@ -28,21 +28,6 @@ PulseIntoSkin pulseInto(const Load& skin, const PulseTrain& train, const SourceT
             Volts(std::abs(totals.leadingEndVoltage_V))};
 }
 
-PulseTrain unitTrain(const VirtualStimulation& stimulation) {
-    PulseTrain unit = stimulation.encoding.train;
-    if (stimulation.source.drive == Drive::Current) {
-        unit.amplitude = Milliamps(1);
-    } else {
-        unit.amplitude = Volts(1);
-    }
-    return unit;
-}
-
-DeviceGrid gridOf(const SourceTraits& source) {
-    return {source.amplitudeStep, source.amplitudeMax, source.widthStep,
-            source.widthMin,      source.widthMax,     source.pulsesMax};
-}
-
 /// The profile's amplitudes as far as the participant feels them and they are not too strong; nothing when none do.
 /// Skin is taken as linear: the current per volt of command is the same at every amplitude.
 std::optional<EncodingProfile> personalRange(const VirtualParticipant& who, const VirtualStimulation& stimulation,
@@ -54,15 +39,6 @@ std::optional<EncodingProfile> personalRange(const VirtualParticipant& who, cons
     personal.amplitudeMax = Volts(std::min(personal.amplitudeMax.value(), high));
     if (!(personal.amplitudeMin < personal.amplitudeMax)) return std::nullopt;
     return personal;
-}
-
-/// The first row that forbids it, by its name; empty when none does.
-std::string forbiddenBy(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
-    for (const auto& row : exposureTable(setup, train, interval)) {
-        if (!row.evaluated || row.within || row.action != LimitAction::Refuse) continue;
-        return fmt::format("{} ({})", titleOf(row.quantity), row.set.view());
-    }
-    return {};
 }
 
 GateSetup setupFor(const VirtualParticipant& who, const VirtualStimulation& stimulation, Ohms impedance) {
@@ -167,11 +143,12 @@ Result<void> validate(const VirtualStimulation& stimulation) {
 
 Delivery deliverTo(const VirtualParticipant& who, const VirtualStimulation& stimulation) {
     Delivery out;
-    const PulseTrain unit = unitTrain(stimulation);
-    out.impedance = effectiveImpedance(who.skin, segmentsOf(unit, stimulation.source.gap).items[0]);
+    const auto& train = stimulation.encoding.train;
+    out.impedance = impedanceOf(who.skin, train, stimulation.source);
     const bool drivesCurrent = stimulation.source.drive == Drive::Current;
     const double perVolt =
-        drivesCurrent ? 1e3 / out.impedance.value() : pulseInto(who.skin, unit, stimulation.source).mean.value();
+        drivesCurrent ? 1e3 / out.impedance.value()
+                      : pulseInto(who.skin, trainAt(train, Drive::Voltage, 1), stimulation.source).mean.value();
     const bool personal = stimulation.levels == AmplitudeLevels::Personal;
     const auto encoding = personal ? personalRange(who, stimulation, perVolt) : stimulation.encoding;
     const bool inRange = out.impedance >= stimulation.loadLow && out.impedance <= stimulation.loadHigh;

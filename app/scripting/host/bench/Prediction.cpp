@@ -7,8 +7,8 @@
 #include "app/scripting/host/bench/BenchObject.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
-#include "core/bench/TrainPlanner.h"
 #include "core/encoding/Encoder.h"
+#include "core/safety/SourceTrain.h"
 #include "core/safety/TrainExposure.h"
 #include "core/session/SessionWriter.h"
 
@@ -26,14 +26,13 @@ constexpr double kLongestTail_s = 0.02;
 /// The first row that forbids it, with the figure on the load as it is declared beside the worst case.
 std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
     const auto nominal = exposureOf(train, interval, setup.load.nominal, setup.source, 0);
-    for (const auto& row : exposureTable(setup, train, interval)) {
-        if (!row.evaluated || row.within || row.action != LimitAction::Refuse) continue;
-        return fmt::format("{} {} at {}, {} at worst within 20 % of it; {} {} are allowed ({})", titleOf(row.quantity),
-                           scaledText(nominal.at(row.quantity), row.unit, 3), setup.load.nominal.text(),
-                           scaledText(row.value, row.unit, 3), row.strict ? "less than" : "at most",
-                           exactText(row.limit, row.unit), row.set.view());
-    }
-    return {};
+    const auto rows = exposureTable(setup, train, interval);
+    const auto* row = firstForbidding(rows);
+    if (row == nullptr) return {};
+    return fmt::format("{} {} at {}, {} at worst within 20 % of it; {} {} are allowed ({})", titleOf(row->quantity),
+                       scaledText(nominal.at(row->quantity), row->unit, 3), setup.load.nominal.text(),
+                       scaledText(row->value, row->unit, 3), row->strict ? "less than" : "at most",
+                       exactText(row->limit, row->unit), row->set.view());
 }
 
 /// What forbids arming on this load: every arming gives an impedance check first.
@@ -97,12 +96,7 @@ Result<Json> predictCommand(ScriptSession& session, const std::string& name, dou
     const auto command = Encoder(encoding).encode(R, P);
     if (!command) return failure(command);
 
-    PulseTrain unit = encoding.train;
-    if (source.drive == Drive::Current)
-        unit.amplitude = Milliamps(1);
-    else
-        unit.amplitude = Volts(1);
-    const Ohms ohms = effectiveImpedance(*load, segmentsOf(unit, source.gap).items[0]);
+    const Ohms ohms = impedanceOf(*load, encoding.train, source);
     const auto wanted = trainFor(source.drive, encoding, command->amplitude, ohms);
     if (!wanted) return failure(wanted);
     Json out = {{"load", name},
