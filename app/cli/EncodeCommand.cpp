@@ -4,24 +4,11 @@
 #include "app/cli/TextTable.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
-#include "core/encoding/Encoder.h"
-#include "core/safety/SafetyGate.h"
+#include "core/bench/CommandPreview.h"
 
 namespace tacto::cli {
 
 namespace {
-
-/// The ideal voltage source that a preview is judged with: no grid, no ceiling of its own but the standard's 500 V.
-SourceTraits idealVoltageSource() {
-    SourceTraits source;
-    source.drive = Drive::Voltage;
-    source.amplitudeMax = 500;
-    source.compliance = Volts(500);
-    source.widthStep = Micros(0);
-    source.widthMin = Micros(1);
-    source.widthMax = Micros(100'000);
-    return source;
-}
 
 void declareEncode(QCommandLineParser& parser) {
     parser.addOption({"roughness", "Roughness index, 0 to 1.", "R"});
@@ -63,37 +50,26 @@ int runEncode(const QCommandLineParser& parser) {
     const auto command = Encoder(profile->encoding).encode(*roughness, P);
     if (!command) return failWith(command.error());
 
-    GateSetup setup;
-    setup.source = idealVoltageSource();
-    setup.load = LoadRange::declared(*load);
-    setup.limits = limits->sets;
-    setup.ceilings = profile->ceilings;
-    setup.electrodeArea = profile->electrodeArea;
-    setup.check = profile->encoding.train;
-    const VirtualClock clock;
-    SafetyGate gate(clock);
-    if (const auto configured = gate.configure(setup); !configured) return couldNotRun(configured.error());
-    const auto train = voltageTrain(profile->encoding, command->amplitude);
-    const auto approved = gate.approve(TrainRequest{train, command->interval, Instant(0)});
-
-    const Ohms impedance = effectiveImpedance(*load, segmentsOf(train, setup.source.gap).items[0]);
-    const double amplitude_ma = command->amplitude.value() / impedance.value() * 1e3;
+    const auto preview = previewOf(*command, *profile, limits->sets, *load);
+    if (!preview) return couldNotRun(preview.error());
+    const auto& refusal = preview->refusal;
+    const double amplitude_ma = command->amplitude.value() / preview->impedance.value() * 1e3;
     if (parser.isSet("json")) {
         printJson({{"amplitude_v", command->amplitude.value()},
                    {"amplitude_ma", numberOrNull(amplitude_ma)},
                    {"interval_s", command->interval.count()},
-                   {"approved", approved.has_value()},
-                   {"refusal", approved ? nlohmann::json(nullptr) : nlohmann::json(approved.error().message)}});
+                   {"approved", !refusal},
+                   {"refusal", refusal ? nlohmann::json(refusal->message) : nlohmann::json(nullptr)}});
     } else {
         TextTable table({"", ""});
         table.add({"amplitude", fmt::format("{}  ({} into {})", scaledText(command->amplitude.value(), "V", 4),
                                             scaledText(amplitude_ma * 1e-3, "A", 4), load->text())});
         table.add({"interval", scaledText(command->interval.count(), "s", 4)});
-        table.add({"approved", approved ? "yes, from 80 to 120 % of the declared load"
-                                        : fmt::format("no: {}", approved.error().message)});
+        table.add({"approved",
+                   refusal ? fmt::format("no: {}", refusal->message) : "yes, from 80 to 120 % of the declared load"});
         table.print();
     }
-    return approved ? kDone : kStopped;
+    return refusal ? kStopped : kDone;
 }
 
 }  // namespace

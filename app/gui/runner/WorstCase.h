@@ -17,8 +17,8 @@ struct WorstCase {
     QString refused;  ///< the limit that would be broken, in words; empty when none is
 };
 
-/// An ideal source of the given kind, at the profile's largest amplitude and shortest interval.
-/// Errors: as parseLoad() and validate().
+/// The preview (core/bench/CommandPreview.h) of the profile's largest amplitude at its shortest interval.
+/// Errors: as parseLoad() and previewOf().
 [[nodiscard]] Result<WorstCase> worstCase(const Profile& profile, const std::vector<LimitSet>& limits,
                                           const std::string& load);
 

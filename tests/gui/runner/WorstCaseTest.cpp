@@ -1,6 +1,9 @@
 // The worst case that a run's limits are shown with before it begins.
+#include <QCoreApplication>
 #include <QElapsedTimer>
+#include <QProcess>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "app/gui/runner/WorstCase.h"
 #include "tests/gui/runner/Lab.h"
@@ -8,6 +11,16 @@
 
 namespace tacto::test {
 namespace {
+
+/// What the command line says of the shipped profile's strongest command.
+nlohmann::json encoded(const std::string& ohms) {
+    QProcess cli;
+    cli.start(
+        QCoreApplication::applicationDirPath() + "/tactoscope-cli",
+        {"encode", "--roughness", "1", "--pressure-pa", "60000", "--load", QString::fromStdString(ohms), "--json"});
+    if (!cli.waitForFinished(60'000)) return nullptr;
+    return nlohmann::json::parse(cli.readAllStandardOutput().toStdString(), nullptr, false);
+}
 
 TEST(WorstCase, NamesTheLimitThatIsBrokenAndIsQuickEnoughForTheWindow) {
     const auto profile = shippedProfile().value();
@@ -21,6 +34,26 @@ TEST(WorstCase, NamesTheLimitThatIsBrokenAndIsQuickEnoughForTheWindow) {
     EXPECT_FALSE(gui::worstCase(profile, limits.sets, "10 ohm").value().refused.isEmpty());
     EXPECT_FALSE(gui::worstCase(profile, limits.sets, "nonsense"));
     RecordProperty("microseconds", int(timer.nsecsElapsed() / 3000));
+}
+
+TEST(WorstCase, IsWhatTheCommandLineSays) {
+    RecordProperty("hazard", "H1");
+    const auto profile = shippedProfile().value();
+    const auto limits = shippedLimits().value();
+    int refused = 0;
+    for (const std::string ohms : {"50", "100", "150", "200", "500", "1000", "10000"}) {
+        const auto said = encoded(ohms);
+        ASSERT_TRUE(said.is_object()) << ohms;
+        const auto shown = gui::worstCase(profile, limits.sets, ohms + " ohm").value().refused.toStdString();
+        EXPECT_EQ(said["approved"].get<bool>(), shown.empty()) << ohms << ": " << shown;
+        if (shown.empty()) continue;
+        ++refused;
+        // Both begin with the quantity that is beyond its limit.
+        const auto refusal = said["refusal"].get<std::string>();
+        EXPECT_EQ(shown.substr(0, shown.find(" would be")), refusal.substr(0, refusal.find(" would be"))) << ohms;
+    }
+    EXPECT_GT(refused, 0);
+    EXPECT_LT(refused, 7);
 }
 
 }  // namespace
