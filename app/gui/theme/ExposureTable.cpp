@@ -74,6 +74,30 @@ QString rowTitle(const ExposureRow& row) {
     return row.judged == JudgedAt::Ohm500 ? QObject::tr("%1 into 500 Ω").arg(title) : title;
 }
 
+QString shortRowTitle(const ExposureRow& row) {
+    struct Short {
+        const char* name;
+        const char* into500Ohm;
+    };
+    static constexpr std::array<Short, kQuantityCount> kShort{{
+        {QT_TRANSLATE_NOOP("QObject", "Voltage set"), QT_TRANSLATE_NOOP("QObject", "Set, 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Peak"), QT_TRANSLATE_NOOP("QObject", "Peak into 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Peak"), QT_TRANSLATE_NOOP("QObject", "Peak into 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Phase charge"), QT_TRANSLATE_NOOP("QObject", "Phase, 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Net charge"), QT_TRANSLATE_NOOP("QObject", "Net, 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Energy a pulse"), QT_TRANSLATE_NOOP("QObject", "Energy, 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "RMS in train"), QT_TRANSLATE_NOOP("QObject", "Train, 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "RMS over 1 s"), QT_TRANSLATE_NOOP("QObject", "1 s, 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "RMS over 5 s"), QT_TRANSLATE_NOOP("QObject", "RMS into 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "RMS over 5 s"), QT_TRANSLATE_NOOP("QObject", "RMS into 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Mean over 5 s"), QT_TRANSLATE_NOOP("QObject", "Mean into 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Current/cm²"), QT_TRANSLATE_NOOP("QObject", "I/cm², 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Power/cm²"), QT_TRANSLATE_NOOP("QObject", "P/cm², 500 Ω")},
+    }};
+    const auto& names = kShort[indexOf(row.quantity)];
+    return QObject::tr(row.judged == JudgedAt::Ohm500 ? names.into500Ohm : names.name);
+}
+
 QString limitText(const ExposureRow& row, bool compact) {
     if (std::isnan(row.limit)) return "–";
     const auto limit = (row.strict ? QString("< ") : QString("≤ ")) + settingText(row.limit, qtext(row.unit));

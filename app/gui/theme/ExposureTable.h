@@ -38,6 +38,9 @@ private:
 
 /// "RMS current over 5 s into 500 Ω".
 [[nodiscard]] QString rowTitle(const ExposureRow& row);
+/// "RMS into 500 Ω": for a dock, where the unit beside it tells a voltage from a current.
+/// That of a density has the "/cm²".
+[[nodiscard]] QString shortRowTitle(const ExposureRow& row);
 /// "< 10 mA", "≤ 2 mA/cm² (warning)", "–" without a limit.
 [[nodiscard]] QString limitText(const ExposureRow& row, bool compact = false);
 

@@ -67,8 +67,9 @@ void ExposureDock::build(const std::vector<ExposureRow>& rows) {
     titles_ = titles;
     for (auto* bar : bars_) delete bar;
     bars_.clear();
-    for (const auto& title : titles) {
-        bars_.push_back(new LimitBar(title, widget(), LimitBar::Shape::Line));
+    for (const auto& row : rows) {
+        bars_.push_back(new LimitBar(shortRowTitle(row), widget(), LimitBar::Shape::Line));
+        bars_.back()->setAccessibleName(titled(rowTitle(row)));
         column_->insertWidget(column_->count() - 1, bars_.back());
     }
     empty_->setVisible(rows.empty());

@@ -19,7 +19,7 @@ class LimitBar final : public QWidget {
 public:
     /// Stacked: title, bar, numbers. Line: title and numbers in a line, the bar below, as docks have it.
     enum class Shape { Stacked, Line };
-    /// `title` is short: "RMS over 5 s".
+    /// `title` is short: "RMS over 5 s". The tool tip has the full words.
     LimitBar(const QString& title, QWidget* parent = nullptr, Shape shape = Shape::Stacked);
     /// Nothing: no row of this quantity yet (no output is configured).
     /// `sets` names the limit by its title.
@@ -28,6 +28,8 @@ public:
     [[nodiscard]] QSize minimumSizeHint() const override;
     /// "2.3 of 10 mA", "not evaluated", "–": what is painted, for tests and screen readers.
     [[nodiscard]] QString text() const { return text_; }
+    /// Whether title and numbers have room beside each other; stacked, one above the other.
+    [[nodiscard]] bool fits() const;
     /// Share of the limit, 0 to 1 and above; NaN without a limit or a value.
     [[nodiscard]] double share() const { return share_; }
 
@@ -35,9 +37,11 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    [[nodiscard]] const QString& numbers() const { return shape_ == Shape::Line ? brief_ : text_; }
     QString title_;
     Shape shape_;
     QString text_;
+    QString brief_;  ///< the same in a line: the number in the unit of its limit, "0.82 of 10 mA"
     double share_;
     bool known_ = false;
     bool limited_ = false;

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/LimitBarRow.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/gui/window/StateBlock.h"
@@ -45,6 +47,34 @@ TEST(LimitBar, IsNoFinerThanAHundredthOfALimitInPercentThatIsFar) {
     EXPECT_EQ(said(0.0478), "0.05 % of 1 %");
     EXPECT_EQ(said(0.996), "0.996 % of 1 %") << "near the limit every digit is shown";
     EXPECT_EQ(said(0), "0 % of 1 %");
+}
+
+TEST(LimitBar, InADockNoRowIsCutAtTheUsualWidth) {
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        gui::applyTheme(gui::Theme::Light);
+        for (std::size_t i = 0; i < kQuantityCount; ++i) {
+            const auto quantity = static_cast<Quantity>(i);
+            for (const auto judged : {JudgedAt::LoadRange, JudgedAt::Ohm500}) {
+                for (const double limit : {0.25, 1.0, 10.0, 80.0, 300.0}) {
+                    // Not evaluated, small, and at a limit.
+                    for (const double share : {std::nan(""), 1e-6, 0.0123, 0.745, 0.9987, 1.5}) {
+                        auto shown = row(quantity, share * limit, limit, unitOf(quantity).data());
+                        shown.judged = judged;
+                        gui::LimitBar bar(gui::shortRowTitle(shown), nullptr, gui::LimitBar::Shape::Line);
+                        // The dock's width without its edges, and without a scroll bar.
+                        bar.resize(gui::scaledPx(gui::FoldingDock::kWidth - 2 * 12 - 10), 30);
+                        bar.show(shown);
+                        EXPECT_TRUE(bar.fits()) << gui::shortRowTitle(shown).toStdString() << ": "
+                                                << bar.text().toStdString() << " at " << percent << " %";
+                        EXPECT_TRUE(bar.toolTip().contains(QString::fromUtf8(titleOf(quantity).data())))
+                            << "the full words stand in the tool tip";
+                    }
+                }
+            }
+        }
+    }
+    gui::applyTextSize(100);
 }
 
 TEST(LimitBar, NeverShowsANumberForWhatWasNotEvaluated) {
