@@ -2,7 +2,9 @@
 
 #include <QHBoxLayout>
 #include <QScrollArea>
+#include <QShortcut>
 #include <QSplitter>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -17,6 +19,7 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/acquisition/Recording.h"
@@ -164,7 +167,40 @@ void LiveWorkspace::buildTools() {
     setTextSize(*health_, TextSize::Small);
     row->addWidget(freeze_);
     row->addWidget(window);
+    addPlotTools(*row);
     row->addWidget(health_, 1);
+}
+
+void LiveWorkspace::addPlotTools(QHBoxLayout& row) {
+    const auto tool = [&](const QString& name, const QString& tip, const char* picture, auto&& does) {
+        auto* button = new QToolButton(tools_);
+        button->setAccessibleName(name);
+        button->setIcon(icon(picture));
+        button->setToolTip(tip);
+        button->setAutoRaise(true);
+        button->setFocusPolicy(Qt::StrongFocus);
+        connect(button, &QToolButton::clicked, this, does);
+        row.addWidget(button);
+        return button;
+    };
+    auto* fit = tool(tr("Fit"), tr("All of a frozen picture again, as a double click on it. Freeze it first."), "fit",
+                     [this] { strips_->fit(); });
+    auto* undo = tool(tr("Undo zoom"), tr("Ctrl+Z: the view of a frozen picture before the last drag or zoom."),
+                      "undo-zoom", [this] { strips_->undoZoom(); });
+    tool(tr("Mark"), tr("Ctrl+M: marks this moment of the recording, with a word."), "mark",
+         [this] { emit markWanted(); });
+    tool(tr("Save picture"), tr("Saves the plots as PNG, SVG or PDF."), "save",
+         [this] { askSavePicture(*strips_, "live"); });
+    tool(tr("Copy picture"), tr("Copies the plots to the clipboard, as a picture."), "copy",
+         [this] { copyPicture(*strips_); });
+    const auto enable = [this, fit, undo] {
+        fit->setEnabled(strips_->frozen());
+        undo->setEnabled(strips_->canUndo());
+    };
+    connect(strips_, &StripPlots::viewChanged, this, enable);
+    enable();
+    auto* key = new QShortcut(QKeySequence::Undo, strips_, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
+    connect(key, &QShortcut::activated, strips_, &StripPlots::undoZoom);
 }
 
 void LiveWorkspace::begin() {

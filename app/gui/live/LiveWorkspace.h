@@ -40,6 +40,8 @@ public:
 
 signals:
     void refusedRecording(const QString& why);
+    /// This moment is to be marked in the recording.
+    void markWanted();
 
 private:
     enum Page { kEmpty, kOpening, kBench };
@@ -47,6 +49,7 @@ private:
     [[nodiscard]] QWidget* buildBench();
     [[nodiscard]] QWidget* buildSide();
     void buildTools();
+    void addPlotTools(QHBoxLayout& row);
     void begin();
     void showPlane(const Telemetry& telemetry);
     void showSide(const Telemetry& telemetry);

@@ -51,8 +51,11 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     setAccessibleName(tr("Live plots"));
     setToolTip(
         tr("Everything on one time axis, newest at the right. Hatched: no sample has come since. A frozen picture "
-           "can be dragged, and zoomed with the wheel."));
+           "can be dragged, and zoomed with the wheel; a double click shows all of it, Ctrl+Z the view before."));
     addPlotMenu(*this, "live");
+    connect(this, &QCustomPlot::mousePress, this, &StripPlots::rememberView);
+    connect(this, &QCustomPlot::mouseWheel, this, &StripPlots::rememberView);
+    connect(this, &QCustomPlot::mouseDoubleClick, this, &StripPlots::fit);
     setNotAntialiasedElements(QCP::aeAll);
     setNoAntialiasingOnDrag(true);
     layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
@@ -173,7 +176,9 @@ void StripPlots::colour() {
 
 void StripPlots::setWindow(double seconds) {
     window_s_ = seconds;
-    if (frozen_) shareTime(QCPRange(frozen_->now_s() - seconds, frozen_->now_s()));
+    if (!frozen_) return;
+    whole_ = QCPRange(frozen_->now_s() - seconds, frozen_->now_s());
+    fit();
 }
 
 void StripPlots::setFrozen(bool frozen) {
@@ -182,7 +187,35 @@ void StripPlots::setFrozen(bool frozen) {
     setInteraction(QCP::iRangeDrag, frozen);
     setInteraction(QCP::iRangeZoom, frozen);
     strips_.back().time().setLabel(frozen ? tr("seconds before the picture was frozen") : tr("seconds before now"));
+    whole_ = shownTime();
+    views_.clear();
     attach();
+    emit viewChanged();
+}
+
+void StripPlots::fit() {
+    if (!frozen_) return;
+    rememberView();
+    shareTime(whole_);
+    replot(QCustomPlot::rpQueuedReplot);
+}
+
+void StripPlots::rememberView() {
+    if (frozen_ && (views_.empty() || views_.back() != shownTime())) views_.push_back(shownTime());
+}
+
+/// A click that moved nothing is no view of its own.
+bool StripPlots::canUndo() const {
+    return frozen_ && std::ranges::any_of(views_, [this](const QCPRange& view) { return view != shownTime(); });
+}
+
+void StripPlots::undoZoom() {
+    if (!canUndo()) return;
+    while (views_.back() == shownTime()) views_.pop_back();
+    const auto before = views_.back();
+    views_.pop_back();
+    shareTime(before);
+    replot(QCustomPlot::rpQueuedReplot);
 }
 
 void StripPlots::addScopeReading(double t_s, double amplitude) { trains_->addScopeReading(t_s, amplitude); }
@@ -223,6 +256,7 @@ void StripPlots::shareTime(const QCPRange& time) {
     for (auto& strip : strips_) strip.thinTicks();
     markFault(time);
     sharing_ = false;
+    if (frozen_) emit viewChanged();
 }
 
 /// In every lane the instant, in the trains' the cause too, on the side where it has room.

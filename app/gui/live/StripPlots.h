@@ -33,6 +33,10 @@ public:
     /// The picture stands still and can be dragged and zoomed in time; the bench goes on.
     void setFrozen(bool frozen);
     [[nodiscard]] bool frozen() const { return frozen_ != nullptr; }
+    /// Of a frozen picture: all of it again, and the view before the last drag or zoom.
+    void fit();
+    void undoZoom();
+    [[nodiscard]] bool canUndo() const;
     /// An amplitude that the oscilloscope measured, in the source's unit.
     void addScopeReading(double t_s, double amplitude);
     void redraw();
@@ -47,11 +51,16 @@ public:
     /// What stands at the instant of a fault; empty where none is seen.
     [[nodiscard]] QString faultSaid() const { return fault_->visible() ? fault_->text() : QString(); }
 
+signals:
+    /// Another part of a frozen picture is shown, or it is frozen no more.
+    void viewChanged();
+
 protected:
     void changeEvent(QEvent* event) override;
 
 private:
     [[nodiscard]] const LiveHistory& shown() const { return frozen_ ? *frozen_ : history_; }
+    void rememberView();
     void attach();
     void colour();
     void layOut();
@@ -63,6 +72,8 @@ private:
 
     const LiveHistory& history_;
     std::unique_ptr<LiveHistory> frozen_;  // while the picture stands still
+    QCPRange whole_;                       // of it
+    std::vector<QCPRange> views_;          // before each drag and zoom of it, the latest last
     double window_s_ = 10;
     bool sharing_ = false;
     int frame_ = 0;

@@ -68,12 +68,18 @@ std::unique_ptr<ScopeScreen> captioned(const ScopeModel& model, const ScopeScree
 
 }  // namespace
 
-QString scalesText(const ScopeModel& model) {
+QString laneScalesText(const ScopeModel& model) {
     QStringList parts;
     for (const auto& lane : model.lanes()) {
         if (!lane.shown || lane.reference()) continue;
         parts << QObject::tr("%1 %2/div").arg(lane.letter, settingText(model.scaleOf(lane).perDivision, lane.unit));
     }
+    return parts.join(QStringLiteral(" · "));
+}
+
+QString scalesText(const ScopeModel& model) {
+    QStringList parts;
+    if (const auto lanes = laneScalesText(model); !lanes.isEmpty()) parts << lanes;
     parts << QObject::tr("%1/div").arg(settingText(model.viewport().perDivision_s, "s"));
     if (const auto& shown = model.shown()) {
         parts << QObject::tr("%1 samples at %2")

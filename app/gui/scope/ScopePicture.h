@@ -23,6 +23,9 @@ struct ScopeCaption {
     QStringList lines;  ///< devices, scales, trigger, cursors, readings, mask
 };
 
+/// "V 20 V/div · I 20 mA/div".
+[[nodiscard]] QString laneScalesText(const ScopeModel& model);
+
 /// "V 20 V/div · I 20 mA/div · 100 µs/div · 2 MHz, 20000 samples · averaged 16": as the model has it.
 [[nodiscard]] QString scalesText(const ScopeModel& model);
 

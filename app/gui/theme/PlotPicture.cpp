@@ -63,7 +63,11 @@ QByteArray pngOf(QCustomPlot& plot) {
     return bytes;
 }
 
-void choosePath(QCustomPlot& plot, const QString& name) {
+}  // namespace
+
+void copyPicture(QCustomPlot& plot) { QApplication::clipboard()->setImage(pictureOf(plot, kPictureScale)); }
+
+void askSavePicture(QCustomPlot& plot, const QString& name) {
     FileQuestion question;
     question.title = QObject::tr("Save the plot");
     question.wants = FileQuestion::Wants::NewFile;
@@ -76,8 +80,6 @@ void choosePath(QCustomPlot& plot, const QString& name) {
         }
     });
 }
-
-}  // namespace
 
 QImage pictureOf(QCustomPlot& plot, double scale) {
     return plot.toPixmap(plot.width(), plot.height(), scale).toImage();
@@ -104,10 +106,9 @@ std::optional<QString> savePicture(QCustomPlot& plot, const QString& path) {
 
 void addPlotMenu(QCustomPlot& plot, const QString& name) {
     auto* copy = new QAction(QObject::tr("&Copy as picture"), &plot);
-    QObject::connect(copy, &QAction::triggered, &plot,
-                     [&plot] { QApplication::clipboard()->setImage(pictureOf(plot, kPictureScale)); });
+    QObject::connect(copy, &QAction::triggered, &plot, [&plot] { copyPicture(plot); });
     auto* store = new QAction(QObject::tr("&Save as…"), &plot);
-    QObject::connect(store, &QAction::triggered, &plot, [&plot, name] { choosePath(plot, name); });
+    QObject::connect(store, &QAction::triggered, &plot, [&plot, name] { askSavePicture(plot, name); });
     plot.addActions({copy, store});
     plot.setContextMenuPolicy(Qt::ActionsContextMenu);
     plot.setFocusPolicy(Qt::StrongFocus);

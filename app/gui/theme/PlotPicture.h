@@ -15,6 +15,10 @@ namespace tacto::gui {
 [[nodiscard]] std::optional<QString> savePicture(QCustomPlot& plot, const QString& path);
 [[nodiscard]] QImage pictureOf(QCustomPlot& plot, double scale);
 
+void copyPicture(QCustomPlot& plot);
+/// Asks where to; `name` is the file that is proposed.
+void askSavePicture(QCustomPlot& plot, const QString& name);
+
 /// A context menu, also by the menu key: copy as picture, save. `name` is the file that is proposed.
 void addPlotMenu(QCustomPlot& plot, const QString& name);
 

@@ -1,10 +1,14 @@
 // The live workspace as a person uses it: open, touch, drive, replay, freeze.
+#include <QClipboard>
 #include <QComboBox>
+#include <QFileDialog>
 #include <QPushButton>
 #include <QSlider>
 #include <QSplitter>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QToolButton>
+#include <QWheelEvent>
 #include <ctime>
 
 #include "app/gui/live/StripPlots.h"
@@ -220,6 +224,51 @@ TEST_F(LiveBench, FreezingThePictureDoesNotFreezeTheOutput) {
     EXPECT_GT(controller.telemetry().trainsDelivered, delivered);
     click(*freeze);
     EXPECT_IN_TIME(comesTrue([&] { return live.plots().shownTime().upper > shown.upper + 2; }));
+}
+
+TEST_F(LiveBench, AFrozenPictureIsZoomedFittedSavedCopiedAndMarked) {
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(passes(1));
+    auto* fit = find<QToolButton>(live, "Fit");
+    auto* undo = find<QToolButton>(live, "Undo zoom");
+    EXPECT_FALSE(fit->isEnabled()) << "a picture that moves shows all there is";
+    click(*find<QPushButton>(live, "Freeze"));
+    const auto whole = live.plots().shownTime();
+    EXPECT_TRUE(fit->isEnabled());
+    EXPECT_FALSE(undo->isEnabled());
+    auto* plots = live.findChild<gui::StripPlots*>();
+    const auto zoom = [&] {
+        const QPointF at = plots->axisRects().last()->center();
+        QWheelEvent wheel(at, plots->mapToGlobal(at), {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase,
+                          false);
+        QApplication::sendEvent(plots, &wheel);
+        return live.plots().shownTime();
+    };
+    const auto once = zoom(), twice = zoom();
+    EXPECT_LT(once.size(), whole.size());
+    EXPECT_LT(twice.size(), once.size());
+    click(*undo);
+    EXPECT_EQ(live.plots().shownTime(), once);
+    click(*fit);
+    EXPECT_EQ(live.plots().shownTime(), whole);
+    click(*undo);
+    EXPECT_EQ(live.plots().shownTime(), once) << "a fit is undone too";
+    click(*undo);
+    EXPECT_EQ(live.plots().shownTime(), whole);
+    EXPECT_FALSE(undo->isEnabled());
+
+    QApplication::clipboard()->clear();
+    click(*find<QToolButton>(live, "Copy picture"));
+    EXPECT_EQ(QApplication::clipboard()->image().width(), 2 * plots->width());
+    int marks = 0;
+    QObject::connect(&live, &gui::LiveWorkspace::markWanted, [&] { ++marks; });
+    click(*find<QToolButton>(live, "Mark"));
+    EXPECT_EQ(marks, 1);
+    click(*find<QToolButton>(live, "Save picture"));
+    auto* asks = QApplication::activeModalWidget() != nullptr ? QApplication::activeModalWidget()
+                                                              : live.findChild<QFileDialog*>();
+    EXPECT_NE(asks, nullptr) << "it asks where to";
+    if (asks != nullptr) asks->close();
 }
 
 TEST_F(LiveBench, OldSamplesAreSaidAndMarked) {
