@@ -89,6 +89,21 @@ void ProtocolWorkspace::arrange() {
     edge_->setFrameShape(across ? QFrame::HLine : QFrame::VLine);
 }
 
+void ProtocolWorkspace::showPlotOnly(bool only) {
+    plotOnly_ = only;
+    showPath();
+}
+
+void ProtocolWorkspace::showPath() {
+    const bool shown = !plotOnly_ || panel_->speaks();
+    if (shown == !path_->isHidden()) return;
+    // The keys do not pass on to a field of text: there Space would not stop.
+    const bool hadFocus = path_->isAncestorOf(QApplication::focusWidget());
+    path_->setVisible(shown);
+    edge_->setVisible(shown);
+    if (!shown && hadFocus) pages_->setFocus();
+}
+
 void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     arrange();
@@ -288,6 +303,7 @@ void ProtocolWorkspace::runNow() {
 }
 
 void ProtocolWorkspace::refresh() {
+    showPath();
     if (!running_) return;
     const auto feed = controller_.takeRunFeed();
     pages_->views().take(feed);

@@ -39,6 +39,8 @@ public:
     void set(const std::string& parameter, const QString& text);
     /// The editor, where it holds changes that are not saved; null otherwise.
     [[nodiscard]] ScriptEditor* unsavedScript() const;
+    /// Without the path, unless something stands there that is in the way of a run, or asked.
+    void showPlotOnly(bool only);
     /// As the Run button.
     void runAsked();
     /// As a click on the step.
@@ -65,6 +67,7 @@ protected:
 
 private:
     void arrange();
+    void showPath();
     void connectPath();
     void connectPages();
 
@@ -97,6 +100,7 @@ private:
     QElapsedTimer askedSince_;
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
+    bool plotOnly_ = false;
     std::uint64_t run_ = 0;  ///< its number
 
     QBoxLayout* layout_;

@@ -192,6 +192,8 @@ void RunPanel::withdrawQuestion() {
     question_->hide();
 }
 
+bool RunPanel::speaks() const { return !obstacle_->isHidden() || !trouble_->isHidden() || !question_->isHidden(); }
+
 void RunPanel::begin() {
     say({});
     question_->hide();

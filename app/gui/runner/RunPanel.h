@@ -54,6 +54,8 @@ public:
     void setAcross(bool across);
     /// What is in the way, what is asked, and the buttons that belong to it.
     [[nodiscard]] QWidget& words() noexcept { return *words_; }
+    /// Whether words() has something to say.
+    [[nodiscard]] bool speaks() const;
 
 signals:
     void runWanted();

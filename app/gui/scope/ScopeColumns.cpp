@@ -15,6 +15,12 @@
 
 namespace tacto::gui {
 
+namespace {
+
+const QList<int> kFirstSizes{600, 200, 190};
+
+}  // namespace
+
 ScopeColumns::ScopeColumns(const Parts& parts, QWidget* parent)
     : QWidget(parent), parts_(parts), plots_(new QSplitter(Qt::Vertical, this)) {
     plots_->setChildrenCollapsible(false);
@@ -24,7 +30,7 @@ ScopeColumns::ScopeColumns(const Parts& parts, QWidget* parent)
     plots_->setStretchFactor(0, 5);
     plots_->setStretchFactor(1, 2);
     plots_->setStretchFactor(2, 2);
-    plots_->setSizes({600, 200, 190});
+    plots_->setSizes(kFirstSizes);
     parts_.spectrum.hide();
     parts_.table.hide();
 
@@ -49,6 +55,13 @@ void ScopeColumns::askForControls(bool on) {
     wanted_ = on;
     forced_ = on;
     fitControls();
+}
+
+void ScopeColumns::reset() {
+    plots_->setSizes(kFirstSizes);
+    parts_.table.hide();
+    parts_.tools.showTable(false);
+    askForControls(false);
 }
 
 void ScopeColumns::fitControls() {

@@ -204,6 +204,11 @@ void ScopeWorkspace::dragEnterEvent(QDragEnterEvent* event) {
 
 void ScopeWorkspace::dropEvent(QDropEvent* event) { openCaptureFile(event->mimeData()->urls().first().toLocalFile()); }
 
+void ScopeWorkspace::resetLayout() {
+    controls_->view().setSpectrum(false);
+    columns_->reset();
+}
+
 void ScopeWorkspace::save() const {
     QSettings settings;
     settings.beginGroup("scope");
@@ -351,6 +356,8 @@ void ScopeWorkspace::showState() {
 
 void ScopeWorkspace::say() {
     auto standing = acquisition_->statusText(model_.shown().get(), pipe_.skippedCaptures());
+    if (const auto scales = laneScalesText(model_); !scales.isEmpty() && model_.shown())
+        standing += (standing.isEmpty() ? "" : " · ") + scales;
     if (const auto mask = controls_->mask().said(); !mask.isEmpty()) standing += " · " + mask;
     status_->show(pipe_.opening() ? std::optional(pipe_.percentRead()) : std::nullopt, standing);
     const auto& shown = model_.shown();

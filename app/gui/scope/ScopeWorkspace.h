@@ -40,6 +40,8 @@ public:
 
     /// At 30 Hz while this is visible; also while it is not, where setWatched().
     void refresh(const Telemetry& telemetry);
+    /// Panels and columns as at the first start.
+    void resetLayout();
     /// Another view shows what captureShown() reports, so captures are taken although this is not visible.
     void setWatched(bool watched);
     /// Reads a capture file in the background and shows it; what goes wrong is said here. False when there is no such

@@ -17,22 +17,25 @@ public:
 }  // namespace
 
 TabbedPage::TabbedPage(QWidget* parent)
-    : QWidget(parent), bar_(new WholeTabBar(this)), tools_(new QStackedWidget(this)), pages_(new QStackedWidget(this)) {
+    : QWidget(parent),
+      head_(new QWidget(this)),
+      bar_(new WholeTabBar(this)),
+      tools_(new QStackedWidget(this)),
+      pages_(new QStackedWidget(this)) {
     bar_->setExpanding(false);
     bar_->setDrawBase(false);
     bar_->setWhatsThis(tr("The pages of this workspace. The left and right arrow keys change the page."));
     bar_->setUsesScrollButtons(false);
-    auto* head = new QWidget(this);
-    head->setObjectName("tabRow");
-    head->setAttribute(Qt::WA_StyledBackground);
-    auto* row = new QHBoxLayout(head);
+    head_->setObjectName("tabRow");
+    head_->setAttribute(Qt::WA_StyledBackground);
+    auto* row = new QHBoxLayout(head_);
     row->setContentsMargins(0, 0, 8, 0);
     row->addWidget(bar_, 0, Qt::AlignBottom);
     row->addWidget(tools_, 1);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    column->addWidget(head);
+    column->addWidget(head_);
     column->addWidget(pages_, 1);
     tools_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     connect(bar_, &QTabBar::currentChanged, this, [this](int index) {

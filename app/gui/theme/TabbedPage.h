@@ -17,6 +17,8 @@ public:
     [[nodiscard]] QWidget* room() const { return pages_; }
     /// Takes both; `tools` may be null.
     void addTab(QWidget* page, const QString& title, QWidget* tools = nullptr);
+    /// The row of tabs and tools.
+    void setHeadVisible(bool visible) { head_->setVisible(visible); }
     void setCurrentIndex(int index) { bar_->setCurrentIndex(index); }
     [[nodiscard]] int currentIndex() const { return bar_->currentIndex(); }
 
@@ -24,6 +26,7 @@ signals:
     void currentChanged(int index);
 
 private:
+    QWidget* head_;
     QTabBar* bar_;
     QStackedWidget* tools_;
     QStackedWidget* pages_;

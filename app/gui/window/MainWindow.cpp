@@ -8,6 +8,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QSettings>
+#include <QSplitter>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
@@ -164,6 +165,7 @@ void MainWindow::buildLive() {
     livePage_->addTab(oscilloscope, tr("&Oscilloscope"), scope_->tools());
     pages_->addWidget(livePage_);
     connect(live_, &LiveWorkspace::refusedRecording, banner_, &NoticeBanner::complain);
+    connect(live_, &LiveWorkspace::markWanted, this, &MainWindow::markMoment);
     connect(scope_, &ScopeWorkspace::openBenchWanted, this, &MainWindow::openSimulatedBench);
 }
 
@@ -280,14 +282,22 @@ void MainWindow::focusWorkspace() {
 }
 
 void MainWindow::showPlotOnly(bool only) {
+    buildOthers();
     rail_->setVisible(!only);
     statusBar()->setVisible(!only);
+    menuBar()->setVisible(!only);
+    for (auto* page : findChildren<TabbedPage*>()) page->setHeadVisible(!only);
+    for (auto* runner : runners()) runner->showPlotOnly(only);
     docks_->setHidden(DockColumn::Hidden::PlotOnly, only);
+    // What had the keys may be hidden: Space must stop.
+    if (only) focusWorkspace();
 }
 
 void MainWindow::resetLayout() {
     docks_->reset();
     enterDocks();
+    for (auto* splitter : findChildren<QSplitter*>()) layOutAnew(*splitter);
+    scope_->resetLayout();
     line_->say(tr("Docks and columns are where they were at first."));
 }
 

@@ -1,5 +1,6 @@
 #include "app/gui/window/Menus.h"
 
+#include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QSettings>
@@ -21,6 +22,11 @@ Menus::Menus(MainWindow& window, const QActionGroup& workspaces, DockColumn& doc
     addBench();
     addView(workspaces, docks);
     addHelp();
+    // Their keys work while the menu bar is hidden.
+    for (const auto* menu : window_.menuBar()->actions()) {
+        for (auto* action : menu->menu()->actions())
+            if (!action->shortcut().isEmpty()) window_.addAction(action);
+    }
 }
 
 void Menus::addFiles() {

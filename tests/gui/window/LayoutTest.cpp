@@ -3,14 +3,18 @@
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
 #include <gmock/gmock.h>
 
+#include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/scope/MeasurementSummary.h"
+#include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/DockColumn.h"
 #include "app/gui/window/FoldingDock.h"
@@ -60,12 +64,27 @@ TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     EXPECT_FALSE(bar("workspaces").isVisible());
     EXPECT_FALSE(dock("driveDock").isVisible());
     EXPECT_FALSE(window.statusBar()->isVisible());
+    EXPECT_FALSE(window.menuBar()->isVisible());
+    EXPECT_FALSE(window.findChild<QWidget*>("tabRow")->isVisible());
     EXPECT_TRUE(stop->isVisible());
+    EXPECT_TRUE(window.findChild<QLabel*>("interlockState")->isVisible());
+    key(Qt::Key_3, Qt::ControlModifier);
+    auto* check = window.findChild<QStackedWidget*>()->currentWidget();
+    EXPECT_IN_TIME(comesTrue([&] { return check->isVisible(); })) << "the menus' keys work without their bar";
+    const auto* path = check->findChild<QWidget*>("path");
+    const auto* obstacle = check->findChild<QWidget*>("runObstacle");
+    ASSERT_NE(path, nullptr);
+    EXPECT_IN_TIME(comesTrue([&] { return path->isVisible() == !obstacle->isHidden(); }))
+        << "a path only for what is in the way of the run";
     window.showWorkspace(5);
     EXPECT_FALSE(bar("dockStrip").isVisible()) << "also in another workspace";
     key(Qt::Key_F11);
     EXPECT_IN_TIME(comesTrue([this] { return bar("workspaces").isVisible(); }));
     EXPECT_TRUE(window.statusBar()->isVisible());
+    EXPECT_TRUE(window.menuBar()->isVisible());
+    window.showWorkspace(2);
+    EXPECT_TRUE(path->isVisible());
+    window.showWorkspace(0);  // the next window begins where this one was
 }
 
 TEST_F(Layout, WhatABlindSessionHidesNoKeyAndNoMenuBringsBack) {
@@ -82,7 +101,9 @@ TEST_F(Layout, WhatABlindSessionHidesNoKeyAndNoMenuBringsBack) {
     };
     EXPECT_FALSE(shows());
     key(Qt::Key_F11);
+    EXPECT_FALSE(bar("workspaces").isVisible());
     key(Qt::Key_F11);
+    EXPECT_TRUE(bar("workspaces").isVisible());
     EXPECT_FALSE(shows()) << "F11 twice";
     key(Qt::Key_D, Qt::ControlModifier);
     key(Qt::Key_D, Qt::ControlModifier);
@@ -274,6 +295,29 @@ TEST_F(Layout, ResetPutsEverythingBack) {
     key(Qt::Key_D, Qt::ControlModifier);
     window.resetLayout();
     EXPECT_IN_TIME(comesTrue([&] { return drive.isVisible() && !drive.isFloating() && !drive.folded(); }));
+}
+
+TEST_F(Layout, ResetPutsPanelsAndColumnsOfAWorkspaceBackToo) {
+    open();
+    window.showWorkspace(0);
+    auto* lanes = window.findChild<gui::LiveWorkspace*>()->findChild<QSplitter*>();
+    ASSERT_IN_TIME(comesTrue([&] { return lanes->isVisible() && lanes->sizes().front() > 0; }));
+    window.resetLayout();
+    QTest::qWait(100);
+    const auto first = lanes->sizes();
+    lanes->setSizes({first[0] - 150, first[1] + 150});
+    ASSERT_NE(lanes->sizes(), first);
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    auto& scope = *window.findChild<gui::ScopeWorkspace*>();
+    for (const auto* name : {"All measurements", "Spectrum tool", "Controls"})
+        click(*find<QToolButton>(*scope.window(), name));
+    ASSERT_IN_TIME(comesTrue([&] { return scope.table().isVisible(); }));
+    window.resetLayout();
+    EXPECT_IN_TIME(comesTrue([&] { return !scope.table().isVisible(); }));
+    for (const auto* name : {"All measurements", "Spectrum tool", "Controls"})
+        EXPECT_FALSE(find<QToolButton>(*scope.window(), name)->isChecked()) << name;
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
+    EXPECT_IN_TIME(comesTrue([&] { return lanes->sizes() == first; }));
 }
 
 }  // namespace
