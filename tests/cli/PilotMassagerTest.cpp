@@ -62,7 +62,7 @@ TEST(PilotMassager, ARehearsalGoesFromPlanToConfusionMatrix) {
         EXPECT_EQ(condition["intensity"], rough ? high : low);
         EXPECT_EQ(condition["interval_s"], firm ? 0.5 : 2);
     }
-    EXPECT_THAT(results["headline"].get<std::string>(), HasSubstr("between intensity"));
+    EXPECT_THAT(results["headline"].get<std::string>(), HasSubstr("between strengths of"));
     EXPECT_FALSE(results["vibration"]["measured"].get<bool>());
     EXPECT_TRUE(results["vibration"]["verdict"].is_null());
     EXPECT_THAT(results["vibration"]["reasons"][0].get<std::string>(), HasSubstr("Not measured"));

@@ -260,7 +260,7 @@ TEST(StudyReport, WithAMassagerSaysStrengthAndNeverCurrentOrVoltage) {
         EXPECT_THAT(text, HasSubstr("massager"));
     }
     const auto all = textOfAll(studyReport(study).value());
-    EXPECT_THAT(all, HasSubstr("between intensity 0.30 and 0.55"));
+    EXPECT_THAT(all, HasSubstr("between strengths of 0.30 and 0.55"));
     EXPECT_THAT(all, HasSubstr("Too strong (strength)"));
     EXPECT_THAT(all, HasSubstr("0.30 to 0.55"));
 }

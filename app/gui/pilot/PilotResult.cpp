@@ -26,8 +26,6 @@ QString textIn(const nlohmann::json& record, const std::string& path) {
     return at.is_string() ? qtext(at.get_ref<const std::string&>()) : QString();
 }
 
-QString percent(double share) { return decimalText(share * 100, 0); }
-
 /// Of a result with a massager, whose levels are strengths.
 bool isMassager(const nlohmann::json& results) { return textIn(results, "modality") == "massager"; }
 
@@ -71,18 +69,7 @@ QString thresholdSentence(const nlohmann::json& results) {
 QString resultSentence(const nlohmann::json& results) {
     if (resultTraits(textIn(results, "kind").toStdString()).kind == ResultKind::PilotThresholds)
         return thresholdSentence(results);
-    const double n = numberIn(results, "n"), hits = numberIn(results, "hits");
-    if (!std::isfinite(n) || !std::isfinite(hits)) return {};
-    auto who = textIn(results, "participant.code");
-    if (who.isEmpty()) who = QObject::tr("The participant");
-    if (n < 1) return QObject::tr("%1 answered no test trial.").arg(who);
-    const auto& accuracy = memberAt(results, "accuracy");
-    auto said = QObject::tr("%1 told the four apart in %2 of %3 trials").arg(who).arg(hits).arg(n);
-    if (accuracy.is_object())
-        said += QObject::tr(" (%1 %, 95 % interval %2 to %3 %, chance 25 %)")
-                    .arg(percent(numberIn(accuracy, "value")), percent(numberIn(accuracy, "low")),
-                         percent(numberIn(accuracy, "high")));
-    return said + rangeWords(memberAt(results, "range")) + '.';
+    return textIn(results, "headline");
 }
 
 PilotResult::PilotResult(QWidget* parent)
@@ -163,8 +150,8 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
         why << sentence(qtext(outcome.error->message).remove(place)) +
                    tr(" Output is off. What was answered is on disk.");
     for (const auto& reason : outcome.reasons) {
-        const bool isHeadline = !said.isEmpty() && reason.find("told the four apart in") != std::string::npos;
-        if (!outcome.error && !isHeadline) why << sentence(qtext(reason));
+        const auto text = qtext(reason);
+        if (!outcome.error && text != said) why << sentence(text);
     }
     for (const auto& trouble : run.result.troubles) why << sentence(trouble);
     why_->setText(why.join('\n'));

@@ -16,7 +16,7 @@ std::string countWord(std::size_t n) {
 /// " between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ"; empty where nothing is known.
 std::string rangeText(const PresentedRange& range) {
     if (range.lowIntensity && range.highIntensity) {
-        return fmt::format(" between intensity {:.2f} and {:.2f}", *range.lowIntensity, *range.highIntensity);
+        return fmt::format(" between strengths of {:.2f} and {:.2f}", *range.lowIntensity, *range.highIntensity);
     }
     if (!range.low || !range.high) return {};
     auto text = fmt::format(" between {:.1f} and {:.1f} mA", range.low->value(), range.high->value());

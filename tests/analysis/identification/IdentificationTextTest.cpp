@@ -37,7 +37,7 @@ TEST(IdentificationText, WhatIsNotKnownIsLeftOut) {
     range.highIntensity = 0.8;
     EXPECT_EQ(headline("P-7K3M", with68Of80(), range),
               "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between "
-              "intensity 0.20 and 0.80.");
+              "strengths of 0.20 and 0.80.");
     EXPECT_EQ(headline("P-7K3M", Identification(), range), "P-7K3M answered no test trial.");
 }
 

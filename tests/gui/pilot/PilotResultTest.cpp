@@ -12,14 +12,16 @@
 namespace tacto::test {
 namespace {
 
+constexpr const char* kHeadline =
+    "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 and "
+    "6.5 mA, 14 to 22 V at 3.4 kΩ.";
+
 nlohmann::json someResults() {
     return {{"participant", {{"code", "P-7K3M"}, {"virtual", true}}},
             {"labels", {"rough-high", "rough-low", "smooth-high", "smooth-low"}},
             {"columns", {"rough-high", "rough-low", "smooth-high", "smooth-low", "none", "not-sure"}},
             {"confusion", {{18, 2, 0, 0, 0, 0}, {3, 16, 0, 1, 0, 0}, {0, 0, 17, 3, 0, 0}, {0, 1, 2, 17, 0, 0}}},
-            {"n", 80},
-            {"hits", 68},
-            {"accuracy", {{"value", 0.85}, {"low", 0.756}, {"high", 0.912}}},
+            {"headline", kHeadline},
             {"p_chance", 1e-12},
             {"it_corrected_bits", 1.1},
             {"it_bias_bits", 0.135},
@@ -29,33 +31,36 @@ nlohmann::json someResults() {
 }
 
 TEST(PilotResult, SaysFirstWhatEveryResultSaysFirst) {
-    auto said = gui::resultSentence(someResults());
-    said.replace(QChar(0x202F), ' ');
-    EXPECT_EQ(said.toStdString(),
-              "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 "
-              "and 6.5 mA, 14 to 22 V at 3.40 kΩ.");
-    auto none = someResults();
-    none["n"] = 0;
-    none["hits"] = 0;
-    EXPECT_EQ(gui::resultSentence(none).toStdString(), "P-7K3M answered no test trial.");
-    auto vibrated = someResults();
-    vibrated["modality"] = "massager";
-    vibrated["range"] = {{"min_intensity", 0.3}, {"max_intensity", 0.55}};
-    auto felt = gui::resultSentence(vibrated);
-    EXPECT_TRUE(felt.endsWith(" between strengths of 0.30 and 0.55.")) << felt.toStdString();
+    EXPECT_EQ(gui::resultSentence(someResults()).toStdString(), kHeadline);
     const nlohmann::json thresholds{
         {"kind", "pilot-thresholds"},
         {"modality", "massager"},
         {"participant", {{"code", "P-7K3M"}}},
         {"detection", {{"estimate_intensity", {{"value", 0.22}, {"low", 0.2}, {"high", 0.25}}}}},
         {"range", {{"min_intensity", 0.3}, {"max_intensity", 0.55}}}};
-    felt = gui::resultSentence(thresholds);
+    auto felt = gui::resultSentence(thresholds);
     felt.replace(QChar(0x202F), ' ');
     EXPECT_EQ(felt.toStdString(),
               "P-7K3M feels a strength of 0.22 in 4 of 5 trials (95 % interval 0.20 to 0.25); conditions lie between "
               "strengths of 0.30 and 0.55.");
     EXPECT_TRUE(gui::resultSentence(nlohmann::json::object()).isEmpty());
     EXPECT_TRUE(gui::resultSentence(nullptr).isEmpty());
+}
+
+TEST(PilotResult, SaysTheHeadlineOnceWhateverItIs) {
+    for (const char* headline : {kHeadline, "P-7K3M answered no test trial."}) {
+        gui::FinishedRun run;
+        auto results = someResults();
+        results["headline"] = headline;
+        run.result.outcome.results = results;
+        run.result.outcome.reasons = {"No usable range: too narrow", headline};
+        gui::PilotResult view;
+        view.show(run, "/home/lab/rehearsal-1");
+        EXPECT_EQ(view.findChild<QLabel*>("pilotHeadline")->text().toStdString(), headline);
+        const auto why = view.findChild<QLabel*>("pilotReason")->text().toStdString();
+        EXPECT_EQ(why.find(headline), std::string::npos) << why;
+        EXPECT_NE(why.find("No usable range"), std::string::npos) << why;
+    }
 }
 
 TEST(PilotResult, ShowsTheMatrixAndLooksRight) {
