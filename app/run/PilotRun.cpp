@@ -401,7 +401,7 @@ Result<void> PilotRun::noteSkin(const std::string& moment, int score) {
     event.what = fmt::format(
         "skin at the {} scored {} of 4 ({}); severity and relation as noted by the program, for "
         "the investigator to judge",
-        settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes", score, moment);
+        settings_.modality(), score, moment);
     event.severity = score;
     event.relation = 5;
     const auto& session = begun_->session.id;

@@ -73,10 +73,6 @@ nlohmann::json PilotSession::participantJson() const {
     return {{"code", settings.code}, {"virtual", settings.isVirtual}};
 }
 
-const char* PilotSession::modality() const noexcept {
-    return stage_.settings().unit == LevelUnit::Current ? "electrodes" : "massager";
-}
-
 nlohmann::json PilotSession::truthJson() const {
     if (truth_ == nullptr) return nullptr;
     const auto& who = truth_->settings().who;
@@ -92,7 +88,7 @@ nlohmann::json PilotSession::truthJson() const {
 nlohmann::json PilotSession::thresholdResults() const {
     auto results = thresholds_.toJson();
     results["kind"] = "pilot-thresholds";
-    results["modality"] = modality();
+    results["modality"] = stage_.settings().modality();
     results["participant"] = participantJson();
     results["parts"] = parts_;
     results["resumed"] = parts_ > 1;
@@ -109,7 +105,7 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
     if (!all) return failure(all);
     auto results = toJson(*all);
     results["kind"] = "pilot-identification";
-    results["modality"] = modality();
+    results["modality"] = stage_.settings().modality();
     results["participant"] = participantJson();
     results["encoding"] = stage_.settings().encoding;
     results["parts"] = parts_;

@@ -51,7 +51,6 @@ public:
     [[nodiscard]] Result<std::string> headlineText() const;
 
 private:
-    [[nodiscard]] const char* modality() const noexcept;
     [[nodiscard]] nlohmann::json participantJson() const;
     [[nodiscard]] nlohmann::json truthJson() const;
     [[nodiscard]] Result<Identification> found() const;

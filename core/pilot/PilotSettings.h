@@ -31,6 +31,11 @@ struct PilotSettings {
     int perCondition = 4;   ///< of a block
     int catchTrials = 2;    ///< of a block
     double adaptation = 0;  ///< noted only; the virtual participant has it
+
+    /// What the participant feels it through, as the record says it: "electrodes" or "massager".
+    [[nodiscard]] const char* modality() const noexcept {
+        return unit == LevelUnit::Intensity ? "massager" : "electrodes";
+    }
 };
 
 /// One condition as this participant gets it: level x of the way from `min` to `max`, interval y of the way from T_max

@@ -361,10 +361,9 @@ Result<void> PilotStage::seatAgain(const std::string& during, const Error& why, 
 }
 
 Result<void> PilotStage::askToSee(const std::string& why) {
-    const char* what = settings_.unit == LevelUnit::Intensity ? "massager" : "electrodes";
     participant_.show({});
-    const auto seen =
-        insist(goOnPrompt(fmt::format("Output is off: {}. See to the {}, then go on.", why, what), PromptTo::Operator));
+    const auto seen = insist(goOnPrompt(
+        fmt::format("Output is off: {}. See to the {}, then go on.", why, settings_.modality()), PromptTo::Operator));
     return seen ? Result<void>() : failure(seen);
 }
 
