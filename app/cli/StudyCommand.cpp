@@ -171,8 +171,24 @@ int adverseEvent(Study& study, const QCommandLineParser& parser, const QStringLi
     return kDone;
 }
 
+int nextDay(Study& study, const QCommandLineParser& parser, const QStringList& words) {
+    const auto said = nextDayGiven(parser);
+    if (!said) return usage(fmt::format("study next-day: {}", said.error().message));
+    const auto session = words.at(2).toStdString();
+    if (const auto noted = study.nextDay(session, *said); !noted) return failWith(noted.error());
+    if (parser.isSet("json")) {
+        auto all = toJson(*said);
+        all["session"] = session;
+        all["adverse_events"] = study.adverseEventCount();
+        printJson(all);
+    } else {
+        say("noted; adverse events: {}\n", study.adverseEventCount());
+    }
+    return kDone;
+}
+
 int enrol(Study& study, const QCommandLineParser& parser, const QStringList& words) {
-    Participant participant;
+    auto participant = participantGiven(parser);
     if (words.size() > 2) participant.code = words.at(2).toStdString();
     if (parser.isSet("virtual")) {
         const auto seed = seedGiven(parser);
@@ -292,7 +308,13 @@ const std::vector<StudyWord>& studyWords() {
          {"reference", "from", "expires", "consent-version", "set", "passphrase-file", "json"},
          true,
          amend},
-        {"enrol", 2, 3, "STUDY and CODE", {"virtual", "passphrase-file", "json"}, true, enrol},
+        {"enrol",
+         2,
+         3,
+         "STUDY and CODE",
+         {"virtual", "age", "sex", "handedness", "passphrase-file", "json"},
+         true,
+         enrol},
         {"consent", 3, 3, "STUDY and CODE", {"version", "date", "by", "passphrase-file", "json"}, true, consent},
         {"show",
          2,
@@ -310,7 +332,14 @@ const std::vector<StudyWord>& studyWords() {
          "STUDY and SESSION",
          {"what", "severity", "relation", "serious", "action", "outcome", "reported", "passphrase-file", "json"},
          true,
-         adverseEvent}};
+         adverseEvent},
+        {"next-day",
+         3,
+         3,
+         "STUDY and SESSION",
+         {"erythema", "oedema", "side-effect", "passphrase-file", "json"},
+         true,
+         nextDay}};
     return all;
 }
 
@@ -350,10 +379,12 @@ const Command kStudy{
     "study",
     "{create STUDY --title T --approval REF --from DATE --expires DATE --consent-version V [--set KEY=VALUE]... | "
     "amend STUDY --reference REF [--from DATE] [--expires DATE] [--consent-version V] [--set KEY=VALUE]... | "
-    "enrol STUDY [CODE] [--virtual SEED] | consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | "
+    "enrol STUDY [CODE] [--virtual SEED] [--age YEARS] [--sex SEX] [--handedness HAND] | "
+    "consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | "
     "trials STUDY CODE [--session N] | leave STUDY CODE | withdraw STUDY CODE --confirm CODE | "
     "adverse-event STUDY SESSION --what TEXT --severity 1..4 --relation 1..5 [--serious] [--action T] [--outcome T] "
-    "[--reported]} [--passphrase-file F] [--json]",
+    "[--reported] | next-day STUDY SESSION --erythema 0..4 --oedema 0..4 [--side-effect ITEM:SEVERITY:RELATION]...} "
+    "[--passphrase-file F] [--json]",
     "Studies with people or virtual participants: approval, consent, sealed records",
     false,
     declareStudyOptions,

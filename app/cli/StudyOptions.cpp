@@ -18,13 +18,13 @@ Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings)
     return {};
 }
 
-Result<int> scoreGiven(const QCommandLineParser& parser, const char* name, int most) {
+Result<int> scoreGiven(const QCommandLineParser& parser, const char* name, int least, int most) {
     bool isNumber = false;
     const int score = parser.value(name).toInt(&isNumber);
-    if (isNumber && score >= 1 && score <= most) return score;
+    if (isNumber && score >= least && score <= most) return score;
     if (!parser.isSet(name)) return fail(ErrorCode::InvalidArgument, "--{} is missing", name);
-    return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; a whole number from 1 to {} is expected", name,
-                parser.value(name).toStdString(), most);
+    return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; a whole number from {} to {} is expected", name,
+                parser.value(name).toStdString(), least, most);
 }
 
 }  // namespace
@@ -51,6 +51,13 @@ void declareStudyOptions(QCommandLineParser& parser) {
     parser.addOption({"action", "What was done.", "TEXT"});
     parser.addOption({"outcome", "What became of it.", "TEXT"});
     parser.addOption({"reported", "It was reported to the committee."});
+    parser.addOption({"age", "Age in whole years, where the approval asks for it.", "YEARS"});
+    parser.addOption({"sex", "female, male or other, where the approval asks for it.", "SEX"});
+    parser.addOption({"handedness", "right, left or ambidextrous, where the approval asks for it.", "HAND"});
+    parser.addOption({"erythema", "Redness of the skin on a day after, 0 to 4.", "0..4"});
+    parser.addOption({"oedema", "Swelling of the skin on a day after, 0 to 4.", "0..4"});
+    parser.addOption({"side-effect", "What was noticed by then, its severity 1 to 4 and relation 1 to 5: redness:2:4.",
+                      "ITEM:SEVERITY:RELATION"});
     declarePassphrase(parser);
     parser.addOption({"json", "Prints one JSON value."});
 }
@@ -99,13 +106,37 @@ Result<StudySettings> settingsAmended(const QCommandLineParser& parser, StudySet
     return settings;
 }
 
+Participant participantGiven(const QCommandLineParser& parser) {
+    Participant participant;
+    participant.age = given(parser, "age");
+    participant.sex = given(parser, "sex");
+    participant.handedness = given(parser, "handedness");
+    return participant;
+}
+
+Result<NextDay> nextDayGiven(const QCommandLineParser& parser) {
+    NextDay said;
+    for (const auto& [name, score] : {std::pair{"erythema", &said.erythema}, std::pair{"oedema", &said.oedema}}) {
+        const auto given = scoreGiven(parser, name, 0, 4);
+        if (!given) return failure(given);
+        *score = *given;
+    }
+    for (const auto& text : parser.values("side-effect")) {
+        auto effect = sideEffectFrom(text.toStdString());
+        if (!effect) return failure(effect);
+        said.sideEffects.push_back(std::move(*effect));
+    }
+    if (auto sound = checkNextDay(said); !sound) return failure(sound);
+    return said;
+}
+
 Result<AdverseEvent> adverseEventGiven(const QCommandLineParser& parser) {
     AdverseEvent event;
     event.what = given(parser, "what");
     if (event.what.empty()) return fail(ErrorCode::InvalidArgument, "--what is missing");
-    const auto severity = scoreGiven(parser, "severity", 4);
+    const auto severity = scoreGiven(parser, "severity", 1, 4);
     if (!severity) return failure(severity);
-    const auto relation = scoreGiven(parser, "relation", 5);
+    const auto relation = scoreGiven(parser, "relation", 1, 5);
     if (!relation) return failure(relation);
     event.severity = *severity;
     event.relation = *relation;

@@ -1,4 +1,5 @@
-// StudyOptions.h - what the options of `study` say: a new study, an amendment, an adverse event.
+// StudyOptions.h - what the options of `study` say: a new study, an amendment, a participant, an adverse
+// event, the day after a session.
 //
 // Errors of all: InvalidArgument naming the option, its value and what is accepted.
 //
@@ -22,6 +23,9 @@ void declareStudyOptions(QCommandLineParser& parser);
 [[nodiscard]] Result<StudySettings> settingsGiven(const QCommandLineParser& parser);
 /// `settings` with what the options change, and this program's limit sets and pilot scripts.
 [[nodiscard]] Result<StudySettings> settingsAmended(const QCommandLineParser& parser, StudySettings settings);
+[[nodiscard]] Result<NextDay> nextDayGiven(const QCommandLineParser& parser);
+/// A new participant, without what `virtual` says. The study checks it.
+[[nodiscard]] Participant participantGiven(const QCommandLineParser& parser);
 [[nodiscard]] Result<AdverseEvent> adverseEventGiven(const QCommandLineParser& parser);
 
 }  // namespace tacto::cli

@@ -5,6 +5,7 @@
 
 #include "core/base/JsonFields.h"
 #include "core/base/Random.h"
+#include "core/study/NextDay.h"
 
 namespace tacto {
 
@@ -25,18 +26,6 @@ struct Named {
     const char* key;
     const char* text;
 };
-constexpr Named kSideEffects[] = {{"tingling", "Tingling"},
-                                  {"itching", "Itching"},
-                                  {"burning", "Burning"},
-                                  {"pain", "Pain"},
-                                  {"redness", "Redness"},
-                                  {"twitching", "Twitching"},
-                                  {"numbness", "Numbness"},
-                                  {"phantom-pain", "Phantom pain"},
-                                  {"headache", "Headache"},
-                                  {"tiredness", "Tiredness"},
-                                  {"concentration", "Poor attention"},
-                                  {"mood", "Changed mood"}};
 constexpr Named kNaturalnessTargets[] = {{"totally-natural", "Totally natural"},
                                          {"almost-natural", "Almost natural"},
                                          {"possibly-natural", "Possibly natural"},
@@ -46,8 +35,8 @@ constexpr Named kQualityTargets[] = {{"touch", "Touch"},         {"pressure", "P
                                      {"vibration", "Vibration"}, {"tingling", "Tingling"},   {"pricking", "Pricking"},
                                      {"burning", "Burning"},     {"twitching", "Twitching"}, {"phantom", "Phantom"}};
 
-template <std::size_t count>
-std::vector<PromptTarget> targets(const Named (&all)[count]) {
+template <class Names>
+std::vector<PromptTarget> targets(const Names& all) {
     std::vector<PromptTarget> out;
     for (const auto& each : all) out.push_back({each.key, each.text});
     return out;

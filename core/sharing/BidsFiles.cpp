@@ -70,6 +70,13 @@ BidsFile readme(const BidsStudy& study) {
     return {"README", text};
 }
 
+/// From 89 years on "89+", as BIDS recommends: few people are as old.
+std::string sharedAge(const std::string& age) {
+    constexpr double kOldestShared = 89;
+    const auto years = parseNumber(age);
+    return years && *years >= kOldestShared ? "89+" : age;
+}
+
 BidsTable participantsTable(const BidsWith& with,
                             const std::vector<std::pair<std::string, const BidsParticipant*>>& labelled) {
     std::vector<BidsColumn> columns = {{"participant_id", "Label of the participant, in random order"},
@@ -81,15 +88,15 @@ BidsTable participantsTable(const BidsWith& with,
                                          {"limb difference", "a limb was lost or never formed"},
                                          {"virtual", "simulated by the program"}}},
                                        {"sessions", "Sessions begun"}};
-    if (with.age) columns.push_back({"age", "Age as the approval asks for it"});
-    if (with.sex) columns.push_back({"sex", "Sex as the approval asks for it"});
-    if (with.handedness) columns.push_back({"handedness", "Handedness as the approval asks for it"});
+    if (with.age) columns.push_back({"age", "Age in years; 89+ from 89 on"});
+    if (with.sex) columns.push_back({"sex", "female, male or other"});
+    if (with.handedness) columns.push_back({"handedness", "right, left or ambidextrous"});
     BidsTable table(std::move(columns));
     for (const auto& [label, participant] : labelled) {
         std::vector<BidsCell> cells = {"sub-" + label, participant->isVirtual ? "" : "homo sapiens",
                                        participant->isVirtual ? "virtual" : participant->group,
                                        participant->sessions.size()};
-        if (with.age) cells.emplace_back(participant->age);
+        if (with.age) cells.emplace_back(sharedAge(participant->age));
         if (with.sex) cells.emplace_back(participant->sex);
         if (with.handedness) cells.emplace_back(participant->handedness);
         table.add(std::move(cells));

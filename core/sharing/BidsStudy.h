@@ -69,8 +69,11 @@ struct BidsSession {
     Ohms impedance{kNaN};
     Milliamps low{kNaN}, high{kNaN};  ///< range
     double lowIntensity = kNaN, highIntensity = kNaN;
-    double detection = kNaN, tooStrong = kNaN;  ///< mA, or a massager's intensity
-    std::optional<int> skinBefore, skinAfter;   ///< the worse of erythema and oedema, 0 to 4
+    double detection = kNaN, tooStrong = kNaN;         ///< mA, or a massager's intensity
+    double detectionLow = kNaN, detectionHigh = kNaN;  ///< 95 % interval of `detection`
+    std::vector<std::string> sideEffectsAsked;         ///< moments at which they were asked for
+    std::optional<int> skinNextDay;                    ///< as those before and after
+    std::optional<int> skinBefore, skinAfter;          ///< the worse of erythema and oedema, 0 to 4
     bool complete = false;
     std::size_t parts = 1;
     std::vector<std::string> labels;  ///< the answers offered, in the study's order

@@ -113,6 +113,7 @@ public:
             if (!head.empty()) state.heads[textOr(row.body, "after")] = std::move(head);
             return {};
         }
+        if (row.name == ledger::kNextDay) return nextDay(row, *session);
         if (row.name == ledger::kSessionEnded) return sessionEnded(row, *session);
         return unfit(row, "nothing that this program knows");
     }
@@ -187,6 +188,7 @@ private:
             if (session.participant != participant.id) continue;
             session.code.clear();
             session.encoding.clear();
+            state.nextDays.erase(session.id);
         }
     }
 
@@ -212,6 +214,16 @@ private:
         if (!ended) return unfit(row, "a state that this program does not know");
         session.state = *ended;
         state.heads[textOr(row.body, "file")] = textOr(row.body, "head");
+        return {};
+    }
+
+    [[nodiscard]] Result<void> nextDay(const SessionRow& row, const StudySession& session) {
+        const auto content = opened(row, session.participant);
+        if (!content) return failure(content);
+        if (!*content) return {};
+        auto said = nextDayFrom(**content);
+        if (!said) return failure(said);
+        state.nextDays.insert_or_assign(session.id, std::move(*said));
         return {};
     }
 

@@ -7,6 +7,7 @@
 //   session-part          {session, file, participant, after, head}
 //   session-ended         {session, participant, state, file, head}
 //   excluded              {participant, sealed}              of that day
+//   next-day              {participant, session, sealed}
 //   adverse-event, exported   {session, sealed under the study's key}
 //
 // Thread-safety: values.
@@ -36,6 +37,7 @@ inline constexpr const char* kWithdrawn = "withdrawn";
 inline constexpr const char* kSessionBegun = "session-begun";
 inline constexpr const char* kSessionPart = "session-part";
 inline constexpr const char* kSessionEnded = "session-ended";
+inline constexpr const char* kNextDay = "next-day";
 inline constexpr const char* kAdverseEvent = "adverse-event";
 inline constexpr const char* kExported = "exported";
 }  // namespace ledger
@@ -51,8 +53,9 @@ struct LedgerState {
     std::vector<StudySession> sessions;                               ///< without `answered`
     std::map<std::string, std::string> heads;                         ///< of ended files: file to chain head
     std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< with the key only
-    std::vector<StudyExport> exports;                                 ///< with the key only
-    std::chrono::sys_seconds last{};                                  ///< of the newest row
+    std::map<std::string, NextDay> nextDays;  ///< session to what was said last; with the key only
+    std::vector<StudyExport> exports;         ///< with the key only
+    std::chrono::sys_seconds last{};          ///< of the newest row
     std::string head;
 
     [[nodiscard]] Participant* participant(std::string_view id) noexcept;

@@ -1,7 +1,10 @@
 #include "core/study/Participant.h"
 
 #include <algorithm>
+#include <fmt/ranges.h>
+#include <span>
 
+#include "core/base/Text.h"
 #include "core/seal/SealedText.h"
 
 namespace tacto {
@@ -13,6 +16,19 @@ constexpr std::string_view kCodeAlphabet = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ
 constexpr std::string_view kDrawn = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ";
 constexpr std::size_t kShortestCode = 3;
 constexpr std::size_t kLongestCode = 16;
+constexpr int kOldest = 120;
+
+bool isAge(std::string_view text) {
+    const auto years = parseNumber(text);
+    return years && *years >= 1 && *years <= kOldest && text == fmt::format("{:.0f}", *years);
+}
+
+/// Empty, or one of `words`.
+Result<void> oneOf(std::string_view what, std::string_view given, std::span<const std::string_view> words) {
+    if (given.empty() || std::ranges::find(words, given) != words.end()) return {};
+    return fail(ErrorCode::InvalidArgument, "{} is \"{}\"; one of {} is accepted, or nothing", what,
+                given.substr(0, 40), fmt::join(words, ", "));
+}
 
 }  // namespace
 
@@ -27,6 +43,15 @@ std::optional<char> checkCharacter(std::string_view lettersAndDigits) noexcept {
         p = p * 2 % 37;
     }
     return kCodeAlphabet[(37 - p) % 36];
+}
+
+Result<void> checkAbout(const Participant& participant) {
+    if (!participant.age.empty() && !isAge(participant.age)) {
+        return fail(ErrorCode::InvalidArgument, "age is \"{}\"; whole years from 1 to {} are accepted, or nothing",
+                    participant.age.substr(0, 40), kOldest);
+    }
+    if (auto known = oneOf("sex", participant.sex, kSexes); !known) return known;
+    return oneOf("handedness", participant.handedness, kHandednesses);
 }
 
 Result<std::string> checkedCode(std::string_view text) {

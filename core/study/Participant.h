@@ -32,12 +32,16 @@ struct Consent {
     bool operator==(const Consent&) const = default;
 };
 
+/// As BIDS names them.
+inline constexpr std::string_view kSexes[] = {"female", "male", "other"};
+inline constexpr std::string_view kHandednesses[] = {"right", "left", "ambidextrous"};
+
 struct Participant {
     std::string id;    ///< 16 random hexadecimal digits; stands in the ledger
     std::string code;  ///< "P-7K3D"; empty without the study's key, and once withdrawn
     ParticipantGroup group = ParticipantGroup::Intact;
     std::optional<std::uint64_t> virtualSeed;  ///< a virtual participant's
-    std::string age, sex, handedness;          ///< only where the approval asks for them; else empty
+    std::string age, sex, handedness;          ///< only where the approval asks for them, whole years; else empty
     std::vector<Consent> consents;
     ParticipantState state = ParticipantState::Active;
     int sessions = 0;      ///< begun
@@ -45,6 +49,10 @@ struct Participant {
     bool readable = true;  ///< false: all but id, state, sessions and enrolled is sealed and there is no key
     bool operator==(const Participant&) const = default;
 };
+
+/// Age, sex and handedness may each be left out. Errors: InvalidArgument for an age that is not a whole number from 1
+/// to 120 and for other words than kSexes and kHandednesses.
+[[nodiscard]] Result<void> checkAbout(const Participant& participant);
 
 /// The code in its stored form: upper case, with its hyphens.
 /// Errors: NotFound for a text that is no code or whose check character is wrong, naming what is accepted.

@@ -213,6 +213,7 @@ Result<Participant> Study::enrol(Participant participant) {
             return fail(ErrorCode::Unsupported, "{} is enrolled already; another code is expected", *stored);
         participant.code = *stored;
     }
+    if (auto sound = checkAbout(participant); !sound) return failure(sound);
     if (auto fits = checkForLedger(participant); !fits) return failure(fits);
     participant.id = randomHex(kIdDigits);
     // The key first: a row whose key was lost would never open.
@@ -388,6 +389,14 @@ std::size_t Study::adverseEventCount() const noexcept { return state_->known.adv
 Result<std::vector<std::pair<std::string, AdverseEvent>>> Study::adverseEvents() const {
     if (!state_->keys) return fail(ErrorCode::Unsupported, "adverse events are read with the study's passphrase");
     return state_->known.adverseEvents;
+}
+
+Result<void> Study::nextDay(std::string_view session, const NextDay& said) { return state_->nextDay(session, said); }
+
+std::optional<NextDay> Study::nextDay(std::string_view session) const {
+    const auto found = state_->known.nextDays.find(std::string(session));
+    if (found == state_->known.nextDays.end()) return std::nullopt;
+    return found->second;
 }
 
 Result<std::uint64_t> Study::labelSeed() const { return state_->labelSeed(); }

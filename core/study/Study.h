@@ -29,6 +29,7 @@
 #include "core/session/RowSeal.h"
 #include "core/session/SessionTypes.h"
 #include "core/study/Gates.h"
+#include "core/study/NextDay.h"
 #include "core/study/Participant.h"
 #include "core/study/StudySettings.h"
 
@@ -94,7 +95,7 @@ struct AdverseEvent {
 /// Data that left the study.
 struct StudyExport {
     std::chrono::sys_seconds at{};
-    std::string what;   ///< "bids"
+    std::string what;   ///< "bids"; "study report", "participant report"
     std::string place;  ///< where they were written
 };
 
@@ -163,7 +164,7 @@ public:
 
     /// `participant.code` empty: a new one. Only group, virtualSeed, age, sex and handedness are taken besides.
     /// Errors: kGateRefused when the approval's participants are all enrolled; InvalidArgument for a code that is
-    /// taken.
+    /// taken, and as checkAbout().
     [[nodiscard]] Result<Participant> enrol(Participant participant);
     [[nodiscard]] Result<void> consent(std::string_view code, const Consent& consent);
     /// The participant takes part no more; the data stay.
@@ -201,6 +202,12 @@ public:
     [[nodiscard]] Result<std::vector<std::pair<std::string, AdverseEvent>>> adverseEvents() const;
     /// How many; also without the key.
     [[nodiscard]] std::size_t adverseEventCount() const noexcept;
+    /// What was said and seen on a day after the session, under the participant's key; the last one counts. Skin that
+    /// scores 2 or more is noted as an adverse event too. Errors: NotFound; InvalidArgument as checkNextDay();
+    /// kGateRefused on the day on which the session was begun; Unsupported for a participant who withdrew.
+    [[nodiscard]] Result<void> nextDay(std::string_view session, const NextDay& said);
+    /// Nothing where it was not asked, or without the key.
+    [[nodiscard]] std::optional<NextDay> nextDay(std::string_view session) const;
     /// Seed of the order in which exports label participants, derived from the study's key so that someone with only
     /// the study folder cannot tell a label's place in the enrolment. The same each time. Errors: Unsupported without
     /// the key.

@@ -134,6 +134,31 @@ Result<void> StudyBook::adverseEvent(std::string_view session, const AdverseEven
     return append(ledger::kAdverseEvent, {{"session", session}}, &keys->study(), toJson(event));
 }
 
+Result<void> StudyBook::nextDay(std::string_view session, const NextDay& said) {
+    if (auto may = changeable(); !may) return may;
+    const auto* about = known.session(session);
+    if (about == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", session);
+    if (auto fits = checkNextDay(said); !fits) return fits;
+    const Participant participant = *known.participant(about->participant);  // a row replaces what is known
+    if (const auto key = keyOf(participant.id); !key) return failure(key);
+    const auto begun = localDay(about->parts.back().begun);
+    if (!(begun < today())) {
+        return fail(kGateRefused,
+                    "the session was begun on {}, and today is {}; what is noted of the day after is noted on a later "
+                    "day",
+                    dateText(begun), dateText(today()));
+    }
+    if (said.skin() >= kSkinIsAdverse) {
+        const auto what = fmt::format(
+            "skin on a day after the session scored {} of 4; severity and relation as noted by the program, for the "
+            "investigator to judge",
+            said.skin());
+        if (auto noted = adverseEvent(session, {.what = what, .severity = said.skin(), .relation = 5}); !noted)
+            return noted;
+    }
+    return appendOf(participant, ledger::kNextDay, {{"session", session}}, toJson(said));
+}
+
 Result<std::uint64_t> StudyBook::labelSeed() const {
     constexpr std::uint64_t kLabels = 1;  // of the key's subkeys; the ledger is sealed under the key itself
     if (!keys) return fail(ErrorCode::Unsupported, "labels of participants need the study's passphrase");

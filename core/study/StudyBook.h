@@ -53,6 +53,7 @@ struct StudyBook {
     // As those of Study.
     [[nodiscard]] Result<void> amend(StudySettings amended, std::string_view reference);
     [[nodiscard]] Result<void> adverseEvent(std::string_view session, const AdverseEvent& event);
+    [[nodiscard]] Result<void> nextDay(std::string_view session, const NextDay& said);
     [[nodiscard]] Result<std::uint64_t> labelSeed() const;
 
     /// The chains of the sessions that ended are those that the ledger noted, and the clock was not set back.

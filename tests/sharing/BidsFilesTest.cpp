@@ -248,6 +248,11 @@ TEST(BidsFiles, RefusesWhatCannotBeNumbered) {
     study = studyOfThree();
     study.participants[1].sessions[1].number = 1;
     EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "session 1 of participant 2 is given twice; once is expected");
+    auto old = studyOfThree();
+    old.participants.front().age = "91";
+    const auto ages = filesOf(old, {.age = true}).at("participants.tsv");
+    EXPECT_NE(ages.find("\t89+\n"), std::string::npos) << ages;
+    EXPECT_EQ(ages.find("91"), std::string::npos) << ages;
     EXPECT_EQ(bidsWithFrom("age,name").error().message, "\"name\" cannot be exported; age, sex and handedness can");
     EXPECT_TRUE(bidsWithFrom("sex, handedness")->handedness);
 }

@@ -48,6 +48,8 @@ TEST(SessionResults, WhatWasMeasuredLastStandsBesideEachTrial) {
     EXPECT_EQ(found.encoding, "swapped");
     EXPECT_EQ(found.impedance.value(), 3000);
     EXPECT_EQ(found.detection, 2.5);
+    EXPECT_EQ(found.detectionLow, 2);
+    EXPECT_EQ(found.detectionHigh, 3);
     EXPECT_EQ(found.low.value(), 3.5);
     EXPECT_EQ(found.high.value(), 6.5);
     ASSERT_EQ(found.trials.size(), 3U);

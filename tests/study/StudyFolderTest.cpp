@@ -41,11 +41,11 @@ TEST_F(StudyFolder, TellsNeitherWhoNorWhatWhileASessionRunsAndAfterIt) {
     auto study = make();
     Participant participant;
     participant.virtualSeed = 914'667'201;
-    participant.handedness = "left-handed";
+    participant.handedness = "ambidextrous";
     participant.code = "P-7K3D";
     code = study.enrol(participant)->code;
     ASSERT_TRUE(study.consent(code, {"2", std::chrono::year(2026) / 11 / 19, "Kl-taker"}));
-    words.insert(words.end(), {"914667201", "left-handed", "2026-11-19"});
+    words.insert(words.end(), {"914667201", "ambidextrous", "2026-11-19"});
     const auto begun = study.beginSession(test::someRequest(code)).value();
     record(begun, [&] {
         auto journal = begun.path;

@@ -352,6 +352,73 @@ TEST_F(Desk, AdverseEventsSurviveAWithdrawal) {
     EXPECT_EQ(everythingBelow(folder()).find("redness"), std::string::npos);
 }
 
+TEST_F(Desk, TheDayAfterIsSealedForThePersonAndRedSkinIsAnAdverseEvent) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    const auto& id = begun.session.id;
+    ASSERT_TRUE(study.endSession(id, StudySessionState::Complete, record(begun)));
+    NextDay said{.erythema = 1, .oedema = 0, .sideEffects = {{"redness", 2, 4}}};
+    EXPECT_EQ(
+        study.nextDay(id, said).error().message,
+        "the session was begun on 2026-11-23, and today is 2026-11-23; what is noted of the day after is noted on "
+        "a later day");
+    EXPECT_FALSE(study.nextDay(id));
+    time.now += std::chrono::hours(24);
+    EXPECT_EQ(study.nextDay("00", said).error().message, "the study has no session 00");
+    for (const auto& bad : {NextDay{.erythema = 5, .oedema = 0, .sideEffects = {}},
+                            NextDay{.erythema = 0, .oedema = -1, .sideEffects = {}},
+                            NextDay{.erythema = 0, .oedema = 0, .sideEffects = {{"joy", 1, 1}}},
+                            NextDay{.erythema = 0, .oedema = 0, .sideEffects = {{"pain", 5, 1}}},
+                            NextDay{.erythema = 0, .oedema = 0, .sideEffects = {{"pain", 1, 0}}},
+                            NextDay{.erythema = 0, .oedema = 0, .sideEffects = {{"pain", 1, 1}, {"pain", 2, 1}}}})
+        EXPECT_EQ(study.nextDay(id, bad).error().code, ErrorCode::InvalidArgument);
+    ASSERT_TRUE(study.nextDay(id, said));
+    EXPECT_EQ(study.adverseEventCount(), 0U);
+    said.oedema = 3;
+    ASSERT_TRUE(study.nextDay(id, said));
+    const auto events = study.adverseEvents().value();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].second.severity, 3);
+    EXPECT_TRUE(events[0].second.what.starts_with("skin on a day after the session scored 3 of 4"));
+    EXPECT_EQ(openWithoutKey()->nextDay(id), std::nullopt);
+    study = *open(Study::Access::Read);
+    EXPECT_EQ(study.nextDay(id), said) << "the last one counts";
+    study = *open();
+    ASSERT_TRUE(study.withdraw(code));
+    EXPECT_FALSE(study.nextDay(id));
+    EXPECT_FALSE(study.nextDay(id, said));
+    EXPECT_EQ(study.adverseEvents().value().size(), 1U);
+}
+
+TEST_F(Desk, AgeSexAndHandednessAreWordsOfBidsOrLeftOut) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    Participant about;
+    about.age = "34";
+    about.sex = "female";
+    about.handedness = "left";
+    const auto code = study.enrol(about).value().code;
+    EXPECT_EQ(study.find(code)->age, "34");
+    EXPECT_EQ(study.find(code)->sex, "female");
+    EXPECT_EQ(study.find(code)->handedness, "left");
+    for (const char* age : {"0", "121", "34.5", "1992-03-01", "thirty", "nan", " 34"}) {
+        Participant bad;
+        bad.age = age;
+        EXPECT_EQ(study.enrol(bad).error().message,
+                  fmt::format("age is \"{}\"; whole years from 1 to 120 are accepted, or nothing", age));
+    }
+    Participant bad;
+    bad.sex = "F";
+    EXPECT_EQ(study.enrol(bad).error().message, "sex is \"F\"; one of female, male, other is accepted, or nothing");
+    bad.sex.clear();
+    bad.handedness = "both";
+    EXPECT_EQ(study.enrol(bad).error().message,
+              "handedness is \"both\"; one of right, left, ambidextrous is accepted, or nothing");
+    EXPECT_EQ(study.participants().size(), 1U);
+}
+
 TEST_F(Desk, WhatCouldNotBeReadBackIsNotWritten) {
     RecordProperty("hazard", "H8");
     auto study = make();

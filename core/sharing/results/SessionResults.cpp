@@ -51,8 +51,11 @@ public:
             impedance_ = numberOr(body, "impedance_ohm");
             if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);
         } else if (each.name == row::kEstimate) {
-            detectionLevel_ = numberOr(valueOr(body, "estimate"), "value");
+            const auto& estimate = valueOr(body, "estimate");
+            detectionLevel_ = numberOr(estimate, "value");
             out_.detection = detectionLevel_;
+            out_.detectionLow = numberOr(estimate, "low");
+            out_.detectionHigh = numberOr(estimate, "high");
         } else if (each.name == row::kDrift) {
             const auto& found = valueOr(body, body.contains("detection_ma") ? "detection_ma" : "detection_intensity");
             detectionLevel_ = numberOr(found, "value");
@@ -154,6 +157,7 @@ private:
 
     void takeSideEffect(const std::string& name, const json& body) {
         if (body.contains("keys")) {
+            out_.sideEffectsAsked.push_back(name);
             for (const auto& item : textsOr(body, "keys")) out_.sideEffects.push_back({name, item, {}, {}});
             return;
         }

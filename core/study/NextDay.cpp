@@ -1,0 +1,81 @@
+#include "core/study/NextDay.h"
+
+#include <algorithm>
+
+#include "core/base/GivenOnce.h"
+#include "core/base/RecordFields.h"
+#include "core/base/Text.h"
+
+namespace tacto {
+
+namespace {
+
+std::string sideEffectKeys() {
+    std::string keys;
+    for (const auto& each : kSideEffects) keys += (keys.empty() ? "" : ", ") + std::string(each.key);
+    return keys;
+}
+
+RecordFields<SideEffect> buildSideEffectFields() {
+    using S = SideEffect;
+    RecordFields<S> all;
+    all.text("item", &S::item, {.mayBeEmpty = false, .mostBytes = 40});
+    all.number("severity", &S::severity, {.low = 1, .high = 4});
+    all.number("relation", &S::relation, {.low = 1, .high = 5});
+    all.rule([](const S& effect) -> Result<void> {
+        const auto known = [&](const SideEffectName& each) { return each.key == effect.item; };
+        if (std::ranges::any_of(kSideEffects, known)) return {};
+        return fail(ErrorCode::InvalidArgument, "\"item\" is \"{}\"; one of {} is expected", effect.item,
+                    sideEffectKeys());
+    });
+    return all;
+}
+const RecordFields<SideEffect>& sideEffectFields() {
+    static const auto fields = buildSideEffectFields();
+    return fields;
+}
+
+RecordFields<NextDay> buildNextDayFields() {
+    using N = NextDay;
+    RecordFields<N> all;
+    all.number("erythema", &N::erythema, {.low = 0, .high = 4});
+    all.number("oedema", &N::oedema, {.low = 0, .high = 4});
+    all.list("side_effects", &N::sideEffects, sideEffectFields().kind(), 0, std::size(kSideEffects));
+    all.rule([](const N& said) -> Result<void> {
+        if (const auto* second = secondIn(said.sideEffects, &SideEffect::item))
+            return fail(ErrorCode::InvalidArgument, "{}", givenTwice("the side effect {}", second->item));
+        return {};
+    });
+    return all;
+}
+const RecordFields<NextDay>& nextDayFields() {
+    static const auto fields = buildNextDayFields();
+    return fields;
+}
+
+}  // namespace
+
+Result<void> checkNextDay(const NextDay& said) { return nextDayFields().check(said, RecordPlace{}); }
+
+Result<SideEffect> sideEffectFrom(std::string_view text) {
+    const auto parts = split(text, ':');
+    const auto score = [&](std::size_t at, int most) {
+        const auto number = parts.size() == 3 ? parseNumber(parts[at]) : std::nullopt;
+        for (int value = 1; number && value <= most; ++value) {
+            if (*number == value) return value;
+        }
+        return 0;
+    };
+    SideEffect effect{parts.empty() ? std::string() : std::string(parts[0]), score(1, 4), score(2, 5)};
+    if (effect.severity > 0 && effect.relation > 0 && sideEffectFields().check(effect, RecordPlace{})) return effect;
+    return fail(ErrorCode::InvalidArgument,
+                "\"{}\" is no side effect; ITEM:SEVERITY:RELATION as redness:2:4 is expected, a severity from 1 to 4, "
+                "a relation from 1 to 5, and of the items {}",
+                text, sideEffectKeys());
+}
+
+nlohmann::json toJson(const NextDay& said) { return nextDayFields().write(said); }
+
+Result<NextDay> nextDayFrom(const nlohmann::json& json) { return nextDayFields().read(json, RecordPlace{}); }
+
+}  // namespace tacto
