@@ -182,6 +182,36 @@ TableBlock careTable(const StudyRecord& study, const QString& caption) {
     return table;
 }
 
+TableBlock sideEffectsTable(const StudyRecord& study, ShownName name, const QString& caption) {
+    const auto shared = sharedStudy(study);
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Participant"}, {"Session", true}, {"Before"},
+                     {"After"},       {"A day after"},   {"Skin a day after", true}};
+    const auto said = [](const BidsSession& session, const char* moment) {
+        if (std::ranges::find(session.sideEffectsAsked, moment) == session.sideEffectsAsked.end())
+            return QString("not asked");
+        QStringList all;
+        for (const auto& each : session.sideEffects) {
+            if (each.moment != moment) continue;
+            all << QString("%1 (severity %2, relation %3)")
+                       .arg(QString::fromStdString(each.item), score(each.severity), score(each.relation));
+        }
+        return all.isEmpty() ? QString("nothing") : all.join("; ");
+    };
+    for (const auto& participant : study.participants) {
+        const auto& about = participant.about;
+        for (const auto& session : participant.sessions) {
+            const auto& results = session.results;
+            table.rows.push_back({shown(name == ShownName::Code ? about.code : labelOf(shared, about)),
+                                  QString::number(session.about.number), said(results, "before"),
+                                  said(results, "after"), said(results, "next day"),
+                                  results.skinNextDay ? score(results.skinNextDay) : QString("not asked")});
+        }
+    }
+    return table;
+}
+
 TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
     const auto shared = sharedStudy(study);
     TableBlock table;

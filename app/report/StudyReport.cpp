@@ -8,6 +8,7 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/StudyFlow.h"
 #include "app/report/StudyOverSessions.h"
+#include "app/report/StudyPredicted.h"
 #include "app/report/StudyPreferences.h"
 #include "app/report/StudyText.h"
 #include "app/report/StudyVibration.h"
@@ -48,19 +49,6 @@ bool isUsable(const BidsSession& session) {
     return std::isfinite(session.low.value()) || std::isfinite(session.lowIntensity);
 }
 
-/// Mean over the conditions, 5 (totally natural) to 1 (totally unnatural); NaN without ratings.
-double naturalnessOf(const BidsSession& session) {
-    constexpr std::string_view kWords[] = {"totally-unnatural", "rather-unnatural", "possibly-natural",
-                                           "almost-natural", "totally-natural"};
-    std::vector<double> scores;
-    for (const auto& rating : session.ratings) {
-        const auto word = std::ranges::find(kWords, rating.value);
-        if (rating.item == "naturalness" && word != std::end(kWords))
-            scores.push_back(static_cast<double>(word - std::begin(kWords) + 1));
-    }
-    return statisticsOf(scores).mean;
-}
-
 double medianResponse_s(const BidsSession& session) {
     std::vector<double> times;
     for (const auto& row : session.trials) {
@@ -69,14 +57,21 @@ double medianResponse_s(const BidsSession& session) {
     return statisticsOf(times).median;
 }
 
-/// Sessions with test trials, in their order.
-Result<std::vector<AnalysedSession>> analysed(const ParticipantRecord& participant) {
+/// In their order.
+Result<std::vector<AnalysedSession>> analysedAll(const ParticipantRecord& participant) {
     std::vector<AnalysedSession> all;
     for (const auto& session : participant.sessions) {
         auto found = identify(trialsOf(session.results), session.results.labels);
         if (!found) return failure(found);
-        if (found->all.n > 0) all.push_back({&session, std::move(*found)});
+        all.push_back({&session, std::move(*found)});
     }
+    return all;
+}
+
+/// Those with test trials.
+Result<std::vector<AnalysedSession>> analysed(const ParticipantRecord& participant) {
+    auto all = analysedAll(participant);
+    if (all) std::erase_if(*all, [](const AnalysedSession& one) { return one.found.all.n == 0; });
     return all;
 }
 
@@ -246,6 +241,15 @@ const ParticipantRecord* withCode(const StudyRecord& study, const std::string& c
     return nullptr;
 }
 
+Result<void> addOver(std::vector<ReportBlock>& blocks, Captions& captions, const StudyRecord& study,
+                     const std::string& code) {
+    const auto* participant = withCode(study, code);
+    if (participant == nullptr) return {};
+    const auto sessions = analysedAll(*participant);
+    if (!sessions) return failure(sessions);
+    return addOverSessions(blocks, captions, code, *sessions, study.settings.modality == Modality::Massager);
+}
+
 }  // namespace
 
 Result<ReportContent> studyReport(const StudyRecord& study) {
@@ -271,7 +275,8 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
     }
     addTogether(blocks, captions, std::move(people));
     for (const auto& [name, sessions] : all) {
-        if (sessions.empty()) continue;
+        const auto* who = withCode(study, name);
+        if (sessions.empty() && (who == nullptr || who->sessions.size() < 2)) continue;
         blocks.emplace_back(captions.heading(qtext(name)));
         for (const auto& one : sessions) {
             const auto& results = one.session->results;
@@ -282,15 +287,19 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
                              .arg(qtext(results.encoding)),
                          content.simulated);
             addFacts(blocks, one);
+            const auto predicted = QString("%1, session %2: predicted from the detection threshold, and answered")
+                                       .arg(qtext(name))
+                                       .arg(results.number);
+            if (auto added = addPredicted(blocks, captions, predicted, one, massager); !added) return failure(added);
             addRatings(blocks, captions, results, name);
             if (massager) {
                 if (auto added = addVibration(blocks, captions, results, name); !added) return failure(added);
             }
         }
         addEncodings(blocks, captions, name, sessions);
-        if (const auto* who = withCode(study, name); who != nullptr && !preferenceText(*who).isEmpty())
+        if (who != nullptr && !preferenceText(*who).isEmpty())
             blocks.emplace_back(ParagraphBlock{preferenceText(*who)});
-        if (auto added = addOverSessions(blocks, captions, name, sessions, massager); !added) return failure(added);
+        if (auto added = addOver(blocks, captions, study, name); !added) return failure(added);
     }
     if (auto table = preferencesTable(study)) {
         blocks.emplace_back(captions.heading("Preferred encodings"));
@@ -300,6 +309,8 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
     }
     blocks.emplace_back(captions.heading("Drift and exposure"));
     blocks.emplace_back(courseTable(study, ShownName::Code, captions.table("Drift and exposure, a row a session")));
+    blocks.emplace_back(captions.heading("Side effects"));
+    blocks.emplace_back(sideEffectsTable(study, ShownName::Code, captions.table("Side effects, a row a session")));
     blocks.emplace_back(captions.heading("Flow of participants"));
     blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
     return content;
@@ -317,6 +328,8 @@ ReportContent committeeReport(const StudyRecord& study) {
     blocks.emplace_back(careTable(study, captions.table("Stimulation, stops and skin, a row a session")));
     blocks.emplace_back(courseTable(study, ShownName::Label, captions.table("Drift and exposure, a row a session")));
     blocks.emplace_back(refusalsTable(study, captions.table("Checks that did not hold")));
+    blocks.emplace_back(captions.heading("Side effects"));
+    blocks.emplace_back(sideEffectsTable(study, ShownName::Label, captions.table("Side effects, a row a session")));
     blocks.emplace_back(captions.heading("Adverse events"));
     if (study.events.empty()) {
         blocks.emplace_back(ParagraphBlock{"None was recorded."});

@@ -156,6 +156,14 @@ def newcombe(a, m, b, n):
     }
 
 
+def ratio(a, spread_a, b, spread_b):
+    """a/b of two log-normal estimates, by the quantiles of its own distribution; spreads are of the logarithms."""
+    estimate = lambda median, spread: [median, *stats.lognorm.ppf([0.025, 0.975], spread, scale=median)]
+    quotient = stats.lognorm(np.sqrt(spread_a**2 + spread_b**2), scale=a / b)
+    return {"a": estimate(a, spread_a), "b": estimate(b, spread_b), "value": quotient.median(),
+            "low": quotient.ppf(0.025), "high": quotient.ppf(0.975)}
+
+
 def prevalence(k, n):
     """The shortest interval that holds 95 % of Beta(k + 1, n - k + 1) cut off below 0.05, searched on its quantiles."""
     beta = stats.beta(k + 1, n - k + 1)
@@ -176,6 +184,7 @@ def figures():
         "session": analysed(),
         "exact": [exact(*kn) for kn in ((0, 10), (4, 5), (5, 5), (3, 3), (1, 1), (7, 40))],
         "newcombe": [newcombe(*case) for case in ((68, 80, 56, 80), (56, 70, 48, 80), (9, 10, 3, 10), (10, 10, 0, 20))],
+        "ratios": [ratio(3, 0.09, 2, 0.12), ratio(0.22, 0.05, 0.31, 0.2), ratio(4.1, 0.08, 4.1, 0.08)],
         "prevalence": [prevalence(*kn) for kn in ((4, 5), (5, 5), (3, 3), (2, 5), (0, 3), (1, 3))],
         "logistic": [
             logistic([[0, 80, 50], [3, 80, 61], [10, 80, 70]]),

@@ -31,6 +31,8 @@ SessionRecord sessionWith(std::size_t right, int number, const std::string& enco
     results.high = Milliamps(6.5);
     results.impedance = Ohms(3400);
     results.detection = 3.1;
+    results.detectionLow = 2.8;
+    results.detectionHigh = 3.4;
     for (std::size_t i = 0; i < 80; ++i) {
         BidsTrial row;
         row.trial.number = i + 1;
@@ -120,6 +122,30 @@ TEST(StudyReport, EachPersonsResultComesFirst) {
     EXPECT_THAT(said, Not(HasSubstr("nan")));
 }
 
+TEST(StudyReport, ThresholdsAndRatingsOverSessionsStandBesideTheFirst) {
+    RecordProperty("hazard", "H9");
+    auto study = studyOfThree();
+    auto thresholds = sessionWith(0, 3, "standard", 14);
+    thresholds.results.trials.clear();  // thresholds alone
+    thresholds.results.detection = 6.2;
+    thresholds.results.detectionLow = 5.6;
+    thresholds.results.detectionHigh = 6.8;
+    thresholds.results.tooStrong = 9;
+    auto& sessions = study.participants[0].sessions;
+    sessions.push_back(thresholds);
+    sessions[0].results.tooStrong = 7.5;
+    sessions[0].results.ratings = {{"intensity", "rough-low", "4"}, {"intensity", "rough-high", "7"}};
+    const auto content = studyReport(study);
+    ASSERT_TRUE(content) << content.error().message;
+    const auto said = textOf(*content);
+    EXPECT_THAT(said, HasSubstr("1 | 0 | 3.10 (2.80 to 3.40) | 7.5 | 4.0 to 6.5 | 3400 | 68 of 80 | "));
+    EXPECT_THAT(said, HasSubstr("3 | 14 | 6.20 (5.60 to 6.80) | 9.0 | 4.0 to 6.5 | 3400 | – | –"));
+    // ln 2 - √(ln²(3.4/3.1) + ln²(6.2/5.6)) down, ln 2 + √(ln²(3.1/2.8) + ln²(6.8/6.2)).
+    EXPECT_THAT(said, HasSubstr("3 | – | 2.00 (1.74 to 2.29) | 1.20 | 1.00 | 1.00"));
+    EXPECT_THAT(said, HasSubstr("1 | 5.5 | – | – | –"));
+    EXPECT_THAT(said, Not(HasSubstr("nan")));
+}
+
 TEST(StudyReport, DriftAndExposureStandInBothReports) {
     RecordProperty("hazard", "H11");
     const auto content = studyReport(studyOfThree());
@@ -129,6 +155,40 @@ TEST(StudyReport, DriftAndExposureStandInBothReports) {
     const auto committees = textOf(committeeReport(studyOfThree()));
     EXPECT_THAT(committees, HasSubstr(std::string(" | 1 | ") + course));
     EXPECT_THAT(committees, HasSubstr("EK 2026/117 A1 of 2026-11-24: cap_ma"));
+}
+
+TEST(StudyReport, APredictionFromThePersonsThresholdsStandsBesideTheAnswersAndJudgesNothing) {
+    RecordProperty("hazard", "H9");
+    auto study = studyOfThree();
+    const auto without = textOf(*studyReport(study));
+    EXPECT_THAT(without, Not(HasSubstr("predicted from"))) << "no row says what was delivered";
+    auto& results = study.participants[0].sessions[0].results;
+    for (auto& row : results.trials) {
+        row.trial.current = Milliamps(row.trial.condition.starts_with("rough") ? 3.1 : 310);
+        row.trial.interval_s = row.trial.condition.ends_with("high") ? 0.5 : 2;
+    }
+    const auto said = textOf(*studyReport(study));
+    EXPECT_THAT(said, HasSubstr("P-7K3M, session 1: predicted from the detection threshold, and answered"));
+    // At the threshold the noise of 1 JND hides one presentation in two; far above it the intervals, 9.3 JND apart, and
+    // the levels are never taken for one another.
+    EXPECT_THAT(said, HasSubstr("rough-low | 0 % | 0 % | 50 % | 0 % | 50 % | 50 % | "));
+    EXPECT_THAT(said, HasSubstr("smooth-high | 0 % | 100 % | 0 % | 0 % | 0 % | 100 % | "));
+    EXPECT_THAT(said, HasSubstr("it expects 75 % at 0.05, 75 % at 0.10, 75 % at 0.20 as the Weber fraction"));
+}
+
+TEST(StudyReport, SideEffectsOfTheNextDayAreShownOrCalledNotAsked) {
+    RecordProperty("hazard", "H12");
+    auto study = studyOfThree();
+    auto& results = study.participants[0].sessions[0].results;
+    results.sideEffectsAsked = {"before", "next day"};
+    results.sideEffects = {{"next day", "redness", 2, 4}};
+    results.skinNextDay = 1;
+    const auto content = studyReport(study);
+    ASSERT_TRUE(content) << content.error().message;
+    const auto row = " | 1 | nothing | not asked | redness (severity 2, relation 4) | 1";
+    EXPECT_THAT(textOf(*content), HasSubstr(std::string("P-7K3M") + row));
+    EXPECT_THAT(textOf(*content), HasSubstr("P-7K3M | 2 | not asked | not asked | not asked | not asked"));
+    EXPECT_THAT(textOf(committeeReport(study)), HasSubstr(row));
 }
 
 TEST(StudyReport, PreferencesAreShownWithTheirOrderAndNotTested) {

@@ -109,33 +109,4 @@ json toJson(const EncodingComparison& compared) {
             {"preferred", compared.preferred.empty() ? json(nullptr) : json(compared.preferred)}};
 }
 
-json toJson(const OverSessions& compared) {
-    json sessions = json::array(), changes = json::array();
-    for (const auto& session : compared.sessions) {
-        sessions.push_back({{"number", session.number},
-                            {"days", session.days},
-                            {"detection_ma", toJson(session.detection_ma)},
-                            {"too_strong_ma", numberOrNull(session.tooStrong.value())},
-                            {"min_ma", numberOrNull(session.low.value())},
-                            {"max_ma", numberOrNull(session.high.value())},
-                            {"impedance_ohm", numberOrNull(session.impedance.value())},
-                            {"n", session.n},
-                            {"hits", session.hits},
-                            {"accuracy", toJson(wilsonInterval(session.hits, session.n))},
-                            {"it_corrected_bits", numberOrNull(session.itCorrected_bits)},
-                            {"naturalness", numberOrNull(session.naturalness)}});
-    }
-    for (const auto& change : compared.againstFirst) {
-        changes.push_back({{"number", change.number},
-                           {"accuracy", toJson(change.accuracy)},
-                           {"detection", toJson(change.detection)},
-                           {"too_strong", numberOrNull(change.tooStrong)},
-                           {"impedance", numberOrNull(change.impedance)}});
-    }
-    return {{"sessions", std::move(sessions)},
-            {"against_first", std::move(changes)},
-            {"trend_per_day", toJson(compared.trend)},
-            {"smallest_change", numberOrNull(compared.smallestChange)}};
-}
-
 }  // namespace tacto

@@ -9,7 +9,6 @@
 #include "core/analysis/identification/Encodings.h"
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/Identification.h"
-#include "core/analysis/identification/OverSessions.h"
 
 namespace tacto {
 
@@ -27,6 +26,5 @@ namespace tacto {
 /// {"encodings", "pairs": [{"a", "b", "difference"}], "preferred"}
 [[nodiscard]] nlohmann::json toJson(const EncodingComparison& compared);
 /// {"sessions", "against_first", "trend_per_day", "smallest_change"}
-[[nodiscard]] nlohmann::json toJson(const OverSessions& sessions);
 
 }  // namespace tacto

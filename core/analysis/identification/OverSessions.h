@@ -17,31 +17,37 @@ namespace tacto {
 /// One session; NaN where it was not measured.
 struct SessionFigures {
     std::size_t number = 0;
-    double days = 0;        ///< since the person's first session
-    Estimate detection_ma;  ///< 80 % right
-    Milliamps tooStrong{kNaN};
-    Milliamps low{kNaN}, high{kNaN};  ///< range
+    double days = 0;                       ///< since the person's first session
+    Estimate detection;                    ///< 80 % right; mA, or a massager's intensity
+    double tooStrong = kNaN, high = kNaN;  ///< lowest called too strong, highest of the range; mA or intensity
     Ohms impedance{kNaN};
     std::size_t n = 0, hits = 0;
     double itCorrected_bits = kNaN;
-    double naturalness = kNaN;
 };
 
+/// Against the first session in which the figure was measured; NaN for that one and where it was not.
 struct SessionChange {
     std::size_t number = 0;
-    Estimate accuracy;        ///< less that of the first session, Newcombe 95 %
-    Estimate detection;       ///< divided by that of the first; the intervals of the two logarithms, squared and added
+    Estimate accuracy;        ///< less that of the first, Newcombe 95 %
+    Estimate detection;       ///< divided by that of the first, as ratioOf()
     double tooStrong = kNaN;  ///< ratios; one reading has no interval
+    double high = kNaN;
     double impedance = kNaN;
 };
 
 struct OverSessions {
     std::vector<SessionFigures> sessions;
     std::vector<SessionChange> againstFirst;  ///< one fewer
-    /// Log odds of a right answer per day, profile likelihood; NaN for fewer than three sessions.
+    /// Log odds of a right answer per day, profile likelihood; NaN for fewer than three sessions
+    /// with test trials.
     Estimate trend;
     double smallestChange = kNaN;  ///< of accuracy that two such sessions can show; NaN for fewer than two
 };
+
+/// a/b of two independent positive estimates with 95 % intervals [l, u]: from a/b exp(-√(ln²(a/l_a) + ln²(u_b/b))) to
+/// a/b exp(√(ln²(u_a/a) + ln²(b/l_b))), the difference of the logarithms by Zou & Donner 2008 (Stat Med 27:1693). For
+/// log-normal estimates it is exact. NaN where an estimate is not positive; ends are NaN where one has no interval.
+[[nodiscard]] Estimate ratioOf(const Estimate& a, const Estimate& b) noexcept;
 
 /// Errors: InvalidArgument for sessions whose days are not finite or go back, and for more hits than trials.
 [[nodiscard]] Result<OverSessions> compareSessions(std::vector<SessionFigures> sessions);

@@ -14,7 +14,7 @@ SessionFigures sessionOn(double days, std::size_t hits, Estimate detection = {})
     session.days = days;
     session.n = 80;
     session.hits = hits;
-    session.detection_ma = detection;
+    session.detection = detection;
     return session;
 }
 
@@ -35,6 +35,49 @@ TEST(OverSessions, EachIsHeldAgainstTheFirst) {
     EXPECT_TRUE(std::isnan(change.impedance));
     EXPECT_TRUE(std::isnan(found->trend.value));  // from three on
     EXPECT_NEAR(found->smallestChange, smallestChange(80, 124.0 / 160), 1e-12);
+}
+
+Estimate estimateIn(const nlohmann::json& three) {
+    return {three.at(0).get<double>(), three.at(1).get<double>(), three.at(2).get<double>()};
+}
+
+TEST(OverSessions, ARatioHasTheIntervalThatTheDistributionOfTwoEstimatesHas) {
+    const auto& all = test::figuresOf("identification").at("ratios");
+    ASSERT_GE(all.size(), 3U);
+    for (const auto& scipy : all) {
+        const auto ratio = ratioOf(estimateIn(scipy.at("a")), estimateIn(scipy.at("b")));
+        EXPECT_NEAR(ratio.value, scipy.at("value").get<double>(), 1e-9);
+        EXPECT_NEAR(ratio.low, scipy.at("low").get<double>(), 1e-9);
+        EXPECT_NEAR(ratio.high, scipy.at("high").get<double>(), 1e-9);
+    }
+    EXPECT_TRUE(std::isnan(ratioOf({0, 0, 1}, {1, 0.5, 2}).value));
+    EXPECT_TRUE(std::isnan(ratioOf({1, kNaN, kNaN}, {1, 0.5, 2}).low)) << "no interval is made up";
+}
+
+TEST(OverSessions, AFigureIsHeldAgainstTheFirstSessionThatHasIt) {
+    auto first = sessionOn(0, 0);  // thresholds alone
+    first.n = 0;
+    first.tooStrong = 8;
+    auto second = sessionOn(2, 56, {2, 1.6, 2.5});
+    second.high = 6;
+    second.impedance = Ohms(3000);
+    auto third = sessionOn(9, 64, {3, 2.7, 3.3});
+    third.tooStrong = 10;
+    third.high = 7.5;
+    third.impedance = Ohms(3600);
+    const auto found = compareSessions({first, second, third});
+    ASSERT_TRUE(found) << found.error().message;
+    ASSERT_EQ(found->againstFirst.size(), 2U);
+    EXPECT_TRUE(std::isnan(found->againstFirst[0].accuracy.value)) << "it is the first with test trials";
+    EXPECT_TRUE(std::isnan(found->againstFirst[0].detection.value));
+    const auto& change = found->againstFirst[1];
+    EXPECT_NEAR(change.accuracy.value, 0.1, 1e-12);
+    EXPECT_NEAR(change.detection.value, 1.5, 1e-12);
+    EXPECT_NEAR(change.tooStrong, 1.25, 1e-12);
+    EXPECT_NEAR(change.high, 1.25, 1e-12);
+    EXPECT_NEAR(change.impedance, 1.2, 1e-12);
+    EXPECT_TRUE(std::isnan(found->trend.value)) << "two have test trials";
+    EXPECT_NEAR(found->smallestChange, smallestChange(80, 120.0 / 160), 1e-12);
 }
 
 TEST(OverSessions, ThreeHaveATrend) {

@@ -1,0 +1,19 @@
+// StudyPredicted.h - what a model of a person with the thresholds that they had in a session would have answered,
+// beside what they answered (pilot.md section 8). It is shown and never judged: a person's Weber fractions are not
+// known.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include "app/report/Captions.h"
+#include "app/report/ReportContent.h"
+#include "app/report/StudyOverSessions.h"
+
+namespace tacto {
+
+/// Nothing where the session has no detection threshold, or some condition was not presented in its test.
+/// Errors: as VirtualObserver::create().
+[[nodiscard]] Result<void> addPredicted(std::vector<ReportBlock>& blocks, Captions& captions, const QString& caption,
+                                        const AnalysedSession& one, bool massager);
+
+}  // namespace tacto
