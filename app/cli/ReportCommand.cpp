@@ -12,7 +12,8 @@ void declareReport(QCommandLineParser& parser) {
     parser.addOptions(
         {{"out", "The report to write; its ending says which kind: .pdf or .html.", "report.pdf"},
          {"participant", "For a study: one page in plain words for the participant with that code.", "CODE"},
-         {"for", "For a study: study (the default; names codes) or committee (names none).", "READER"}});
+         {"for", "For a study: study (the default; names codes) or committee (names none).", "READER"},
+         {"noted", "For a study: the program that has it open noted the report in its ledger."}});
     declarePassphrase(parser);
 }
 
@@ -22,8 +23,15 @@ Result<ReportContent> contentFor(const QCommandLineParser& parser, const StudyRe
     return studyReport(record);
 }
 
+/// What the ledger calls a report that says who; nothing for the committee's, which names no participant.
+const char* namedReport(const QCommandLineParser& parser) {
+    if (parser.isSet("participant")) return "participant report";
+    return parser.value("for") == "committee" ? nullptr : "study report";
+}
+
 /// Results are sealed: a reader's passphrase is asked for as a writer's is.
-Result<Study> openSealed(const QCommandLineParser& parser, const std::string& folder) {
+Result<Study> openSealed(const QCommandLineParser& parser, const std::string& folder, bool notes) {
+    if (notes) return openStudy(parser, folder, Study::Access::Change);
     auto study = openStudy(parser, folder, Study::Access::Read);
     if (!study || study->hasKey()) return study;
     const auto passphrase = passphraseFor(parser, folder);
@@ -44,12 +52,17 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
                                              "beside what is sealed",
                                              out)});
     }
-    const auto study = openSealed(parser, folder);
+    const auto* const what = parser.isSet("noted") ? nullptr : namedReport(parser);
+    auto study = openSealed(parser, folder, what != nullptr);
     if (!study) return couldNotRun(study.error());
     const auto record = readStudyRecord(*study);
     if (!record) return couldNotRun(record.error());
     const auto content = contentFor(parser, *record);
     if (!content) return couldNotRun(content.error());
+    if (what != nullptr) {
+        const auto noted = study->exported(std::filesystem::absolute(out), what);
+        if (!noted) return couldNotRun(noted.error());
+    }
     if (const auto written = writeContent(*content, parser.value("out")); !written) return couldNotRun(written.error());
     say("{}\n", out);
     return kDone;
@@ -82,7 +95,8 @@ int runReport(const QCommandLineParser& parser) {
 }  // namespace
 
 const Command kReport{"report",
-                      "{SESSION|STUDY} --out report.pdf [--participant CODE | --for READER] [--passphrase-file F]",
+                      "{SESSION|STUDY} --out report.pdf [--participant CODE | --for READER] [--noted] "
+                      "[--passphrase-file F]",
                       "The report of a session or of a study, as PDF or HTML",
                       true,
                       declareReport,

@@ -92,6 +92,38 @@ TEST_F(StudyExport, AnAdverseEventIsCountedByEverybodyAndReadByTheCommittee) {
     for (const char* said : {"burning", "cooled", "gone"}) EXPECT_THAT(text, HasSubstr(said));
 }
 
+TEST_F(StudyExport, TheDayAfterIsNotedOnALaterDayAlone) {
+    RecordProperty("hazard", "H12");
+    const auto session =
+        jsonOf(desk_.run({"study", "show", study(), "--json"})).at("sessions").at(0).at("id").get<std::string>();
+    const Words today{"study", "next-day", study(), session, "--erythema", "1", "--oedema", "0"};
+    expectRefused(desk_.run(today), 4, {"on a later day"});
+    auto wrong = today;
+    wrong.insert(wrong.end(), {"--side-effect", "redness:2"});
+    expectRefused(desk_.run(wrong), 2, {"\"redness:2\" is no side effect", "redness:2:4"});
+    wrong[5] = "7";
+    expectRefused(desk_.run(wrong), 2, {"--erythema is \"7\"; a whole number from 0 to 4 is expected"});
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("asked.html")}).code, 0);
+    EXPECT_THAT(readTextFile(at("asked.html")).value_or(""), HasSubstr("not asked"));
+}
+
+TEST_F(StudyExport, AReportThatNamesPeopleIsNotedBeforeItIsWritten) {
+    RecordProperty("hazard", "H11");
+    const auto head = [&] {
+        return jsonOf(desk_.run({"study", "show", study(), "--json"})).at("ledger_head").get<std::string>();
+    };
+    const auto atFirst = head();
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("committee.html"), "--for", "committee"}).code, 0);
+    EXPECT_EQ(head(), atFirst) << "it names no participant";
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("study.html")}).code, 0);
+    const auto noted = head();
+    EXPECT_NE(noted, atFirst);
+    const auto code = run_.at("participant").at("code").get<std::string>();
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("page.html"), "--participant", code}).code, 0);
+    EXPECT_NE(head(), noted);
+    EXPECT_EQ(desk_.run({"verify", study()}).code, 0);
+}
+
 TEST_F(StudyExport, ReportsAreForTheStudyTheCommitteeAndTheParticipant) {
     const auto code = run_.at("participant").at("code").get<std::string>();
     ASSERT_EQ(desk_.run({"report", study(), "--out", at("study.html")}).code, 0);
