@@ -3,6 +3,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "app/gui/study/DialogField.h"
 #include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -10,18 +11,7 @@
 namespace tacto::gui {
 
 namespace {
-
-ProtocolParameter field(const char* name, const QString& label, ParameterType type, std::string value) {
-    ProtocolParameter made;
-    made.name = name;
-    made.label = label.toStdString();
-    made.type = type;
-    made.value = std::move(value);
-    return made;
-}
-
 constexpr int kConsentWide = 420;
-
 }  // namespace
 
 ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* parent)
@@ -35,11 +25,11 @@ ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* par
         explanation(tr("The signed form stays on paper, apart from the code. What you enter here is sealed."), this));
     const auto* open = study_.study();
     ProtocolDeclaration fields;
-    fields.parameters = {field("version", tr("Version of the form that was signed"), ParameterType::Text,
-                               open == nullptr ? std::string() : open->settings().consentVersion),
-                         field("date", tr("Day on which it was signed"), ParameterType::Date,
-                               open == nullptr ? std::string() : dateText(open->today())),
-                         field("by", tr("Investigator’s initials"), ParameterType::Text, std::string())};
+    fields.parameters = {dialogField("version", tr("Version of the form that was signed"), ParameterType::Text,
+                                     open == nullptr ? std::string() : open->settings().consentVersion),
+                         dialogField("date", tr("Day on which it was signed"), ParameterType::Date,
+                                     open == nullptr ? std::string() : dateText(open->today())),
+                         dialogField("by", tr("Investigator’s initials"), ParameterType::Text, std::string())};
     form_->show(fields);
     for (const auto& [name, tip] : {std::pair("version", tr("Sessions need consent to the version in force.")),
                                     std::pair("date", tr("No later than today.")),

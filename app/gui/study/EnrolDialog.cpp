@@ -2,6 +2,7 @@
 
 #include <QFormLayout>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/Text.h"
@@ -22,6 +23,9 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
       seed_(new QSpinBox(form_)),
       group_(new QComboBox(form_)),
       own_(new QLineEdit(form_)),
+      age_(new QLineEdit(form_)),
+      sex_(new QComboBox(form_)),
+      hand_(new QComboBox(form_)),
       trouble_(new QLabel(this)),
       code_(new QLabel(this)),
       next_(new QLabel(this)) {
@@ -50,6 +54,21 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
     own_->setPlaceholderText(tr("a new one is drawn"));
     own_->setToolTip(tr("Only where the code comes from elsewhere. Its last character checks the others."));
     form->addRow(tr("&Code"), own_);
+    const auto tip = tr("Only where the approval asks for it. It is sealed, and exported only on request.");
+    age_->setObjectName("enrolAge");
+    age_->setPlaceholderText(tr("not given"));
+    age_->setToolTip(tip);
+    form->addRow(tr("&Age in years"), age_);
+    sex_->setObjectName("enrolSex");
+    hand_->setObjectName("enrolHandedness");
+    for (auto* box : {sex_, hand_}) {
+        box->addItem(tr("not given"), QString());
+        box->setToolTip(tip);
+    }
+    for (const auto word : kSexes) sex_->addItem(qtext(word), qtext(word));
+    for (const auto word : kHandednesses) hand_->addItem(qtext(word), qtext(word));
+    form->addRow(tr("Se&x"), sex_);
+    form->addRow(tr("&Handedness"), hand_);
     column->addWidget(form_);
     code_->setObjectName("enrolledCode");
     code_->setAlignment(Qt::AlignCenter);
@@ -73,7 +92,10 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
 
 void EnrolDialog::judge() {
     const bool isVirtual = who_->currentData().toBool();
-    static_cast<QFormLayout*>(form_->layout())->setRowVisible(seed_, isVirtual);
+    auto* rows = static_cast<QFormLayout*>(form_->layout());
+    rows->setRowVisible(seed_, isVirtual);
+    for (QWidget* ofPerson : {static_cast<QWidget*>(age_), static_cast<QWidget*>(sex_), static_cast<QWidget*>(hand_)})
+        rows->setRowVisible(ofPerson, !isVirtual);
 }
 
 void EnrolDialog::enrol() {
@@ -83,9 +105,19 @@ void EnrolDialog::enrol() {
     Participant participant;
     participant.code = own_->text().trimmed().toStdString();
     participant.group = ParticipantGroup(group_->currentData().toInt());
-    if (who_->currentData().toBool()) participant.virtualSeed = std::uint64_t(seed_->value());
+    if (who_->currentData().toBool()) {
+        participant.virtualSeed = std::uint64_t(seed_->value());
+    } else {
+        participant.age = age_->text().trimmed().toStdString();
+        participant.sex = sex_->currentData().toString().toStdString();
+        participant.handedness = hand_->currentData().toString().toStdString();
+    }
     const auto enrolled = study->enrol(std::move(participant));
-    if (!enrolled) return trouble_->setText("⚠ " + sentence(enrolled.error()));
+    if (!enrolled) {
+        trouble_->setText("⚠ " + sentence(enrolled.error()));
+        resize(width(), std::max(height(), layout()->totalHeightForWidth(width())));
+        return;
+    }
     showCode(*enrolled);
     study_.noteChange();
 }

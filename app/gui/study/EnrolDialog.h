@@ -30,6 +30,9 @@ private:
     QSpinBox* seed_;
     QComboBox* group_;
     QLineEdit* own_;
+    QLineEdit* age_;
+    QComboBox* sex_;
+    QComboBox* hand_;
     QLabel* trouble_;
     QLabel* code_;
     QLabel* next_;

@@ -85,10 +85,10 @@ void OpenStudy::takeBack() {
     if (!folder_.isEmpty() && !study_) open(folder_, passphrase_);
 }
 
-void OpenStudy::exportBids(const QString& place) {
+void OpenStudy::exportBids(const QString& place, const BidsWith& with) {
     if (study() == nullptr) return;
-    work_.start([this, out = place.toStdString()](
-                    const WorkPort&) { return tacto::exportBids(*study_, BidsWith(), out, TACTOSCOPE_VERSION); },
+    work_.start([this, with, out = place.toStdString()](
+                    const WorkPort&) { return tacto::exportBids(*study_, with, out, TACTOSCOPE_VERSION); },
                 [this, place](const Result<void>& done) {
                     emit changed();
                     if (done)

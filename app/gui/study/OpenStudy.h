@@ -44,7 +44,7 @@ public:
     void lend();
     void takeBack();
     /// exported() or refused() follows.
-    void exportBids(const QString& place);
+    void exportBids(const QString& place, const BidsWith& with = {});
     /// Call after a change through study(): emits the change.
     void noteChange() { emit changed(); }
 

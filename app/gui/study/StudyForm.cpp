@@ -130,7 +130,7 @@ nlohmann::json& memberOf(nlohmann::json& record, std::string_view key) {
 }
 
 /// As the form of a protocol's parameters takes it.
-ProtocolParameter parameterOf(const StudyFormField& field, nlohmann::json defaults) {
+ProtocolParameter parameterOf(const StudyFormField& field, nlohmann::json defaults, bool isNew) {
     const auto& stored = *storedField(field.key);
     auto& value = memberOf(defaults, field.key);
     ProtocolParameter made;
@@ -160,7 +160,7 @@ ProtocolParameter parameterOf(const StudyFormField& field, nlohmann::json defaul
     } else {
         const bool day = field.key == "approval.from" || field.key == "approval.expires";
         made.type = day ? ParameterType::Date : ParameterType::Text;
-        made.value = day ? nlohmann::json("") : value;
+        made.value = day && isNew ? nlohmann::json("") : value;
     }
     return made;
 }
@@ -207,11 +207,26 @@ void StudyForm::resizeEvent(QResizeEvent* event) {
 }
 
 void StudyForm::clear() {
-    const auto defaults = studyFields().write(StudySettings{});
+    amended_.reset();
+    fill();
+}
+
+void StudyForm::amend(const StudySettings& settings) {
+    amended_ = settings;
+    fill();
+}
+
+void StudyForm::fill() {
+    auto shown = amended_.value_or(StudySettings{});
+    shown.approval.reference.clear();
+    const auto values = studyFields().write(shown);
     for (int g = 0; g < kStudyGroups; ++g) {
         ProtocolDeclaration fields;
         for (const auto& field : studyForm()) {
-            if (int(field.group) == g) fields.parameters.push_back(parameterOf(field, defaults));
+            if (int(field.group) != g) continue;
+            fields.parameters.push_back(parameterOf(field, values, !amended_));
+            if (amended_ && field.key == "approval.reference")
+                fields.parameters.back().label = tr("Reference of the amendment").toStdString();
         }
         auto& form = *groups_[std::size_t(g)];
         form.show(fields);
@@ -226,7 +241,7 @@ void StudyForm::set(const std::string& key, const QString& text) {
 }
 
 Result<StudySettings> StudyForm::read() {
-    StudySettings settings;
+    const auto settings = amended_.value_or(StudySettings{});
     auto json = studyFields().write(settings);
     for (auto* form : groups_) {
         if (const auto open = form->unanswered(); !open.isEmpty()) {

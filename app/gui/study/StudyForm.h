@@ -1,5 +1,5 @@
-// StudyForm.h - the settings of a new study as people read them: where each stands in the form, its label, what it
-// does.
+// StudyForm.h - the settings of a study, new or to be amended, as people read them: where each stands in the form, its
+// label, what it does.
 //
 // Units, ranges, words and defaults are those of the core's table (studyFields() of core/study/StudySettings.h), which
 // alone judges.
@@ -41,6 +41,8 @@ public:
     /// Writes into a field, as if it were typed.
     void set(const std::string& key, const QString& text);
     void clear();
+    /// To amend: fields hold `settings`, and the reference is the amendment's, which is still to be entered.
+    void amend(const StudySettings& settings);
 
 signals:
     void edited();
@@ -49,7 +51,9 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    void fill();
     QBoxLayout* columns_;
+    std::optional<StudySettings> amended_;  ///< nothing for a new study
     std::vector<ParameterForm*> groups_;
 };
 

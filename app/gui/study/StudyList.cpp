@@ -6,9 +6,12 @@
 #include <QHeaderView>
 #include <QMenu>
 
+#include "app/gui/study/AdverseEventDialog.h"
+#include "app/gui/study/AmendDialog.h"
 #include "app/gui/study/ConsentDialog.h"
 #include "app/gui/study/EndPartDialog.h"
 #include "app/gui/study/EnrolDialog.h"
+#include "app/gui/study/NextDayDialog.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/RecordTable.h"
@@ -234,14 +237,38 @@ QWidget* StudyList::buildFoot() {
     reports->setMenu(menu);
     auto* out = button(tr("Export…"), tr("Results without codes and dates, as a BIDS dataset in a new folder."),
                        "exportStudy", holder);
-    connect(out, &QPushButton::clicked, this, &StudyList::askForExport);
+    auto* exports = new QMenu(out);
+    const auto addExport = [&](const QString& text, const char* name, const BidsWith& with) {
+        auto* action = exports->addAction(text);
+        action->setObjectName(name);
+        connect(action, &QAction::triggered, this, [this, with] { askForExport(with); });
+    };
+    addExport(tr("Results…"), "exportResults", {});
+    addExport(tr("Results with age, sex and handedness…"), "exportWithAbout",
+              {.age = true, .sex = true, .handedness = true});
+    out->setMenu(exports);
+    auto* note = button(tr("Note"), tr("What happened, is changed or is reported later."), "noteOfStudy", holder);
+    auto* notes = new QMenu(note);
+    const auto addNote = [&](const QString& text, const char* name, auto dialog) {
+        auto* action = notes->addAction(text);
+        action->setObjectName(name);
+        connect(action, &QAction::triggered, this, [this, dialog] {
+            say({});
+            openDialog(dialog());
+        });
+    };
+    addNote(tr("An amendment of the committee…"), "amendStudy", [this] { return new AmendDialog(study_, this); });
+    addNote(tr("An adverse event…"), "noteAdverseEvent",
+            [this] { return new AdverseEventDialog(study_, code_, this); });
+    addNote(tr("The day after a session…"), "noteNextDay", [this] { return new NextDayDialog(study_, code_, this); });
+    note->setMenu(notes);
     auto* close = button(tr("Close the study"), tr("Forgets its passphrase. Another program can change it then."),
                          "closeStudy", holder);
     connect(close, &QPushButton::clicked, this, [this] { study_.close(); });
-    for (auto* each : {reports, out}) row->addWidget(each);
+    for (auto* each : {note, reports, out}) row->addWidget(each);
     row->addStretch();
     row->addWidget(close);
-    for (auto* each : {reports, out, close}) all_.push_back(each);
+    for (auto* each : {note, reports, out, close}) all_.push_back(each);
     return holder;
 }
 
@@ -358,23 +385,38 @@ void StudyList::makeReport(const QString& title, const QString& name, const QStr
     question.name = name;
     question.suffix = "pdf";
     askForFile(*this, question, [this, more](const QString& out) {
+        if (!noteReport(out, more)) return;
         say(tr("The report is being drawn…"), false);
         reports_.make(ReportMaker::Order{.record = study_.folder(),
                                          .out = out,
-                                         .more = more,
+                                         .more = more + QStringList{"--noted"},
                                          .passphrase = study_.passphrase(),
                                          .assurance = tr("The study is unchanged.")});
     });
 }
 
-void StudyList::askForExport() {
+/// One that names people is noted before it is written; the committee's names none.
+bool StudyList::noteReport(const QString& out, const QStringList& more) {
+    if (more.contains("committee")) return true;
+    auto* study = study_.study();
+    if (study == nullptr) {
+        say(tr("The study is not open any more. No report was made."));
+        return false;
+    }
+    const auto noted = study->exported(QFileInfo(out).absoluteFilePath().toStdString(),
+                                       more.contains("--participant") ? "participant report" : "study report");
+    if (!noted) say(sentence(noted.error()));
+    return noted.has_value();
+}
+
+void StudyList::askForExport(const BidsWith& with) {
     FileQuestion question;
     question.title = tr("An empty folder for the results, outside the study");
     question.wants = FileQuestion::Wants::Folder;
     question.folder = QFileInfo(study_.folder()).absolutePath();
-    askForFile(*this, question, [this](const QString& place) {
+    askForFile(*this, question, [this, with](const QString& place) {
         say(tr("The results are being written…"), false);
-        study_.exportBids(place);
+        study_.exportBids(place, with);
     });
 }
 

@@ -46,7 +46,8 @@ private:
     void showTables(const Study& study);
     void judge();
     void makeReport(const QString& title, const QString& name, const QStringList& more);
-    void askForExport();
+    void askForExport(const BidsWith& with);
+    [[nodiscard]] bool noteReport(const QString& out, const QStringList& more);
 
     OpenStudy& study_;
     ReportMaker reports_;

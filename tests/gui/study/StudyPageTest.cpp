@@ -6,6 +6,7 @@
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/study/OpenedStudy.h"
+#include "tests/study/StudySupport.h"
 
 namespace tacto::test {
 namespace {
@@ -121,6 +122,186 @@ TEST_F(StudyPageTest, WithdrawingTakesTheCodeTypedAndSaysWhatItDoesNotReach) {
     EXPECT_FALSE(page.findChild<QTableWidget*>("participants")->isVisible());
 }
 
+/// Of a virtual participant whose only session was begun some days ago and has ended.
+class StudyWithASession : public StudyInThePage {
+protected:
+    /// Makes it and opens it in the window; the value is the session's id.
+    QString withSession(int days) {
+        HandTime then;
+        then.now =
+            std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()) - std::chrono::hours(24 * days);
+        auto surroundings = around();
+        surroundings.time = &then;
+        const auto words = Passphrase::from(kWords).value();
+        QString id;
+        {
+            auto made = Study::create(folder().toStdString(), settings(), words, surroundings).value();
+            Participant about;
+            about.virtualSeed = 7;
+            const auto enrolled = made.enrol(about).value();
+            EXPECT_TRUE(made.consent(enrolled.code, {"2", made.today(), "KL"}));
+            auto request = someRequest(enrolled.code);
+            for (const auto& script : made.settings().scripts) {
+                if (script.name == "pilot-identification") request.script = script;
+            }
+            const auto begun = made.beginSession(request);
+            EXPECT_TRUE(begun) << begun.error().message;
+            if (begun) {
+                id = QString::fromStdString(begun->session.id);
+                EXPECT_TRUE(made.endSession(begun->session.id, StudySessionState::Stopped, ""));
+            }
+        }
+        open();
+        return id;
+    }
+    [[nodiscard]] std::string said(const QDialog& asks, const char* label) {
+        return asks.findChild<QLabel*>(label)->text().toStdString();
+    }
+    static void pick(QDialog& asks, const char* box, const QVariant& key) {
+        auto* combo = asks.findChild<QComboBox*>(box);
+        combo->setCurrentIndex(combo->findData(key));
+    }
+    /// Light and dark, at both sizes of text.
+    static void look(QDialog& asks, const QString& name) {
+        for (const int percent : {100, 200}) {
+            gui::applyTextSize(percent);
+            if (percent == 200) asks.resize(1000, 680);
+            for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+                gui::applyTheme(theme);
+                QTest::qWait(40);
+                shot(asks, QString("%1-%2-%3").arg(name, theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
+                EXPECT_EQ(faultsOf(asks), "") << percent;
+            }
+        }
+        gui::applyTextSize(100);
+        gui::applyTheme(gui::Theme::Light);
+    }
+};
+
+TEST_F(StudyPageTest, AnAmendmentIsNotedWithAReferenceOfItsOwnAndKeepsTheOtherSettings) {
+    RecordProperty("hazard", "H11");
+    const auto before = study.study()->settings();
+    choose("amendStudy");
+    auto* asks = dialog("amendDialog");
+    ASSERT_NE(asks, nullptr);
+    const auto said = [&] { return asks->findChild<QLabel*>("amendTrouble")->text().toStdString(); };
+    click(*asks->findChild<QPushButton*>("amendNow"));
+    EXPECT_THAT(said(), HasSubstr("Reference of the amendment"));
+    asks->findChild<QLineEdit*>("approval.reference")->setText("EC-2026-17");
+    asks->findChild<QLineEdit*>("blocks")->setText("4");
+    click(*asks->findChild<QPushButton*>("amendNow"));
+    EXPECT_THAT(said(), HasSubstr("n amendment needs a reference of its own, not \"EC-2026-17\""));
+    EXPECT_EQ(study.study()->settings().blocks, before.blocks);
+    shot(*asks, "study-amend");
+    EXPECT_EQ(faultsOf(*asks), "");
+    asks->findChild<QLineEdit*>("approval.reference")->setText("EC-2026-17 A1");
+    click(*asks->findChild<QPushButton*>("amendNow"));
+    ASSERT_EQ(study.study()->amendments().size(), 1U);
+    EXPECT_EQ(study.study()->amendments()[0].reference, "EC-2026-17 A1");
+    EXPECT_EQ(study.study()->amendments()[0].changed, (std::vector<std::string>{"blocks"}));
+    EXPECT_EQ(study.study()->settings().blocks, 4);
+    EXPECT_EQ(study.study()->settings().approval.expires, before.approval.expires);
+    EXPECT_TRUE(study.study()->stillApproved());
+    EXPECT_THAT(page.findChild<QLabel*>("studyFacts")->text().toStdString(), HasSubstr("EC-2026-17 A1"));
+}
+
+TEST_F(StudyPageTest, AgeSexAndHandednessAreAskedOfPeopleAndMayBeLeftOut) {
+    RecordProperty("hazard", "H11");
+    press("enrol");
+    auto* asks = dialog("enrolDialog");
+    ASSERT_NE(asks, nullptr);
+    auto* age = asks->findChild<QLineEdit*>("enrolAge");
+    EXPECT_TRUE(age->isVisible());
+    EXPECT_EQ(age->placeholderText().toStdString(), "not given");
+    age->setText("34.5");
+    click(*asks->findChild<QPushButton*>("enrolNow"));
+    EXPECT_THAT(asks->findChild<QLabel*>("enrolTrouble")->text().toStdString(),
+                HasSubstr("ge is \"34.5\"; whole years from 1 to 120 are accepted, or nothing"));
+    shot(*asks, "study-enrol-refused");
+    EXPECT_EQ(faultsOf(*asks), "");
+    age->setText("34");
+    auto* hand = asks->findChild<QComboBox*>("enrolHandedness");
+    hand->setCurrentIndex(hand->findData("left"));
+    click(*asks->findChild<QPushButton*>("enrolNow"));
+    const auto code = asks->findChild<QLabel*>("enrolledCode")->text().toStdString();
+    asks->close();
+    const auto about = study.study()->find(code);
+    ASSERT_TRUE(about) << about.error().message;
+    EXPECT_EQ(about->age, "34");
+    EXPECT_EQ(about->sex, "");
+    EXPECT_EQ(about->handedness, "left");
+    QTest::qWait(20);
+    press("enrol");
+    asks = dialog("enrolDialog");
+    asks->findChild<QComboBox*>("enrolWho")->setCurrentIndex(1);
+    EXPECT_FALSE(asks->findChild<QLineEdit*>("enrolAge")->isVisible()) << "a virtual participant has none";
+    asks->close();
+}
+
+TEST_F(StudyWithASession, AnAdverseEventIsNotedByTheWindow) {
+    RecordProperty("hazard", "H12");
+    const auto session = withSession(2);
+    choose("noteAdverseEvent");
+    auto* asks = dialog("adverseEventDialog");
+    ASSERT_NE(asks, nullptr);
+    EXPECT_EQ(asks->findChild<QComboBox*>("session")->currentData().toString(), session);
+    click(*asks->findChild<QPushButton*>("noteEvent"));
+    EXPECT_THAT(said(*asks, "adverseEventTrouble"), HasSubstr("What happened"));
+    asks->findChild<QLineEdit*>("what")->setText("burning");
+    pick(*asks, "severity", "3");
+    click(*asks->findChild<QPushButton*>("noteEvent"));
+    EXPECT_THAT(said(*asks, "adverseEventTrouble"), HasSubstr("Relation to the stimulation"));
+    EXPECT_EQ(study.study()->adverseEventCount(), 0U);
+    look(*asks, "study-adverse-event");
+    pick(*asks, "relation", "4");
+    asks->findChild<QLineEdit*>("action")->setText("cooled");
+    click(*asks->findChild<QPushButton*>("noteEvent"));
+    const auto events = study.study()->adverseEvents().value();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].first, session.toStdString());
+    EXPECT_EQ(events[0].second.what, "burning");
+    EXPECT_EQ(events[0].second.severity, 3);
+    EXPECT_EQ(events[0].second.relation, 4);
+    EXPECT_EQ(events[0].second.action, "cooled");
+    EXPECT_FALSE(events[0].second.serious);
+}
+
+TEST_F(StudyWithASession, TheDayAfterIsNotedByTheWindow) {
+    RecordProperty("hazard", "H12");
+    const auto session = withSession(2);
+    choose("noteNextDay");
+    auto* asks = dialog("nextDayDialog");
+    ASSERT_NE(asks, nullptr);
+    click(*asks->findChild<QPushButton*>("noteDay"));
+    EXPECT_THAT(said(*asks, "nextDayTrouble"), HasSubstr("Redness of the skin"))
+        << "no score stands for an unknown one";
+    pick(*asks, "erythema", "1");
+    pick(*asks, "oedema", "0");
+    pick(*asks, "itching-severity", 2);
+    click(*asks->findChild<QPushButton*>("noteDay"));
+    EXPECT_THAT(said(*asks, "nextDayTrouble"), HasSubstr("“Itching”"));
+    EXPECT_FALSE(study.study()->nextDay(session.toStdString()));
+    look(*asks, "study-next-day");
+    pick(*asks, "itching-relation", 5);
+    click(*asks->findChild<QPushButton*>("noteDay"));
+    const NextDay expected{.erythema = 1, .oedema = 0, .sideEffects = {{"itching", 2, 5}}};
+    EXPECT_EQ(study.study()->nextDay(session.toStdString()), expected);
+}
+
+TEST_F(StudyWithASession, TheDayAfterIsRefusedOnTheSameDay) {
+    RecordProperty("hazard", "H12");
+    const auto session = withSession(0);
+    choose("noteNextDay");
+    auto* asks = dialog("nextDayDialog");
+    ASSERT_NE(asks, nullptr);
+    pick(*asks, "erythema", "0");
+    pick(*asks, "oedema", "0");
+    click(*asks->findChild<QPushButton*>("noteDay"));
+    EXPECT_THAT(said(*asks, "nextDayTrouble"), HasSubstr("is noted on a later day"));
+    EXPECT_FALSE(study.study()->nextDay(session.toStdString()));
+    asks->close();
+}
+
 class StudyOfThisUser : public StudyInThePage {
 protected:
     StudyOfThisUser() : StudyInThePage(false) {}
@@ -143,6 +324,29 @@ TEST_F(StudyOfThisUser, GetsAReportFromTheCommandLinesProgram) {
     ASSERT_IN_TIME(
         comesTrue([&] { return said->text().contains("committee.html") || said->text().startsWith("⚠"); }, 30'000));
     EXPECT_TRUE(QFileInfo::exists(out)) << said->text().toStdString();
+}
+
+TEST_F(StudyOfThisUser, AReportThatNamesPeopleIsNotedWithItsPlace) {
+    RecordProperty("hazard", "H11");
+    make();
+    open();
+    choose("studyReport");
+    QFileDialog* asks = nullptr;
+    ASSERT_IN_TIME(comesTrue([&] {
+        asks = page.findChild<QFileDialog*>();
+        return asks != nullptr && asks->isVisible();
+    }));
+    const auto out = QString::fromStdString((scratch.path() / "study.html").string());
+    emit asks->fileSelected(out);
+    asks->close();
+    const auto* said = page.findChild<QLabel*>("studyTrouble");
+    ASSERT_IN_TIME(
+        comesTrue([&] { return said->text().contains("study.html") || said->text().startsWith("⚠"); }, 30'000));
+    EXPECT_TRUE(QFileInfo::exists(out)) << said->text().toStdString();
+    const auto exports = study.study()->exports();
+    ASSERT_EQ(exports.size(), 1U);
+    EXPECT_EQ(exports[0].what, "study report");
+    EXPECT_EQ(exports[0].place, out.toStdString());
 }
 
 TEST_F(StudyPageTest, AnExportInsideTheStudyIsRefused) {

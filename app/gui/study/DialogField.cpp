@@ -1,0 +1,51 @@
+#include "app/gui/study/DialogField.h"
+
+#include <QDateTime>
+#include <QObject>
+#include <QStringList>
+
+#include "app/gui/theme/Text.h"
+
+namespace tacto::gui {
+
+ProtocolParameter dialogField(const char* name, const QString& label, ParameterType type, std::string value) {
+    ProtocolParameter made;
+    made.name = name;
+    made.label = label.toStdString();
+    made.type = type;
+    made.value = std::move(value);
+    return made;
+}
+
+ProtocolParameter scoreField(const char* name, const QString& label, const QStringList& words, const QString& needed,
+                             int from) {
+    auto made = dialogField(name, label, ParameterType::Choice, {});
+    made.needed = needed.toStdString();
+    made.choices.emplace_back("", QObject::tr("to be chosen").toStdString());
+    for (qsizetype i = 0; i < words.size(); ++i)
+        made.choices.emplace_back(std::to_string(from + i),
+                                  QString("%1  %2").arg(from + i).arg(words[i]).trimmed().toStdString());
+    return made;
+}
+
+ProtocolParameter sessionField(const Study& study, const QString& code) {
+    auto made = dialogField("session", QObject::tr("Session"), ParameterType::Choice, {});
+    made.needed = QObject::tr("it belongs to nothing").toStdString();
+    std::string last;
+    for (const auto& each : study.sessions()) {
+        const auto begun = QDateTime::fromSecsSinceEpoch(each.parts.front().begun.time_since_epoch().count());
+        const auto who = each.code.empty() ? QObject::tr("withdrawn") : qtext(each.code);
+        made.choices.emplace_back(each.id, QObject::tr("%1, session %2, %3")
+                                               .arg(who)
+                                               .arg(each.number)
+                                               .arg(begun.toString("yyyy-MM-dd HH:mm"))
+                                               .toStdString());
+        last = each.id;
+        if (!code.isEmpty() && qtext(each.code) == code) made.value = each.id;
+    }
+    if (made.choices.empty()) made.choices.emplace_back("", QObject::tr("no session was begun").toStdString());
+    if (made.value == "") made.value = last;
+    return made;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,124 @@
+#include "app/gui/study/NextDayDialog.h"
+
+#include <QGridLayout>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "app/gui/study/DialogField.h"
+#include "app/gui/study/DialogFoot.h"
+#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+constexpr int kNextDayWide = 560, kNextDayHigh = 580, kLeastItems = 120;
+}
+
+NextDayDialog::NextDayDialog(OpenStudy& study, const QString& code, QWidget* parent)
+    : QDialog(parent), study_(study), form_(new ParameterForm), trouble_(new QLabel(this)) {
+    setObjectName("nextDayDialog");
+    setWindowTitle(tr("The day after a session"));
+    auto* column = new QVBoxLayout(this);
+    column->addWidget(heading(tr("The day after a session"), this));
+    column->addWidget(explanation(tr("Ask the participant on a later day. It is sealed; what is noted last counts. "
+                                     "Skin that scores 2 or more is noted as an adverse event."),
+                                  this));
+    ProtocolDeclaration fields;
+    if (const auto* open = study_.study()) fields.parameters.push_back(sessionField(*open, code));
+    const QStringList scores{tr("none"), tr("very slight"), tr("well defined"), tr("moderate"), tr("severe")};
+    const auto needed = tr("the site is not known to be well");
+    fields.parameters.push_back(scoreField("erythema", tr("Redness of the skin"), scores, needed, 0));
+    fields.parameters.push_back(scoreField("oedema", tr("Swelling of the skin"), scores, needed, 0));
+    form_->show(fields);
+    form_->referencePart().hide();
+    auto* inside = new QWidget;
+    auto* rows = new QVBoxLayout(inside);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->addWidget(form_);
+    rows->addWidget(buildItems());
+    rows->addStretch();
+    auto* page = new ScrollingPage(this);
+    page->hold(inside);
+    column->addWidget(page, 1);
+    trouble_->setObjectName("nextDayTrouble");
+    auto* note = new QPushButton(tr("Note the answers"), this);
+    note->setObjectName("noteDay");
+    makePrimary(*note);
+    addFoot(*this, *column, *trouble_, note);
+    connect(note, &QPushButton::clicked, this, &NextDayDialog::note);
+    resize(scaledPx(kNextDayWide), kNextDayHigh);
+    page->setMinimumHeight(scaledPx(kLeastItems));
+}
+
+QWidget* NextDayDialog::buildItems() {
+    auto* holder = new QWidget;
+    auto* grid = new QGridLayout(holder);
+    grid->setContentsMargins(0, 0, 0, 0);
+    const auto head = [&](const QString& text, int column) {
+        auto* label = new QLabel(text, holder);
+        setTextSize(*label, TextSize::Body, true);
+        grid->addWidget(label, 0, column);
+    };
+    head(tr("Since then"), 0);
+    head(tr("Severity"), 1);
+    head(tr("Related to it"), 2);
+    const QStringList severities{tr("absent"), tr("mild"), tr("moderate"), tr("severe")};
+    const QStringList relations{tr("none"), tr("remote"), tr("possible"), tr("probable"), tr("definite")};
+    int row = 1;
+    for (const auto& each : kSideEffects) {
+        const auto text = QCoreApplication::translate("SideEffect", each.text);
+        grid->addWidget(new QLabel(text, holder), row, 0);
+        const auto box = [&](const QStringList& words, const char* part, int column) {
+            auto* made = new QComboBox(holder);
+            made->setObjectName(QString("%1-%2").arg(each.key, part));
+            made->setAccessibleName(QString("%1, %2").arg(text, part));
+            made->addItem(column == 1 ? tr("not noticed") : QString("–"), 0);
+            for (qsizetype i = 0; i < words.size(); ++i)
+                made->addItem(QString("%1  %2").arg(i + 1).arg(words[i]), i + 1);
+            grid->addWidget(made, row, column);
+            return made;
+        };
+        const Item item{box(severities, "severity", 1), box(relations, "relation", 2)};
+        item.relation->setEnabled(false);
+        connect(item.severity, &QComboBox::currentIndexChanged, item.relation, [item](int index) {
+            item.relation->setEnabled(index > 0);
+            if (index == 0) item.relation->setCurrentIndex(0);
+        });
+        items_.push_back(item);
+        ++row;
+    }
+    grid->setColumnStretch(0, 1);
+    return holder;
+}
+
+void NextDayDialog::note() {
+    auto* study = study_.study();
+    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nothing was noted."));
+    if (const auto open = form_->unanswered(); !open.isEmpty()) {
+        form_->goToRefused();
+        return trouble_->setText("⚠ " + open);
+    }
+    NextDay said;
+    said.erythema = form_->text("erythema").toInt();
+    said.oedema = form_->text("oedema").toInt();
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        if (items_[i].severity->currentIndex() == 0) continue;
+        if (items_[i].relation->currentIndex() == 0) {
+            items_[i].relation->setFocus();
+            return trouble_->setText(tr("⚠ How “%1” is related to the session is missing. 1 to 5 is expected.")
+                                         .arg(QCoreApplication::translate("SideEffect", kSideEffects[i].text)));
+        }
+        said.sideEffects.push_back(
+            {kSideEffects[i].key, items_[i].severity->currentIndex(), items_[i].relation->currentIndex()});
+    }
+    const auto noted = study->nextDay(form_->text("session").toStdString(), said);
+    if (!noted) return trouble_->setText("⚠ " + sentence(noted.error()));
+    study_.noteChange();
+    accept();
+}
+
+}  // namespace tacto::gui
+
+#include "moc_NextDayDialog.cpp"
