@@ -252,17 +252,21 @@ void SpectrumPanel::draw() {
     const bool other = count > 0 && std::abs(shownTop_hz_ - top_hz) > 0.01 * top_hz;
     const auto unit = axisUnit(logarithmic() ? 1 : top_hz / 2, "Hz");
     for (auto& f : hz) f *= unit.factor;
+    const double highest = rms.isEmpty() ? 0 : *std::max_element(rms.begin(), rms.end());
+    const auto level = highest > 0 ? axisUnit(highest, unit_) : AxisUnit{1, unit_};
+    levelFactor_ = level.factor;
+    for (auto& value : rms) value *= levelFactor_;
     graph_->setData(hz, rms, true);
     plot_->xAxis->setLabel(tr("Frequency (%1)").arg(unit.unit));
-    plot_->yAxis->setLabel(unit_.isEmpty() ? tr("RMS") : tr("RMS (%1)").arg(unit_));
+    plot_->yAxis->setLabel(level.unit.isEmpty() ? tr("RMS") : tr("RMS (%1)").arg(level.unit));
     peaks_->data()->clear();
-    for (const auto& peak : spectrum_.peaks) peaks_->addData(peak.hz * unit.factor, peak.rms);
+    for (const auto& peak : spectrum_.peaks) peaks_->addData(peak.hz * unit.factor, peak.rms * levelFactor_);
     if (!hz.isEmpty()) {
         if (other) {
             shownTop_hz_ = top_hz;
             plot_->xAxis->setRange(logarithmic() ? spectrum_.hz.front() * unit.factor : 0, top_hz * unit.factor);
         }
-        const double top = *std::max_element(rms.begin(), rms.end());
+        const double top = highest * levelFactor_;
         // Room for the peaks' names above the highest.
         const double name = QFontMetrics(textFont(TextSize::Small)).height() + 8;
         const double height = std::max<double>(plot_->axisRect()->height(), 2 * name);
@@ -295,7 +299,7 @@ void SpectrumPanel::namePeaks() {
         if (!free) continue;
         taken.emplace_back(at - half, at + half);
         name->setText(text);
-        name->position->setCoords(key, peak.rms);
+        name->position->setCoords(key, peak.rms * levelFactor_);
         // Half of a name may not leave the plot at its sides.
         const QRect area = plot_->axisRect()->rect();
         name->setPositionAlignment(Qt::AlignBottom | (at - half < area.left()    ? Qt::AlignLeft

@@ -101,6 +101,7 @@ private:
     double transformRate_hz_ = 0;
     SpectralWindow transformWindow_ = SpectralWindow::Hann;
     double shownTop_hz_ = 0;
+    double levelFactor_ = 1;  ///< from unit_ to that of the level axis
     QColor colour_;
 };
 

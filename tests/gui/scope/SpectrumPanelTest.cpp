@@ -62,6 +62,24 @@ TEST(SpectrumPanel, EachWindowReadsASineRightAndNamesItsPeaks) {
     EXPECT_TRUE(next.logarithmic());
 }
 
+TEST(SpectrumPanel, ASmallSignalsAxisHasAPrefixAndItsPeakStandsThere) {
+    auto samples = std::make_shared<std::vector<float>>();
+    for (int i = 0; i < 10'000; ++i)
+        samples->push_back(static_cast<float>(0.02 * std::sqrt(2.0) * std::sin(2 * M_PI * 1000 * i / 100e3)));
+    const auto trace = gui::makeTrace("channel/voltage", "Voltage", "V", samples, 100e3, 0, 0);
+    gui::SpectrumPanel panel;
+    panel.resize(800, 250);
+    panel.QWidget::show();
+    panel.show(trace, 0, 0.1, Qt::blue);
+    const auto* plot = panel.findChild<QCustomPlot*>();
+    EXPECT_EQ(plot->yAxis->label(), "RMS (mV)");
+    EXPECT_EQ(plot->xAxis->label(), "Frequency (kHz)");
+    EXPECT_TRUE(plot->yAxis->range().contains(20)) << "20 mV";
+    bool found = false;
+    EXPECT_NEAR(plot->graph(0)->getValueRange(found).upper, 20, 0.1);
+    EXPECT_TRUE(found);
+}
+
 TEST(SpectrumPanel, ASineStandsAtItsFrequencyWithItsRms) {
     auto samples = std::make_shared<std::vector<float>>();
     for (int i = 0; i < 10'000; ++i) {
