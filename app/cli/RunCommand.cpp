@@ -14,6 +14,7 @@
 #include "app/run/SignalStop.h"
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
+#include "core/base/GivenOnce.h"
 #include "core/base/Printable.h"
 #include "core/dsp/RoughnessFlags.h"
 #include "core/session/Origin.h"
@@ -65,7 +66,7 @@ Result<std::map<std::string, std::string>> settingsFrom(const QCommandLineParser
         const auto [at, isNew] = settings.emplace(key, text.substr(equals + 1));
         if (isNew) continue;
         // A run that arms several loads is confirmed several times: see OperatorQuestion::confirms.
-        if (key != kConfirmArming) return fail(ErrorCode::InvalidArgument, "--set {} is given twice", key);
+        if (key != kConfirmArming) return fail(ErrorCode::InvalidArgument, "{}", givenTwice("--set {}", key));
         at->second += '\n' + text.substr(equals + 1);
     }
     return settings;
