@@ -255,7 +255,12 @@ Result<void> PilotIdentification::driftCheck(int block) {
     settings.last = lastDetection_;
     settings.min = thresholds_.found()->min;
     settings.block = static_cast<std::size_t>(block);
-    auto check = DriftCheck::create(*thresholds_.grid(), settings, stage_.settings().seed);
+    // Nothing lies above I_max, which was accepted for half an hour: a session that goes on is ramped no higher.
+    const auto& all = *thresholds_.grid();
+    const LevelCeiling highest[] = {{thresholds_.found()->max, all.limitedBy()}};
+    const auto grid = LevelGrid::create(all.unit(), all.step(), highest);
+    if (!grid) return failure(grid);
+    auto check = DriftCheck::create(*grid, settings, stage_.settings().seed);
     if (!check) return failure(check);
     for (int trials = 1; !check->done();) {
         if (check->step() == DriftStep::Rest) {

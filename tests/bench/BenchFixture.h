@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <functional>
 #include <gtest/gtest.h>
 
 #include "core/bench/Bench.h"
@@ -35,6 +36,7 @@ protected:
         ASSERT_TRUE(devices) << devices.error().message;
         if (looksReal_ && devices->stimulator)
             devices->stimulator = std::make_unique<RealLookingStimulator>(std::move(devices->stimulator));
+        if (wrap_) devices->stimulator = wrap_(std::move(devices->stimulator));
         BenchConfig config;
         config.devices = std::move(*devices);
         config.clock = clock_;
@@ -70,6 +72,8 @@ protected:
     std::chrono::sys_days (*today_)() = nullptr;
     std::optional<PersonSetup> person_;  ///< makes it a bench for a person
     bool looksReal_ = false;             ///< what is opened next is taken for a device
+    /// What stands between the bench and the stimulator that is opened next.
+    std::function<std::unique_ptr<Stimulator>(std::unique_ptr<Stimulator>)> wrap_;
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<Bench> bench_;
 };

@@ -22,25 +22,30 @@ Ran PilotDesk::run(const std::string& protocol, const Words& more, const std::st
     return desk_.run(words(protocol, more, study));
 }
 
-int PilotDesk::execute(const Words& environment, Words all, unsigned long largestFile,
-                       const std::string& errors) const {
-    auto given = environment;
-    all.insert(all.begin(), TACTO_CLI);
+Ran PilotDesk::runDisturbed(const Disturbance& by, const std::string& protocol, const Words& more,
+                            const std::string& study) const {
+    auto given = desk_.environment();
+    given.push_back(std::string("LD_PRELOAD=") + TACTO_KILL_AT_SYNC_LIBRARY + ":" + TACTO_MOVED_CLOCK_LIBRARY);
+    given.push_back("TACTO_KILL_AT_SYNC=" + std::to_string(by.killAtSync));
+    given.push_back("TACTO_CLOCK_AHEAD=" + std::to_string(by.clock.count()));
+    given.push_back("TACTO_CLOCK_FROM_SYNC=" + std::to_string(by.clockFromSync));
+    auto all = Words{TACTO_CLI} + words(protocol, more, study);
     std::vector<char*> arguments, variables;
     for (auto& each : all) arguments.push_back(each.data());
     for (auto& each : given) variables.push_back(each.data());
     arguments.push_back(nullptr);
     variables.push_back(nullptr);
+    const ScratchDir streams;
+    const auto out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
     const pid_t child = fork();
     if (child == 0) {
-        const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
-        const int said = open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-        dup2(nowhere, 0);
-        dup2(nowhere, 1);
-        dup2(said, 2);
-        if (largestFile > 0) {
+        constexpr int kFresh = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
+        dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), 0);
+        dup2(open(out.c_str(), kFresh, 0600), 1);
+        dup2(open(err.c_str(), kFresh, 0600), 2);
+        if (by.largestFile > 0) {
             signal(SIGXFSZ, SIG_IGN);
-            const rlimit most{largestFile, largestFile};
+            const rlimit most{by.largestFile, by.largestFile};
             setrlimit(RLIMIT_FSIZE, &most);
         }
         execve(TACTO_CLI, arguments.data(), variables.data());
@@ -48,22 +53,16 @@ int PilotDesk::execute(const Words& environment, Words all, unsigned long larges
     }
     int status = 0;
     EXPECT_EQ(waitpid(child, &status, 0), child);
-    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+    return {WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status), contentOf(out), contentOf(err)};
 }
 
 int PilotDesk::runKilled(long sync, const std::string& protocol, const Words& more, const std::string& study) const {
-    auto environment = desk_.environment();
-    environment.push_back(std::string("LD_PRELOAD=") + TACTO_KILL_AT_SYNC_LIBRARY);
-    environment.push_back("TACTO_KILL_AT_SYNC=" + std::to_string(sync));
-    return execute(environment, words(protocol, more, study), 0, "/dev/null");
+    return runDisturbed({.killAtSync = sync}, protocol, more, study).code;
 }
 
-int PilotDesk::runOnFullDisk(unsigned long bytes, std::string& said, const std::string& protocol, const Words& more,
-                             const std::string& study) const {
-    const auto errors = desk_.at("errors.txt");
-    const int code = execute(desk_.environment(), words(protocol, more, study), bytes, errors);
-    said = contentOf(errors);
-    return code;
+Words operator+(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
 }
 
 std::string planAndAnswers(const nlohmann::json& value) {

@@ -3,6 +3,7 @@
 // Thread-safety: the test's own thread.
 #pragma once
 
+#include <chrono>
 #include <nlohmann/json_fwd.hpp>
 
 #include "tests/cli/Shape.h"
@@ -12,26 +13,34 @@ namespace tacto::test {
 /// One block of the test.
 [[nodiscard]] Words shortSession();
 
+/// What happens to a session's program.
+struct Disturbance {
+    long killAtSync = 0;            ///< it is killed when it makes something durable for that time; 0: never
+    unsigned long largestFile = 0;  ///< bytes: the disk is full once a file has them; 0: it never is
+    std::chrono::seconds clock{0};  ///< by so much the clock on the wall is ahead
+    long clockFromSync = 0;         ///< from that time on that it makes something durable; 0: from its beginning
+};
+
 class PilotDesk {
 public:
     explicit PilotDesk(Words devices = {"sim:"}) : devices_(std::move(devices)) {}
     /// `run PROTOCOL --device sim: --out STUDY --json` with more words.
     [[nodiscard]] Ran run(const std::string& protocol, const Words& more, const std::string& study = "study") const;
-    /// The same, killed when it makes something durable for the `sync`-th time. The code is -9 when it was.
+    /// The same, disturbed. The code is -9 where it was killed.
+    [[nodiscard]] Ran runDisturbed(const Disturbance& by, const std::string& protocol, const Words& more,
+                                   const std::string& study = "study") const;
+    /// The code of one that is killed at its `sync`-th durable row.
     [[nodiscard]] int runKilled(long sync, const std::string& protocol, const Words& more,
                                 const std::string& study = "study") const;
-    /// The same on a disk that is full once a file has `bytes`. The exit code; stderr goes to `said`.
-    [[nodiscard]] int runOnFullDisk(unsigned long bytes, std::string& said, const std::string& protocol,
-                                    const Words& more, const std::string& study = "study") const;
     [[nodiscard]] const Desk& desk() const noexcept { return desk_; }
 
 private:
-    [[nodiscard]] int execute(const Words& environment, Words all, unsigned long largestFile,
-                              const std::string& errors) const;
     [[nodiscard]] Words words(const std::string& protocol, const Words& more, const std::string& study) const;
     const Words devices_;
     const Desk desk_;
 };
+
+[[nodiscard]] Words operator+(Words words, const Words& more);
 
 /// Plan and answers of a session's results, without what only says how often it was begun.
 [[nodiscard]] std::string planAndAnswers(const nlohmann::json& value);

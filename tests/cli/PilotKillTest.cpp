@@ -9,20 +9,78 @@
 namespace tacto::test {
 namespace {
 
-constexpr long kShards = 8;
+const Words kGoOn{"--set", "unfinished=resume"};
 
-/// Each takes every eighth of the moments, so that several run beside each other.
-class PilotKill : public testing::TestWithParam<long> {};
+/// A session that is killed at one of its moments, at the next, ... in a run of its own each time.
+struct KilledSession {
+    const char* name;
+    const char* protocol;
+    Words devices;
+    Words words;
+    long shards;              ///< tests beside each other, each with its share of the moments
+    TrialCounts<long> every;  ///< so far apart are the moments; 1: each
+    bool twice;               ///< it is killed once more while it goes on
+};
 
-/// Without what only says how often a trial was begun.
-std::string answersOf(nlohmann::json trials) {
-    for (auto& trial : trials) trial.erase("attempt");
-    return trials.dump();
+const KilledSession kKilledSessions[] = {
+    // Thresholds by QUEST+, familiarisation, training, a break and a drift check between two blocks, ratings.
+    {"TwoBlocks",
+     "pilot-identification",
+     {"sim:"},
+     {"--set", "participant=virtual:7", "--set", "blocks=2"},
+     8,
+     {.local = 24, .ci = 1, .campaign = 1},
+     false},
+    {"Staircase",
+     "pilot-thresholds",
+     {"sim:"},
+     {"--set", "participant=virtual:5", "--set", "method=staircase"},
+     1,
+     {.local = 80, .ci = 1, .campaign = 1},
+     false},
+    // The long break with a look at the skin; masking noise; killed, and killed once more.
+    {"FourBlocksWithAMassagerTwice",
+     "pilot-identification",
+     {"sim:massager"},
+     {"--set", "participant=virtual:7", "--set", "blocks=4"},
+     1,
+     {.local = 120, .ci = 3, .campaign = 1},
+     true},
+    // Rests of five minutes in the drift check, and a block that is marked.
+    {"Adapted",
+     "pilot-identification",
+     {"sim:"},
+     {"--set", "participant=virtual:7", "--set", "blocks=2", "--set", "adaptation=3"},
+     1,
+     {.local = 120, .ci = 3, .campaign = 1},
+     false},
+};
+
+struct KillShard {
+    const KilledSession* session;
+    long shard;
+};
+
+std::vector<KillShard> killShards() {
+    std::vector<KillShard> all;
+    for (const auto& session : kKilledSessions)
+        for (long shard = 0; shard < session.shards; ++shard) all.push_back({&session, shard});
+    return all;
 }
 
-std::string expectedOf(const Ran& ran) { return answersOf(jsonOf(ran)["results"]["trials"]); }
+class PilotKill : public testing::TestWithParam<KillShard> {};
 
-/// The answers of the study's only session, where that is complete on disk.
+/// What a session came to, without what only says how often it was begun. |Z| is measured anew when it goes on.
+std::string cameTo(const nlohmann::json& value) {
+    const auto& results = value["results"];
+    auto range = results["range"];
+    for (const char* measured : {"impedance_ohm", "min_v", "max_v"}) range.erase(measured);
+    if (results.contains("confusion"))
+        return planAndAnswers(value) + '\n' + range.dump() + '\n' + results["drift"].dump();
+    return results["series"].dump() + '\n' + results["detection"].dump() + '\n' + range.dump();
+}
+
+/// Plan and answers of the study's only session, where that is complete on disk.
 std::optional<std::string> completeIn(const PilotDesk& desk, const std::string& study) {
     const auto shown = desk.desk().run({"study", "show", desk.desk().at(study), "--json"});
     if (shown.code != 0) return std::nullopt;
@@ -31,44 +89,54 @@ std::optional<std::string> completeIn(const PilotDesk& desk, const std::string& 
     const auto listed =
         desk.desk().run({"study", "trials", desk.desk().at(study), sessions[0]["code"].get<std::string>(), "--json"});
     EXPECT_EQ(listed.code, 0) << listed.err;
-    return answersOf(jsonOf(listed)["trials"]);
+    auto trials = jsonOf(listed)["trials"];
+    for (auto& trial : trials) trial.erase("attempt");
+    return trials.dump();
 }
 
 TEST_P(PilotKill, AtEveryDurableRowGoesOnAsIfUndisturbed) {
     RecordProperty("hazard", "H8");
-    const PilotDesk desk;
-    const auto undisturbed = desk.run("pilot-identification", shortSession(), "whole");
+    const auto& [session, shard] = GetParam();
+    const PilotDesk desk(session->devices);
+    const auto undisturbed = desk.run(session->protocol, session->words, "whole");
     ASSERT_EQ(undisturbed.code, 0) << undisturbed.err;
-    const auto expected = planAndAnswers(jsonOf(undisturbed));
-    auto fromTheSeed = shortSession();
-    fromTheSeed.insert(fromTheSeed.end(), {"--set", "unfinished=resume"});
-    auto resumed = fromTheSeed;
-    resumed.insert(resumed.end(), {"--seed", "99"});  // The stored plan holds
+    const auto expected = cameTo(jsonOf(undisturbed));
+    auto answers = jsonOf(undisturbed)["results"].value("trials", nlohmann::json::array());
+    for (auto& trial : answers) trial.erase("attempt");
+    const auto fromTheSeed = session->words + kGoOn;
+    const auto resumed = fromTheSeed + Words{"--seed", "99"};  // The stored plan holds
     long killed = 0;
-    const long stride = kShards * trials<long>({.local = 8, .ci = 1, .campaign = 1});
-    for (long sync = 1 + GetParam();; sync += stride) {
+    const long every = trials(session->every);
+    for (long sync = 1 + shard + every / 2;; sync += session->shards * every) {
         const auto study = "killed " + std::to_string(sync);
-        const int code = desk.runKilled(sync, "pilot-identification", shortSession(), study);
+        const int code = desk.runKilled(sync, session->protocol, session->words, study);
         if (code == 0) break;  // It has fewer
         ASSERT_EQ(code, -9) << "sync " << sync;
         ++killed;
         if (const auto kept = completeIn(desk, study)) {  // only the program's own end was left
-            EXPECT_EQ(*kept, expectedOf(undisturbed)) << "sync " << sync;
+            EXPECT_EQ(*kept, answers.dump()) << "sync " << sync;
             std::filesystem::remove_all(desk.desk().at(study));
             continue;
         }
         // Before the plan is durable there is none that could hold: it is drawn from the seed.
         const auto& words = desk.desk().named(study + "/sessions", ".tacto").empty() ? fromTheSeed : resumed;
-        const auto ran = desk.run("pilot-identification", words, study);
+        if (session->twice) {
+            const int again = desk.runKilled(20 + sync / 3, session->protocol, words, study);
+            if (completeIn(desk, study)) continue;
+            ASSERT_EQ(again, -9) << "sync " << sync;
+        }
+        const auto ran = desk.run(session->protocol, words, study);
         ASSERT_EQ(ran.code, 0) << "sync " << sync << ": " << ran.err;
-        EXPECT_EQ(planAndAnswers(jsonOf(ran)), expected) << "sync " << sync;
+        EXPECT_EQ(cameTo(jsonOf(ran)), expected) << "sync " << sync;
         ASSERT_EQ(desk.desk().run({"verify", desk.desk().at(study)}).code, 0) << "sync " << sync;
         std::filesystem::remove_all(desk.desk().at(study));
     }
-    EXPECT_GT(killed, 3);
+    EXPECT_GE(killed, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryMoment, PilotKill, testing::Range(0L, kShards));
+INSTANTIATE_TEST_SUITE_P(EveryMoment, PilotKill, testing::ValuesIn(killShards()), [](const auto& tested) {
+    return tested.param.session->name + std::to_string(tested.param.shard);
+});
 
 }  // namespace
 }  // namespace tacto::test

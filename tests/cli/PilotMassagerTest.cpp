@@ -16,11 +16,6 @@ using testing::Not;
 
 const Words kMassager{"sim:massager"};
 
-Words joined(Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
 /// Every key of a value, at any depth.
 void addKeys(const json& value, std::set<std::string>& keys) {
     for (const auto& [key, member] : value.items()) {
@@ -97,7 +92,7 @@ TEST(PilotMassager, KilledItGoesOnAsIfUndisturbed) {
     const auto undisturbed = desk.run("pilot-identification", shortSession(), "whole");
     ASSERT_EQ(undisturbed.code, 0) << undisturbed.err;
     const auto expected = planAndAnswers(jsonOf(undisturbed));
-    const auto resume = joined(shortSession(), {"--set", "unfinished=resume"});
+    const auto resume = shortSession() + Words{"--set", "unfinished=resume"};
     for (const long sync : {40L, 130L, 220L}) {  // in the ascending limits, in detection, among the trials
         const auto study = "killed " + std::to_string(sync);
         ASSERT_EQ(desk.runKilled(sync, "pilot-identification", shortSession(), study), -9) << sync;

@@ -12,11 +12,6 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-Words with(Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
 TEST(Pilot, ARehearsalGoesFromPlanToConfusionMatrix) {
     const PilotDesk desk;
     const auto ran = desk.run("pilot-identification", {"--set", "participant=virtual:7", "--seed", "1"});
@@ -88,7 +83,7 @@ TEST(Pilot, ThresholdsComeNearTheTruth) {
 TEST(Pilot, TheSameSeedGivesTheSameAnswersAndAnotherOtherOnes) {
     const PilotDesk desk;
     const auto answers = [&](const char* study, const char* seed) {
-        return planAndAnswers(jsonOf(desk.run("pilot-identification", with(shortSession(), {"--seed", seed}), study)));
+        return planAndAnswers(jsonOf(desk.run("pilot-identification", shortSession() + Words{"--seed", seed}, study)));
     };
     const auto first = answers("a", "3");
     EXPECT_EQ(first, answers("b", "3"));
@@ -146,10 +141,10 @@ TEST(Pilot, AnUnfinishedSessionAsksWhatToDoWithItAndCanBeEnded) {
     const auto asked = desk.run("pilot-identification", shortSession());
     EXPECT_EQ(asked.code, 3) << asked.err;
     EXPECT_THAT(asked.err, HasSubstr("unfinished=resume"));
-    const auto other = desk.run("pilot-thresholds", with(shortSession(), {"--set", "unfinished=resume"}));
+    const auto other = desk.run("pilot-thresholds", shortSession() + Words{"--set", "unfinished=resume"});
     EXPECT_EQ(other.code, 3) << other.err;
     EXPECT_THAT(other.err, HasSubstr("pilot-identification"));
-    const auto ended = desk.run("pilot-identification", with(shortSession(), {"--set", "unfinished=end"}));
+    const auto ended = desk.run("pilot-identification", shortSession() + Words{"--set", "unfinished=end"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(jsonOf(ended)["results"]["parts"], 1);
     const auto shown = jsonOf(desk.desk().run({"study", "show", desk.desk().at("study"), "--json"}));
@@ -163,10 +158,10 @@ TEST(Pilot, AFullDiskEndsTheSessionWithoutOutputAndItGoesOnOnceThereIsRoom) {
     const PilotDesk desk;
     const auto whole = desk.run("pilot-identification", shortSession(), "whole");
     ASSERT_EQ(whole.code, 0) << whole.err;
-    std::string said;
-    EXPECT_EQ(desk.runOnFullDisk(250'000, said, "pilot-identification", shortSession()), 3) << said;
-    EXPECT_THAT(said, HasSubstr("cannot be written"));
-    const auto ran = desk.run("pilot-identification", with(shortSession(), {"--set", "unfinished=resume"}));
+    const auto full = desk.runDisturbed({.largestFile = 250'000}, "pilot-identification", shortSession());
+    EXPECT_EQ(full.code, 3) << full.err;
+    EXPECT_THAT(full.err, HasSubstr("cannot be written"));
+    const auto ran = desk.run("pilot-identification", shortSession() + Words{"--set", "unfinished=resume"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     const auto value = jsonOf(ran);
     EXPECT_TRUE(value["results"]["resumed"].get<bool>());

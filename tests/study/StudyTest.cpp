@@ -78,18 +78,20 @@ TEST_F(Desk, AWrongPassphraseIsOneSentence) {
     EXPECT_NE(study.error().message.find("does not open the key file"), std::string::npos);
 }
 
-/// Nothing is made when a gate refuses: the ledger stands where it stood.
+/// Nothing is made when a gate refuses: folder and keys are the same, byte for byte.
 class GateOfASession : public Desk {
 protected:
     void expectRefused(Study& study, const SessionRequest& request, std::string_view part,
                        ErrorCode code = kGateRefused) {
         RecordProperty("hazard", "H12");
         const auto head = study.ledgerHead();
+        const auto bytes = everythingBelow(scratch.path());
         const auto begun = study.beginSession(request);
         ASSERT_FALSE(begun);
         EXPECT_EQ(begun.error().code, code);
         EXPECT_NE(begun.error().message.find(part), std::string::npos) << begun.error().message;
         EXPECT_EQ(study.ledgerHead(), head);
+        EXPECT_TRUE(everythingBelow(scratch.path()) == bytes);
         EXPECT_TRUE(std::filesystem::is_empty(folder() / "sessions"));
     }
 };

@@ -135,12 +135,15 @@ struct Recovery {
 };
 
 /// Through the ascending limits, as in a session; participants of the whole population, within the device's range.
-Recovery recoveryOf(std::size_t people, double step) {
+/// `other`: their thresholds are so many times what is held against the estimate.
+Recovery recoveryOf(std::size_t people, double step, double other = 1) {
     Recovery out;
     double sum = 0, squares = 0;
     for (std::size_t i = 0; out.people < people; ++i) {
         const auto who = drawParticipant({}, 2024, i, Micros(200));
-        const auto observer = test::observerFor(who, i);
+        auto feels = who;
+        feels.detection *= other;
+        const auto observer = test::observerFor(feels, i);
         const auto grid = test::gridUpTo(15, step);
         const auto limits = test::ascend(grid, observer, i);
         if (std::isnan(limits.felt)) continue;
@@ -171,6 +174,12 @@ TEST(QuestPlus, RecoversTheThresholdsOfVirtualParticipants) {
     EXPECT_LE(std::abs(found.bias), 0.03);
     EXPECT_LE(found.sd, 0.12);
     EXPECT_GE(found.cover, 0.93);
+}
+
+TEST(QuestPlus, ARecoveryThatIsWrongIsFound) {
+    EXPECT_GT(recoveryOf(200, 0.5, 1.05).bias, 0.03) << "an estimate that is 5 % too high";
+    EXPECT_LT(recoveryOf(200, 0.5, 0.95).bias, -0.03);
+    EXPECT_LT(recoveryOf(200, 0.5, 1.25).cover, 0.93) << "an interval that misses the threshold";
 }
 
 TEST(QuestPlus, TakesFarLessThanATrialLasts) {

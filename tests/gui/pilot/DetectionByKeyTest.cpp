@@ -1,9 +1,6 @@
 // A person's thresholds at the participant's window: what is delivered is felt, every answer is a key.
-#include <nlohmann/json.hpp>
-
 #include "core/pilot/PilotThresholds.h"
-#include "core/session/SessionWriter.h"
-#include "tests/bench/PersonFixture.h"
+#include "tests/gui/pilot/BenchBehind.h"
 #include "tests/gui/pilot/SeatedPeople.h"
 #include "tests/support/InTime.h"
 
@@ -11,61 +8,6 @@ namespace tacto::test {
 namespace {
 
 constexpr double kFelt_ma = 3, kStrong_ma = 6, kTooStrong_ma = 9;
-
-/// A simulated bench with a session's record on it, where time passes at once; no test of its own.
-class BenchBehind final : public PersonFixture {
-public:
-    explicit BenchBehind(PilotParticipant& people) {
-        writer_ = SessionWriter::create(dir_.path() / "session.tacto", {}, fileClock_).value();
-        session_ = writer_.get();
-        openPerson();
-        record_ = std::make_unique<PilotRecord>(*writer_, *clock_, std::vector<SessionRow>());
-        PilotSettings settings;
-        settings.code = "P-7K3M";
-        stage = std::make_unique<PilotStage>(*bench_, people, *record_, settings);
-    }
-    ~BenchBehind() override {
-        stage.reset();
-        record_.reset();
-        bench_.reset();
-    }
-    void TestBody() override {}
-    std::unique_ptr<PilotStage> stage;
-
-private:
-    ScratchDir dir_;
-    VirtualClock fileClock_;
-    std::unique_ptr<SessionWriter> writer_;
-    std::unique_ptr<PilotRecord> record_;
-};
-
-/// Passes everything on to the window, and knows what its person feels.
-class Feeling final : public PilotParticipant {
-public:
-    explicit Feeling(gui::ParticipantDesk& desk) : desk_(desk) {
-        desk_.stop = [this](const char* by) { stop(by); };
-    }
-    void show(const PilotScreen& screen) override { desk_.show(screen); }
-    [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override { return desk_.ask(prompt); }
-    void delivered(const FeltPresentation& felt) override {
-        const std::scoped_lock lock(mutex_);
-        felt_ = felt;
-    }
-    [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return desk_.takeEarly(); }
-    void cancel() noexcept override { desk_.cancel(); }
-    [[nodiscard]] bool holding() const noexcept override { return desk_.holding(); }
-    [[nodiscard]] Result<void> ready() const override { return desk_.ready(); }
-    [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
-    [[nodiscard]] FeltPresentation felt() const {
-        const std::scoped_lock lock(mutex_);
-        return felt_;
-    }
-
-private:
-    gui::ParticipantDesk& desk_;
-    mutable std::mutex mutex_;
-    FeltPresentation felt_;  // guarded by mutex_
-};
 
 class DetectionByKey : public Seated, public testing::WithParamInterface<DetectionMethod> {
 protected:
@@ -110,20 +52,21 @@ protected:
     }
 
     Feeling people{desk};
-    BenchBehind behind{people};
+    BenchBehind behind;
+    PilotStage stage{behind.bench(), people, behind.record(), behind.settings()};
     std::map<int, int> marked;
     int asked = 0, guesses = 0;
 };
 
 TEST_P(DetectionByKey, FindsWhatThePersonFeels) {
     RecordProperty("hazard", "H9");
-    PilotThresholds thresholds(*behind.stage);
+    PilotThresholds thresholds(stage);
     const auto limits = answering([&] { return thresholds.ascendingLimits(); });
     ASSERT_IN_TIME(limits);
     EXPECT_DOUBLE_EQ(thresholds.limits().felt, kFelt_ma);
     ASSERT_IN_TIME(comesTrue([this] { return window.title().contains("let go"); }));
     QTest::keyRelease(window.windowHandle(), Qt::Key_H);
-    EXPECT_EQ(behind.stage->record().count(row::kParticipantStop), 0U) << "levels rise no more: nothing is held";
+    EXPECT_EQ(stage.record().count(row::kParticipantStop), 0U) << "levels rise no more: nothing is held";
 
     const auto found = answering([&] { return thresholds.detection(GetParam()); });
     ASSERT_IN_TIME(found);

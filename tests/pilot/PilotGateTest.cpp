@@ -1,0 +1,121 @@
+// Gates of pilot.md section 3 that the electrodes and the STOPs have to pass, each with its sentence, and with nothing
+// presented behind it.
+#include <thread>
+
+#include "core/devices/StatesCalibration.h"
+#include "core/pilot/PilotCare.h"
+#include "tests/pilot/StageFixture.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A twin whose output takes its time to switch off, or whose electrodes come off by and by.
+class WornStimulator final : public Stimulator, public StatesCalibration {
+public:
+    WornStimulator(std::unique_ptr<Stimulator> twin, std::chrono::milliseconds offTakes, double skinLater)
+        : twin_(std::move(twin)), offTakes_(offTakes), skinLater_(skinLater) {}
+    const DeviceIdentity& identity() const noexcept override { return twin_->identity(); }
+    const SourceTraits& traits() const noexcept override { return twin_->traits(); }
+    const KnownLines& statedCalibration() const noexcept override {
+        return dynamic_cast<const StatesCalibration&>(*twin_).statedCalibration();
+    }
+    Result<void> deliver(ApprovedTrain&& train) override { return twin_->deliver(std::move(train)); }
+    Result<StimulatorStatus> status() override {
+        auto read = twin_->status();
+        if (read && read->impedance && read->at > std::chrono::seconds(20)) *read->impedance *= skinLater_;
+        return read;
+    }
+    Result<void> keepAlive() override { return twin_->keepAlive(); }
+    void forceOff() noexcept override {
+        std::this_thread::sleep_for(offTakes_);
+        twin_->forceOff();
+    }
+
+private:
+    const std::unique_ptr<Stimulator> twin_;
+    const std::chrono::milliseconds offTakes_;
+    const double skinLater_;
+};
+
+class PilotGateTest : public PilotStageTest {
+protected:
+    void SetUp() override {
+        PilotStageTest::SetUp();
+        someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
+    }
+    void wear(std::chrono::milliseconds offTakes, double skinLater) {
+        wrap_ = [=](std::unique_ptr<Stimulator> twin) {
+            return std::make_unique<WornStimulator>(std::move(twin), offTakes, skinLater);
+        };
+        begin();
+    }
+    void expectRefused(const Result<void>& gate, const char* says) {
+        ASSERT_FALSE(gate);
+        EXPECT_THAT(gate.error().message, HasSubstr(says));
+        EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
+        EXPECT_NE(state(), InterlockState::Armed);
+    }
+};
+
+TEST_F(PilotGateTest, AStopThatTakesLongerThanTenMillisecondsEndsTheSession) {
+    RecordProperty("hazard", "H2");
+    wear(std::chrono::milliseconds(15), 1);
+    PilotCare care(*stage_);
+    expectRefused(care.checklist(), "to switch off; at most 10 ms are accepted");
+    EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
+}
+
+TEST_F(PilotGateTest, TwoChecksOfTheElectrodesThatDisagreeEndTheSession) {
+    RecordProperty("hazard", "H3");
+    for (const auto& [change, holds] : {std::pair{1.15, true}, {1.25, false}, {0.75, false}}) {
+        SCOPED_TRACE(change);
+        wear(std::chrono::milliseconds(0), change);
+        PilotCare care(*stage_);
+        const auto passed = care.checklist();
+        if (holds)
+            EXPECT_TRUE(passed) << passed.error().message;
+        else
+            expectRefused(passed, "within 30 s; a difference of at most 20 % is accepted");
+        EXPECT_EQ(stage_->ended(), holds ? PilotEnd::Unfinished : PilotEnd::Stopped);
+    }
+}
+
+TEST_F(PilotGateTest, ElectrodesOutsideTheProfilesRangeAreSeatedAgainAndTheThirdTimeItIsBrokenOff) {
+    RecordProperty("hazard", "H3");
+    more_ = "&load=200kohm";
+    begin();
+    PilotCare care(*stage_);
+    const auto passed = care.checklist();
+    ASSERT_FALSE(passed);
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
+    EXPECT_NE(state(), InterlockState::Armed);
+    EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished) << "it can be gone on with";
+    int refused = 0;
+    for (const auto& each : rows())
+        if (each.name == row::kGate && each.body.value("holds", true) == false) ++refused;
+    EXPECT_EQ(refused, 2) << "and the third ends it: " << passed.error().message;
+    EXPECT_THAT(passed.error().message, HasSubstr("ohm"));
+}
+
+TEST_F(PilotGateTest, TheLotOfTheElectrodesIsNoted) {
+    PilotCare care(*stage_);
+    someone_.answers["electrode-lot"] = "L-2044";
+    ASSERT_TRUE(care.checklist());
+    const auto* lot = record_->find(row::kGate, "electrode lot");
+    ASSERT_NE(lot, nullptr);
+    EXPECT_EQ((*lot)["key"], "L-2044");
+}
+
+TEST_F(PilotGateTest, AStudyOfAnotherTrainOrWithoutAnAreaBeginsNothing) {
+    RecordProperty("hazard", "H11");
+    profile_.electrodeArea.reset();
+    begin();
+    PilotCare care(*stage_);
+    expectRefused(care.checklist(), "the area of the electrodes is not stated; one in cm² is expected");
+    EXPECT_TRUE(someone_.asked.empty());
+}
+
+}  // namespace
+}  // namespace tacto::test
