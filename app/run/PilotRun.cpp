@@ -365,7 +365,10 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         if (people == nullptr) people = made->virtual_.get();
     }
     auto run = ProtocolRun::prepare(std::move(order), registry, std::move(tap));
-    if (!run) return failure(run);
+    if (!run) {
+        made->cancelBooked();
+        return failure(run);
+    }
     made->run_ = std::move(*run);
     const auto& opened = made->run_->opened();
     made->record_ = std::make_unique<PilotRecord>(*opened.session, *opened.clock, made->earlier_.events);
@@ -379,6 +382,12 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         return raw->noteSkin(moment, score);
     };
     return made;
+}
+
+/// A session whose bench could not be opened is none that may go on. One that is gone on with stays as it was.
+void PilotRun::cancelBooked() {
+    if (!begun_ || unfinished_) return;
+    static_cast<void>(study_->endSession(begun_->session.id, StudySessionState::Stopped, ""));
 }
 
 /// Still approved, and within the time that a session may take, from its first part on.

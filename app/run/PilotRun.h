@@ -59,6 +59,7 @@ private:
     [[nodiscard]] Result<void> openStudy(const RunOrder& order, const PilotOrder& pilot);
     [[nodiscard]] Result<void> chooseSession(const RunOrder& order);
     [[nodiscard]] Result<void> mayResume() const;
+    void cancelBooked();
     [[nodiscard]] Result<void> mayGoOn() const;
     [[nodiscard]] Result<void> noteSkin(const std::string& moment, int score);
     /// What ends an unfinished session, for messages: an option, or what the window offers.

@@ -4,11 +4,12 @@
 // The session calls show() and ask() from its own thread (a script's). An implementation with a window hands them to
 // the window's thread and waits there; a virtual one answers at once from what was delivered.
 //
-// Thread-safety: show(), ask(), delivered() and takeEarly() have one caller, the session's thread; cancel(), holding()
-// and ready() may be called from any thread; `stop` is called from any thread.
+// Thread-safety: show(), ask(), delivered() and takeEarly() have one caller, the session's thread; cancel(), holding(),
+// hindrance() and hasScreen() may be called from any thread; `stop` is called from any thread.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,18 @@ struct FeltPresentation {
     /// What the person's answer is drawn for: "seed 1 session 2 test 17", the same however often it was resumed.
     std::string drawnFor;
 };
+
+/// What is in the way of a presentation, and is no fault.
+struct Hindrance {
+    bool isBreak = false;  ///< the operator wants one; else what `why` says, half a sentence
+    std::string why;
+};
+
+// Stops that are no press of STOP: the first begins with this, the others are these. After kOperatorPauses the session
+// goes on once the break that is wanted is over.
+inline constexpr const char* kScreenGone = "the participant's screen";
+inline constexpr const char* kOperatorPauses = "operator (break now)";
+inline constexpr const char* kOperatorAborts = "operator (abort)";
 
 class PilotParticipant {
 public:
@@ -51,14 +64,17 @@ public:
     /// While levels rise: whether the participant still holds the key, pedal or target. From Hold's answer on until
     /// the session shows Rest, letting go also calls `stop("participant let go")`.
     [[nodiscard]] virtual bool holding() const noexcept = 0;
-    /// Whether a presentation may start: the participant's window has the focus and its screen is there.
-    /// Errors: NotArmed with what is missing.
-    [[nodiscard]] virtual Result<void> ready() const = 0;
+    /// Why no presentation may start now: the operator's break, a participant's window without the keys. Nothing is
+    /// in the way of one without a window.
+    [[nodiscard]] virtual std::optional<Hindrance> hindrance() const { return {}; }
+    /// The participant sees what is shown. Before it is false `stop` was called with kScreenGone.
+    [[nodiscard]] virtual bool hasScreen() const noexcept { return true; }
     /// Whether ask() takes time by the clock on the wall. A virtual participant's does not: the session lets the
     /// answer's `after` pass on the bench's clock.
     [[nodiscard]] virtual bool answersInRealTime() const noexcept = 0;
 
-    /// Output off at once; by: "participant", "participant let go", "operator". Set by the session before the first
+    /// Output off at once; by: "participant", "participant let go", "operator", kOperatorAborts, kOperatorPauses, and
+    /// kScreenGone where the participant's window was closed or its screen went. Set by the session before the first
     /// show(); any thread may call it, at any time until the session ends. Does not block.
     std::function<void(const char* by)> stop;
 };

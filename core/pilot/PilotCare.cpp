@@ -75,11 +75,11 @@ std::string machineLacks(const DeviceSet& devices, const Profile& profile, Level
 }
 
 PilotCare::PilotCare(PilotStage& stage) : stage_(stage) {
-    stage_.afterFault = [this]() -> Result<void> {
+    stage_.onSeatedAgain([this]() -> Result<void> {
         // Where nothing was measured before, the checklist is still to do it.
         if (stage_.settings().unit == LevelUnit::Intensity || firstImpedance() == nullptr) return {};
         return asAtFirst(fmt::format("seated again, {}", stage_.record().count(row::kImpedance)));
-    };
+    });
     stage_.afterCare = [this]() -> Result<void> {
         const auto looked = skin("after");
         const auto asked = sideEffects("after");  // whatever the skin says
@@ -89,11 +89,15 @@ PilotCare::PilotCare(PilotStage& stage) : stage_(stage) {
 
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
 
-/// The impedance measured in the first part of the session that has one; null where none has.
+/// The impedance measured in the first part of the session that has one; null where none has. Electrodes whose two
+/// checks disagreed have none.
 const nlohmann::json* PilotCare::firstImpedance() const {
-    const auto parts = stage_.record().count(row::kResumed) + 1;
+    const auto& record = stage_.record();
+    const auto parts = record.count(row::kResumed) + 1;
     for (std::size_t n = 1; n <= parts; ++n) {
-        if (const auto* found = stage_.record().find(row::kImpedance, fmt::format("part {} second", n))) return found;
+        const auto* judged = record.find(row::kGate, fmt::format("part {} impedance", n));
+        if (judged != nullptr && !flagOr(*judged, "holds")) continue;
+        if (const auto* found = record.find(row::kImpedance, fmt::format("part {} second", n))) return found;
     }
     return nullptr;
 }
@@ -127,7 +131,7 @@ Result<void> PilotCare::stopTest(PromptTo by) {
     const auto other = by == PromptTo::Participant ? PromptTo::Operator : PromptTo::Participant;
     std::optional<PilotStage::PressedStop> pressed;
     bool theirs = false;
-    for (int asked = 0; asked < kStopTries && !theirs; ++asked) {
+    for (int asked = 0; asked < kStopTries && !theirs;) {
         if (auto armed = stage_.arm(); !armed) return armed;
         auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
         prompt.name = "stop-test";
@@ -137,10 +141,11 @@ Result<void> PilotCare::stopTest(PromptTo by) {
         stage_.participant().show(screen);
         const auto answered = stage_.participant().ask(prompt);
         pressed = stage_.takeStop();
-        if (!answered && !pressed) {  // broken off by someone else: no test
-            stage_.rest();
-            return failure(answered);
+        if (!answered && !pressed) {  // an abort, a lost screen, the program: no test
+            if (auto goesOn = stage_.goOnAfter("stop-test", answered.error()); !goesOn) return goesOn;
+            continue;
         }
+        ++asked;
         if (answered) pressed.reset();
         theirs = pressed && pressed->participants == (by == PromptTo::Participant);
         stage_.rest();
@@ -175,18 +180,8 @@ Result<void> PilotCare::electrodes() {
             return stage_.end(PilotEnd::Stopped,
                               "the electrodes were touched since the last answer, which ends a session");
     }
-    const auto first = stage_.measureImpedance(part() + " first");
-    if (!first) return failure(first);
-    if (auto passed = stage_.pass(kBetweenChecks); !passed) return passed;
-    const auto second = stage_.measureImpedance(part() + " second");
+    const auto second = checkedTwice();
     if (!second) return failure(second);
-    const double change = std::abs(*second - *first) / *first;
-    if (auto held = gate(part() + " impedance", change <= kChecksAgree,
-                         fmt::format("the electrodes measured {:.0f} and {:.0f} ohm within 30 s; a difference of at "
-                                     "most 20 % is accepted",
-                                     *first, *second));
-        !held)
-        return held;
     const auto* begun = firstImpedance();
     if (!resumed || begun == nullptr) return {};
     const double before = numberOr(*begun, "impedance_ohm");
@@ -195,6 +190,27 @@ Result<void> PilotCare::electrodes() {
         fmt::format("the electrodes measure {:.0f} ohm after {:.0f} ohm; a change of at most 30 % is accepted, so "
                     "the session ends",
                     *second, before));
+}
+
+/// Electrodes whose two checks disagree are seated again, and both checks are made anew.
+Result<double> PilotCare::checkedTwice() {
+    const auto name = part() + " impedance";
+    for (int tries = 1;; ++tries) {
+        const auto first = stage_.measureImpedance(part() + " first");
+        if (!first) return failure(first);
+        if (auto passed = stage_.pass(kBetweenChecks); !passed) return failure(passed);
+        const auto second = stage_.measureImpedance(part() + " second");
+        if (!second) return failure(second);
+        const bool agree = std::abs(*second - *first) / *first <= kChecksAgree;
+        const auto sentence = fmt::format(
+            "the electrodes measured {:.0f} and {:.0f} ohm within 30 s; a difference of at most 20 % is accepted",
+            *first, *second);
+        if (agree || tries == PilotStage::kSeatings) {
+            if (auto held = gate(name, agree, sentence); !held) return failure(held);
+            return *second;
+        }
+        if (auto seated = stage_.seatAgain(name, sentence); !seated) return failure(seated);
+    }
 }
 
 /// A motor is heard, and where it sits decides how strong it is.
@@ -216,18 +232,24 @@ Result<void> PilotCare::massager() {
 Result<void> PilotCare::beforeBlock(int block) {
     if (stage_.settings().unit == LevelUnit::Intensity) return {};
     const auto name = fmt::format("block {}", block);
-    return stage_.record().find(row::kImpedance, name) != nullptr ? Result<void>() : asAtFirst(name);
+    const auto* judged = stage_.record().find(row::kGate, name + " impedance");
+    return judged != nullptr && flagOr(*judged, "holds") ? Result<void>() : asAtFirst(name);
 }
 
+/// Electrodes that measure otherwise are seated again; the levels are reached again by a ramp then.
 Result<void> PilotCare::asAtFirst(const std::string& name) {
     const auto* begun = firstImpedance();
     const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;
-    const auto now = stage_.measureImpedance(name);
-    if (!now) return failure(now);
-    return gate(name + " impedance", std::abs(*now - before) / before <= kBlocksAgree,
-                fmt::format("the electrodes measure {:.0f} ohm after {:.0f} ohm; a change of at most 30 % is accepted. "
-                            "Electrodes that were seated again need thresholds measured anew, so the session ends",
-                            *now, before));
+    for (int tries = 1;; ++tries) {
+        const auto now = stage_.measureImpedance(name);
+        if (!now) return failure(now);
+        const bool holds = std::abs(*now - before) / before <= kBlocksAgree;
+        const auto sentence = fmt::format(
+            "the electrodes measure {:.0f} ohm after {:.0f} ohm; a change of at most 30 % is accepted", *now, before);
+        if (holds) return gate(name + " impedance", true, sentence);
+        if (tries == PilotStage::kSeatings) return gate(name + " impedance", false, sentence + ", so the session ends");
+        if (auto seated = stage_.seatAgain(name + " impedance", sentence); !seated) return seated;
+    }
 }
 
 Result<void> PilotCare::skin(const std::string& moment) {

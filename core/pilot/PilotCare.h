@@ -18,8 +18,8 @@ namespace tacto {
 
 class PilotCare {
 public:
-    /// `stage` outlives it, and measures |Z| anew after a fault: within 30 % of the session's first, as before a block.
-    /// A session that is stopped for good asks for skin and side effects all the same.
+    /// `stage` outlives it, and measures |Z| anew once electrodes may be others: within 30 % of the session's first, as
+    /// before a block. A session that is stopped for good asks for skin and side effects all the same.
     explicit PilotCare(PilotStage& stage);
     PilotCare(const PilotCare&) = delete;
     PilotCare& operator=(const PilotCare&) = delete;
@@ -48,7 +48,9 @@ private:
     [[nodiscard]] Result<void> compareEncodings();
     [[nodiscard]] Result<void> electrodes();
     [[nodiscard]] Result<void> massager();
-    /// |Z|, into the record as `name`; the session ends where it is not what it was at first.
+    /// |Z| of the second of two checks that agree; the session ends where those of the third seating do not.
+    [[nodiscard]] Result<double> checkedTwice();
+    /// |Z|, into the record as `name`; the session ends where it is not what it was at first after the third seating.
     [[nodiscard]] Result<void> asAtFirst(const std::string& name);
     /// Ends the session where the gate does not hold.
     [[nodiscard]] Result<void> gate(const std::string& name, bool holds, const std::string& sentence);

@@ -1,7 +1,8 @@
 // PilotStage.h - where a pilot session happens: presents, asks and records one thing at a time, and goes on after a
 // stop or a fault when the people say so. The procedures are written against it.
 //
-// Nothing that has an answer in the record happens again. Output is armed by ready() and stays so until rest().
+// Nothing that has an answer in the record happens again. Output is armed by ready() and stays so until rest(), a
+// break, a stop, a fault, or until the participant's window is without the keys for long (PilotOutput.h).
 //
 // Errors of all calls: Stopped when the session ended or was broken off (end() says which); Io when a row cannot be
 // written, which comes before any train; LimitExceeded and Device as the bench's.
@@ -10,17 +11,13 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
-#include "core/base/NaN.h"
 #include "core/bench/Bench.h"
 #include "core/pilot/Participant.h"
+#include "core/pilot/PilotOutput.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/pilot/PilotSettings.h"
 #include "core/pilot/VibrationWatch.h"
@@ -50,6 +47,7 @@ struct StageTrial {
     bool askedAgain = false;   ///< this is the second time: no answer is final
     bool stopAnswers = false;  ///< a participant's stop is its answer ("stop"), once they want to go on
     bool held = false;         ///< levels rise: not presented while the participant does not hold
+    bool counts = true;        ///< it adds to how long the participant was stimulated
     std::string drawnAs;       ///< what the answer is drawn for; empty: `name`
 };
 
@@ -83,40 +81,49 @@ public:
     /// Asks without presenting; `kind` of the row. The row holds key, keys or value, and `rt_s`.
     [[nodiscard]] Result<Json> ask(const char* kind, const std::string& name, const PilotPrompt& prompt);
     /// Arms, after the participant's own levels were reached again where the session was resumed.
-    [[nodiscard]] Result<void> ready();
+    [[nodiscard]] Result<void> ready() { return output_.ready(); }
     /// Arms and presents nothing: for the test of the STOPs. Where the output is real, the operator confirms it by
     /// name.
-    [[nodiscard]] Result<void> arm();
+    [[nodiscard]] Result<void> arm() { return output_.arm(); }
     /// The participant holds, and lets go to stop. Waits until they do.
     [[nodiscard]] Result<void> hold();
     /// |Z|, with nothing armed before or after; into the record as `name`. NaN where the stimulator reads nothing back.
-    [[nodiscard]] Result<double> measureImpedance(const std::string& name);
-    /// Called once the participant wants to go on after a fault, before anything is presented: what was seated again is
-    /// measured anew. Its errors end the trial.
-    std::function<Result<void>()> afterFault;
+    [[nodiscard]] Result<double> measureImpedance(const std::string& name) { return output_.measureImpedance(name); }
+    /// Called before anything is presented after a fault, a break of the operator's and a lost screen: electrodes may
+    /// be others than they were. Its errors end the trial.
+    void onSeatedAgain(std::function<Result<void>()> measure) { output_.measureAnew = std::move(measure); }
+    /// Electrodes that are not as they have to be: a row, and the operator seats them again. At most kSeatings times
+    /// in a row, counted by the caller.
+    [[nodiscard]] Result<void> seatAgain(const std::string& during, const std::string& why) {
+        return output_.seatAgain(during, why);
+    }
+    static constexpr int kSeatings = PilotOutput::kSeatings;
+    /// After an error of the participant's: nothing when the session goes on.
+    [[nodiscard]] Result<void> goOnAfter(const std::string& during, const Error& why) {
+        return output_.recover(during, why);
+    }
     /// Called with the output off once a session in which something was presented was stopped for good: who was
     /// stimulated is looked after. Its errors change nothing.
     std::function<Result<void>()> afterCare;
     /// Output off. Nothing is presented until ready().
-    void rest() noexcept;
+    void rest() noexcept { output_.rest(); }
     /// Lets time pass, in a break too. Errors: Stopped.
     [[nodiscard]] Result<void> pass(Seconds time);
     /// The participant accepted `level`, which was presented last as `trial`, or called it too strong. The gate is told
     /// what it does not know: of a replayed answer that it was too strong. An accepted level is reached again by
     /// ready() where the session was resumed.
-    [[nodiscard]] Result<void> judged(double level, bool tooStrong, const std::string& trial, bool replayed);
+    [[nodiscard]] Result<void> judged(double level, bool tooStrong, const std::string& trial, bool replayed) {
+        return output_.judged(level, tooStrong, trial, replayed);
+    }
     /// Nothing is presented above `level` from now on: the top of a resumed session's ramp.
-    void settle(double level) noexcept { settled_ = level; }
+    void settle(double level) noexcept { output_.settle(level); }
     /// Writes the row and ends the session, once. The error is what the script is to throw; none for Complete.
     [[nodiscard]] Result<void> end(PilotEnd how, const std::string& why);
     [[nodiscard]] PilotEnd ended() const noexcept { return end_; }
     /// A stop that was pressed since the last one was handled: by the participant or not, and how long it took until
     /// the output was told. For the test of the STOPs; any other stop is handled where it interrupts.
-    struct PressedStop {
-        bool participants = false;
-        std::chrono::nanoseconds took{0};
-    };
-    [[nodiscard]] std::optional<PressedStop> takeStop() noexcept;
+    using PressedStop = PilotOutput::PressedStop;
+    [[nodiscard]] std::optional<PressedStop> takeStop() noexcept { return output_.takeStop(); }
     /// Wakes the people's prompts: for the end of the script. Any thread.
     void cancel() noexcept;
 
@@ -129,9 +136,13 @@ public:
     [[nodiscard]] double step() const;
     [[nodiscard]] StimulusLevel levelOf(double level) const;
     /// |Z| measured last; NaN where none is known.
-    [[nodiscard]] double impedance() const noexcept { return impedance_; }
+    [[nodiscard]] double impedance() const noexcept { return output_.impedance(); }
     /// For how long trains were given, in this and earlier parts.
     [[nodiscard]] Seconds stimulated() const noexcept { return stimulated_; }
+    /// The next first train comes no sooner than a pause after this moment.
+    void noteAnswered() noexcept { lastAnswer_ = bench_.clock().now(); }
+    /// Until when a bench in person mode may wait for an answer: prompts of trials are shorter.
+    static constexpr Seconds kAskingTakes{60};
 
 private:
     [[nodiscard]] Result<StageAnswer> replay(const StageTrial& trial, const Json& row);
@@ -142,20 +153,6 @@ private:
     [[nodiscard]] Result<void> writeEarly(const StageTrial& trial);
     void feel(const StageTrial& trial);
     void given(const StageTrial& trial) noexcept;
-    /// After a stop, a fault or a pause: nothing when the session goes on.
-    [[nodiscard]] Result<void> recover(const std::string& during, const Error& why);
-    /// Writes who stopped; nothing when it may go on once the participant wants to.
-    [[nodiscard]] Result<void> noteStop(const std::string& during, const Error& why);
-    [[nodiscard]] Result<void> afterTheFault(const std::string& during, const Error& why);
-    [[nodiscard]] Result<void> askToGoOn(const std::string& text);
-    /// Of what keeps it from being armed, which is no fault yet: nothing when it is to be tried again.
-    [[nodiscard]] Result<void> seatAgain(const std::string& during, const Error& why, int tries);
-    [[nodiscard]] Result<void> askToSee(const std::string& why);
-    /// Asks again after each stop, once the participant wants to go on.
-    [[nodiscard]] Result<PilotAnswer> insist(const PilotPrompt& prompt);
-    /// `question` names what would be armed; the operator's yes to it is part of the request.
-    [[nodiscard]] Result<ArmRequest> confirmed(const char* question);
-    [[nodiscard]] Result<void> ramp();
 
     Bench& bench_;
     PilotParticipant& participant_;
@@ -163,14 +160,7 @@ private:
     PilotSettings settings_;
     VibrationWatch vibration_;
     PilotEnd end_ = PilotEnd::Unfinished;
-    std::atomic<const char*> stoppedBy_{nullptr};
-    std::atomic<std::chrono::nanoseconds::rep> stopTook_{0};
-    bool armed_ = false;
-    bool rampDue_ = false;
-    std::map<double, std::string> accepted_;                      // Level and the trial in which it was accepted first
-    double tooStrong_ = std::numeric_limits<double>::infinity();  // Lowest so far
-    std::optional<double> settled_;
-    double impedance_ = kNaN;
+    PilotOutput output_;
     Seconds stimulated_{0};
     Instant lastAnswer_{0};
 };

@@ -100,6 +100,10 @@ struct PilotScreen {
     bool operatorMayKnow = false;  ///< nothing in `operatorText` depends on a condition
 };
 
+// Names of questions to the operator: the participant's window is to be shown again; why they aborted.
+inline constexpr const char* kScreenPrompt = "screen-gone";
+inline constexpr const char* kReasonPrompt = "abort-reason";
+
 // Prompts that are the same wherever they are put. Texts are the ones shown.
 [[nodiscard]] PilotPrompt holdPrompt();
 [[nodiscard]] PilotPrompt strengthPrompt();

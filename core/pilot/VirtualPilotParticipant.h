@@ -28,7 +28,6 @@ public:
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
     void cancel() noexcept override;
     [[nodiscard]] bool holding() const noexcept override { return true; }
-    [[nodiscard]] Result<void> ready() const override { return {}; }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
 
     [[nodiscard]] const VirtualObserver& observer() const noexcept { return observer_; }

@@ -119,8 +119,9 @@ Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::s
     if (settings.kind == StudyKind::Rehearsal || !lastSession) return {};
     const double hours = std::chrono::duration<double, std::ratio<3600>>(now - *lastSession).count();
     if (hours >= settings.gapMin_h) return {};
-    return fail(kGateRefused, "the last session began {:.1f} h ago; at least {:g} h must lie between two sessions",
-                hours, settings.gapMin_h);
+    return fail(kGateRefused,
+                "the last session's first train was {:.1f} h ago; at least {:g} h must lie between two sessions", hours,
+                settings.gapMin_h);
 }
 
 Result<void> consentGate(const StudySettings& settings, const Participant& participant, CalibrationDate today) {

@@ -24,6 +24,27 @@ std::string headOf(const std::filesystem::path& file) {
     return reader ? reader->chainHead() : std::string();
 }
 
+std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files, const StudySession& session) {
+    constexpr std::string_view kTrialBegin = "trial-begin";
+    std::optional<std::chrono::sys_seconds> last;
+    for (const auto& part : session.parts) {
+        const auto file = files.session(part.file);
+        std::error_code error;
+        if (!std::filesystem::exists(file, error) && !error) continue;  // booked, and never made
+        const auto reader = SessionReader::open(file);
+        const auto events = reader ? reader->events() : Result<std::vector<SessionRow>>(failure(reader));
+        if (!events) {  // unknown is not none
+            last = part.begun;
+            continue;
+        }
+        const auto first = std::ranges::find(*events, kTrialBegin, &SessionRow::name);
+        if (first == events->end()) continue;
+        const bool runsAhead = reader->about().virtualClock;
+        last = part.begun + (runsAhead ? std::chrono::seconds(0) : std::chrono::floor<std::chrono::seconds>(first->at));
+    }
+    return last;
+}
+
 CalibrationDate StudyBook::today() const { return localDay(now()); }
 
 Result<void> StudyBook::read() {
@@ -191,7 +212,8 @@ Result<void> StudyBook::gates(const SessionRequest& request, Participant partici
     if (auto holds = participantGate(settings, participant); !holds) return holds;
     std::optional<std::chrono::sys_seconds> last;
     for (const auto& session : known.sessions) {
-        if (!again && session.participant == participant.id) last = session.parts.back().begun;
+        if (again || session.participant != participant.id) continue;
+        if (const auto at = stimulatedAt(files, session)) last = at;
     }
     if (auto holds = gapGate(settings, last, now()); !holds) return holds;
     if (auto holds = consentGate(settings, participant, today()); !holds) return holds;

@@ -72,6 +72,10 @@ struct StudyBook {
 
 /// The day of `at` where the computer stands.
 [[nodiscard]] CalibrationDate localDay(std::chrono::sys_seconds at);
+/// When the participant was first stimulated in the session's last part in which they were; nothing where they never
+/// were. A part that cannot be read counts from its beginning.
+[[nodiscard]] std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files,
+                                                                   const StudySession& session);
 /// The chain head of a session's file; empty for one that was never made or cannot be read.
 [[nodiscard]] std::string headOf(const std::filesystem::path& file);
 

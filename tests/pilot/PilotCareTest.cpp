@@ -183,6 +183,7 @@ TEST_F(PilotCareTest, ElectrodesThatMeasureOtherwiseAfterAFaultEndTheSession) {
     const auto answer = stage_->trial(trial());
     ASSERT_FALSE(answer);
     EXPECT_THAT(answer.error().message, HasSubstr("after 100 ohm; a change of at most 30 % is accepted"));
+    EXPECT_THAT(bodies(row::kImpedance), SizeIs(4)) << "that of the test, and three seatings";
     EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
 }
 

@@ -22,7 +22,7 @@ public:
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return people_.takeEarly(); }
     void cancel() noexcept override { people_.cancel(); }
     [[nodiscard]] bool holding() const noexcept override { return people_.holding(); }
-    [[nodiscard]] Result<void> ready() const override { return people_.ready(); }
+    [[nodiscard]] std::optional<Hindrance> hindrance() const override { return people_.hindrance(); }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return people_.answersInRealTime(); }
     std::vector<FeltPresentation> felt;
 

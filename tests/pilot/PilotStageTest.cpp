@@ -189,11 +189,11 @@ protected:
             ASSERT_TRUE(stage_->trial(made));
             ASSERT_TRUE(stage_->judged(level, false, made.name, false));
         }
-        stage_->afterFault = [this]() -> Result<void> {
+        stage_->onSeatedAgain([this]() -> Result<void> {
             ++measured_;
             EXPECT_NE(state(), InterlockState::Armed);
             return {};
-        };
+        });
         someone_.asked.clear();
         operatorTakesTime();
     }

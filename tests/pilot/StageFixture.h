@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <gmock/gmock.h>
+#include <set>
 
 #include "core/pilot/PilotStage.h"
 #include "core/session/SessionReader.h"
@@ -27,6 +28,11 @@ public:
         if (onAsk) onAsk(prompt);
         asked.push_back(prompt.name);
         texts.push_back(prompt.text);
+        if (silent.contains(prompt.name)) {
+            PilotAnswer none;
+            none.given = false;
+            return none;
+        }
         const bool goesOn = prompt.kind == PromptKind::GoOn;
         if (prompt.name == "stop-test") return stoppedBy_(testPresses > 0 ? testedBy : nameOf(prompt.to).data());
         if (!goesOn && stops > 0) {
@@ -50,7 +56,10 @@ public:
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
     void cancel() noexcept override {}
     [[nodiscard]] bool holding() const noexcept override { return holds; }
-    [[nodiscard]] Result<void> ready() const override { return {}; }
+    [[nodiscard]] std::optional<Hindrance> hindrance() const override {
+        return onHindrance ? onHindrance() : std::nullopt;
+    }
+    [[nodiscard]] bool hasScreen() const noexcept override { return there; }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
 
     std::vector<std::string> asked;
@@ -58,6 +67,9 @@ public:
     std::vector<PilotScreen> shown;
     std::function<void()> onShow;
     std::function<void(const PilotPrompt&)> onAsk;
+    std::function<std::optional<Hindrance>()> onHindrance;
+    bool there = true;
+    std::set<std::string> silent;  // prompts that they leave unanswered
     void press(const char* by) {
         stopped_ = true;
         stop(by);

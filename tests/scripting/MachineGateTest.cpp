@@ -239,7 +239,6 @@ public:
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
     void cancel() noexcept override {}
     [[nodiscard]] bool holding() const noexcept override { return true; }
-    [[nodiscard]] Result<void> ready() const override { return {}; }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
 };
 

@@ -92,7 +92,7 @@ TEST(Gates, SessionsLieFarEnoughApart) {
     EXPECT_TRUE(gapGate(settings, std::nullopt, last));
     EXPECT_TRUE(gapGate(settings, last, last + std::chrono::hours(20)));
     expectRefused(gapGate(settings, last, last + std::chrono::minutes(19 * 60 + 30)),
-                  "the last session began 19.5 h ago; at least 20 h must lie between two sessions");
+                  "the last session's first train was 19.5 h ago; at least 20 h must lie between two sessions");
     settings.kind = StudyKind::Rehearsal;
     EXPECT_TRUE(gapGate(settings, last, last));
 }

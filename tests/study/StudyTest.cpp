@@ -191,6 +191,19 @@ TEST_F(Desk, TheNextSessionWaitsForTheGap) {
     EXPECT_EQ(next->session.number, 2);
 }
 
+TEST_F(Desk, ASessionInWhichNothingWasPresentedCostsNoDay) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto booked = study.beginSession(test::someRequest(code)).value();  // its file was never made
+    ASSERT_TRUE(study.endSession(booked.session.id, StudySessionState::Stopped, ""));
+    auto next = study.beginSession(test::someRequest(code));
+    ASSERT_TRUE(next) << next.error().message;
+    std::ofstream(next->path) << "no session";  // what cannot be read may hold anything
+    ASSERT_TRUE(study.endSession(next->session.id, StudySessionState::Stopped, ""));
+    EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
+}
+
 TEST_F(Desk, ARecordThatWasExchangedBarsTheNextSession) {
     RecordProperty("hazard", "H8");
     auto study = make();

@@ -216,7 +216,10 @@ std::uint64_t BenchController::runPilot(const RunOrder& order, const PilotSeats&
             auto made = PilotRun::prepare(marked, std::move(pilot), registry, std::move(tap));
             if (!made) return failure(made);
             const std::shared_ptr<PilotRun> run(std::move(*made));
-            if (seats.begun) seats.begun(run->run().opened().clock);
+            if (seats.begun) {
+                const auto& record = run->session().stage().record();
+                seats.begun(run->run().opened().clock, static_cast<int>(record.count(row::kParticipantStop)));
+            }
             published_.setTakesStop(seats.takesStop);
             return Prepared{run, &run->run(), [run](RunRequest hooks) { return run->start(std::move(hooks)); },
                             [run] { return run->finish(); }};

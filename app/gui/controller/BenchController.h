@@ -43,6 +43,9 @@ enum class Activity {
     Closing,
 };
 
+/// How `by` of a stop ends for a key of the operator's that is held: it was pressed before.
+inline constexpr const char* kStillHeld = ", held)";
+
 /// A pilot session and its two people.
 struct PilotSeats {
     std::filesystem::path study;
@@ -51,8 +54,9 @@ struct PilotSeats {
     PilotParticipant* people = nullptr;
     bool codeConfirmed = false;
     std::vector<ExclusionAnswer> exclusions = {};
-    /// On the bench's thread, with the session's clock, before anything is asked. May be empty.
-    std::function<void(std::shared_ptr<const Clock> clock)> begun = {};
+    /// On the bench's thread, before anything is asked, with the session's clock and how often the participant stopped
+    /// in its earlier parts. May be empty.
+    std::function<void(std::shared_ptr<const Clock> clock, int stops)> begun = {};
     /// Whether a stop was taken as the session's own, and so ends no script: a test of the operator's STOP. The output
     /// is off when it returns true. Any thread; may be empty.
     std::function<bool(const char* by)> takesStop = {};

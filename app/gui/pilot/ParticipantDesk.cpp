@@ -55,6 +55,7 @@ Result<PilotAnswer> ParticipantDesk::ask(const PilotPrompt& prompt) {
     shownAt_.reset();
     participants_.reset();
     operators_.reset();
+    if (!theirs) shownAt_ = std::chrono::steady_clock::now();  // the operator's own window is there
     emit asked(prompt, id_);
     while (!broken() && !answered()) {
         const bool limited = prompt.within && shownAt_;
@@ -96,12 +97,17 @@ void ParticipantDesk::cancel() noexcept {
     changed_.notify_all();
 }
 
-Result<void> ParticipantDesk::ready() const {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return cancelled_ || stopped_ || (there_ && obstacle_.isEmpty() && !break_); });
-    if (cancelled_ || std::exchange(stopped_, false))
-        return fail(ErrorCode::Stopped, "stopped before the presentation began");
+std::optional<Hindrance> ParticipantDesk::hindrance() const {
+    const std::scoped_lock lock(mutex_);
+    if (cancelled_) return {};  // the next question says so
+    if (break_) return Hindrance{true, "the operator wants a break"};
+    if (!obstacle_.isEmpty()) return Hindrance{false, obstacle_.toStdString()};
     return {};
+}
+
+bool ParticipantDesk::hasScreen() const noexcept {
+    const std::scoped_lock lock(mutex_);
+    return there_;
 }
 
 void ParticipantDesk::setObstacle(const QString& why) {
@@ -109,16 +115,12 @@ void ParticipantDesk::setObstacle(const QString& why) {
         const std::scoped_lock lock(mutex_);
         if (std::exchange(obstacle_, why) == why) return;
     }
-    changed_.notify_all();
     emit obstacleChanged(why);
 }
 
 void ParticipantDesk::setBreak(bool wanted) {
-    {
-        const std::scoped_lock lock(mutex_);
-        break_ = wanted;
-    }
-    changed_.notify_all();
+    const std::scoped_lock lock(mutex_);
+    break_ = wanted;
 }
 
 bool ParticipantDesk::breakWanted() const {

@@ -37,13 +37,13 @@ public:
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override;
     void cancel() noexcept override;
     [[nodiscard]] bool holding() const noexcept override { return holding_; }
-    /// Waits until nothing is in the way. Errors besides: Stopped, as ask().
-    [[nodiscard]] Result<void> ready() const override;
+    [[nodiscard]] std::optional<Hindrance> hindrance() const override;
+    [[nodiscard]] bool hasScreen() const noexcept override;
     [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
 
     /// What is in the way of a presentation, half a sentence; empty: nothing.
     void setObstacle(const QString& why);
-    /// The operator wants a break: no presentation starts until they want it no more.
+    /// The operator wants a break: no presentation starts until they want it no more, and the output is off.
     void setBreak(bool wanted);
     [[nodiscard]] bool breakWanted() const;
     /// The screen is gone: a question that waits for it ends with Device, and so does the next.
@@ -73,7 +73,7 @@ private:
     [[nodiscard]] Result<PilotAnswer> outcome(const PilotPrompt& prompt);
 
     mutable std::mutex mutex_;
-    mutable std::condition_variable changed_;
+    std::condition_variable changed_;
     // Guarded:
     std::shared_ptr<const Clock> clock_;
     std::optional<PilotPrompt> open_;
@@ -84,7 +84,7 @@ private:
     QString obstacle_;
     bool break_ = false;
     bool cancelled_ = false;
-    mutable bool stopped_ = false;  ///< by a person; ends one question
+    bool stopped_ = false;  ///< by a person; ends one question
     bool there_ = true;
 
     std::mutex stopMutex_;  // held for moments: while `stop` is called, and to end

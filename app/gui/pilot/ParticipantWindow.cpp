@@ -319,9 +319,8 @@ void ParticipantWindow::tick() {
 
 void ParticipantWindow::closeEvent(QCloseEvent* event) {
     event->ignore();  // it closes with the session
-    stop_("participant");
-    noteStop();
     emit closeWanted();
+    noteStop();
 }
 
 void ParticipantWindow::changeEvent(QEvent* event) {

@@ -52,8 +52,8 @@ public:
     [[nodiscard]] QString says() const;
 
 signals:
-    void changed();  ///< what it shows
-    void closeWanted();
+    void changed();      ///< what it shows
+    void closeWanted();  ///< the session pauses with its output off, and the window stays
 
 protected:
     void closeEvent(QCloseEvent* event) override;

@@ -53,6 +53,11 @@ QScreen* ScreenChoice::chosen() const {
     return nullptr;
 }
 
+QScreen* ScreenChoice::seat() {
+    if (chosen() == nullptr) fill();
+    return chosen();
+}
+
 bool ScreenChoice::isOnly() { return QGuiApplication::screens().size() < 2; }
 
 }  // namespace tacto::gui

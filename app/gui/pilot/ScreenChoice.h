@@ -17,6 +17,8 @@ public:
     explicit ScreenChoice(QWidget* parent = nullptr);
     /// The chosen one; null when it is gone.
     [[nodiscard]] QScreen* chosen() const;
+    /// The chosen one; where it is gone another is chosen, as at first. Null without any screen.
+    [[nodiscard]] QScreen* seat();
     [[nodiscard]] QString chosenName() const { return currentData().toString(); }
     /// Whether the operator's window has one of its own beside it.
     [[nodiscard]] static bool isOnly();

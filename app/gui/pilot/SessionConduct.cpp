@@ -14,13 +14,17 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr const char* kAbort = "operator (abort)";
 constexpr int kOnePress_ms = 100;
+constexpr const char* kScreenWent = "the participant's screen went";
+constexpr const char* kScreenClosed = "the participant's screen was closed";
 
 /// An operator who aborts or closes the window, or a screen that goes, has tested no STOP.
 bool isPressOfStop(std::string_view by) {
-    return by.starts_with("operator (") && by != kAbort && by != "operator (signal)";
+    return by.starts_with("operator (") && by != kOperatorAborts && by != "operator (signal)";
 }
+
+bool isStillHeld(std::string_view by) { return by.ends_with(kStillHeld); }
+
 }  // namespace
 
 SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent)
@@ -48,7 +52,7 @@ void SessionConduct::connectPage() {
     connect(&page_, &OperatorPage::abortWanted, this, &SessionConduct::abort);
     connect(&page_, &OperatorPage::keysWanted, this, &SessionConduct::giveKeys);
     connect(&page_.question(), &OperatorAsk::answered, this, [this](quint64 id, const PilotAnswer& answer) {
-        desk_.answerAsOperator(id, answer);
+        answerAsOperator(id, answer);
         giveKeys();
     });
     connect(&page_.notes(), &SessionNotes::noted, this, &SessionConduct::keep);
@@ -61,7 +65,7 @@ void SessionConduct::connectStrip() {
     connect(strip_, &OperatorStrip::stopWanted, this, [this] { controller_.stop("operator (STOP)"); });
     connect(strip_, &OperatorStrip::closeWanted, this, [this] { window_->openStrip(false); });
     connect(&strip_->question(), &OperatorAsk::answered, this, [this](quint64 id, const PilotAnswer& answer) {
-        desk_.answerAsOperator(id, answer);
+        answerAsOperator(id, answer);
         window_->openStrip(false);
     });
     connect(&strip_->notes(), &SessionNotes::noted, this, &SessionConduct::keep);
@@ -106,7 +110,8 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     connect(screens_, &ScreenChoice::lost, this, &SessionConduct::screenLost);
     connect(screens_, &ScreenChoice::back, this, &SessionConduct::screenBack);
     running_ = true;
-    seenFault_ = paused_ = codeConfirmed_ = false;
+    seenFault_ = codeConfirmed_ = false;
+    screenPrompt_ = 0;
     participantStops_ = faults_ = 0;
     screen_ = {};
     stoppedAt_.invalidate();
@@ -133,6 +138,7 @@ void SessionConduct::openWindow() {
     if (start_.simulated()) notes << tr("simulated");
     window_->setNote(notes.join(" · "));
     connect(window_.get(), &ParticipantWindow::changed, this, &SessionConduct::changed);
+    connect(window_.get(), &ParticipantWindow::closeWanted, this, [this] { pauseFor(kScreenClosed); });
     strip_ = new OperatorStrip;
     connectStrip();
     window_->setStrip(strip_);
@@ -173,24 +179,40 @@ void SessionConduct::run() {
     if (start_.person) {
         seats.people = &desk_;
         seats.codeConfirmed = codeConfirmed_;
-        seats.begun = [this](std::shared_ptr<const Clock> clock) { desk_.begin(std::move(clock)); };
+        seats.begun = [this](std::shared_ptr<const Clock> clock, int stops) {
+            desk_.begin(std::move(clock));
+            QMetaObject::invokeMethod(this, [this, stops] {
+                participantStops_ += stops;
+                emit changed();
+            });
+        };
         testedAt_ = SteadyTime();
+        heldTested_ = false;
         seats.takesStop = [this](const char* by) {
+            if (isStillHeld(by)) return heldTested_.load();
             if (!isPressOfStop(by)) return false;
             // StopKeys hears one press several times. What it tested is off already, and a question comes next.
             const auto since = std::chrono::steady_clock::now() - testedAt_.load();
             if (since < std::chrono::milliseconds(kOnePress_ms)) return true;
-            if (!desk_.testsStopOf(PromptTo::Operator) || !desk_.stopBy(by)) return false;
-            testedAt_ = std::chrono::steady_clock::now();
-            return true;
+            heldTested_ = desk_.testsStopOf(PromptTo::Operator) && desk_.stopBy(by);
+            if (heldTested_) testedAt_ = std::chrono::steady_clock::now();
+            return heldTested_.load();
         };
     }
     run_ = controller_.runPilot(order_, seats, mark_);
 }
 
+/// The output first. A person's session then asks for the reason, which is a row, and ends.
 void SessionConduct::abort() {
-    controller_.stop(kAbort);
+    if (confirming_ || !start_.person || !desk_.stopBy(kOperatorAborts)) controller_.stop(kOperatorAborts);
     if (confirming_) desk_.cancel();
+    if (window_) window_->noteStop();
+}
+
+void SessionConduct::answerAsOperator(quint64 id, const PilotAnswer& answer) {
+    heldTested_ = false;  // a key that is still held by now stops what comes next
+    if (id == screenPrompt_) seatTheirWindow();
+    desk_.answerAsOperator(id, answer);
 }
 
 bool SessionConduct::stopAsParticipant(const char* by) {
@@ -223,11 +245,12 @@ void SessionConduct::show(const PilotScreen& screen) {
 }
 
 void SessionConduct::ask(const PilotPrompt& prompt, quint64 id) {
+    if (prompt.name == kScreenPrompt) screenPrompt_ = id;
     page_.ask(prompt, id);
     emit asked(prompt);
     if (prompt.to == PromptTo::Participant) return;
     // On the only screen the question comes up where the operator can reach it.
-    if (window_ && ScreenChoice::isOnly() && strip_ != nullptr) {
+    if (window_ && window_->isVisible() && ScreenChoice::isOnly() && strip_ != nullptr) {
         strip_->question().ask(prompt, id);
         window_->openStrip(true);
     } else {
@@ -250,7 +273,6 @@ void SessionConduct::refresh(const Telemetry& telemetry) {
 }
 
 void SessionConduct::wantBreak(bool due) {
-    if (!due && std::exchange(paused_, false)) controller_.resume();
     desk_.setBreak(due);
     page_.setBreakDue(due);
     if (strip_ != nullptr) strip_->setBreakDue(due);
@@ -258,10 +280,10 @@ void SessionConduct::wantBreak(bool due) {
     if (!due) giveKeys();
 }
 
+/// The break is wanted before the output goes: the session finds it when it asks why.
 void SessionConduct::breakNow() {
-    paused_ = true;
-    controller_.pause();
     wantBreak(true);
+    desk_.stopBy(kOperatorPauses);
 }
 
 void SessionConduct::keep(const QString& note) {
@@ -274,17 +296,31 @@ void SessionConduct::giveKeys() {
     if (window_) window_->takeKeys();
 }
 
+/// A session that has begun pauses and goes on once the window is seated again; one that has not ends.
+void SessionConduct::pauseFor(const char* why) {
+    if (!running_ || !start_.person) return;
+    if (!desk_.stopBy(why)) controller_.stop(why);
+    desk_.setHolding(false);  // that it is let go now is no stop of theirs
+    if (window_) window_->noteStop();
+}
+
 void SessionConduct::screenLost(const QString& name) {
     if (!running_ || !start_.person) return;
-    controller_.stop("the participant's screen went");
+    pauseFor(kScreenWent);
     desk_.setScreenThere(false);
+    if (window_) window_->hide();  // it would lie over the operator's
     page_.setObstacle(tr("the participant’s screen “%1” is gone").arg(name));
 }
 
 void SessionConduct::screenBack() {
-    if (!running_ || !window_) return;
+    if (running_) seatTheirWindow();
+}
+
+void SessionConduct::seatTheirWindow() {
+    auto* screen = screens_->seat();
+    if (!window_ || screen == nullptr) return;
+    window_->showOn(*screen);
     desk_.setScreenThere(true);
-    if (auto* screen = screens_->chosen()) window_->showOn(*screen);
 }
 
 void SessionConduct::leaveSeats() {

@@ -2,8 +2,9 @@
 // and the operator's strip in it, stops, breaks, notes, and its end.
 //
 // The participant's window is a window of its own, full screen on the screen that was chosen; where there is one screen
-// only, the operator's page is a strip in it, behind F2. A screen that goes switches the output off and holds the
-// session back.
+// only, the operator's page is a strip in it, behind F2. A screen that goes, or a
+// participant's window that is closed, switches the output off and pauses the session until the window is seated again.
+// An abort switches the output off and then asks the operator for the reason.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -39,6 +40,7 @@ public:
     [[nodiscard]] bool running() const { return running_; }
     [[nodiscard]] const PilotStart& start() const { return start_; }
     [[nodiscard]] const PilotScreen& screen() const { return screen_; }
+    /// In all parts of the session.
     [[nodiscard]] int participantStops() const { return participantStops_; }
     [[nodiscard]] int faults() const { return faults_; }
     /// Null while no person sits at one.
@@ -82,6 +84,9 @@ private:
     void ask(const PilotPrompt& prompt, quint64 id);
     void keep(const QString& note);
     void giveKeys();
+    void answerAsOperator(quint64 id, const PilotAnswer& answer);
+    void pauseFor(const char* why);
+    void seatTheirWindow();
     void screenLost(const QString& name);
     void screenBack();
 
@@ -100,9 +105,10 @@ private:
     bool running_ = false;
     std::uint64_t run_ = 0;
     bool seenFault_ = false;
-    bool paused_ = false;                 ///< by a break
-    QElapsedTimer stoppedAt_;             ///< by the participant
-    std::atomic<SteadyTime> testedAt_{};  ///< the operator's STOP; any thread
+    QElapsedTimer stoppedAt_;              ///< by the participant
+    std::atomic<SteadyTime> testedAt_{};   ///< the operator's STOP; any thread
+    std::atomic<bool> heldTested_{false};  ///< by a key of theirs that may be held still; any thread
+    quint64 screenPrompt_ = 0;             ///< the question that the participant's window is seated again for
     int participantStops_ = 0, faults_ = 0;
     PilotScreen screen_;
 };

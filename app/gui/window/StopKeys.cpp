@@ -80,18 +80,19 @@ bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
     const auto* focus = QApplication::focusWidget();
     const bool theirs = isParticipants(watched);
     // Each press is one stop of theirs, and their third ends a session; a key that is held has stopped already.
-    if (theirs && key.isAutoRepeat()) return false;
+    const bool held = key.isAutoRepeat();
+    if (theirs && held) return false;
     switch (key.key()) {
         case Qt::Key_Escape:
-            stop_(theirs ? "participant (Esc)" : "operator (Esc)");
+            stop_(theirs ? "participant (Esc)" : held ? "operator (Esc, held)" : "operator (Esc)");
             return false;  // it closes dialogs and popups too
         case Qt::Key_Pause:
-            stop_(theirs ? "participant (Pause)" : "operator (Pause)");
+            stop_(theirs ? "participant (Pause)" : held ? "operator (Pause, held)" : "operator (Pause)");
             return true;
         case Qt::Key_Space:
             if (takesText(focus) || (watched->isWidgetType() && takesText(static_cast<QWidget*>(watched))))
                 return false;
-            stop_(theirs ? "participant (Space)" : "operator (Space)");
+            stop_(theirs ? "participant (Space)" : held ? "operator (Space, held)" : "operator (Space)");
             return key.type() == QEvent::KeyPress;
         case Qt::Key_Return:
         case Qt::Key_Enter:

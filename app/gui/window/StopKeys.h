@@ -22,8 +22,8 @@ namespace tacto::gui {
 class StopKeys final : public QObject {
     Q_OBJECT
 public:
-    /// `stop` is called first thing, with "operator (Esc)" and the like; with "participant (Esc)" where the key went to
-    /// a window whose property "stopsAs" is "participant".
+    /// `stop` is called first thing, with "operator (Esc)" and the like, "operator (Esc, held)" while it repeats; with
+    /// "participant (Esc)" where the key went to a window whose property "stopsAs" is "participant".
     StopKeys(std::function<void(const char*)> stop, QObject* parent);
     ~StopKeys() override;
 

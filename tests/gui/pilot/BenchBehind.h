@@ -60,7 +60,8 @@ public:
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return desk_.takeEarly(); }
     void cancel() noexcept override { desk_.cancel(); }
     [[nodiscard]] bool holding() const noexcept override { return desk_.holding(); }
-    [[nodiscard]] Result<void> ready() const override { return desk_.ready(); }
+    [[nodiscard]] std::optional<Hindrance> hindrance() const override { return desk_.hindrance(); }
+    [[nodiscard]] bool hasScreen() const noexcept override { return desk_.hasScreen(); }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
     /// The last; nothing felt where there is none.
     [[nodiscard]] FeltPresentation felt() const {

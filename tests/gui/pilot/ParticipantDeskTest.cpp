@@ -149,17 +149,31 @@ TEST_F(Desk, AScreenThatGoesEndsTheQuestion) {
 
 TEST_F(Desk, NoPresentationStartsWhileSomethingIsInTheWay) {
     desk.setObstacle("the participant's window does not have the keys");
-    auto ready = std::async(std::launch::async, [this] { return desk.ready(); });
-    EXPECT_NE(ready.wait_for(50ms), std::future_status::ready);
+    auto hindrance = desk.hindrance();
+    ASSERT_TRUE(hindrance);
+    EXPECT_FALSE(hindrance->isBreak);
+    EXPECT_EQ(hindrance->why, "the participant's window does not have the keys");
     desk.setObstacle({});
-    EXPECT_TRUE(ready.get());
+    EXPECT_FALSE(desk.hindrance());
     desk.setBreak(true);
-    ready = std::async(std::launch::async, [this] { return desk.ready(); });
-    EXPECT_NE(ready.wait_for(50ms), std::future_status::ready) << "the operator's break";
+    hindrance = desk.hindrance();
+    ASSERT_TRUE(hindrance);
+    EXPECT_TRUE(hindrance->isBreak);
+    desk.setBreak(false);
+    EXPECT_FALSE(desk.hindrance());
+    desk.setBreak(true);
     desk.cancel();
-    const auto stopped = ready.get();
-    ASSERT_FALSE(stopped);
-    EXPECT_EQ(stopped.error().code, ErrorCode::Stopped);
+    EXPECT_FALSE(desk.hindrance()) << "a session that is over waits for no break";
+}
+
+TEST_F(Desk, AQuestionToTheOperatorRunsOutOfTimeWithoutTheParticipantsScreen) {
+    desk.setScreenThere(false);
+    EXPECT_FALSE(desk.hasScreen());
+    auto prompt = goOnPrompt("See to it.", PromptTo::Operator);
+    prompt.within = Seconds(0.05);
+    const auto said = desk.ask(prompt);
+    ASSERT_TRUE(said) << said.error().message;
+    EXPECT_FALSE(said->given);
 }
 
 TEST_F(Desk, TargetsDoNotAppearBeforeTheirMoment) {

@@ -5,12 +5,15 @@
 #include <QSpinBox>
 #include <QTableWidget>
 #include <QToolButton>
+#include <algorithm>
 #include <filesystem>
 
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/PilotWorkspace.h"
+#include "app/gui/pilot/ScreenChoice.h"
+#include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
@@ -98,6 +101,10 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     QTest::mousePress(strip->findChild<gui::ParticipantStop*>("operatorStop"), Qt::LeftButton);
     ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000));
     ASSERT_TRUE(pilot->running()) << "a test of STOP ends no session: " << headline();
+    QTest::qWait(150);
+    window.controller().stop("operator (Esc, held)");  // the press of the test, which goes on
+    QTest::qWait(150);
+    ASSERT_TRUE(pilot->running()) << "a key that is held counts once: " << headline();
     click(*find<QPushButton>(*strip, "0"));
     ASSERT_IN_TIME(comesTrue(
         [&] { return !runs() || (strip->isVisible() && find<QPushButton>(*strip, "0") != nullptr); }, 20'000));
@@ -120,15 +127,56 @@ TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
     const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
     ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
     click(*find<QPushButton>(*strip, "End the session"));
+    const auto reason = [&] { return strip->findChild<QLineEdit*>("operatorAnswer"); };
+    ASSERT_IN_TIME(comesTrue([&] { return reason() != nullptr && reason()->isVisible(); }, 20'000));
+    EXPECT_EQ(window.controller().telemetry().state, InterlockState::Disarmed) << "the reason comes after it is off";
+    QTest::keyClicks(reason(), "fire alarm");
+    QTest::keyClick(reason(), Qt::Key_Return);
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_NE(find<QPushButton>(*pilot, "Go on with the session"), nullptr) << headline();
     const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
     ASSERT_TRUE(study) << study.error().message;
     ASSERT_EQ(study->sessions().size(), 1U);
     EXPECT_EQ(study->sessions()[0].state, StudySessionState::Unfinished) << "it may be gone on with";
+    const auto events = study->events(study->sessions()[0]).value();
+    const auto note = std::ranges::find(events, row::kNote, &SessionRow::name);
+    ASSERT_NE(note, events.end());
+    EXPECT_EQ(note->body["reason"], "fire alarm");
 }
 
-TEST_F(RehearsalInTheWindow, ClosingTheParticipantsWindowIsAStop) {
+TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain) {
+    RecordProperty("hazard", "H2");
+    begin(true);
+    auto* theirs = pilot->participantWindow();
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
+    ASSERT_NE(theirs->title().indexOf("STOP"), -1);
+    auto* screens = pilot->findChild<gui::ScreenChoice*>("participantScreen");
+    ASSERT_NE(screens, nullptr);
+    emit screens->lost("HDMI-1");
+    EXPECT_FALSE(theirs->isVisible()) << "it would lie over the operator's";
+    auto* asks = pilot->findChild<gui::OperatorAsk*>("operatorAsk");
+    ASSERT_NE(asks, nullptr);
+    const auto goOn = [&] { return find<QPushButton>(*asks, "Go on"); };
+    ASSERT_IN_TIME(comesTrue([&] { return asks->isVisible() && goOn() != nullptr; }, 20'000));
+    EXPECT_TRUE(pilot->running()) << headline();
+    QTest::qWait(150);
+    click(*goOn());
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->isVisible() && theirs->asking(); }, 20'000));
+    EXPECT_EQ(theirs->title().indexOf("being tested"), -1) << "their own go on comes first";
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_1);
+    ASSERT_IN_TIME(
+        comesTrue([&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; }, 20'000));
+    QTest::qWait(150);
+    window.controller().stop("operator (STOP)");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+    const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
+    ASSERT_TRUE(study) << study.error().message;
+    const auto events = study->events(study->sessions()[0]).value();
+    EXPECT_EQ(std::ranges::count(events, std::string(row::kPause), &SessionRow::name), 1);
+    EXPECT_EQ(std::ranges::count(events, std::string(row::kParticipantStop), &SessionRow::name), 0);
+}
+
+TEST_F(RehearsalInTheWindow, ClosingTheParticipantsWindowPausesAndStopsNothingForGood) {
     RecordProperty("hazard", "H2");
     begin(true);
     auto* theirs = pilot->participantWindow();

@@ -1,0 +1,386 @@
+#include "core/pilot/PilotOutput.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/pilot/PilotStage.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr std::size_t kMaxStops = 3;   // of the participant: the third ends the session
+constexpr std::size_t kMaxFaults = 2;  // the second ends it
+constexpr Seconds kWayLook{0.1};       // between two looks at what is in the way
+constexpr Seconds kReasonTakes{300};
+
+/// The check pulse found no load that the bench is armed on.
+bool isUnseated(const Error& why) { return why.code == ErrorCode::NotArmed || why.code == ErrorCode::LimitExceeded; }
+
+bool isParticipants(std::string_view by) { return by.starts_with("participant"); }
+
+}  // namespace
+
+// Stops
+
+void PilotOutput::stop(const char* by) noexcept {
+    const auto pressed = std::chrono::steady_clock::now();
+    if (std::string_view(by).starts_with(kScreenGone))
+        screenGone_ = true;
+    else if (std::string_view(by) == kOperatorAborts)
+        aborted_ = true;
+    else if (std::string_view(by) == kOperatorPauses)
+        paused_ = true;
+    else
+        stoppedBy_.store(by);
+    stage_.bench().stop(by);
+    stopTook_.store(std::chrono::nanoseconds(std::chrono::steady_clock::now() - pressed).count());
+}
+
+std::optional<PilotOutput::PressedStop> PilotOutput::takeStop() noexcept {
+    const char* by = stoppedBy_.exchange(nullptr);
+    if (by == nullptr) return std::nullopt;
+    return PressedStop{isParticipants(by), std::chrono::nanoseconds(stopTook_.load())};
+}
+
+void PilotOutput::rest() noexcept {
+    stage_.bench().disarm();
+    armed_ = false;
+}
+
+Result<PilotAnswer> PilotOutput::insist(const PilotPrompt& prompt) {
+    for (;;) {
+        stage_.bench().attend(PilotStage::kAskingTakes);
+        auto said = stage_.participant().ask(prompt);
+        if (said) return said;
+        if (auto goesOn = recover(prompt.name, said.error()); !goesOn) return failure(goesOn);
+    }
+}
+
+// Arming, and reaching the levels again
+
+Result<ArmRequest> PilotOutput::confirmed(const char* question) {
+    auto& bench = stage_.bench();
+    ArmRequest request;
+    request.declaredLoadConfirmed = true;
+    request.operatorConfirmed = true;
+    if (!bench.outputIsReal()) return request;
+    const auto load = parseLoad(request.load);
+    request.confirmed = load ? bench.armingText(*load) : std::string();
+    stage_.participant().show({});  // what is held may be let go: it is the operator's turn
+    const auto asked =
+        insist(yesNoPrompt("arm", fmt::format("{} {}?", question, request.confirmed), PromptTo::Operator));
+    if (!asked) return failure(asked);
+    if (asked->key() != "yes") return fail(ErrorCode::NotArmed, "the operator did not confirm {}", request.confirmed);
+    return request;
+}
+
+Result<void> PilotOutput::arm() {
+    for (int tries = 1; !armed_; ++tries) {
+        const auto request = confirmed("Arm");
+        if (!request) return failure(request);
+        const auto armed = stage_.bench().arm(*request);
+        armed_ = armed.has_value();
+        if (armed_) break;
+        const bool unseated = isUnseated(armed.error());
+        if (auto goesOn = afterArmingFailed("arming", armed.error(), tries); !goesOn) return goesOn;
+        if (!unseated) continue;
+        if (auto measured = measuredAnew(); !measured) return measured;
+    }
+    return {};
+}
+
+Result<void> PilotOutput::ready() {
+    if (auto armed = arm(); !armed) return armed;
+    if (!rampDue_) return {};
+    rampDue_ = false;
+    return ramp();
+}
+
+Result<double> PilotOutput::measureImpedance(const std::string& name) {
+    for (int tries = 1;; ++tries) {
+        rest();
+        const auto request = confirmed("Measure the electrodes with");
+        if (!request) return failure(request);
+        const auto found = stage_.bench().checkImpedance(*request);
+        if (!found) {
+            if (auto goesOn = afterArmingFailed(name, found.error(), tries); !goesOn) return failure(goesOn);
+            continue;
+        }
+        const double ohm = *found ? (*found)->value() : kNaN;
+        if (auto kept = stage_.record().write(row::kImpedance, name, {{"impedance_ohm", ohm}}); !kept)
+            return failure(kept);
+        impedance_ = ohm;
+        return ohm;
+    }
+}
+
+Result<void> PilotOutput::afterArmingFailed(const std::string& during, const Error& why, int tries) {
+    if (!isUnseated(why)) return recover(during, why);
+    if (tries >= kSeatings) return tl::unexpected<Error>(why);
+    return seatAgain(during, why.message);
+}
+
+Result<void> PilotOutput::seatAgain(const std::string& during, const std::string& why) {
+    rest();
+    if (auto kept = stage_.record().write(row::kGate, during, {{"holds", false}, {"said", why}}); !kept) return kept;
+    rampDue_ = true;
+    return askToSee(why);
+}
+
+Result<void> PilotOutput::askToSee(const std::string& why) {
+    stage_.participant().show({});
+    const auto seen = insist(
+        goOnPrompt(fmt::format("Output is off: {}. See to the {}, then go on.", why, stage_.settings().modality()),
+                   PromptTo::Operator));
+    return seen ? Result<void>() : failure(seen);
+}
+
+Result<void> PilotOutput::judged(double level, bool tooStrong, const std::string& trial, bool replayed) {
+    if (level <= 0) return {};
+    auto& bench = stage_.bench();
+    if (tooStrong) {
+        tooStrong_ = std::min(tooStrong_, level);
+        auto told = bench.reportDiscomfort(stage_.levelOf(level));
+        rest();  // Armed anew under the lower limit before anything else is presented
+        return told;
+    }
+    accepted_.try_emplace(level, trial);
+    return replayed ? Result<void>() : bench.accept(stage_.levelOf(level));
+}
+
+Result<void> PilotOutput::ramp() {
+    const auto accepted = accepted_;
+    auto& bench = stage_.bench();
+    // Each ramp is presented: none takes the answers of another.
+    std::size_t number = 0;
+    const auto named = [&number](double level) { return fmt::format("ramp {} {}", number, level); };
+    while (!accepted.empty() && stage_.record().begun(named(accepted.begin()->first)) > 0) ++number;
+    for (const auto& [level, first] : accepted) {
+        if (level >= tooStrong_ || (settled_ && level > *settled_)) break;
+        StageTrial again;
+        again.name = named(level);
+        again.about = {{"ramp", true}};
+        again.level = level;
+        again.presentation = ascendingPresentation(stage_.levelOf(level), stage_.settings().shortest);
+        again.prompt = strengthPrompt();
+        again.screen.state = ScreenState::Feel;
+        again.screen.phase = "ascending";
+        again.held = true;
+        again.counts = false;   // So that a session that was resumed goes on as one that was not
+        again.drawnAs = first;  // A virtual participant says of a level what they said of it before
+        const auto answer = stage_.trial(again);
+        if (!answer) return failure(answer);
+        if (answer->response == "too-strong") {
+            if (auto told = bench.reportDiscomfort(stage_.levelOf(level)); !told) return told;
+            return stage_.end(PilotEnd::Stopped,
+                              fmt::format("{} was accepted before and is too strong now; the session ends here",
+                                          textOf(stage_.levelOf(level))));
+        }
+        if (auto told = bench.accept(stage_.levelOf(level)); !told) return told;
+    }
+    if (accepted.empty()) return {};
+    PilotScreen letGo;  // levels rise no more
+    letGo.phase = "ascending";
+    letGo.text = "You can let go now.";
+    stage_.participant().show(letGo);
+    return {};
+}
+
+// What is in the way of a presentation
+
+Result<void> PilotOutput::clearTheWay(const StageTrial& trial) {
+    bool noted = false;
+    Seconds waited{0};
+    while (const auto hindrance = stage_.participant().hindrance()) {
+        if (hindrance->isBreak) {
+            if (auto over = takeBreak(trial.name, trial.screen); !over) return over;
+            continue;
+        }
+        if (!std::exchange(noted, true)) {
+            auto kept = stage_.record().write(row::kFocusLost, trial.name, {{"why", hindrance->why}});
+            if (!kept) return kept;
+        }
+        if (waited >= kFocusTakes && armed_) rest();
+        waited += kWayLook;
+        if (const auto passed = stage_.bench().wait(kWayLook); !passed) {
+            if (auto goesOn = recover(trial.name, passed.error()); !goesOn) return goesOn;
+        }
+    }
+    return {};
+}
+
+/// The output is off. The operator ends it, then the participant goes on.
+Result<void> PilotOutput::takeBreak(const std::string& during, PilotScreen screen) {
+    auto& record = stage_.record();
+    auto& people = stage_.participant();
+    auto& bench = stage_.bench();
+    rest();
+    const auto name = fmt::format("operator's break {}", record.count(row::kBreakBegin) + 1);
+    auto kept = record.write(row::kBreakBegin, name, {{"by", "operator"}, {"during", during}});
+    if (!kept) return kept;
+    people.show({});  // what is held may be let go
+    screen.state = ScreenState::Break;
+    screen.named.clear();
+    screen.right.reset();
+    people.show(screen);
+    auto mark = bench.stops().mark();
+    for (auto hindrance = people.hindrance(); hindrance && hindrance->isBreak; hindrance = people.hindrance()) {
+        bench.idle(kWayLook);
+        if (!bench.stops().movedSince(mark)) continue;
+        mark = bench.stops().mark();
+        const Error stopped{ErrorCode::Stopped, "stopped in a break"};
+        if (auto goesOn = interrupted(name, stopped); !goesOn) return goesOn;
+        people.show(screen);
+    }
+    if (auto wanted = askToGoOn("The break is over. Go on when you want to."); !wanted) return wanted;
+    if (kept = record.write(row::kBreakEnd, name); !kept) return kept;
+    return measuredAnew();
+}
+
+Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
+    rest();
+    if (auto kept = stage_.record().write(row::kPause, trial.name, {{"why", "paused by the operator"}}); !kept)
+        return kept;
+    return askToGoOn("Paused. Nothing is on. Go on when you want to.");
+}
+
+// After a stop, a fault or a lost screen
+
+Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
+    rest();
+    if (stage_.ended() != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
+    const bool atScreen = screenGone_ || !stage_.participant().hasScreen();
+    if (why.code == ErrorCode::Device && !atScreen && !aborted_) return afterTheFault(during, why);
+    const bool paused = paused_;
+    if (auto goesOn = interrupted(during, why); !goesOn) return goesOn;
+    if (const auto hindrance = stage_.participant().hindrance(); paused && hindrance && hindrance->isBreak)
+        return takeBreak(during, {});
+    if (auto wanted = askToGoOn("Stopped. Nothing is on. Go on when you want to."); !wanted) return wanted;
+    return std::exchange(screenSeated_, false) ? measuredAnew() : Result<void>();
+}
+
+Result<void> PilotOutput::interrupted(const std::string& during, const Error& why) {
+    if (aborted_) return noteAbort(during);
+    if (paused_.exchange(false)) {
+        auto kept = stage_.record().write(row::kPause, during, {{"why", "the operator wants a break now"}});
+        if (!kept || (stoppedBy_.load() == nullptr && !screenGone_)) return kept;
+    }
+    const bool gone = screenGone_.exchange(false) || !stage_.participant().hasScreen();
+    if (!gone) return noteStop(during, why);
+    if (const char* by = stoppedBy_.load(); by != nullptr && isParticipants(by)) {  // theirs counts all the same
+        if (auto noted = noteStop(during, why); !noted) return noted;
+    }
+    return seatTheirScreen(during);
+}
+
+Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
+    auto& people = stage_.participant();
+    auto& bench = stage_.bench();
+    auto kept = stage_.record().write(row::kPause, during, {{"why", "the participant's screen is gone"}});
+    if (!kept) return kept;
+    rampDue_ = screenSeated_ = true;
+    people.show({});
+    const auto until =
+        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::seconds>(kScreenTakes);
+    auto prompt = goOnPrompt(
+        "Output is off: the participant's screen is gone. Seat the participant at it again, then "
+        "go on.",
+        PromptTo::Operator);
+    prompt.name = kScreenPrompt;
+    PilotAnswer none;  // no time is left
+    none.given = false;
+    for (;;) {
+        const auto mark = bench.stops().mark();
+        const auto left = Seconds(until - std::chrono::steady_clock::now());
+        prompt.within = left;
+        const auto asked = left > Seconds(0) ? people.ask(prompt) : Result<PilotAnswer>(none);
+        if (asked && !asked->given)
+            return fail(ErrorCode::Stopped,
+                        "the participant's screen was gone for {:.0f} min, so the session is broken off; it can go on "
+                        "within 2 h",
+                        kScreenTakes.count() / 60);
+        const auto begun = asked ? bench.begin(mark) : Result<void>(failure(asked));
+        if (begun && people.hasScreen()) return {};
+        if (begun || screenGone_.exchange(false) || paused_.exchange(false))
+            continue;  // not there yet, or gone once more
+        if (aborted_) return noteAbort(during);
+        if (auto noted = noteStop(kScreenPrompt, begun.error()); !noted) return noted;
+        people.show({});
+    }
+}
+
+Result<void> PilotOutput::noteAbort(const std::string& during) {
+    auto& record = stage_.record();
+    const auto broken = fail(ErrorCode::Stopped, "the operator aborted the session; it can go on within 2 h");
+    if (std::exchange(reasonAsked_, true)) return broken;
+    if (auto kept = record.write(row::kOperatorStop, kOperatorAborts, {{"during", during}}); !kept) return kept;
+    stage_.participant().show({});
+    auto prompt = goOnPrompt(
+        "Output is off. Free the participant of the device first. Why was the session aborted? "
+        "Never a name.",
+        PromptTo::Operator);
+    prompt.name = kReasonPrompt;
+    prompt.kind = PromptKind::Text;
+    prompt.targets.clear();
+    prompt.within = kReasonTakes;
+    const auto said = stage_.participant().ask(prompt);
+    const auto reason = said && said->given ? std::string(said->key()) : std::string();
+    auto kept = record.write(row::kNote, kReasonPrompt,
+                             {{"reason", reason.empty() ? nlohmann::json(nullptr) : nlohmann::json(reason)}});
+    if (!kept) return kept;
+    return broken;
+}
+
+Result<void> PilotOutput::noteStop(const std::string& during, const Error& why) {
+    if (why.code != ErrorCode::Stopped) return tl::unexpected<Error>(why);
+    auto& record = stage_.record();
+    const char* by = stoppedBy_.exchange(nullptr);
+    if (by == nullptr || !isParticipants(by)) {
+        const auto kept = record.write(row::kOperatorStop, during, {{"why", why.message}});
+        return kept ? Result<void>(tl::unexpected<Error>(why)) : kept;
+    }
+    if (auto kept = record.write(row::kParticipantStop, during, {{"by", by}}); !kept) return kept;
+    if (record.count(row::kParticipantStop) < kMaxStops) return {};
+    return stage_.end(PilotEnd::Stopped, "the participant stopped for the third time, which ends the session");
+}
+
+/// Seated again, wanted again, measured again, reached again (ready()).
+Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& why) {
+    stoppedBy_.store(nullptr);
+    auto& record = stage_.record();
+    if (auto kept = record.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
+    if (record.count(row::kFault) >= kMaxFaults)
+        return stage_.end(PilotEnd::Stopped, "a second fault ends the session: " + why.message);
+    auto cause = why.message;
+    for (int tries = 1;; ++tries) {
+        if (auto seen = askToSee(cause); !seen) return seen;
+        const auto reset = stage_.bench().resetFault();
+        if (reset) break;
+        if (tries >= kSeatings) return reset;
+        cause = reset.error().message;  // it is still there
+    }
+    if (auto wanted = askToGoOn("The output was off because of a fault. Go on when you want to."); !wanted)
+        return wanted;
+    rampDue_ = true;
+    return measuredAnew();
+}
+
+Result<void> PilotOutput::askToGoOn(const std::string& text) {
+    PilotScreen screen;
+    screen.text = text;
+    auto& bench = stage_.bench();
+    for (;;) {
+        stage_.participant().show(screen);
+        const auto mark = bench.stops().mark();  // a stop from here on is one after their "go on"
+        const auto asked = stage_.participant().ask(goOnPrompt(text, PromptTo::Participant));
+        const auto begun = asked ? bench.begin(mark) : Result<void>(failure(asked));
+        if (begun) break;
+        // Nothing is on, and they press STOP once more: theirs counts, and they are asked again.
+        if (auto goesOn = interrupted("go on", begun.error()); !goesOn) return goesOn;
+    }
+    stage_.noteAnswered();
+    return stage_.record().write(row::kContinue, "continue");
+}
+
+}  // namespace tacto

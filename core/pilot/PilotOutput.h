@@ -1,0 +1,111 @@
+// PilotOutput.h - the output of a pilot session: armed before something is presented, off again after a stop, a fault,
+// a pause and a participant's screen that is gone, and the levels that were accepted reached again step by step.
+//
+// What PilotStage is made of. What is in the way of a presentation is waited for here: in the operator's break the
+// output is off; without the keys it is off after kFocusTakes.
+//
+// Errors of all calls: as PilotStage.
+//
+// Thread-safety: one caller, the session's thread; stop() and takeStop() from any thread.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/base/NaN.h"
+#include "core/bench/Bench.h"
+#include "core/pilot/Participant.h"
+
+namespace tacto {
+
+class PilotStage;
+struct StageTrial;
+
+class PilotOutput {
+public:
+    static constexpr int kSeatings = 3;          ///< in a row, of electrodes that are not as they have to be
+    static constexpr Seconds kFocusTakes{10};    ///< it stays armed so long while the keys are elsewhere
+    static constexpr Seconds kScreenTakes{600};  ///< a participant's screen may be gone so long
+
+    /// `stage` outlives it. `rampDue`: the levels were accepted in an earlier part.
+    PilotOutput(PilotStage& stage, bool rampDue) : stage_(stage), rampDue_(rampDue) {}
+    PilotOutput(const PilotOutput&) = delete;
+    PilotOutput& operator=(const PilotOutput&) = delete;
+
+    /// A stop of the output by one of the people, or because the participant's screen is gone. Does not block.
+    void stop(const char* by) noexcept;
+    struct PressedStop {
+        bool participants = false;
+        std::chrono::nanoseconds took{0};
+    };
+    /// See PilotStage.
+    [[nodiscard]] std::optional<PressedStop> takeStop() noexcept;
+    /// A stop came since the last one was handled.
+    [[nodiscard]] bool stopped() const noexcept {
+        return stoppedBy_.load() != nullptr || screenGone_ || aborted_ || paused_;
+    }
+
+    // As those of PilotStage.
+    [[nodiscard]] Result<void> arm();
+    [[nodiscard]] Result<void> ready();
+    void rest() noexcept;
+    [[nodiscard]] Result<double> measureImpedance(const std::string& name);
+    [[nodiscard]] Result<void> judged(double level, bool tooStrong, const std::string& trial, bool replayed);
+    void settle(double level) noexcept { settled_ = level; }
+    [[nodiscard]] double impedance() const noexcept { return impedance_; }
+    void setImpedance(double ohm) noexcept { impedance_ = ohm; }
+
+    /// Waits until nothing is in the way of `trial`; a break of the operator's is taken meanwhile.
+    [[nodiscard]] Result<void> clearTheWay(const StageTrial& trial);
+    /// The bench was paused while `trial` was presented, and the pause is over.
+    [[nodiscard]] Result<void> afterThePause(const StageTrial& trial);
+    /// After a stop, a fault or a lost screen: nothing when the session goes on.
+    [[nodiscard]] Result<void> recover(const std::string& during, const Error& why);
+    /// Asks again after each stop, once the participant wants to go on.
+    [[nodiscard]] Result<PilotAnswer> insist(const PilotPrompt& prompt);
+    /// Electrodes, or a massager, are not as they have to be, which is no fault: a row `gate`, and the operator seats
+    /// them again. Levels are reached again by a ramp from here on.
+    [[nodiscard]] Result<void> seatAgain(const std::string& during, const std::string& why);
+
+    /// Called once electrodes may be others than they were, before anything is presented. Its errors end the trial.
+    std::function<Result<void>()> measureAnew;
+
+private:
+    /// `question` names what would be armed; the operator's yes to it is part of the request.
+    [[nodiscard]] Result<ArmRequest> confirmed(const char* question);
+    [[nodiscard]] Result<void> afterArmingFailed(const std::string& during, const Error& why, int tries);
+    [[nodiscard]] Result<void> ramp();
+    [[nodiscard]] Result<void> takeBreak(const std::string& during, PilotScreen screen);
+    [[nodiscard]] Result<void> afterTheFault(const std::string& during, const Error& why);
+    /// A lost screen or a stop, until the participant may be asked whether they want to go on.
+    [[nodiscard]] Result<void> interrupted(const std::string& during, const Error& why);
+    [[nodiscard]] Result<void> seatTheirScreen(const std::string& during);
+    /// Writes who stopped; nothing when it may go on once the participant wants to.
+    [[nodiscard]] Result<void> noteStop(const std::string& during, const Error& why);
+    [[nodiscard]] Result<void> noteAbort(const std::string& during);
+    [[nodiscard]] Result<void> askToGoOn(const std::string& text);
+    [[nodiscard]] Result<void> askToSee(const std::string& why);
+    [[nodiscard]] Result<void> measuredAnew() const { return measureAnew ? measureAnew() : Result<void>(); }
+
+    PilotStage& stage_;
+    std::atomic<const char*> stoppedBy_{nullptr};
+    std::atomic<std::chrono::nanoseconds::rep> stopTook_{0};
+    std::atomic<bool> screenGone_{false};
+    std::atomic<bool> aborted_{false};
+    std::atomic<bool> paused_{false};
+    bool armed_ = false;
+    bool reasonAsked_ = false;
+    bool rampDue_ = false;
+    bool screenSeated_ = false;                                   // Since the last impedance
+    std::map<double, std::string> accepted_;                      // Level and the trial in which it was accepted first
+    double tooStrong_ = std::numeric_limits<double>::infinity();  // Lowest so far
+    std::optional<double> settled_;
+    double impedance_ = kNaN;
+};
+
+}  // namespace tacto

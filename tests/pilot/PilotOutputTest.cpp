@@ -1,0 +1,300 @@
+// Breaks, pauses, a lost screen, electrodes that are seated again, an abort: the output is off, a row says so, and what
+// follows is armed anew.
+#include "core/pilot/PilotCare.h"
+#include "tests/pilot/StageFixture.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::SizeIs;
+
+class PilotOutputTest : public PilotStageTest {
+protected:
+    void acceptOne() {
+        for (const double level : {0.5, 1.0}) {
+            const auto made = rising(level);
+            ASSERT_TRUE(stage_->trial(made));
+            ASSERT_TRUE(stage_->judged(level, false, made.name, false));
+        }
+    }
+    /// A session in which 0.5 and 1 mA were accepted.
+    void reachOne() {
+        someone_.letsGo = true;
+        someone_.holds = false;
+        ASSERT_NO_FATAL_FAILURE(acceptOne());
+        stage_->onSeatedAgain([this]() -> Result<void> {
+            ++measured_;
+            EXPECT_EQ(state(), InterlockState::Disarmed);
+            return {};
+        });
+        someone_.asked.clear();
+    }
+    [[nodiscard]] StageTrial rising(double level) const {
+        auto made = trial(fmt::format("ascending {}", level), level);
+        made.held = made.stopAnswers = true;
+        return made;
+    }
+    [[nodiscard]] std::vector<nlohmann::json> bodies(const char* kind) const {
+        std::vector<nlohmann::json> all;
+        for (const auto& each : rows())
+            if (each.name == kind) all.push_back(each.body);
+        return all;
+    }
+    [[nodiscard]] std::vector<std::string> answered() const {
+        std::vector<std::string> all;
+        for (const auto& body : bodies(row::kAnswer)) all.push_back(body["name"]);
+        return all;
+    }
+    /// The first time that trains may come.
+    void atFirstFeel(std::function<void()> happens) {
+        someone_.onShow = [this, happens = std::move(happens), done = false]() mutable {
+            if (someone_.shown.back().state != ScreenState::Feel || std::exchange(done, true)) return;
+            happens();
+        };
+    }
+    void loseScreen() {
+        atFirstFeel([this] {
+            someone_.there = false;
+            someone_.press("the participant's screen went");
+        });
+    }
+    int measured_ = 0;
+};
+
+TEST_F(PilotOutputTest, ALostScreenIsAPauseAfterWhichTheLevelsAreReachedAgainWhileTheyHold) {
+    RecordProperty("hazard", "H2");
+    RecordProperty("hazard", "H6");
+    reachOne();
+    loseScreen();
+    someone_.onAsk = [this](const PilotPrompt& prompt) {
+        if (prompt.name != kScreenPrompt) return;
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+        EXPECT_EQ(prompt.to, PromptTo::Operator);
+        someone_.there = true;
+    };
+    const auto answer = stage_->trial(rising(1.5));
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(answer->response, "nothing") << "it is no stop of the participant's";
+    EXPECT_EQ(record_->count(row::kPause), 1U);
+    EXPECT_EQ(record_->count(row::kContinue), 1U);
+    EXPECT_EQ(record_->count(row::kParticipantStop) + record_->count(row::kFault), 0U);
+    EXPECT_EQ(measured_, 1) << "who fetched the cable may have moved";
+    EXPECT_THAT(answered(), ElementsAre("ascending 0.5", "ascending 1", "ramp 0 0.5", "ramp 0 1", "ascending 1.5"));
+    EXPECT_THAT(someone_.asked,
+                ElementsAre("screen-gone", "go-on", "hold", "strength", "strength", "hold", "strength"));
+}
+
+TEST_F(PilotOutputTest, AScreenThatIsStillGoneIsAskedForAgain) {
+    RecordProperty("hazard", "H2");
+    loseScreen();
+    int asked = 0;
+    someone_.onAsk = [&](const PilotPrompt& prompt) {
+        if (prompt.name == kScreenPrompt) someone_.there = ++asked == 3;
+    };
+    ASSERT_TRUE(stage_->trial(trial()));
+    EXPECT_EQ(asked, 3);
+    EXPECT_EQ(record_->count(row::kPause), 1U);
+}
+
+TEST_F(PilotOutputTest, AScreenThatDoesNotComeBackBreaksTheSessionOff) {
+    RecordProperty("hazard", "H2");
+    loseScreen();
+    someone_.silent = {kScreenPrompt};
+    const auto answer = stage_->trial(trial());
+    ASSERT_FALSE(answer);
+    EXPECT_THAT(answer.error().message, HasSubstr("gone for 10 min"));
+    EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished) << "it may be resumed";
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+}
+
+TEST_F(PilotOutputTest, InTheOperatorsBreakTheOutputIsOffUntilTheParticipantGoesOn) {
+    RecordProperty("hazard", "H2");
+    reachOne();
+    ASSERT_NE(state(), InterlockState::Disarmed);
+    const auto before = bench_->telemetry().trainsDelivered;
+    int looks = 0;
+    someone_.onHindrance = [&]() -> std::optional<Hindrance> {
+        if (looks++ > 20) return {};
+        if (looks > 1) {
+            EXPECT_EQ(state(), InterlockState::Disarmed);
+        }
+        return Hindrance{true, "a break"};
+    };
+    someone_.onAsk = [&](const PilotPrompt& prompt) {
+        if (prompt.name != "go-on") return;
+        EXPECT_EQ(prompt.to, PromptTo::Participant) << "the operator ended it: they press too";
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+        EXPECT_EQ(bench_->telemetry().trainsDelivered, before);
+    };
+    ASSERT_TRUE(stage_->trial(trial("test 1", 1)));
+    EXPECT_THAT(someone_.asked, ElementsAre("go-on", "strength"));
+    EXPECT_THAT(bodies(row::kBreakBegin), SizeIs(1));
+    EXPECT_THAT(bodies(row::kBreakEnd), SizeIs(1));
+    EXPECT_EQ(bodies(row::kBreakBegin)[0]["by"], "operator");
+    EXPECT_EQ(measured_, 1) << "the impedance, before it is armed again";
+}
+
+TEST_F(PilotOutputTest, AStopInTheOperatorsBreakIsARowAndTheBreakGoesOn) {
+    RecordProperty("hazard", "H2");
+    int looks = 0;
+    someone_.onHindrance = [&]() -> std::optional<Hindrance> {
+        if (looks == 5) someone_.press("participant");
+        return looks++ > 20 ? std::nullopt : std::optional(Hindrance{true, "a break"});
+    };
+    ASSERT_TRUE(stage_->trial(trial()));
+    EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
+    EXPECT_THAT(someone_.asked, ElementsAre("go-on", "strength"));
+    EXPECT_THAT(bodies(row::kBreakBegin), SizeIs(1));
+    EXPECT_GT(looks, 20);
+}
+
+TEST_F(PilotOutputTest, WithoutTheKeysNothingIsPresentedAndSoonTheOutputIsOff) {
+    RecordProperty("hazard", "H2");
+    ASSERT_TRUE(stage_->ready());
+    std::vector<std::pair<double, InterlockState>> seen;
+    const double begun_s = toSeconds(clock_->now());
+    someone_.onHindrance = [&]() -> std::optional<Hindrance> {
+        seen.emplace_back(toSeconds(clock_->now()) - begun_s, state());
+        return seen.size() > 200 ? std::nullopt : std::optional(Hindrance{false, "the keys are elsewhere"});
+    };
+    ASSERT_TRUE(stage_->trial(trial()));
+    EXPECT_GT(toSeconds(clock_->now()) - begun_s, 19.9);
+    const auto lost = bodies(row::kFocusLost);
+    ASSERT_THAT(lost, SizeIs(1)) << "one row, however long";
+    EXPECT_EQ(lost[0]["why"], "the keys are elsewhere");
+    EXPECT_EQ(bodies(row::kTrialBegin).size(), 1U) << "nothing was begun meanwhile";
+    bool whileArmed = false, whileOff = false;
+    for (const auto& [at_s, was] : seen) {
+        if (at_s < 9) whileArmed = whileArmed || was == InterlockState::Armed;
+        if (at_s > 11 && at_s < 19) {
+            EXPECT_EQ(was, InterlockState::Disarmed) << at_s;
+            whileOff = true;
+        }
+    }
+    EXPECT_TRUE(whileArmed) << "a moment elsewhere costs no arming";
+    EXPECT_TRUE(whileOff);
+}
+
+TEST_F(PilotOutputTest, ABreakNowSwitchesOffAtOnceAndTheTrialIsRepeatedAfterIt) {
+    RecordProperty("hazard", "H2");
+    int looks = 0;
+    bool wanted = false;
+    atFirstFeel([&] {
+        wanted = true;
+        someone_.press(kOperatorPauses);
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+    });
+    someone_.onHindrance = [&]() -> std::optional<Hindrance> {
+        if (!wanted || looks++ > 20) return {};
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+        return Hindrance{true, "break now"};
+    };
+    const auto answer = stage_->trial(trial());
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(answer->attempt, 2U) << "what was paused is void";
+    EXPECT_EQ(record_->count(row::kPause), 1U);
+    EXPECT_THAT(bodies(row::kBreakEnd), SizeIs(1));
+    EXPECT_EQ(record_->count(row::kParticipantStop) + record_->count(row::kOperatorStop), 0U);
+    EXPECT_THAT(someone_.asked, ElementsAre("go-on", "strength"));
+}
+
+TEST_F(PilotOutputTest, AnAbortIsAskedForItsReasonOnceTheOutputIsOff) {
+    RecordProperty("hazard", "H2");
+    atFirstFeel([this] { someone_.press(kOperatorAborts); });
+    someone_.answers[kReasonPrompt] = "fire alarm";
+    someone_.onAsk = [this](const PilotPrompt& prompt) {
+        if (prompt.name != kReasonPrompt) return;
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+        EXPECT_THAT(kinds(), Contains(row::kOperatorStop)) << "killed now, the abort is known";
+        EXPECT_EQ(prompt.to, PromptTo::Operator);
+    };
+    const auto answer = stage_->trial(trial());
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().code, ErrorCode::Stopped);
+    EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished) << "resumable";
+    const auto notes = bodies(row::kNote);
+    ASSERT_THAT(notes, SizeIs(1));
+    EXPECT_EQ(notes[0]["reason"], "fire alarm");
+    EXPECT_FALSE(stage_->trial(trial("test 2"))) << "a script that goes on gets nothing";
+    EXPECT_THAT(bodies(row::kNote), SizeIs(1)) << "asked once";
+}
+
+TEST_F(PilotOutputTest, AnAbortWithoutAReasonEndsAllTheSame) {
+    RecordProperty("hazard", "H2");
+    atFirstFeel([this] { someone_.press(kOperatorAborts); });
+    someone_.silent = {kReasonPrompt};
+    EXPECT_FALSE(stage_->trial(trial()));
+    ASSERT_THAT(bodies(row::kNote), SizeIs(1));
+    EXPECT_TRUE(bodies(row::kNote)[0]["reason"].is_null());
+}
+
+class SeatedElectrodesTest : public PilotOutputTest {
+protected:
+    void SetUp() override {
+        PilotOutputTest::SetUp();
+        someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
+    }
+    /// After the `n`-th measurement of the electrodes they measure `ohm`.
+    void fitAfter(std::map<std::size_t, double> loads) {
+        record_->onWritten = [this, loads = std::move(loads), done = std::size_t(0)](std::size_t) mutable {
+            const auto measured = record_->count(row::kImpedance);
+            if (measured == std::exchange(done, measured)) return;
+            if (const auto next = loads.find(measured); next != loads.end()) fit(next->second);
+        };
+    }
+    void fit(double ohm) {
+        ASSERT_TRUE(bench_->devices().load);
+        ASSERT_TRUE(bench_->devices().load->fitLoad(fmt::format("{} ohm", ohm)));
+    }
+    [[nodiscard]] std::vector<bool> held(const std::string& name) const {
+        std::vector<bool> all;
+        for (const auto& body : bodies(row::kGate))
+            if (body["name"] == name) all.push_back(body["holds"].get<bool>());
+        return all;
+    }
+};
+
+TEST_F(SeatedElectrodesTest, TwoChecksThatDisagreeAreMadeAnewOnceTheyAreSeatedAgain) {
+    RecordProperty("hazard", "H3");
+    fitAfter({{1, 1300}});  // between the two
+    PilotCare care(*stage_);
+    const auto passed = care.checklist();
+    ASSERT_TRUE(passed) << passed.error().message;
+    EXPECT_THAT(bodies(row::kImpedance), SizeIs(4));
+    EXPECT_THAT(held("part 1 impedance"), ElementsAre(false, true)) << "each seating is a row";
+    EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished);
+    EXPECT_THAT(someone_.texts, Contains(HasSubstr("a difference of at most 20 % is accepted. See to the electrodes")));
+}
+
+TEST_F(SeatedElectrodesTest, ThreeSeatingsWithoutAgreementEndTheSession) {
+    RecordProperty("hazard", "H3");
+    fitAfter({{1, 1300}, {2, 1000}, {3, 1300}, {4, 1000}, {5, 1300}});
+    PilotCare care(*stage_);
+    const auto passed = care.checklist();
+    ASSERT_FALSE(passed);
+    EXPECT_THAT(passed.error().message, HasSubstr("a difference of at most 20 % is accepted"));
+    EXPECT_THAT(held("part 1 impedance"), ElementsAre(false, false, false));
+    EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
+}
+
+TEST_F(SeatedElectrodesTest, ThoseThatMeasureOtherwiseBeforeABlockAreSeatedAgainAndTheLevelsReachedAgain) {
+    RecordProperty("hazard", "H3");
+    RecordProperty("hazard", "H6");
+    PilotCare care(*stage_);
+    ASSERT_TRUE(care.checklist());
+    ASSERT_NO_FATAL_FAILURE(acceptOne());
+    fit(1400);
+    fitAfter({{3, 1100}});
+    const auto passed = care.beforeBlock(2);
+    ASSERT_TRUE(passed) << passed.error().message;
+    EXPECT_THAT(held("block 2 impedance"), ElementsAre(false, true));
+    ASSERT_TRUE(stage_->trial(trial("test 1", 1)));
+    EXPECT_THAT(answered(), IsSupersetOf({std::string("ramp 0 0.5"), std::string("ramp 0 1")}));
+}
+
+}  // namespace
+}  // namespace tacto::test
