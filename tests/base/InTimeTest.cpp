@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -24,6 +25,24 @@ TEST(InTime, AMissedDeadlineBeginsItsMessageByThatAndNoOtherFailureDoes) {
     EXPECT_EQ(std::string_view(failures.GetTestPartResult(0).message()).find(kNotInTime), 0U);
     EXPECT_NE(std::string_view(failures.GetTestPartResult(0).message()).find("after two seconds"), std::string::npos);
     EXPECT_NE(std::string_view(failures.GetTestPartResult(1).message()).find(kNotInTime), 0U);
+}
+
+TEST(InTime, OfWrongErrorsOnlyThoseThatComeOfBeingLateAreMissedDeadlines) {
+    testing::TestPartResultArray failures;
+    {
+        const testing::ScopedFakeTestPartResultReporter catching(&failures);
+        EXPECT_CODE_IN_TIME(ErrorCode::Device, ErrorCode::Device);
+        EXPECT_CODE_IN_TIME(ErrorCode::Timeout, ErrorCode::Device);
+        EXPECT_CODE_IN_TIME(ErrorCode::NotArmed, ErrorCode::Device);
+        EXPECT_CODE_IN_TIME(ErrorCode::Stopped, ErrorCode::Device);
+        EXPECT_CODE_IN_TIME(ErrorCode::Io, ErrorCode::Device);
+        EXPECT_CODE_IN_TIME(ErrorCode::LimitExceeded, ErrorCode::Stopped);
+    }
+    ASSERT_EQ(failures.size(), 5);
+    for (int i = 0; i < 5; ++i) {
+        const std::string_view message(failures.GetTestPartResult(i).message());
+        EXPECT_EQ(message.starts_with(kNotInTime), i < 3) << message;
+    }
 }
 
 /// Tests that fail at their first try. They are disabled for ctest; the last test of this file runs each of them in a

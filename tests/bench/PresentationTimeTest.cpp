@@ -5,6 +5,7 @@
 #include "core/bench/Bench.h"
 #include "tests/bench/FakeMassager.h"
 #include "tests/bench/FakeStimulator.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto {
@@ -85,7 +86,7 @@ TEST_F(PresentationTimeTest, AStopAtAnyMomentIsAtTheOutputWithinTenMilliseconds)
         EXPECT_EQ(afterStop, 0) << "round " << round;
         EXPECT_FALSE(device_->on);
         if (!presented) {
-            EXPECT_IN_TIME(presented.error().code == ErrorCode::Stopped) << presented.error().message;
+            EXPECT_CODE_IN_TIME(presented.error().code, ErrorCode::Stopped) << presented.error().message;
             continue;
         }
         EXPECT_IN_TIME(presented->end == PresentationEnd::Stopped) << presented->reason;

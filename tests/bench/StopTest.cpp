@@ -5,6 +5,7 @@
 
 #include "core/bench/Bench.h"
 #include "tests/bench/FakeStimulator.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto {
@@ -119,7 +120,7 @@ TEST_F(StopTest, WhileTheDriveIsSetLeavesNoDriveForTheNextArming) {
     stops = true;
     const auto driven = bench_->drive(DriveSource::Manual, 1, 1);
     ASSERT_FALSE(driven);
-    EXPECT_IN_TIME(driven.error().code == ErrorCode::Stopped);
+    EXPECT_CODE_IN_TIME(driven.error().code, ErrorCode::Stopped);
     ASSERT_IN_TIME(bench_->begin(bench_->stops().mark()));
     ASSERT_IN_TIME(arm());
     const int delivered = device_->delivered;

@@ -1,8 +1,13 @@
 #include "tests/gui/Looks.h"
 
 #include <QAbstractButton>
+#include <QComboBox>
+#include <QHeaderView>
 #include <QLabel>
 #include <QLayout>
+#include <QRegularExpression>
+#include <QStyleOptionComboBox>
+#include <QTabBar>
 #include <QTextDocument>
 #include <algorithm>
 #include <cmath>
@@ -45,6 +50,55 @@ std::vector<const QWidget*> textsIn(const QWidget& in) {
     return found;
 }
 
+/// The widest of its words: what cannot be broken.
+int widestWord(const QFontMetrics& metrics, const QString& text) {
+    int widest = 0;
+    for (const auto& word : text.split(QRegularExpression("\\s+")))
+        widest = std::max(widest, metrics.horizontalAdvance(word));
+    return widest;
+}
+
+QString cutText(const QWidget& widget, const QString& text, int has, int needs) {
+    return QString("%1 %2 \"%3\": %4 of %5 px")
+        .arg(widget.metaObject()->className(), widget.objectName(), text)
+        .arg(has)
+        .arg(needs);
+}
+
+void addCutChoice(const QComboBox& box, QStringList& cut) {
+    QStyleOptionComboBox option;
+    option.initFrom(&box);
+    option.editable = box.isEditable();
+    const auto field = box.style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, &box);
+    const int needs = box.fontMetrics().horizontalAdvance(box.currentText());
+    if (needs > field.width() + 1) cut << cutText(box, box.currentText(), field.width(), needs);
+}
+
+void addCutTabs(const QTabBar& tabs, QStringList& cut) {
+    for (int i = 0; i < tabs.count(); ++i) {
+        if (!tabs.isTabVisible(i)) continue;
+        const auto text = tabs.tabText(i).remove('&');
+        const auto place = tabs.tabRect(i);
+        const bool upright = tabs.shape() == QTabBar::RoundedWest || tabs.shape() == QTabBar::RoundedEast;
+        const int has = upright ? place.height() : place.intersected(tabs.rect()).width();
+        const int needs = tabs.fontMetrics().horizontalAdvance(text);
+        if (needs > has + 1) cut << cutText(tabs, text, has, needs);
+    }
+}
+
+/// Sections that are in sight as a whole; a title may break into lines.
+void addCutTitles(const QHeaderView& header, QStringList& cut) {
+    if (header.orientation() != Qt::Horizontal || header.model() == nullptr) return;
+    for (int i = 0; i < header.count(); ++i) {
+        const int left = header.sectionViewportPosition(i);
+        if (header.isSectionHidden(i) || left < 0 || left + header.sectionSize(i) > header.viewport()->width())
+            continue;
+        const auto text = header.model()->headerData(i, Qt::Horizontal).toString();
+        const int needs = widestWord(header.fontMetrics(), text);
+        if (needs > header.sectionSize(i) + 1) cut << cutText(header, text, header.sectionSize(i), needs);
+    }
+}
+
 }  // namespace
 
 double contrast(const QColor& a, const QColor& b) {
@@ -75,6 +129,12 @@ QStringList cutTexts(const QWidget& in) {
                        .arg(needed.width())
                        .arg(needed.height());
         }
+    }
+    for (const auto* widget : in.findChildren<QWidget*>()) {
+        if (!widget->isVisible() || widget->window() != in.window()) continue;
+        if (const auto* box = qobject_cast<const QComboBox*>(widget)) addCutChoice(*box, cut);
+        if (const auto* tabs = qobject_cast<const QTabBar*>(widget)) addCutTabs(*tabs, cut);
+        if (const auto* header = qobject_cast<const QHeaderView*>(widget)) addCutTitles(*header, cut);
     }
     return cut;
 }

@@ -15,7 +15,8 @@ namespace tacto::test {
 /// How many pixels of the picture have just this colour.
 [[nodiscard]] int pixelsOf(const QImage& picture, const QColor& colour);
 
-/// Visible labels and buttons whose text has no room, each with its text. A label that elides by design is left out.
+/// Visible labels, buttons, choices of boxes, tabs and titles of columns whose text has no room, each with its text. A
+/// label that elides by design is left out.
 [[nodiscard]] QStringList cutTexts(const QWidget& in);
 /// Visible enabled texts with a contrast below 4.5:1, by the colours of their palettes.
 [[nodiscard]] QStringList paleTexts(const QWidget& in);

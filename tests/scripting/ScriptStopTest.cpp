@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "tests/scripting/RunBench.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto {
@@ -92,7 +93,7 @@ TEST(ScriptStop, AScriptThatDrivesAndWaitsNoMoreEndsItsOutput) {
     const auto outcome = rig.run(withRun(kArmed + "const until = Date.now() + 4000; while (Date.now() < until);\n"
                                                   "log(bench.live().state); bench.wait(0.1);"));
     ASSERT_TRUE(outcome.error);
-    ASSERT_IN_TIME(outcome.error->code == ErrorCode::Stopped) << outcome.error->message;
+    ASSERT_CODE_IN_TIME(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
     EXPECT_NE(outcome.error->message.find("did not look after it"), std::string::npos) << outcome.error->message;
     ASSERT_EQ(outcome.log.size(), 2U);
     EXPECT_EQ(outcome.log[1], "disarmed");

@@ -127,6 +127,8 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     blocks_->setToolTip(tr("Each block has 18 trials: four per condition and two empty."));
     form->addRow(tr("Blocks of the test"), blocks_);
     seats_ = std::make_unique<SeatRows>(*form, *holder);
+    setTabOrder(folder_, choose);
+    setTabOrder(seats_->last(), begin_);
     column->addWidget(holder);
     column->addWidget(seats_->about());
     column->addStretch();

@@ -27,6 +27,8 @@ public:
     void setBlind(bool study);
     /// What that means, to be placed below the form.
     [[nodiscard]] QLabel* about() const { return about_; }
+    /// Of the rows that take the focus.
+    [[nodiscard]] QWidget* last() const { return blind_; }
 
 private:
     QFormLayout& form_;

@@ -73,7 +73,9 @@ void CaptureStrip::colour() {
 void CaptureStrip::thinTicks() {
     constexpr int kMaxTicks = 5, kApart = 2;  // what is readable may come to half as many again
     const QFontMetrics metrics(xAxis->tickLabelFont());
-    xAxis->ticker()->setTickCount(std::clamp(width() / (kApart * metrics.horizontalAdvance("−00000")), 1, kMaxTicks));
+    const int digits = metrics.horizontalAdvance(QString::number(xAxis->range().upper, 'f', 0));
+    const int widest = std::max(metrics.horizontalAdvance("−00000"), digits);
+    xAxis->ticker()->setTickCount(std::clamp(width() / (kApart * widest), 1, kMaxTicks));
     const int up = std::clamp(height() / (2 * kApart * metrics.height()), 1, kMaxTicks);
     for (auto* axis : {yAxis, yAxis2}) axis->ticker()->setTickCount(up);
 }

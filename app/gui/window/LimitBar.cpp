@@ -15,6 +15,7 @@ namespace {
 constexpr int kBarWidth = 104;
 constexpr int kBarHeight = 8;
 constexpr int kBarLineGap = 2;
+constexpr double kTie = 1e-9;  // relative: shares that differ by less are equal, and the first row stays
 
 QString whereJudged(const ExposureRow& row) {
     if (row.quantity == Quantity::NetCharge) return QObject::tr("measured, of the last pulse's phase charge");
@@ -50,7 +51,7 @@ QString briefText(const ExposureRow& row) {
 
 }  // namespace
 
-std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows, std::initializer_list<Quantity> quantities) {
+std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows, const std::vector<Quantity>& quantities) {
     std::optional<ExposureRow> found;
     const auto share = [](const ExposureRow& row) {
         if (std::isnan(row.limit)) return -1.0;
@@ -60,7 +61,7 @@ std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows, std::init
         if (std::find(quantities.begin(), quantities.end(), row.quantity) == quantities.end()) continue;
         // Says what to print on a label; nothing is held to it.
         if (row.action == LimitAction::Disclose && !std::isnan(row.limit)) continue;
-        if (!found || share(row) > share(*found)) found = row;
+        if (!found || share(row) > share(*found) * (1 + kTie)) found = row;
     }
     return found;
 }

@@ -49,8 +49,9 @@ private:
     bool broken_ = false;  ///< a limit that refuses is not kept
 };
 
-/// The row of `quantities` that is nearest to its limit; one that should be evaluated and was not comes first.
+/// The row of `quantities` that is nearest to its limit, the first of several that are equally near; one that should be
+/// evaluated and was not comes before all.
 [[nodiscard]] std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows,
-                                                  std::initializer_list<Quantity> quantities);
+                                                  const std::vector<Quantity>& quantities);
 
 }  // namespace tacto::gui

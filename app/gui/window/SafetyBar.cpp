@@ -309,15 +309,7 @@ void SafetyBar::showCalibration() {
 void SafetyBar::showExposure(const Telemetry& telemetry) {
     for (std::size_t i = 0; i < allBars().size(); ++i) {
         const auto& quantities = allBars()[i].quantities;
-        std::optional<ExposureRow> row = quantities.empty() ? netCharge(telemetry) : std::nullopt;
-        for (const auto quantity : quantities) {
-            auto candidate = tightest(telemetry.exposure(), {quantity});
-            if (!candidate) continue;
-            const auto share = [](const ExposureRow& r) {
-                return std::isnan(r.limit) ? -1 : r.evaluated ? r.value / r.limit : 1e9;
-            };
-            if (!row || share(*candidate) > share(*row)) row = candidate;
-        }
+        const auto row = quantities.empty() ? netCharge(telemetry) : tightest(telemetry.exposure(), quantities);
         bars_->show(i, row, controller_.limits().sets);
     }
     bars_->arrange();

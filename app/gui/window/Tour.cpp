@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kPollInterval_ms = 60;
+constexpr int kLookInterval_ms = 60;
 constexpr int kWidthChars = 46;
 constexpr int kTallest = 10'000;  // px, of a text that has all the room
 constexpr int kMargin = 24;       // from the window's edges
@@ -54,7 +54,7 @@ Tour::Tour(std::vector<TourStep> steps, QWidget* window) : QFrame(window), steps
     connect(leave_, &QPushButton::clicked, this, [this] { end(false); });
     connect(back_, &QPushButton::clicked, this, [this] { go(step_ - 1, true); });
     connect(next_, &QPushButton::clicked, this, &Tour::goOn);
-    look_.setInterval(kPollInterval_ms);
+    look_.setInterval(kLookInterval_ms);
     connect(&look_, &QTimer::timeout, this, &Tour::look);
     window->installEventFilter(this);
     hide();

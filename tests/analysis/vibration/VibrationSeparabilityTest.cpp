@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::vector<std::string> kFour{"smooth-low", "smooth-high", "rough-low", "rough-high"};
+const std::vector<std::string> kFourNames{"smooth-low", "smooth-high", "rough-low", "rough-high"};
 
 BurstFigures moved(double strength, double interval_s) {
     BurstFigures out;
@@ -33,7 +33,7 @@ BurstFigures still(std::size_t missed = 0) {
 std::vector<VibrationTrial> trials(double smooth = 1, double rough = 3) {
     std::vector<VibrationTrial> all;
     for (int n = 0; n < 25; ++n) {
-        for (const auto& name : kFour) {
+        for (const auto& name : kFourNames) {
             const double strength = (name.starts_with("rough") ? rough : smooth) * (1 + 0.01 * (n % 3 - 1));
             const double interval = (name.ends_with("high") ? 0.5 : 2) * (1 + 0.001 * (n % 5 - 2));
             all.push_back({name, name.starts_with("rough") ? 0.6 : 0.3, interval, moved(strength, interval)});
@@ -43,7 +43,7 @@ std::vector<VibrationTrial> trials(double smooth = 1, double rough = 3) {
 }
 
 TEST(VibrationSeparability, StrengthAndRhythmSeparateTheFour) {
-    const auto found = judgeVibration(trials(), kFour);
+    const auto found = judgeVibration(trials(), kFourNames);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_TRUE(found->measured);
     EXPECT_EQ(found->verdict, Verdict::Pass) << testing::PrintToString(found->reasons);
@@ -65,7 +65,7 @@ TEST(VibrationSeparability, StrengthAndRhythmSeparateTheFour) {
 
 TEST(VibrationSeparability, StrengthsThatAreAlikeFail) {
     RecordProperty("hazard", "H9");
-    const auto found = judgeVibration(trials(1, 1.1), kFour);
+    const auto found = judgeVibration(trials(1, 1.1), kFourNames);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->verdict, Verdict::Fail);
     EXPECT_THAT(found->reasons.front(), HasSubstr("just-noticeable differences"));
@@ -77,7 +77,7 @@ TEST(VibrationSeparability, AMotorThatStoodStillFails) {
     for (auto& each : all) {
         if (each.condition == "smooth-low") each.measured = still();
     }
-    const auto found = judgeVibration(all, kFour);
+    const auto found = judgeVibration(all, kFourNames);
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->measured);
     EXPECT_EQ(found->verdict, Verdict::Fail);
@@ -88,11 +88,11 @@ TEST(VibrationSeparability, WhatWasNotMeasuredNeverPasses) {
     RecordProperty("hazard", "H9");
     auto some = trials();
     some[0].measured = still(3);
-    const auto open = judgeVibration(some, kFour);
+    const auto open = judgeVibration(some, kFourNames);
     ASSERT_TRUE(open);
     EXPECT_EQ(open->verdict, Verdict::Indeterminate);
     for (auto& each : some) each.measured = BurstFigures{};
-    const auto none = judgeVibration(some, kFour);
+    const auto none = judgeVibration(some, kFourNames);
     ASSERT_TRUE(none);
     EXPECT_FALSE(none->measured);
     EXPECT_EQ(none->verdict, Verdict::Indeterminate);
@@ -102,7 +102,7 @@ TEST(VibrationSeparability, WhatWasNotMeasuredNeverPasses) {
     EXPECT_FALSE(json["measured"].get<bool>());
     EXPECT_TRUE(json["verdict"].is_null());
     EXPECT_TRUE(json["conditions"][0]["strength_m_s2"]["mean"].is_null()) << "unknown is not zero";
-    EXPECT_FALSE(judgeVibration({}, kFour)->measured);
+    EXPECT_FALSE(judgeVibration({}, kFourNames)->measured);
 }
 
 TEST(VibrationSeparability, FiguresComeBackFromARow) {

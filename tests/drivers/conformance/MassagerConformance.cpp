@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -63,7 +64,7 @@ TEST_P(MassagerConformance, UnpluggedIsAnErrorAndNotACrash) {
     if (!rig_->unplug()) GTEST_SKIP() << "this rig cannot pull the plug";
     const auto refused = device().vibrate(approved(1, Seconds(0.1)));
     ASSERT_FALSE(refused.has_value());
-    EXPECT_IN_TIME(refused.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(refused.error().code, ErrorCode::Device);
     device().forceOff();
 }
 

@@ -8,6 +8,7 @@
 #include "drivers/hid_massager/HidMassager.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
 #include "tests/support/Allocations.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -213,11 +214,11 @@ TEST_F(HidMassagerTest, ASlowDeviceIsATimeoutAndItsBurstIsStopped) {
     device.hold(true);
     const auto slow = vibrate();
     ASSERT_FALSE(slow);
-    ASSERT_IN_TIME(slow.error().code == ErrorCode::Timeout);
+    ASSERT_EQ(slow.error().code, ErrorCode::Timeout);
     EXPECT_THAT(slow.error().message, HasSubstr("50 ms"));
     const auto again = vibrate();
     ASSERT_FALSE(again);
-    ASSERT_IN_TIME(again.error().code == ErrorCode::Timeout);
+    ASSERT_EQ(again.error().code, ErrorCode::Timeout);
     EXPECT_THAT(again.error().message, HasSubstr("before"));
     device.hold(false);
     ASSERT_IN_TIME(device.waitForWrites(3));
@@ -233,7 +234,7 @@ TEST_F(HidMassagerTest, AShortWriteIsAFaultAndStopped) {
     device.takeOnly(3);
     const auto cut = vibrate();
     ASSERT_FALSE(cut);
-    ASSERT_IN_TIME(cut.error().code == ErrorCode::Device);
+    ASSERT_CODE_IN_TIME(cut.error().code, ErrorCode::Device);
     EXPECT_THAT(cut.error().message, testing::AllOf(HasSubstr("3 bytes"), HasSubstr("8 were expected")));
     ASSERT_IN_TIME(device.waitForWrites(2));
     EXPECT_EQ(device.last(), kOff);
@@ -247,7 +248,7 @@ TEST_F(HidMassagerTest, ARefusedReportIsAFaultAndTheStopIsTriedUntilItIsTaken) {
     device.refuse(true);
     const auto refused = vibrate();
     ASSERT_FALSE(refused);
-    ASSERT_IN_TIME(refused.error().code == ErrorCode::Device);
+    ASSERT_CODE_IN_TIME(refused.error().code, ErrorCode::Device);
     EXPECT_THAT(refused.error().message, testing::AllOf(HasSubstr("Pad"), HasSubstr("refused")));
     device.refuse(false);
     ASSERT_IN_TIME(device.waitForWrites(2));
@@ -265,7 +266,7 @@ TEST_F(HidMassagerTest, AStopThatFailsWhileNobodyAsksIsToldOnceAndSentWhenItCan)
     ASSERT_IN_TIME(device.attempts() >= before + 2);  // tried again by itself
     const auto told = vibrate();
     ASSERT_FALSE(told);
-    EXPECT_IN_TIME(told.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(told.error().code, ErrorCode::Device);
     device.refuse(false);
     ASSERT_IN_TIME(device.waitForLast(kOff));
     EXPECT_IN_TIME(vibrate());
@@ -282,7 +283,7 @@ TEST_F(HidMassagerTest, ABurstThatWaitsBehindAStopThatFailsIsToldWhy) {
     device.hold(false);
     const auto told = behind.get();
     ASSERT_FALSE(told);
-    EXPECT_IN_TIME(told.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(told.error().code, ErrorCode::Device);
     device.refuse(false);
     EXPECT_IN_TIME(device.waitForLast(kOff));
 }
@@ -294,7 +295,7 @@ TEST_F(HidMassagerTest, UnpluggedInABurstIsAFaultAndThePluggedInDeviceServesAgai
     device.unplug();
     const auto gone = vibrate();
     ASSERT_FALSE(gone);
-    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);
     const auto still = vibrate();
     ASSERT_FALSE(still);
     EXPECT_THAT(still.error().message, HasSubstr("could not be opened again"));

@@ -11,6 +11,7 @@
 #include "drivers/system/KernelNodes.h"
 #include "tests/drivers/conformance/MassagerConformance.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/Support.h"
@@ -117,7 +118,7 @@ TEST_F(HidSystem, UnpluggedInABurstIsAFaultAndTheSameDeviceServesAgain) {
     devices.massager->forceOff();
     const auto gone = vibrate(1, Seconds(0.1));
     ASSERT_FALSE(gone);
-    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);
     pad.plug();
     // On a busy machine starting the watchdog takes longer than the 100 ms of an approval; a later one finds it open.
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);

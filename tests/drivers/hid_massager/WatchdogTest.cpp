@@ -33,6 +33,17 @@ using Steady = std::chrono::steady_clock;
 constexpr milliseconds kStopWithin{500};
 constexpr std::size_t kReportLength = 48;
 
+struct Death {
+    const char* name;
+    const char* word;  ///< what the host is told; empty: it is sent `signal`
+    int signal;        ///< that ends it; 0: it exits
+};
+constexpr std::array<Death, 5> kDeaths{{{"Kill9", "", SIGKILL},
+                                        {"Abort", "abort", SIGABRT},
+                                        {"Segfault", "segv", SIGSEGV},
+                                        {"Interrupt", "", SIGINT},
+                                        {"ExitWithoutClosing", "exit", 0}}};
+
 /// The program that drives the massager.
 class Host {
 public:
@@ -44,9 +55,20 @@ public:
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
         posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
+        // A signal that this program ignores, as SIGINT under nohup, is ignored by what it starts.
+        sigset_t deadly;
+        sigemptyset(&deadly);
+        for (const auto& death : kDeaths) {
+            if (death.signal != 0 && death.signal != SIGKILL) sigaddset(&deadly, death.signal);
+        }
+        posix_spawnattr_t attributes;
+        posix_spawnattr_init(&attributes);
+        posix_spawnattr_setsigdefault(&attributes, &deadly);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
         std::string program = TACTO_HOST_PROGRAM;
         std::array<char*, 3> arguments{program.data(), uri.data(), nullptr};
-        const int spawned = posix_spawn(&process_, program.c_str(), &actions, nullptr, arguments.data(), environ);
+        const int spawned = posix_spawn(&process_, program.c_str(), &actions, &attributes, arguments.data(), environ);
+        posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&actions);
         close(out[1]);
         close(in[0]);
@@ -85,17 +107,6 @@ private:
     pid_t process_ = -1;
     int said_ = -1, tell_ = -1;
 };
-
-struct Death {
-    const char* name;
-    const char* word;  ///< what the host is told; empty: it is sent `signal`
-    int signal;        ///< that ends it; 0: it exits
-};
-constexpr std::array<Death, 5> kDeaths{{{"Kill9", "", SIGKILL},
-                                        {"Abort", "abort", SIGABRT},
-                                        {"Segfault", "segv", SIGSEGV},
-                                        {"Interrupt", "", SIGINT},
-                                        {"ExitWithoutClosing", "exit", 0}}};
 
 class WatchdogDeath : public testing::TestWithParam<Death> {
 protected:

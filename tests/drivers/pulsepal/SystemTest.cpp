@@ -5,6 +5,7 @@
 #include "drivers/pulsepal/PulsePalDriver.h"
 #include "tests/drivers/pulsepal/PulsePalLine.h"
 #include "tests/drivers/usb/UsbFixture.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -103,7 +104,7 @@ TEST_F(PulsePalUsb, UnpluggedIsAFaultAndComesBackByIdentity) {
     usb.unplug();
     const auto gone = (*opened)->status();
     ASSERT_FALSE(gone);
-    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);
     ASSERT_IN_TIME(waitForDevices(0));
     usb.plug();
     ASSERT_IN_TIME(waitForDevices(1));

@@ -7,6 +7,7 @@
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/sciencemode/TtyTransport.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/emulated/sciencemode/EmulatedPty.h"
@@ -87,8 +88,8 @@ TEST_F(ScienceModeUri, FindsADeviceByItsUsbSerialOrItsIdentity) {
     EXPECT_EQ(serial(), "P24-000001");
     EXPECT_EQ(ports_->opened.back(), "1-1");
     const auto missing = open("sciencemode:P24-000003");
-    ASSERT_IN_TIME(!missing);
-    EXPECT_IN_TIME(missing.error().code == ErrorCode::NotFound);
+    ASSERT_FALSE(missing.has_value());
+    EXPECT_CODE_IN_TIME(missing.error().code, ErrorCode::NotFound);
     EXPECT_EQ(devices_.stimulator, nullptr);
 }
 
@@ -119,8 +120,8 @@ TEST_F(ScienceModeUri, OfSeveralThatAnswerOneMustBeNamed) {
     ports_->add({"A1", "1-1", ""}, named("P24-000001"));
     ports_->add({"A2", "1-2", ""}, named("P24-000002"));
     const auto opened = open("sciencemode:");
-    ASSERT_IN_TIME(!opened);
-    ASSERT_IN_TIME(opened.error().code == ErrorCode::InvalidArgument);
+    ASSERT_IN_TIME(!opened) << "one of the two did not answer";
+    ASSERT_CODE_IN_TIME(opened.error().code, ErrorCode::InvalidArgument);
     EXPECT_THAT(opened.error().message, HasSubstr("could be sciencemode:A1 or sciencemode:A2: name one"));
     const auto looked = lookAt(DeviceUri::parse("sciencemode:").value(), ports_.get(), clock_);
     ASSERT_FALSE(looked);
@@ -209,7 +210,7 @@ TEST_F(ScienceModeUri, AReplugIntoAnotherSocketIsFoundByItsSerialNumber) {
     ASSERT_TRUE(open("sciencemode:").has_value());
     line->unplug();
     ports_->ports_.clear();
-    EXPECT_IN_TIME(devices_.stimulator->status().error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(devices_.stimulator->status().error().code, ErrorCode::Device);
     line->plug();
     const auto stranger = ports_->add({"B7", "1-1", ""}, named("P24-000007"));
     EXPECT_FALSE(devices_.stimulator->status().has_value()) << "the same socket, another device";
@@ -264,8 +265,8 @@ TEST_F(ScienceModePty, AHungUpTerminalIsADeviceThatIsGone) {
     const auto gate = wideGate(clock_, devices_.stimulator->traits());
     const auto gone = devices_.stimulator->deliver(approve(*gate, clock_, biphasic(5), Seconds(2)));
     ASSERT_FALSE(gone.has_value());
-    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
-    EXPECT_IN_TIME(devices_.stimulator->status().error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(devices_.stimulator->status().error().code, ErrorCode::Device);
     devices_.stimulator->forceOff();
 }
 

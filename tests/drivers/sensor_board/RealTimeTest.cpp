@@ -5,6 +5,7 @@
 
 #include "core/acquisition/StreamHealth.h"
 #include "drivers/sensor_board/SensorBoard.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 #include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
 
@@ -75,7 +76,7 @@ TEST_F(SensorBoardRealTime, AnUnpluggedBoardIsAnErrorAfterWhatCameBefore) {
     const auto begin = clock_.now();
     const auto gone = readUntil([] { return false; });
     ASSERT_FALSE(gone.has_value());
-    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);
     EXPECT_NE(gone.error().message.find("unplugged"), std::string::npos);
     EXPECT_IN_TIME(clock_.now() - begin < std::chrono::seconds(1));
 }

@@ -6,6 +6,7 @@
 #include "drivers/sciencemode/TtyTransport.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "tests/drivers/sensor_board/BoardOnPty.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -61,7 +62,7 @@ TEST_F(SensorBoardOnTerminal, AnotherBoardThanTheOneNamedIsRefused) {
     BoardOnPty board(clock_);
     const auto refused = open("TSB-0009?tty=" + board.path());
     ASSERT_FALSE(refused);
-    EXPECT_IN_TIME(refused.error().code == ErrorCode::NotFound);
+    EXPECT_CODE_IN_TIME(refused.error().code, ErrorCode::NotFound);
     EXPECT_THAT(refused.error().message, HasSubstr("its serial number is \"EMU-0001\"; \"TSB-0009\" was expected"));
 }
 
@@ -74,7 +75,7 @@ TEST_F(SensorBoardOnTerminal, TheOtherEndGoingIsAnErrorOfRead) {
     board.reset();
     const auto gone = readUntil([] { return false; });
     ASSERT_FALSE(gone);
-    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);
     EXPECT_THAT(gone.error().message, HasSubstr(path));
 }
 

@@ -6,6 +6,7 @@
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "tests/drivers/sensor_board/BoardOnUsb.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -130,7 +131,7 @@ TEST_F(SensorBoardOnUsb, UnpluggedInMidStreamIsAnErrorAndPluggedInAgainItOpensBy
     const auto gone = readFor(5s);
     ASSERT_FALSE(gone);
     EXPECT_IN_TIME(clock_.now() - begin < 1s);
-    EXPECT_IN_TIME(gone.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);
     EXPECT_THAT(gone.error().message, HasSubstr("emulated sensor board"));
     EXPECT_IN_TIME(listed(0));
 
@@ -176,7 +177,7 @@ TEST_F(SensorBoardOnUsb, ADeviceThatAnswersNothingIsRefusedInTime) {
     const auto refused = open("sensor:");
     ASSERT_FALSE(refused);
     EXPECT_IN_TIME(clock_.now() - begin < 3s);
-    EXPECT_IN_TIME(refused.error().code == ErrorCode::Timeout);
+    EXPECT_EQ(refused.error().code, ErrorCode::Timeout);
 }
 
 TEST_F(SensorBoardOnUsb, OneThatMayNotBeOpenedIsListedWithWhatHelps) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/drivers/sigrok/ScopeOnLan.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -39,7 +40,7 @@ TEST_P(ScopeFails, IsAnErrorOfPollAndClosesInTime) {
     auto since = SteadyTime::now();
     const auto capture = lan.poll(Seconds(20));
     ASSERT_FALSE(capture.has_value());
-    EXPECT_IN_TIME(capture.error().code == GetParam().code) << capture.error().message;
+    EXPECT_CODE_IN_TIME(capture.error().code, GetParam().code) << capture.error().message;
     EXPECT_IN_TIME(seconds(since) < GetParam().within_s) << capture.error().message;
     EXPECT_FALSE(lan.scope().poll().has_value()) << "the error stays";
     EXPECT_FALSE(lan.scope().arm().has_value());
@@ -64,7 +65,7 @@ TEST(ScopeFaults, SilenceWhileWaitingIsATimeout) {
     const auto since = SteadyTime::now();
     const auto capture = lan.poll(Seconds(20));
     ASSERT_FALSE(capture.has_value());
-    EXPECT_IN_TIME(capture.error().code == ErrorCode::Timeout);
+    EXPECT_EQ(capture.error().code, ErrorCode::Timeout);
     EXPECT_IN_TIME(seconds(since) < 8);
 }
 

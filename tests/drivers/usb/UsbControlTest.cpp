@@ -3,6 +3,7 @@
 
 #include "drivers/usb/UsbControl.h"
 #include "tests/drivers/usb/UsbFixture.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -68,7 +69,7 @@ TEST_F(UsbControlTest, ARefusalATimeOutAndAnUnplugAreToldApart) {
                              }});
     const auto control = openControl();
     ASSERT_IN_TIME(control);
-    EXPECT_IN_TIME(control->send(1, kLong).error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(control->send(1, kLong).error().code, ErrorCode::Device);
     refuse = false;
     EXPECT_IN_TIME(control->send(1, kLong));
     device.hold(0, true);
@@ -78,7 +79,7 @@ TEST_F(UsbControlTest, ARefusalATimeOutAndAnUnplugAreToldApart) {
     device.unplug();
     const auto sent = sending.get();
     ASSERT_FALSE(sent);
-    EXPECT_IN_TIME(sent.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(sent.error().code, ErrorCode::Device);
 }
 
 TEST_F(UsbControlTest, ARequestForInputIsRefused) {

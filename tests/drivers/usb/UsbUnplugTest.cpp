@@ -1,4 +1,5 @@
 #include "tests/drivers/usb/UsbFixture.h"
+#include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -29,7 +30,7 @@ TEST_F(UsbUnplug, AWaitingReadReturnsAtOnce) {
     device.unplug();
     const auto read = reading.get();
     ASSERT_FALSE(read);
-    EXPECT_IN_TIME(read.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(read.error().code, ErrorCode::Device);
     EXPECT_IN_TIME(Seconds(returned - pulled) < kNoticed);
     RecordProperty("noticed_ms", std::to_string(Seconds(returned - pulled).count() * 1e3));
 }
@@ -46,11 +47,11 @@ TEST_F(UsbUnplug, AWriteInFlightReturnsAtOnce) {
     device.unplug();
     const auto [written, took] = writing.get();
     ASSERT_FALSE(written);
-    EXPECT_IN_TIME(written.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(written.error().code, ErrorCode::Device);
     EXPECT_IN_TIME(took < kLong);
     const auto [after, immediate] = timed([&] { return transport->write(bytesOf("more"), kLong); });
     ASSERT_FALSE(after);
-    EXPECT_IN_TIME(after.error().code == ErrorCode::Device);
+    EXPECT_CODE_IN_TIME(after.error().code, ErrorCode::Device);
     EXPECT_IN_TIME(immediate < kNoticed);
     transport->writeUrgent(bytesOf("stop"));  // nobody there: no harm
 }
@@ -121,7 +122,7 @@ TEST_F(UsbUnplug, PullingThePlugAtAnyMomentIsAnErrorAndNothingWorse) {
         transport->writeUrgent(bytesOf("stop"));
         device.unplug();
         transport->writeUrgent(bytesOf("stop"));
-        EXPECT_IN_TIME(working.get() == ErrorCode::Device);
+        EXPECT_CODE_IN_TIME(working.get(), ErrorCode::Device);
         transport.reset();
         ASSERT_IN_TIME(waitForDevices(0));
         device.plug();

@@ -46,7 +46,7 @@ function run(p) {
 
 TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     open("separability");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     type("operator", "A. Lind");
     type("repeats", "2");
     ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("into 1"); }));
@@ -98,7 +98,7 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
 TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
     RecordProperty("hazard", "H1");
     open("separability");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     type("load", "50");
     // At once, by the key: the table may still show the load of a moment ago.
     QTest::keyClick(&the<QLineEdit>("load"), Qt::Key_F5);
@@ -149,7 +149,7 @@ TEST_F(WorkspaceInLargeText, ARunInARowSaysHowFarItIsAndCanBeStopped) {
     write("loop", kLoop);
     open("", {1190, 640});
     choose("loop");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(comesTrue([this] { return workspace->running(); }));
     EXPECT_EQ(find<QPushButton>(*workspace, "runButton"), nullptr) << "its room is the progress's";
@@ -180,7 +180,7 @@ TEST_F(Workspace, LooksRightDarkAndSmall) {
     gui::applyTheme(gui::Theme::Dark);
     open("", {760, 500});
     choose("separability");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     type("repeats", "2");
     type("load", "0");
     ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("accepted"); }));
@@ -195,7 +195,7 @@ TEST_F(Workspace, LooksRightDarkAndSmall) {
 
 TEST_F(Workspace, RefusesAWrongSettingInPlaceAndRunsNothing) {
     open("separability");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     type("repeats", "1");
     ASSERT_IN_TIME(comesTrue([this] { return !says("trouble-repeats").isEmpty(); }));
     EXPECT_THAT(says("trouble-repeats").toStdString(), HasSubstr("2"));
@@ -213,7 +213,7 @@ TEST_F(Workspace, RefusesAWrongSettingInPlaceAndRunsNothing) {
 
 TEST_F(Workspace, ShowsTheWorstCaseOfTheDeclaredLoad) {
     open("separability");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     ASSERT_IN_TIME(
         comesTrue([this] { return says("worstCase").contains("1 kΩ") || says("worstCase").contains("1\u202fkΩ"); }));
     EXPECT_THAT(says("worstCase").toStdString(), HasSubstr("Every limit that can be evaluated is kept"));
@@ -228,7 +228,7 @@ TEST_F(Workspace, PutsQuestionsInPlaceAndRefusesAnAnswerThatDoesNotFit) {
     write("ask", kAsk);
     open("");
     choose("ask");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     gui::ProtocolWorkspace other(controller, "separability");
     other.show();
     QTest::keyClick(workspace.get(), Qt::Key_F5);
@@ -255,7 +255,7 @@ TEST_F(Workspace, ARefusedQuestionEndsTheRun) {
     write("ask", kAsk);
     open("");
     choose("ask");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     click(the<QPushButton>("runButton"));
     click(the<QPushButton>("Refuse and end the run"));
     ASSERT_IN_TIME(ends());
@@ -268,7 +268,7 @@ TEST_F(Workspace, StopsAScriptThatLoopsForEver) {
     write("loop", kLoop);
     open("");
     choose("loop");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Armed; }));
     EXPECT_FALSE(the<QPushButton>("runButton").isEnabled());
@@ -285,7 +285,7 @@ TEST_F(Workspace, AScriptErrorNamesItsLineAndTheEditorMarksIt) {
     write("broken", kBroken);
     open("");
     choose("broken");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("(broken.js:4)"));
@@ -311,7 +311,7 @@ TEST_F(Workspace, AScriptThatCannotBeReadSaysWhereAndLeadsThere) {
 
 TEST_F(Workspace, AFolderThatCannotBeWrittenGivesASentenceAndLeavesTheWindowAlive) {
     open("separability");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     type("repeats", "2");
     type("out", "/proc/nothing/here");
     click(the<QPushButton>("runButton"));
@@ -338,7 +338,7 @@ function run(p) {
 )js");
     open("");
     choose("steps");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     workspace->goTo(gui::kWiring);
     auto& realtime = the<QCheckBox>("realtime");
     QTest::mouseClick(&realtime, Qt::LeftButton, {}, QPoint(8, realtime.height() / 2));  // its box, not its row
@@ -368,7 +368,7 @@ TEST_F(Workspace, ARunsEndIsThatOfThePageThatBeganIt) {
     other.show();
     ASSERT_IN_TIME(comesTrue([&] { return other.ready(); }));
     open("short");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     QObject::connect(&controller, &gui::BenchController::changed, &other, [&] {
         // The earliest moment at which another run may begin: the end of this one is not told yet.
         if (controller.activity() == gui::Activity::Closed && !ended) other.runAsked();
@@ -385,7 +385,7 @@ TEST_F(Workspace, ARunsEndIsThatOfThePageThatBeganIt) {
 
 TEST_F(Workspace, AStepThatWasReachedCanBeGoneBackTo) {
     open("separability");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     EXPECT_FALSE(step("Result").isEnabled());
     EXPECT_THAT(step("Result").toolTip().toStdString(), HasSubstr("press Run"));
     EXPECT_EQ(step("Settings").state(), gui::StepList::State::UnderWay);
@@ -410,7 +410,7 @@ TEST_F(Workspace, AStepThatWasReachedCanBeGoneBackTo) {
 
 TEST_F(Workspace, WhatComesNextIsAButtonThatDoesIt) {
     open("separability");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     type("repeats", "2");
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends());
@@ -432,7 +432,7 @@ function run(p) { log(p.due + " " + p.table); }
 )js");
     open("");
     choose("kinds");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     auto& due = the<QLineEdit>("due");
     type("due", "2027-02-30");
     ASSERT_IN_TIME(comesTrue([this] { return says("trouble-due").contains("a day such as 2027-03-01"); }));
@@ -465,7 +465,7 @@ function run(p) {
 )js");
     open("");
     choose("shapes");
-    ASSERT_IN_TIME(ready());
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdict").toStdString(), HasSubstr("PASS"));

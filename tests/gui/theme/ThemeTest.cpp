@@ -1,4 +1,8 @@
 // The promises of the design about colour: told apart by dash as well, legible, and red for STOP and faults alone.
+#include <QComboBox>
+#include <QHeaderView>
+#include <QTabBar>
+#include <QTableWidget>
 #include <QTest>
 #include <gtest/gtest.h>
 
@@ -68,6 +72,37 @@ TEST_P(InTheme, ConditionsAndChannelsStandOutFromThePlot) {
         EXPECT_GE(contrast(gui::conditionInTheme(name).color, gui::colours().base), 2) << name;
     for (const auto& channel : {gui::colours().voltage, gui::colours().current, gui::colours().third})
         EXPECT_GE(contrast(channel, gui::colours().base), 3) << channel.name().toStdString();
+}
+
+TEST(Looks, AreFoundWrongInBoxesTabsAndTitlesOfColumns) {
+    gui::applyTheme(Theme::Light);
+    QWidget window;
+    auto* layout = new QVBoxLayout(&window);
+    auto* box = new QComboBox(&window);
+    box->addItem("a choice of several words");
+    auto* tabs = new QTabBar(&window);
+    tabs->setExpanding(false);
+    tabs->setUsesScrollButtons(false);
+    tabs->addTab("The first of them");
+    tabs->addTab("The second of them");
+    auto* table = new QTableWidget(1, 2, &window);
+    table->setHorizontalHeaderLabels({"Quantity", "Uncertainty"});
+    for (QWidget* each : {static_cast<QWidget*>(box), static_cast<QWidget*>(tabs), static_cast<QWidget*>(table)})
+        layout->addWidget(each);
+    window.resize(600, 300);
+    window.show();
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
+    EXPECT_EQ(cutTexts(window).join('\n').toStdString(), "");
+    const auto cuts = [&](const char* text) { return cutTexts(window).join('\n').contains(text); };
+    box->setFixedWidth(60);
+    QTest::qWait(20);
+    EXPECT_TRUE(cuts("a choice of several words"));
+    tabs->setFixedWidth(160);
+    QTest::qWait(20);
+    EXPECT_TRUE(cuts("The second of them"));
+    table->horizontalHeader()->resizeSection(1, 30);
+    EXPECT_TRUE(cuts("Uncertainty"));
+    EXPECT_FALSE(cuts("Quantity"));
 }
 
 TEST_P(InTheme, TextHasAContrastOfFourAndAHalf) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/window/HardwareBench.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
@@ -152,6 +153,7 @@ TEST_F(HardwareWindow, LooksRightInEachThemeAndSmall) {
             QTest::qWait(150);
             EXPECT_TRUE(window.rect().contains(QRect(stop->mapTo(&window, QPoint(0, 0)), stop->size())));
             EXPECT_IN_TIME(window.findChild<QLabel*>("interlockState")->text() == "DELIVERING");
+            EXPECT_EQ(faultsOf(window), "") << name << label;
             shot(window, QString("hardware_delivering_%1%2").arg(name, label));
         }
     }
@@ -160,9 +162,11 @@ TEST_F(HardwareWindow, LooksRightInEachThemeAndSmall) {
     ASSERT_IN_TIME(comesTrue([this] { return !banner().isEmpty() && row(kStimulator).text(0).contains("⚠"); }));
     choose(row(kStimulator));
     QTest::qWait(100);
+    EXPECT_EQ(faultsOf(window), "");
     shot(window, "hardware_faulted_dark_small");
     gui::applyTheme(gui::Theme::Light);
     QTest::qWait(100);
+    EXPECT_EQ(faultsOf(window), "");
     shot(window, "hardware_faulted_light_small");
 }
 

@@ -8,11 +8,13 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QRadioButton>
+#include <QStackedWidget>
 #include <QTextBrowser>
 #include <QWhatsThis>
 #include <gmock/gmock.h>
 #include <set>
 
+#include "app/gui/runner/ProtocolWorkspace.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 
@@ -111,6 +113,70 @@ TEST_F(Keyboard, TabReachesEveryControlOfEveryWorkspaceAndComesRound) {
         SCOPED_TRACE(workspace);
         show(workspace);
         expectAllReached(window, tabFrom(stopButton()));
+    }
+}
+
+/// Steps of Tab against the direction of reading: up within a column, or back within a row.
+std::string stepsBack(const std::vector<const QWidget*>& order) {
+    std::string back;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        const auto place = [](const QWidget* of) { return QRect(of->mapToGlobal(QPoint(0, 0)), of->size()); };
+        const auto from = place(order[i - 1]);
+        const auto to = place(order[i]);
+        const bool sameColumn = from.left() < to.right() && to.left() < from.right();
+        const bool sameRow = from.top() < to.center().y() && to.center().y() < from.bottom();
+        const bool up = sameColumn && to.bottom() <= from.top();
+        const bool left = sameRow && to.right() <= from.left();
+        if (up || left) back += nameOf(*order[i - 1]) + " -> " + nameOf(*order[i]) + "\n";
+    }
+    return back;
+}
+
+TEST_F(Keyboard, TabGoesThroughEachWorkspaceInTheOrderOfReading) {
+    open();
+    for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
+        SCOPED_TRACE(workspace);
+        show(workspace);
+        std::vector<const QWidget*> order;
+        const auto* page = window.findChild<QWidget*>("centre")->findChild<QStackedWidget*>();
+        ASSERT_NE(page, nullptr);
+        tabFrom(stopButton(), [&](QWidget& at) {
+            if (page->isAncestorOf(&at)) order.push_back(&at);
+        });
+        EXPECT_GE(order.size(), 3U);
+        EXPECT_EQ(stepsBack(order), "");
+    }
+}
+
+TEST_F(Keyboard, F5RunsWhatIsShownAndShiftF5CancelsIt) {
+    RecordProperty("hazard", "H2");
+    for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
+        SCOPED_TRACE(workspace);
+        show(workspace);
+        gui::ProtocolWorkspace* shown = nullptr;
+        for (auto* one : window.findChildren<gui::ProtocolWorkspace*>()) {
+            if (one->isVisible()) shown = one;
+        }
+        if (shown == nullptr) {
+            key(Qt::Key_F5);
+            QTest::qWait(200);
+            EXPECT_EQ(window.controller().activity(), gui::Activity::Closed) << "nothing is shown that runs";
+            continue;
+        }
+        if (auto* area = shown->findChild<QLineEdit*>("area")) {
+            key(Qt::Key_F5);
+            EXPECT_FALSE(shown->running()) << "it asks for the electrode first";
+            QTest::keyClicks(area, "3");
+        }
+        ASSERT_IN_TIME(comesTrue([&] { return shown->ready(); }));
+        QTest::qWait(200);  // judged a moment after it is shown
+        key(Qt::Key_F5);
+        ASSERT_IN_TIME(comesTrue([&] { return shown->running(); }));
+        for (const auto* other : window.findChildren<gui::ProtocolWorkspace*>())
+            EXPECT_EQ(other->running(), other == shown) << other->accessibleName().toStdString();
+        key(Qt::Key_F5, Qt::ShiftModifier);
+        ASSERT_IN_TIME(comesTrue([&] { return window.controller().activity() == gui::Activity::Closed; }));
+        EXPECT_FALSE(shown->running());
     }
 }
 

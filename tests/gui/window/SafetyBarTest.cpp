@@ -99,6 +99,29 @@ TEST(Tightest, IsTheRowNearestItsLimitAndNotEvaluatedComesFirst) {
     EXPECT_DOUBLE_EQ(gui::tightest(more, {Quantity::RmsCurrent5s})->limit, 80);
 }
 
+TEST(Tightest, DoesNotFlipAtATie) {
+    RecordProperty("hazard", "H9");
+    auto paper = row(Quantity::RmsCurrent5s, 2, 10, "mA");
+    auto standard = paper;
+    standard.set = "iec60601-2-10";
+    auto strict = row(Quantity::RmsCurrent5s, 1, 5, "mA");
+    strict.set = "lab";
+    std::vector<ExposureRow> rows{paper, standard, strict};
+    const auto shown = [&] {
+        const auto found = gui::tightest(rows, {Quantity::RmsCurrent5s});
+        return std::pair(found->set, found->limit);
+    };
+    const auto first = shown();
+    for (const double off : {0.0, 1e-16, -1e-16, 3e-16, -3e-16}) {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const double value = rows[i].value;
+            rows[i].value = value * (1 + off);
+            EXPECT_EQ(shown(), first) << "the last digit of a sum decides: row " << i << ", " << off;
+            rows[i].value = value;
+        }
+    }
+}
+
 class Bar : public testing::Test {
 protected:
     Bar() {
@@ -196,6 +219,71 @@ TEST_F(Bar, StopAndTheButtonsAreWholeOnANarrowScreen) {
     EXPECT_LE(bar.minimumSizeHint().width(), 900);
 }
 
+TEST_F(Bar, TheStatesWordIsReadFromTwoMetres) {
+    RecordProperty("hazard", "H12");
+    for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
+        bar.refresh(in(InterlockState(state), "why"));
+        const auto* label = bar.findChild<QLabel*>("interlockState");
+        EXPECT_GE(label->font().pointSizeF(), 28 - 1e-6) << word().toStdString();
+        EXPECT_GE(label->width(), QFontMetrics(label->font()).horizontalAdvance(word())) << word().toStdString();
+        const auto drawn = label->grab().toImage();  // in the sheet's font, too
+        int top = drawn.height(), bottom = 0;
+        for (int y = 0; y < drawn.height(); ++y) {
+            for (int x = 0; x < drawn.width(); ++x) {
+                if (drawn.pixelColor(x, y).rgb() != gui::stateStyle(InterlockState(state)).ink.rgb()) continue;
+                top = std::min(top, y);
+                bottom = std::max(bottom, y);
+            }
+        }
+        EXPECT_GE(bottom - top + 1, 0.9 * QFontMetrics(label->font()).capHeight()) << word().toStdString();
+    }
+}
+
+TEST_F(Bar, TheStatesShapePulsesWithEachTrain) {
+    auto telemetry = in(InterlockState::Delivering);
+    auto* block = bar.findChild<gui::StateBlock*>();
+    const auto ink = gui::stateStyle(InterlockState::Delivering).ink;
+    const auto drawn = [&] {
+        bar.refresh(telemetry);
+        return pixelsOf(block->grab().toImage(), ink);
+    };
+    const auto settles = [&] {
+        for (int frame = 0; frame < 60; ++frame) drawn();
+        return drawn();
+    };
+    telemetry.trainsDelivered = 4;
+    const int quiet = settles();
+    for (int train = 5; train < 8; ++train) {
+        telemetry.trainsDelivered = train;
+        EXPECT_GT(drawn(), quiet + 20) << "train " << train;
+        EXPECT_EQ(settles(), quiet) << "and it is over before the next";
+    }
+    telemetry.state = InterlockState::Armed;
+    const int armed = settles();
+    telemetry.trainsDelivered = 8;
+    EXPECT_EQ(drawn(), armed) << "only an output that delivers pulses";
+}
+
+TEST_F(Bar, StopGrowsWithTheText) {
+    RecordProperty("hazard", "H2");
+    auto* stop = bar.findChild<QPushButton*>("stopButton");
+    const auto written = [&] {
+        QCoreApplication::processEvents();
+        bar.resize(2400, bar.sizeHint().height());
+        QTest::qWait(50);
+        return pixelsOf(stop->grab().toImage(), gui::stateStyle(InterlockState::Faulted).ink);
+    };
+    const int before = written();
+    const auto size = stop->size();
+    gui::applyTextSize(200);
+    const int after = written();
+    const auto grown = stop->size();
+    gui::applyTextSize(100);
+    EXPECT_GE(grown.width(), 1.9 * size.width());
+    EXPECT_GE(grown.height(), 1.8 * size.height());
+    EXPECT_GT(after, 3 * before) << "the word grows, not only the button";
+}
+
 TEST_F(Bar, StopIsThereAndEnabledInEveryState) {
     auto* stop = find<QPushButton>(bar, "STOP");
     ASSERT_NE(stop, nullptr);
@@ -271,7 +359,9 @@ TEST_F(Bar, PauseHoldsAProtocolBetweenItsTrainsToo) {
     order.script.text =
         "protocol({ title: 'T', needs: [], parameters: {} });\n"
         "function run(p) { for (;;) { bench.wait(0.1); log('tick'); } }";
-    order.declaration = readDeclaration(order.script).value();
+    const auto declaration = readDeclaration(order.script);
+    ASSERT_TRUE(declaration) << declaration.error().message;
+    order.declaration = *declaration;
     order.uris.push_back(*DeviceUri::parse("sim:"));
     order.profile = controller.profile();
     order.limits = controller.limits();

@@ -1,0 +1,71 @@
+// The last capture, small: the numbers at its axes never run into each other.
+#include <QTest>
+#include <gtest/gtest.h>
+
+#include "app/gui/runner/CaptureStrip.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::test {
+namespace {
+
+std::shared_ptr<const Capture> captureOf(double seconds, double level) {
+    auto capture = std::make_shared<Capture>();
+    capture->rate_hz = 1000 / seconds;
+    capture->start_s = -0.1 * seconds;
+    capture->trigger_s = 0;
+    for (const auto* unit : {"V", "A"}) {
+        CaptureChannel channel;
+        channel.unit = unit;
+        for (int i = 0; i < 1000; ++i) channel.samples.push_back(float(i < 500 ? level : -level));
+        capture->channels.push_back(std::move(channel));
+    }
+    return capture;
+}
+
+/// Labels of the axis that overlap, or have less than a space between them.
+int touching(QCustomPlot& plot, QCPAxis& axis) {
+    QVector<double> ticks;
+    QVector<QString> labels;
+    axis.ticker()->generate(axis.range(), plot.locale(), 'g', axis.numberPrecision(), ticks, nullptr, &labels);
+    const QFontMetrics metrics(axis.tickLabelFont());
+    const bool across = axis.orientation() == Qt::Horizontal;
+    double end = -1e9;
+    int found = 0;
+    QList<QPair<double, QString>> shown;
+    for (int i = 0; i < ticks.size(); ++i) {
+        if (axis.range().contains(ticks[i])) shown.append({axis.coordToPixel(ticks[i]), labels[i]});
+    }
+    std::sort(shown.begin(), shown.end());
+    for (const auto& [at, text] : shown) {
+        const double half = (across ? metrics.horizontalAdvance(text) : metrics.ascent()) / 2.0;
+        const double apart = across ? metrics.horizontalAdvance(' ') : 0;
+        found += at - half < end + apart;
+        end = at + half;
+    }
+    return found;
+}
+
+TEST(CaptureStrip, TheNumbersAtItsAxesNeverTouch) {
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        gui::CaptureStrip strip;
+        static_cast<QWidget&>(strip).show();
+        for (const auto size : {QSize(220, 140), QSize(320, 180), QSize(480, 300), QSize(900, 400), QSize(1600, 700)}) {
+            strip.resize(size);
+            for (const double seconds : {97e-6, 500e-6, 1.7e-3, 40e-3, 2.3}) {
+                for (const double level : {0.013, 7.7, 40.0, 320.0}) {
+                    strip.show(captureOf(seconds, level));
+                    strip.replot();
+                    for (auto* axis : {strip.xAxis, strip.yAxis, strip.yAxis2})
+                        EXPECT_EQ(touching(strip, *axis), 0)
+                            << axis->label().toStdString() << " at " << percent << " %, " << size.width() << " x "
+                            << size.height() << ", " << seconds << " s, " << level;
+                }
+            }
+        }
+    }
+    gui::applyTextSize(100);
+}
+
+}  // namespace
+}  // namespace tacto::test
