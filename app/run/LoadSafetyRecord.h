@@ -28,7 +28,7 @@ namespace tacto {
 [[nodiscard]] std::optional<LoadSafetyCheck> loadSafetyCheckOf(const ProtocolSource& script, const SessionAbout& about,
                                                                const Profile& profile, const std::string& session);
 
-/// Errors: as LoadSafetyStore. Of simulated devices nothing hangs on it: what cannot be kept is no error.
+/// Errors: as LoadSafetyStore. Nothing depends on it for simulated devices: what cannot be kept is not an error.
 [[nodiscard]] Result<void> keepCheck(const LoadSafetyCheck& check);
 
 }  // namespace tacto

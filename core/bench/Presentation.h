@@ -85,7 +85,7 @@ struct Presented {
 
     PresentationEnd end = PresentationEnd::Stopped;
     std::string reason;  ///< one sentence; empty when complete
-    Instant began{0};    ///< its onsets count from then; never before `notBefore`. Of no meaning where it never began
+    Instant began{0};    ///< its onsets count from then; never before `notBefore`. Without meaning if it never did
     Instant ended{0};
     std::vector<PresentedTrain> trains;  ///< those that were delivered and read before its end, also of a void one
     std::optional<Ohms> impedance;       ///< the last reading of |Z|, also from before it; nothing where there is none

@@ -22,7 +22,7 @@ namespace tacto {
 
 class TrainDispatch {
 public:
-    /// All outlive the dispatch. Of the sessions one or both may be null.
+    /// All outlive the dispatch. One or both of the sessions may be null.
     struct Parts {
         SafetyGate& gate;
         Interlock& interlock;

@@ -32,8 +32,8 @@ public:
     void end();
     /// Takes what has come: at least once in two seconds, or samples are missing.
     void look();
-    /// Of what was seen. Nothing where it cannot look, for an empty presentation, and where the quiet before it was not
-    /// seen.
+    /// The bursts that were seen. Nothing where it cannot look, for an empty presentation, and where the quiet before
+    /// it was not seen.
     [[nodiscard]] std::optional<BurstFigures> measured(const Presented& presented) const;
 
 private:

@@ -37,7 +37,7 @@ struct Plan {
     SourceLimits limits;  // Infinite: what clipping takes away is counted as delivered
 };
 
-/// Of the segments of `longest` in the shortest train, which may lack its gap; in s.
+/// How long each segment of `longest` lasts in the shortest train, which may lack its gap; in s.
 [[nodiscard]] std::array<double, 3> leastDurations(const PulseSegments& longest,
                                                    const PulseSegments& shortest) noexcept;
 

@@ -187,7 +187,7 @@ constexpr Rule<Personal> kPersonRules[] = {
      }},
 };
 
-/// Of a person at electrodes.
+/// What a person at electrodes needs.
 constexpr Rule<Personal> kElectrodeRules[] = {
     {PersonArea, [](auto& p) { return !p.setup.electrodeArea; },
      [](auto&) { return invalid("person mode needs the electrode area in cm2"); }},
@@ -229,7 +229,7 @@ constexpr Rule<Personal> kElectrodeRules[] = {
 
 bool isShare(double value) noexcept { return value > 0 && value <= 1; }
 
-/// Of a person at a massager.
+/// What a person at a massager needs.
 constexpr Rule<PersonVibration> kVibrationRules[] = {
     {PersonVibrationLimit, [](auto& v) { return !isShare(v.discomfortLimit); },
      [](auto& v) {

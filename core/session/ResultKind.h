@@ -46,7 +46,7 @@ struct ResultTraits {
     bool ofStudy = false;  ///< a session of a study: with a participant, on their record
 };
 
-/// Of the kind with that name; of Other where there is none.
+/// The traits of the kind with that name; those of Other where there is none.
 [[nodiscard]] const ResultTraits& resultTraits(std::string_view name) noexcept;
 
 }  // namespace tacto

@@ -54,7 +54,7 @@ public:
     /// Returns when the device has the report. A burst takes the place of one that runs. One that forceOff() overtakes
     /// is not sent, which is no error. Refuses an expired approval (Device).
     [[nodiscard]] Result<void> vibrate(ApprovedBurst&& burst) override;
-    /// Of the field that takes the fewest values.
+    /// The step of the field that takes the fewest values.
     [[nodiscard]] double step() const noexcept override;
     void forceOff() noexcept override;
 

@@ -64,7 +64,7 @@ void SimulatedSensor::noteFaults(Instant now) {
     drifting_s_ = drift ? toSeconds(now - *drift) : 0;
 }
 
-/// Of the fingertip, averaged over the sample.
+/// The fingertip's acceleration, averaged over the sample.
 std::array<double, 3> SimulatedSensor::felt() {
     std::array<double, 3> mean{};
     for (int tick = 0; tick < ticksPerSample_; ++tick) {
@@ -77,7 +77,7 @@ std::array<double, 3> SimulatedSensor::felt() {
     return mean;
 }
 
-/// Of the motor, in a direction of its own, beside gravity.
+/// The motor's acceleration, in a direction of its own, beside gravity.
 std::array<double, 3> SimulatedSensor::shaken() {
     constexpr std::array<double, 3> kDirection{0.6, 0, 0.8};
     std::array<double, 3> out{0, 0, kGravity};

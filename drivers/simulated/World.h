@@ -30,7 +30,7 @@ public:
     [[nodiscard]] double reference() const noexcept { return reference_V_.load(std::memory_order_acquire); }
     void setReference(double volts) noexcept { reference_V_.store(volts, std::memory_order_release); }
 
-    /// Of the massager; null: there is none.
+    /// The massager's motor; null: there is no massager.
     [[nodiscard]] std::shared_ptr<Motor> motor() const {
         const std::scoped_lock lock(motorMutex_);
         return motor_;

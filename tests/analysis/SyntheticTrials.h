@@ -24,7 +24,7 @@ struct TrialDesign {
     int repeats = 25;
 };
 
-/// Of mean square 1 and mean 0 over many i: multiples of the golden ratio spread evenly over a sine.
+/// A wave of mean square 1 and mean 0 over many i: multiples of the golden ratio spread evenly over a sine.
 inline double wave(int i, int k) {
     return std::sqrt(2.0) * std::sin(2 * std::numbers::pi * std::fmod((i + 1) * 0.6180339887498949 * (k + 1), 1.0));
 }

@@ -180,7 +180,7 @@ TEST_F(BenchTest, ASourceThatDriftsAboveItsCommandStopsOutput) {
     EXPECT_LT(bench_->clock().now(), 13s) << "2 % a second: 20 % after ten";
     EXPECT_EQ(state(), InterlockState::Faulted);
 
-    // Somebody who resets without looking arms nothing: the drift is still there.
+    // An operator who resets without looking arms nothing: the drift is still there.
     ASSERT_TRUE(bench_->resetFault());
     const auto delivered = bench_->telemetry().trainsDelivered;
     const auto armed = arm();

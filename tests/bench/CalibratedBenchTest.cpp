@@ -8,7 +8,7 @@ namespace {
 
 class CalibratedBenchTest : public test::BenchFixture {
 protected:
-    /// Of the trains at full roughness and pressure, across the load.
+    /// The amplitude of the trains at full roughness and pressure, across the load.
     [[nodiscard]] double deliveredAtFull() {
         const auto captures = bench_->capture(3, ScopeSettings{});
         if (!captures) {

@@ -1,5 +1,5 @@
 // A process that was stopped, a computer that slept: the loop and a device's thread wake in either order, and nothing
-// is delivered until somebody arms again (H2).
+// is delivered until the operator arms again (H2).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

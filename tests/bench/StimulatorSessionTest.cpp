@@ -101,7 +101,7 @@ TEST_F(StimulatorSessionTest, SwitchesOffWhenTheLoopIsSilent) {
     EXPECT_EQ(session_.silencedAfter(), 0ms);
     const int kept = device_.keptAlive;
     EXPECT_GE(kept, 1);
-    // Nobody beats any more.
+    // No thread beats any more.
     clock_.advanceTo(301ms);
     session_.serve(clock_.now());
     EXPECT_EQ(device_.offs, 1);

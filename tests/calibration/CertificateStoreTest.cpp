@@ -27,7 +27,7 @@ std::string contentsOf(const std::filesystem::path& path) {
 class CertificateStoreFile : public testing::Test {
 protected:
     [[nodiscard]] CertificateStore store() const { return CertificateStore::open(path).value(); }
-    /// Of the certificate of that number.
+    /// The state of the certificate of that number.
     [[nodiscard]] CertificateState stateOf(const char* number, const char* day) const {
         const auto kept = store();
         for (std::size_t i = 0; i < kept.all().size(); ++i) {

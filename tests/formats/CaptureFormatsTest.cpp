@@ -1,4 +1,4 @@
-// The list of formats: who is asked, who writes, and what it says when nobody knows.
+// The list of formats: who is asked, who writes, and what it says when no format knows.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@ namespace {
 void sayWhere(int signal) {
     std::array<void*, 64> frames{};
     backtrace_symbols_fd(frames.data(), backtrace(frames.data(), int(frames.size())), STDERR_FILENO);
-    std::raise(signal);  // as if nobody had looked
+    std::raise(signal);  // as if there were no handler
 }
 
 }  // namespace

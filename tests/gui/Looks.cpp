@@ -176,7 +176,7 @@ QStringList overlaps(const QWidget& in) {
         if (layout == nullptr || !parent->isVisible() || parent->window() != in.window()) continue;
         std::vector<const QWidget*> placed;
         for (const auto* child : parent->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
-            // Of a layout within the layout too: what indexOf() knows is only its own.
+            // A nested layout's widgets too: indexOf() knows only the layout's own.
             if (child->isVisible() && !child->isWindow() && child->objectName() != "qt_qmainwindow_extended_splitter")
                 placed.push_back(child);
         }

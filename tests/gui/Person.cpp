@@ -41,7 +41,7 @@ void shot(QWidget& widget, const QString& name) {
     const auto folder = qEnvironmentVariable("TACTO_SHOTS");
     if (folder.isEmpty()) return;
     QDir().mkpath(folder);
-    QTest::qWait(150);  // whoever looks at it sees it laid out
+    QTest::qWait(150);  // so that a viewer sees it laid out
     widget.grab().save(folder + "/" + name + ".png");
 }
 

@@ -14,7 +14,7 @@ std::string biasAndSpread(const tacto::Statistics& s, double times) {
     return fmt::format("{:+.3g} ± {:.2g}", times * s.mean, times * (s.n > 1 ? s.sd : 0));
 }
 
-/// Of amplitude, width, gap, charge, imbalance.
+/// The share not covered: amplitude, width, gap, charge, imbalance.
 std::string notCovered(const tacto::test::GridResult& r) {
     if (r.amplitude.n == 0) return "–";
     const auto percent = [](int beyond, std::size_t n) {

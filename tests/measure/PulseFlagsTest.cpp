@@ -130,7 +130,7 @@ TEST(PulseFlags, OneFlatPulseAmongSmallerOnesIsTheOneThatIsRemarkedOn) {
     EXPECT_EQ(m.measuredPulses, 3U);
 }
 
-/// Of clean records with levels anywhere between two codes, and of clipped ones, those that are remarked on.
+/// Counts the remarks on clean records with levels anywhere between two codes, and on clipped ones.
 TEST(PulseFlags, FlatTopsAreRemarkedOnWhereTheyAreClippedAndHardlyElsewhere) {
     RecordProperty("hazard", "H9");
     constexpr int kRecords = 20;

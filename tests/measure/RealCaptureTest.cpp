@@ -30,7 +30,7 @@ Capture numbersOf(const std::filesystem::path& path, int header, std::size_t cha
     return capture;
 }
 
-/// Of a square wave: two states, as many pulses, and widths and intervals to a hundredth of a sampling step.
+/// Expects of a square wave: two states, as many pulses, and widths and intervals to a hundredth of a sampling step.
 void expectNumpys(const ChannelMeasurement& m, const nlohmann::json& numpy) {
     EXPECT_EQ(m.states.count, StateCount::Two) << m.name << m.states.why;
     EXPECT_EQ(m.measuredPulses, numpy.at("pulses").get<std::size_t>()) << m.name;

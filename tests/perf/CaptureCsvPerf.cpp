@@ -105,7 +105,7 @@ assert table.num_rows == 10000000' ')" +
     return theirs;
 }
 
-/// Of this process, all threads.
+/// The time that this process has used, all threads.
 double processorTime_s() {
     timespec time{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

@@ -176,7 +176,7 @@ TEST_F(PilotStageTest, RisingLevelsAreNotPresentedWhileTheParticipantDoesNotHold
     EXPECT_EQ(answer->attempt, 1U) << "nothing had been presented";
 }
 
-/// Of a session in which 0.5 and 1 mA were accepted before an electrode lifts at 20 s, for 10 s.
+/// A session in which 0.5 and 1 mA were accepted before an electrode lifts at 20 s, for 10 s.
 class PilotStageFaultTest : public PilotStageTest {
 protected:
     void reachOne(const std::string& fault) {

@@ -11,7 +11,7 @@ import pathlib
 import sys
 
 SHARED_DATA = pathlib.Path(__file__).resolve().parents[3] / "shared" / "data"
-# Of the same figure by another numpy, scipy or processor.
+# Between the same figures by another numpy, scipy or processor.
 TOLERANCE = 1e-9
 
 

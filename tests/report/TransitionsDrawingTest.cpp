@@ -12,7 +12,7 @@ namespace {
 using test::drawn;
 using testing::HasSubstr;
 
-/// Two by two: one cell nobody passed, one above what is wanted.
+/// Two by two: one cell that no trial passed, one above what is wanted.
 QJsonObject mapJson() {
     const QJsonArray cells{QJsonArray{0.5, QJsonValue()}, QJsonArray{8.24, 1.5}};
     return {{"type", "transitions"},

@@ -7,7 +7,7 @@
 namespace tacto {
 namespace {
 
-/// Of a quantity that is programmed to 10, and of one that is programmed to 0.
+/// Expects the bounds of a quantity that is programmed to 10, and of one that is programmed to 0.
 void expectBounds(const QuantityBounds& bounds, double least, double most) {
     EXPECT_NEAR(bounds.least(10), least, 1e-12);
     EXPECT_NEAR(bounds.most(10), most, 1e-12);

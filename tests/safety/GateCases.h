@@ -18,7 +18,7 @@ struct GateCase {
     std::function<bool()> holds;  ///< true when the gate refused as it must, and permitted what it may
 };
 
-/// Of the interlock, the heartbeat, accepted levels and what a train reads back: InterlockCases.cpp.
+/// Cases of the interlock, the heartbeat, accepted levels and what a train reads back: InterlockCases.cpp.
 void addInterlockCases(std::vector<GateCase>& cases);
 
 /// Every check of Rules.h, at least once.

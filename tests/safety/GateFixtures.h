@@ -59,7 +59,7 @@ inline GateSetup benchSetup(Load load = Load::resistor(Ohms(1000))) {
     return setup;
 }
 
-/// Of a calibration that knows what comes out to the last digit.
+/// A line of a calibration that knows what comes out to the last digit.
 inline CalibrationLine exactLine(double gain, double offset, double lowest, double highest) {
     return {gain, offset, lowest, highest, Spread{}};
 }

@@ -510,7 +510,7 @@ private:
     double drifts_ = 0;   // How far the load moves from train to train, of itself
     double loses_ = 0;    // How often a train finds no contact
     double halving_ = 0;  // V at which the load's R_p has fallen to half; 0: it does not
-    double pace_ = 1;     // Of true time to the computer's
+    double pace_ = 1;     // True time over the computer's
     double scale_ = 1;    // Where in the permitted range the truth lies
     bool configured_ = false;
     PulseTrain last_;  // approved

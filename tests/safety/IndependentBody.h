@@ -55,7 +55,7 @@ public:
     /// The same of energy, part of which a charged capacitor gives back. Looks at windows that begin or end where the
     /// power begins, ends or turns.
     [[nodiscard]] double worstEnergy(double window) const;
-    /// Of everything that is kept.
+    /// The net energy of everything that is kept.
     [[nodiscard]] double netEnergy() const;
     /// The most that the capacitor ever held, J.
     [[nodiscard]] double mostStored() const { return mostStored_; }

@@ -73,7 +73,7 @@ TEST(SafetyGate, ACalibrationDoesNotTakeItsOwnUncertaintyOut) {
     for (auto* line : {&*exact.calibration->interval, &*exact.calibration->phaseWidth, &*exact.calibration->gap})
         line->spread = Spread{};
     EXPECT_TRUE(Rig(exact).ask(programmed, 0.5)) << "what was accepted before";
-    // One that nobody knows the uncertainty of is judged with 5 %, as a stimulator that is not calibrated.
+    // One whose uncertainty is unknown is judged with 5 %, as a stimulator that is not calibrated.
     for (auto* line : {&*setup.calibration->interval, &*setup.calibration->phaseWidth, &*setup.calibration->gap})
         line->spread.reset();
     setup.calibration->amplitude.spread.reset();
@@ -126,7 +126,7 @@ TEST(SafetyGate, KeepsTheStreamOfConditionsGoing) {
 
 TEST(SafetyGate, WhatAFloatingSourceLeftIsStillThereForTheNextSource) {
     RecordProperty("hazard", "H1");
-    // 20 kohm empty 1 uF in 20 ms; a source that holds 0 V would in 0.3 ms. Nobody knows when it was connected.
+    // 20 kohm empty 1 uF in 20 ms; a source that holds 0 V would in 0.3 ms. When it was connected is unknown.
     GateSetup floating = benchSetup(Load::skin(Ohms(300), Ohms(20'000), Nanofarads(1000)));
     floating.source.gap = GapState::HighImpedance;
     Rig rig(floating);
@@ -262,7 +262,7 @@ TEST(SafetyGate, NoGateHonoursAnothersApproval) {
     EXPECT_FALSE(two.gate.isCurrent(*approved));
 }
 
-/// Somebody presses STOP whenever the gate asks what time it is: in the middle of every approval.
+/// The operator presses STOP whenever the gate asks what time it is: in the middle of every approval.
 class StoppingClock final : public Clock {
 public:
     [[nodiscard]] Instant now() const noexcept override {

@@ -23,7 +23,7 @@ namespace tacto::test {
 
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 inline constexpr std::size_t kKinds = static_cast<std::size_t>(Near::Count);
-inline constexpr double kSlack = 1 + 2e-6;  // Of the referee's quadrature
+inline constexpr double kSlack = 1 + 2e-6;  // The error of the referee's quadrature
 
 class Dice {
 public:

@@ -246,7 +246,7 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
 TEST_F(UnitRecordFile, OnlyTheLastRecordOfAUnitOnThisComputerKnowsItsPast) {
     RecordProperty("hazard", "H1");
     const ScratchDir other;
-    // Of two accounts or data folders, both of which have long been there.
+    // The records of two accounts or data folders, both of which have long been there.
     const auto drive = [&](const std::filesystem::path& records, std::size_t expected, const char* why) {
         const VirtualClock clock;
         SafetyGate gate(clock);

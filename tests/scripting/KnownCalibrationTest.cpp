@@ -32,7 +32,7 @@ protected:
     Known(const Known&) = delete;
     Known& operator=(const Known&) = delete;
 
-    /// Of the open stimulator, made and valid until so many days from now.
+    /// Keeps a calibration of the open stimulator, made and valid until so many days from now.
     void keep(double gain, int made, int until, const std::string& output = "SIM-1", const char* unit = "V") {
         const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
         StoredCalibration c;
@@ -161,7 +161,7 @@ TEST_F(KnownCertificates, CountForTheirSerialNumberAlone) {
     EXPECT_FALSE(of("sigrok:rigol-ds", "A2").used);
     EXPECT_FALSE(of("sigrok:rigol-ds", "").used);
     EXPECT_THAT(of("sigrok:rigol-ds", "").text, HasSubstr("no serial number"));
-    EXPECT_FALSE(of("capture:/data/captures", "A1").used);  // nobody knows which instrument took them
+    EXPECT_FALSE(of("capture:/data/captures", "A1").used);  // the instrument that took them is unknown
 }
 
 TEST_F(KnownCertificates, OfASimulatedOscilloscopeCountForNoOther) {

@@ -26,7 +26,7 @@ constexpr milliseconds kReported{4000};
 constexpr milliseconds kReported{1000};
 #endif
 
-/// Waits for somebody who never comes.
+/// Waits for an operator who never answers.
 class NobodyAtTheDesk final : public Operator {
 public:
     Result<nlohmann::json> ask(const OperatorQuestion&) override {

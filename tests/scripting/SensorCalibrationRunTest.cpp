@@ -1,5 +1,5 @@
 // The sensor calibration on the simulated bench: what it finds, what it refuses, and what becomes of it when something
-// breaks or somebody stops it.
+// breaks or the operator stops it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -169,7 +169,7 @@ TEST(SensorCalibrationRun, ScalesThatAScriptMakesUpAreNotUsed) {
 }
 
 TEST(SensorCalibrationRun, WhoStartsTouchedIsToldSo) {
-    // A finger that never lifts: on a rig without a presenter nobody else would notice.
+    // A finger that never lifts: on a rig without a presenter nothing else would notice.
     RunBench rig(true, "sim:", 1, false, kSensorBench);
     rig.bench().devices().surface.reset();
     auto request = rig.request(test::withRun("bench.measureRest({ duration_s: 2 });"));

@@ -31,7 +31,7 @@ TEST(StimulatorCalibration, FindsGainAndOffsetOfATwin) {
     EXPECT_EQ(amplitude["unit"], "V");
     EXPECT_EQ(amplitude["n"], 110);
     EXPECT_EQ(amplitude["levels"].size(), 11U);
-    // 1 % and 0.1 V of 10 V are 2 %, the tolerance: nobody can say on which side.
+    // 1 % and 0.1 V of 10 V are 2 %, the tolerance: the side is undecided.
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
     EXPECT_EQ(amplitude["verdict_iec"], "pass");
     EXPECT_TRUE(outcome.results["reference"]["passed"].get<bool>());

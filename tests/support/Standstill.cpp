@@ -157,7 +157,7 @@ private:
         Milliseconds total, before;  ///< by the last look, and what the one before it added
     };
 
-    /// Of all processors.
+    /// The stolen time of all processors.
     [[nodiscard]] static Milliseconds stolen() {
         std::string cpu;
         double user = 0, nice = 0, system = 0, idle = 0, waiting = 0, interrupts = 0, soft = 0, steal = 0;

@@ -24,7 +24,7 @@ template <class Count>
     return wanted == "ci" ? counts.ci : counts.local;
 }
 
-/// Of a race, where a try takes a second.
+/// How often to try a race, where a try takes a second.
 [[nodiscard]] inline int raceTrials() { return trials<int>({.local = 20, .ci = 20, .campaign = 200}); }
 
 }  // namespace tacto::test

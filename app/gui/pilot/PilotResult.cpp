@@ -26,7 +26,7 @@ QString textIn(const nlohmann::json& record, const std::string& path) {
     return at.is_string() ? qtext(at.get_ref<const std::string&>()) : QString();
 }
 
-/// Of a result with a massager, whose levels are strengths.
+/// Whether the result is one with a massager, whose levels are strengths.
 bool isMassager(const nlohmann::json& results) { return textIn(results, "modality") == "massager"; }
 
 QString rangeWords(const nlohmann::json& range) {

@@ -26,7 +26,7 @@ QString newFolder() {
     return documents.filePath("Tactoscope/rehearsal-" + QDateTime::currentDateTime().toString("yyyyMMdd-HHmmss"));
 }
 
-/// Of the rehearsal there; nothing where there is none yet.
+/// The modality of the rehearsal there; nothing where there is none yet.
 std::optional<Modality> modalityIn(const QString& folder) {
     if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
     const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);

@@ -48,7 +48,7 @@ public:
     void follow(ChosenReadings& chosen);
     /// Age and the impedance check's |Z|, which stands in where the capture gives none. Cheap.
     void refresh(const Telemetry& telemetry);
-    /// A capture that has not been measured yet. Of those that come too fast some are left out.
+    /// A capture that has not been measured yet. Some are left out when they come too fast.
     void measure(std::shared_ptr<const Capture> capture);
 
 public slots:

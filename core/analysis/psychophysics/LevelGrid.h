@@ -34,8 +34,8 @@ inline constexpr Word<LevelLimit> kLevelLimits[] = {{"device", LevelLimit::Devic
                                                     {"cap", LevelLimit::Cap},
                                                     {"too-strong", LevelLimit::TooStrong},
                                                     {"confirmation", LevelLimit::Confirmation}};
-/// Of the levels of a massager (choice: twenty, so that a series of ascending limits is as long as one in steps of
-/// 0.5 mA).
+/// The step between the levels of a massager (choice: twenty, so that a series of ascending limits is as long as one in
+/// steps of 0.5 mA).
 inline constexpr double kIntensityStep = 0.05;
 
 [[nodiscard]] constexpr std::string_view nameOf(LevelUnit unit) noexcept { return wordFor(kLevelUnits, unit); }

@@ -55,8 +55,8 @@ struct VibrationSeparability {
 /// interval_jnd, interval_jnd_low}], "accuracy"}; without a measurement the verdict is null.
 [[nodiscard]] nlohmann::json toJson(const VibrationSeparability& found);
 
-/// Of one presentation: {bursts, moved, missed, strength_m_s2, strength_u_m_s2, latency_s, rise_s, interval_s,
-/// interval_u_s, noise_m_s2}.
+/// The figures of one presentation: {bursts, moved, missed, strength_m_s2, strength_u_m_s2, latency_s, rise_s,
+/// interval_s, interval_u_s, noise_m_s2}.
 [[nodiscard]] nlohmann::json toJson(const BurstFigures& figures);
 [[nodiscard]] BurstFigures burstFiguresFrom(const nlohmann::json& json);
 

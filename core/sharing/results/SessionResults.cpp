@@ -132,8 +132,8 @@ private:
         out_.thresholds.push_back(std::move(trial));
     }
 
-    /// U is the lowest level called too strong, else the highest given. Of an empty presentation the answer counts for
-    /// the level before it.
+    /// U is the lowest level called too strong, else the highest given. The answer to an empty presentation counts
+    /// for the level before it.
     void takeAscending(BidsThresholdTrial& trial, const json& body) {
         trial.series = countOr(body, "series");
         const double level = std::isfinite(trial.intensity) ? trial.intensity : trial.current.value();

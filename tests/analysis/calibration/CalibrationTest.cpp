@@ -80,7 +80,7 @@ TEST(Calibration, TheResidualIsThatOfTheLevelMean) {
     EXPECT_NEAR(found->gain, 1, 1e-12);
     EXPECT_NEAR(found->offset, 0.2, 1e-10);
     EXPECT_NEAR(found->residualMax_pct, 100 * 0.8 / 40, 1e-10);
-    EXPECT_TRUE(std::isnan(found->hysteresis_pct));  // nobody said which way
+    EXPECT_TRUE(std::isnan(found->hysteresis_pct));  // the direction was not stated
 }
 
 TEST(Calibration, IsWeightedOnlyWhenEveryReadingCarriesItsUncertainty) {

@@ -101,7 +101,7 @@ TEST(LoadCoverage, HoldsWhereTheTrainsScatterAndAreFew) {
     truth.scatter = 0.005;
     for (const int trains : {2, 4}) {
         const auto figures = coverageOf(truth, trains);
-        // Of the mean: k = 2 would hold the truth in 71 % with two trains.
+        // For the mean, k = 2 would hold the truth in 71 % with two trains.
         for (const auto& figure : {figures[0], figures[1]}) {
             EXPECT_GE(figure.covered, 930) << figure.name << " of " << trains << " trains: too narrow";
             EXPECT_LE(figure.covered, 975) << figure.name << " of " << trains << " trains: too wide";

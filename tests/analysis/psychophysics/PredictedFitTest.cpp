@@ -59,7 +59,7 @@ std::vector<PredictedTrial> session(const VirtualObserver& who, const VirtualObs
     return out;
 }
 
-/// Of values that should be even between 0 and 1: Kolmogorov and Smirnov's D times √n.
+/// Kolmogorov and Smirnov's D times √n, of values that should be even between 0 and 1.
 double kolmogorov(std::vector<double> p) {
     std::ranges::sort(p);
     const auto n = static_cast<double>(p.size());

@@ -9,7 +9,7 @@
 
 namespace tacto::test {
 
-/// Of currents: the device's step, and its largest.
+/// A grid of currents: the device's step, and its largest.
 inline LevelGrid gridUpTo(double highest, double step = 0.5, LevelLimit by = LevelLimit::Cap) {
     return LevelGrid::create(LevelUnit::Current, step, std::vector<LevelCeiling>{{highest, by}}).value();
 }

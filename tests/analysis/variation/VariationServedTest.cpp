@@ -19,7 +19,8 @@ VariationOptions peopleWith(AmplitudeLevels levels, double discomfort_ma = 9.8) 
 }
 
 TEST(VariationServed, ThePapersRangeServesHardlyAnyone) {
-    // 10 to 40 V span as much as perception and intolerance do: whoever feels the one end does not bear the other.
+    // 10 to 40 V span as much as perception and intolerance do: a participant who feels the one end does not bear the
+    // other.
     const std::pair<double, std::size_t> mostServed[] = {{6.9, 0}, {9.8, 4}, {13.8, 24}};
     for (const auto& [discomfort, most] : mostServed) {
         const auto found = predictVariation(peopleWith(AmplitudeLevels::Profile, discomfort)).value();

@@ -32,7 +32,7 @@ void setThresholds(VariationOptions& options, double felt, double strong) {
     population.discomfort_ma = strong;
 }
 
-/// Nobody differs from the median, nobody lapses.
+/// No participant differs from the median, none lapses.
 VariationOptions everybodyAlike() {
     auto out = options(5);
     for (auto* drawn : {&out.population.series_ohm, &out.population.parallel_ohm, &out.population.capacitance_nf,

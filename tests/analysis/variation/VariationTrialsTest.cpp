@@ -57,7 +57,7 @@ TEST(VariationTrials, TheSearchFindsWhatTryingEveryNumberFinds) {
         EXPECT_EQ(found.forWidth, forWidth) << p;
         EXPECT_EQ(found.aboveChance, aboveChance) << p;
         EXPECT_EQ(found.rho, 0);
-        // Nobody differs: pooled trials count like one participant's, up to whole blocks.
+        // No participant differs: pooled trials count like one participant's, up to whole blocks.
         ASSERT_TRUE(found.pooledForWidth.perParticipant);
         EXPECT_EQ(*found.pooledForWidth.total, 5 * *found.pooledForWidth.perParticipant);
         EXPECT_LE(*found.pooledForWidth.total, forWidth + 5 * 4);

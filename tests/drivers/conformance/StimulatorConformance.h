@@ -1,4 +1,4 @@
-// StimulatorConformance.h - what every stimulator must do, whoever made it. A driver's tests give a factory:
+// StimulatorConformance.h - what every stimulator must do, whatever its make. A driver's tests give a factory:
 //
 //   INSTANTIATE_TEST_SUITE_P(PulsePal, StimulatorConformance, testing::Values(StimulatorKind{"PulsePal", makeRig}));
 //

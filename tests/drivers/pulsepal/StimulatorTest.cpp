@@ -104,7 +104,7 @@ TEST_F(PulsePal, ATriggerThatIsKeptDuringATrainDoesNotSurviveTheStop) {
     RecordProperty("hazard", "H2");
     ASSERT_TRUE(bench.deliver(pulseTrain(2, 50)));
     bench.wait(Seconds(0.02));
-    // Somebody else's trigger, through the device's own firmware habit: kept while the train runs.
+    // A foreign trigger, through the device's own firmware habit: kept while the train runs.
     bench.line->inspect([](auto& device, Instant now) { device.receive(pulsepal::trigger(1).view(), now); });
     bench.wait(Seconds(0.001));
     bench.stimulator->forceOff();
@@ -310,7 +310,7 @@ TEST_F(PulsePal, UnpluggedInMidTrainIsFoundByItsStatusAndThePluggedInOneServesAg
     EXPECT_FALSE(bench.deliver(pulseTrain(2)));
     EXPECT_FALSE(bench.stimulator->keepAlive());
     bench.line->plug();
-    EXPECT_FALSE(bench.deliver(pulseTrain(2)));  // not before somebody reset the fault
+    EXPECT_FALSE(bench.deliver(pulseTrain(2)));  // not before the fault is reset
     ASSERT_TRUE(bench.stimulator->status());
     EXPECT_TRUE(bench.deliver(pulseTrain(2)));
     bench.wait(Seconds(0.01));

@@ -27,7 +27,7 @@ public:
     void plug() { usb_->plug(); }
     [[nodiscard]] EmulatedUsbDevice& usb() noexcept { return *usb_; }
 
-    /// Does something with the device while nobody else does.
+    /// Does something with the device while no other thread does.
     template <class Act>
     auto inspect(Act act) {
         const std::scoped_lock lock(mutex_);

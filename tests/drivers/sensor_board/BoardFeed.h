@@ -1,5 +1,5 @@
 // BoardFeed.h - the emulated sensor board in real time: a thread of its own sends what is due, as a board's own clock
-// does. What carries its bytes is whoever made it: an emulated USB node, a pseudo-terminal.
+// does. Its creator carries its bytes: an emulated USB node, a pseudo-terminal.
 //
 // Thread-safety: all members any thread.
 #pragma once
@@ -35,7 +35,7 @@ public:
     /// No more is sent; for an owner whose `send` ends before this does. May be repeated.
     void stop();
 
-    /// Does something with the board while nobody else does.
+    /// Does something with the board while no other thread does.
     template <class Act>
     auto inspect(Act act) {
         const std::scoped_lock lock(mutex_);

@@ -166,7 +166,7 @@ TEST(Relay, RefusedAndUnknownHostsAreNotFound) {
 }
 
 TEST(Relay, AHostThatDoesNotAnswerIsATimeoutOrUnreachableButSoon) {
-    // 192.0.2.0/24 is reserved for documentation: nobody is there. Without a network it is refused at once.
+    // 192.0.2.0/24 is reserved for documentation: no host is there. Without a network it is refused at once.
     const auto since = std::chrono::steady_clock::now();
     EXPECT_FALSE(TcpRelay::start("192.0.2.1", "5555", Seconds(0.3)).has_value());
     EXPECT_IN_TIME(std::chrono::steady_clock::now() - since < std::chrono::seconds(3));

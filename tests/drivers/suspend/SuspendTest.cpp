@@ -1,5 +1,5 @@
 // H2 end to end: a process that delivers is stopped by SIGSTOP and goes on by SIGCONT. It is a race between its
-// threads, so it is tried many times. No train may reach the device afterwards until somebody arms again.
+// threads, so it is tried many times. No train may reach the device afterwards until the operator arms again.
 #include <array>
 #include <charconv>
 #include <csignal>

@@ -53,7 +53,7 @@ TEST_F(UsbUnplug, AWriteInFlightReturnsAtOnce) {
     ASSERT_FALSE(after);
     EXPECT_CODE_IN_TIME(after.error().code, ErrorCode::Device);
     EXPECT_IN_TIME(immediate < kNoticed);
-    transport->writeUrgent(bytesOf("stop"));  // nobody there: no harm
+    transport->writeUrgent(bytesOf("stop"));  // no device there: no harm
 }
 
 TEST_F(UsbUnplug, WhatArrivedBeforeIsStillRead) {

@@ -31,7 +31,7 @@ inline CalibrationDate daysFromNow(int days) {
     return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()) + std::chrono::days(days);
 }
 
-/// Of the simulated bench's stimulator.
+/// A calibration of the simulated bench's stimulator.
 inline StoredCalibration calibration(int madeDaysAgo, int validForDays) {
     StoredCalibration c;
     c.serial = "SIM-1";

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A socket that somebody plugs things into.
+/// A socket that the operator plugs things into.
 class Socket final : public Driver {
 public:
     explicit Socket(std::shared_ptr<std::atomic<int>> plugged) : plugged_(std::move(plugged)) {}

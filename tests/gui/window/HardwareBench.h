@@ -91,7 +91,7 @@ protected:
         const auto where = tree().visualItemRect(&item);
         QTest::mouseClick(tree().viewport(), Qt::LeftButton, Qt::NoModifier, where.center());
     }
-    /// Moves to the line and presses Return, as somebody without a mouse does.
+    /// Moves to the line and presses Return, as an operator without a mouse does.
     void tick(const QString& uri) {
         choose(row(uri));
         QTest::keyClick(&tree(), Qt::Key_Return);

@@ -31,7 +31,7 @@ protected:
     ~Layout() override { QSettings().clear(); }
     gui::FoldingDock& dock(const char* name) { return *window.findChild<gui::FoldingDock*>(name); }
     QToolBar& bar(const char* name) { return *window.findChild<QToolBar*>(name); }
-    /// Of the whole window, with what is written around the plot.
+    /// The plot's share of the whole window, with what is written around the plot.
     double shareOf(const QWidget& plot) const {
         const auto area = [](const QSize& size) { return double(size.width()) * size.height(); };
         return area(plot.size()) / area(window.size());

@@ -223,7 +223,7 @@ TEST_F(Bar, TheStatesWordIsReadFromTwoMetres) {
     RecordProperty("hazard", "H12");
     for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
         bar.refresh(in(InterlockState(state), "why"));
-        const auto* label = bar.findChild<QLabel*>("interlockState");
+        auto* label = bar.findChild<QLabel*>("interlockState");
         EXPECT_GE(label->font().pointSizeF(), 28 - 1e-6) << word().toStdString();
         EXPECT_GE(label->width(), QFontMetrics(label->font()).horizontalAdvance(word())) << word().toStdString();
         const auto drawn = label->grab().toImage();  // in the sheet's font, too

@@ -67,7 +67,7 @@ public:
                          "tcp", "-noreset"},
                         ready[1]);
         close(ready[1]);
-        // To the end of the line: a server whose number nobody takes any more ends.
+        // To the end of the line: a server whose number is no longer read ends.
         std::string digits;
         for (char digit = 0; read(ready[0], &digit, 1) == 1 && digit != '\n';) digits += digit;
         close(ready[0]);
@@ -100,7 +100,7 @@ public:
     }
 
 private:
-    /// Of the file's header: 32-bit words, the largest byte first.
+    /// A word of the file's header: 32-bit words, the largest byte first.
     [[nodiscard]] std::size_t word(std::size_t index) const {
         const auto* at = screen_ + 4 * index;
         return (std::size_t{at[0]} << 24) | (std::size_t{at[1]} << 16) | (std::size_t{at[2]} << 8) | at[3];

@@ -19,7 +19,7 @@ public:
 
     /// False where no more reports fit (64): the kernel too keeps 64 and drops.
     [[nodiscard]] bool put(std::span<const std::uint8_t> report) noexcept;
-    /// Throws away what nobody read.
+    /// Throws away what the program has not read.
     void drain() noexcept;
 
 private:

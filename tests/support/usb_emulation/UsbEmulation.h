@@ -17,7 +17,7 @@
 
 namespace tacto::test {
 
-// Of a control request (USB 2.0, 9.3).
+// The form of a control request (USB 2.0, 9.3).
 constexpr std::size_t kSetupSize = 8;
 constexpr std::uint8_t kInputBit = 0x80;
 

@@ -14,7 +14,7 @@ class UsbNode {
 public:
     /// Makes the node at `path` with permission bits `mode`.
     UsbNode(const std::filesystem::path& path, unsigned mode);
-    ~UsbNode();  ///< disconnects whoever has it open
+    ~UsbNode();  ///< disconnects the program that has it open
     UsbNode(const UsbNode&) = delete;
     UsbNode& operator=(const UsbNode&) = delete;
 
