@@ -98,9 +98,10 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     form->addRow(offer_);
 
     who_->setObjectName("whoAnswers");
-    who_->addItem(tr("a virtual participant: answers by itself, done in seconds"), false);
-    who_->addItem(tr("you, at the participant’s window"), true);
-    who_->setToolTip(tr("Either way nothing but simulated devices is used."));
+    who_->addItem(tr("a virtual participant"), false);
+    who_->addItem(tr("you, in their window"), true);
+    who_->setToolTip(tr(
+        "A virtual participant answers by itself, within seconds. Either way nothing but simulated devices is used."));
     form->addRow(tr("Participant"), who_);
     seed_->setObjectName("rehearsalSeed");
     seed_->setRange(1, kMaxSeed);
@@ -108,13 +109,16 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     form->addRow(tr("Seed"), seed_);
     modality_->setObjectName("rehearsalModality");
     modality_->addItem(tr("electrodes"), "electrodes");
-    modality_->addItem(tr("a massager: strength in place of current"), "massager");
-    modality_->setToolTip(tr("What is felt comes from these. A rehearsal keeps what it began with."));
+    modality_->addItem(tr("a massager"), "massager");
+    modality_->setToolTip(
+        tr("What is felt comes from these; a massager has a strength in place of a current. A rehearsal keeps what it "
+           "began with."));
     form->addRow(tr("Felt through"), modality_);
     protocol_->setObjectName("rehearsalProtocol");
-    protocol_->addItem(tr("identification: thresholds, training, test, ratings"), "pilot-identification");
+    protocol_->addItem(tr("the whole session"), "pilot-identification");
     protocol_->addItem(tr("thresholds alone"), "pilot-thresholds");
-    protocol_->setToolTip(tr("The whole session, or only its first part: what is just felt, and what is too strong."));
+    protocol_->setToolTip(tr(
+        "Thresholds, training, test and ratings; or only the first part: what is just felt, and what is too strong."));
     form->addRow(tr("What is run"), protocol_);
     method_->setObjectName("rehearsalMethod");
     method_->addItem(tr("QUEST+"), "quest");

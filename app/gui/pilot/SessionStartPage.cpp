@@ -54,7 +54,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     auto* form = new QFormLayout;
     form->setVerticalSpacing(8);
     protocol_->setObjectName("sessionProtocol");
-    protocol_->addItem(tr("identification: thresholds, training, test, ratings"), "pilot-identification");
+    protocol_->addItem(tr("the whole session"), "pilot-identification");
     protocol_->addItem(tr("thresholds alone"), "pilot-thresholds");
     form->addRow(tr("What is run"), protocol_);
     method_->setObjectName("sessionMethod");

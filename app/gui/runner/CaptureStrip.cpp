@@ -71,7 +71,7 @@ void CaptureStrip::colour() {
 }
 
 void CaptureStrip::thinTicks() {
-    constexpr int kMaxTicks = 5, kApart = 2;  // what is readable may come to half as many again
+    constexpr int kMaxTicks = 5, kApart = 3;  // what is readable may come to half as many again
     const QFontMetrics metrics(xAxis->tickLabelFont());
     const int digits = metrics.horizontalAdvance(QString::number(xAxis->range().upper, 'f', 0));
     const int widest = std::max(metrics.horizontalAdvance("−00000"), digits);

@@ -61,6 +61,11 @@ void ProtocolHead::setAcross(bool across) {
     layout_->setDirection(across ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     layout_->setSpacing(across ? kBeside : kBelow);
     layout_->setStretchFactor(line_, across ? 1 : 0);
+    if (chooser_ != nullptr) {  // beside the title it is as wide as its words, in a column as wide as that is
+        chooser_->setSizeAdjustPolicy(across ? QComboBox::AdjustToContents
+                                             : QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        chooser_->setSizePolicy(across ? QSizePolicy::Minimum : QSizePolicy::Preferred, QSizePolicy::Fixed);
+    }
     showWords();
 }
 

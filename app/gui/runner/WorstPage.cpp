@@ -27,6 +27,7 @@ WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTabl
         tr("The strongest command into 80 to 120 % of the declared load, from an ideal voltage source. "
            "Hatched: not evaluated, and never a pass."));
     column->addWidget(worst_, 1);
+    setTabOrder(findChild<QPushButton*>("readLimits"), worst_);
 }
 
 QWidget* WorstPage::buildChooser() {

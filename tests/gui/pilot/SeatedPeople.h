@@ -67,13 +67,19 @@ protected:
         EXPECT_NE(found, nullptr) << name;
         return *found;
     }
+    void press(const char* by) {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - std::exchange(lastPress, now) >= onePress) static_cast<void>(desk.stopBy(by));
+    }
 
     gui::ParticipantDesk desk;
     std::vector<std::string> stops;
     std::chrono::steady_clock::time_point stoppedAt;
-    gui::ParticipantWindow window{desk, [this](const char* by) { static_cast<void>(desk.stopBy(by)); }};
+    std::chrono::milliseconds onePress{0};  ///< StopKeys hears one several times
+    std::chrono::steady_clock::time_point lastPress;
+    gui::ParticipantWindow window{desk, [this](const char* by) { press(by); }};
     gui::StopKeys keys{[this](const char* by) {
-                           static_cast<void>(desk.stopBy(by));
+                           press(by);
                            window.noteStop();
                        },
                        nullptr};

@@ -26,6 +26,7 @@ protected:
         page.setVisible(true);
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&page));
         giveKeys();
+        onePress = std::chrono::milliseconds(100);  // as SessionConduct, on a session that goes on by itself
         QObject::connect(&desk, &gui::ParticipantDesk::asked, &page, [this](const PilotPrompt& prompt, quint64 id) {
             asked = prompt;
             page.ask(prompt, id);

@@ -221,6 +221,8 @@ TEST_F(Bar, StopAndTheButtonsAreWholeOnANarrowScreen) {
 
 TEST_F(Bar, TheStatesWordIsReadFromTwoMetres) {
     RecordProperty("hazard", "H12");
+    gui::applyTextSize(100);
+    bar.resize(1280, bar.sizeHint().height());
     for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
         bar.refresh(in(InterlockState(state), "why"));
         auto* label = bar.findChild<QLabel*>("interlockState");
