@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <filesystem>
+
 #include "app/cli/Command.h"
 #include "app/cli/StudyPassphrase.h"
 #include "app/report/Report.h"
@@ -39,6 +42,11 @@ Result<Study> openSealed(const QCommandLineParser& parser, const std::string& fo
     return Study::open(folder, &*passphrase, Study::Access::Read);
 }
 
+bool isNoted(const Study& study, const std::filesystem::path& place, std::string_view what) {
+    return std::ranges::any_of(
+        study.exports(), [&](const StudyExport& each) { return each.place == place.string() && each.what == what; });
+}
+
 int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
     const auto reader = parser.value("for").toStdString();
     if (!reader.empty() && reader != "study" && reader != "committee")
@@ -52,15 +60,26 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
                                              "beside what is sealed",
                                              out)});
     }
-    const auto* const what = parser.isSet("noted") ? nullptr : namedReport(parser);
-    auto study = openSealed(parser, folder, what != nullptr);
+    const auto* const what = namedReport(parser);
+    const bool notes = what != nullptr && !parser.isSet("noted");
+    const auto place = std::filesystem::absolute(out);
+    std::error_code error;
+    if (notes && !std::filesystem::is_directory(place.parent_path(), error)) {
+        return couldNotRun(Error{ErrorCode::NotFound, fmt::format("{} is no folder that a report can be written to",
+                                                                  place.parent_path().string())});
+    }
+    auto study = openSealed(parser, folder, notes);
     if (!study) return couldNotRun(study.error());
+    if (what != nullptr && !notes && !isNoted(*study, place, what)) {
+        return usage(
+            fmt::format("report: --noted, and the study notes no {} in {}; leave --noted out", what, place.string()));
+    }
     const auto record = readStudyRecord(*study);
     if (!record) return couldNotRun(record.error());
     const auto content = contentFor(parser, *record);
     if (!content) return couldNotRun(content.error());
-    if (what != nullptr) {
-        const auto noted = study->exported(std::filesystem::absolute(out), what);
+    if (notes) {
+        const auto noted = study->exported(place, what);
         if (!noted) return couldNotRun(noted.error());
     }
     if (const auto written = writeContent(*content, parser.value("out")); !written) return couldNotRun(written.error());

@@ -66,13 +66,13 @@ TableBlock valuesTable(const OverSessions& compared, const std::vector<AnalysedS
 TableBlock changesTable(const OverSessions& compared, bool massager) {
     TableBlock table;
     table.columns = {{"Session", true},
-                     {"Right, less that of the first", true},
+                     {"Right, less that of the first (percentage points)", true},
                      {"Detection, ratio", true},
                      {"Too strong", true},
                      {"Highest of the range", true}};
     if (!massager) table.columns.push_back({"|Z|", true});
     for (const auto& change : compared.againstFirst) {
-        table.rows.push_back({QString::number(change.number), shareText(change.accuracy),
+        table.rows.push_back({QString::number(change.number), shareText(change.accuracy).remove(" %"),
                               withInterval(change.detection, 2), figureText(change.tooStrong, 2),
                               figureText(change.high, 2)});
         if (!massager) table.rows.back() << figureText(change.impedance, 2);

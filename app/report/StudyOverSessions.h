@@ -22,7 +22,7 @@ struct AnalysedSession {
 /// Mean over the conditions, 5 (totally natural) to 1 (totally unnatural); NaN without ratings.
 [[nodiscard]] double naturalnessOf(const BidsSession& session);
 
-/// Of all sessions, also those without test trials. Nothing for fewer than two. `massager`: levels are strengths.
+/// Compares all sessions, also those without test trials. Nothing for fewer than two. `massager`: levels are strengths.
 /// Errors: as compareSessions().
 [[nodiscard]] Result<void> addOverSessions(std::vector<ReportBlock>& blocks, Captions& captions,
                                            const std::string& name, const std::vector<AnalysedSession>& sessions,

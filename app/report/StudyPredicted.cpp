@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-/// Of amplitude: half, once and twice the one that is assumed, since 0.10 has no source.
+/// Weber fractions of amplitude: half, once and twice the one that is assumed, since 0.10 has no source.
 constexpr double kWeberFractions[] = {kAmplitudeWeberFraction / 2, kAmplitudeWeberFraction,
                                       2 * kAmplitudeWeberFraction};
 

@@ -387,7 +387,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
 /// A session whose bench could not be opened is none that may go on. One that is gone on with stays as it was.
 void PilotRun::cancelBooked() {
     if (!begun_ || unfinished_) return;
-    static_cast<void>(study_->endSession(begun_->session.id, StudySessionState::Stopped, ""));
+    static_cast<void>(study_->cancelSession(begun_->session.id));
 }
 
 /// Still approved, and within the time that a session may take, from its first part on.

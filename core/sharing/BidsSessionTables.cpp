@@ -159,7 +159,7 @@ BidsTable sideEffectsTable(const BidsSession& session, bool massager) {
                       "",
                       {{"before", "before the first stimulation"},
                        {"after", massager ? "after the massager was taken off" : "after the electrodes were taken off"},
-                       {"next day", "on the day after"}}},
+                       {"next day", "on a later day"}}},
                      {"item", "What was noticed"},
                      {"severity", "1 absent, 2 mild, 3 moderate, 4 severe"},
                      {"relation", "To the stimulation: 1 none, 2 remote, 3 possible, 4 probable, 5 definite"}});

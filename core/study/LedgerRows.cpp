@@ -213,6 +213,7 @@ private:
         const auto ended = valueFor(kStudySessionStates, textOr(row.body, "state"));
         if (!ended) return unfit(row, "a state that this program does not know");
         session.state = *ended;
+        session.opened = row.body.value("opened", true);
         state.heads[textOr(row.body, "file")] = textOr(row.body, "head");
         return {};
     }

@@ -5,7 +5,7 @@
 //   consent               {participant, sealed}              left, withdrawn  {participant, sessions}
 //   session-begun         {session, file, participant, number, protocol, script_sha256, sealed}
 //   session-part          {session, file, participant, after, head}
-//   session-ended         {session, participant, state, file, head}
+//   session-ended         {session, participant, state, file, head}, "opened": false where its bench could not be
 //   excluded              {participant, sealed}              of that day
 //   next-day              {participant, session, sealed}
 //   adverse-event, exported   {session, sealed under the study's key}

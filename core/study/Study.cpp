@@ -340,6 +340,23 @@ Result<BegunSession> Study::continueSession(std::string_view id, const SessionRe
     return state_->begun(id);
 }
 
+Result<void> Study::cancelSession(std::string_view id) {
+    if (auto may = state_->changeable(); !may) return may;
+    const auto* session = state_->known.session(id);
+    if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", id);
+    if (session->state != StudySessionState::Unfinished || session->parts.size() != 1)
+        return fail(ErrorCode::InvalidArgument, "session {} was opened and cannot be cancelled", id);
+    const auto& file = session->parts.back().file;
+    return state_->append(
+        ledger::kSessionEnded,
+        {{"session", session->id},
+         {"participant", session->participant},
+         {"state", wordFor(Words<StudySessionState>(kStudySessionStates), StudySessionState::Stopped)},
+         {"opened", false},
+         {"file", file},
+         {"head", headOf(pathOf(file))}});
+}
+
 Result<void> Study::endSession(std::string_view id, StudySessionState ended, std::string_view chainHead) {
     if (auto may = state_->changeable(); !may) return may;
     const auto* session = state_->known.session(id);

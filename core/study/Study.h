@@ -54,6 +54,7 @@ struct StudySession {
     std::string protocol;
     std::string encoding;
     StudySessionState state = StudySessionState::Unfinished;
+    bool opened = true;            ///< false where the program noted that its bench could not be opened
     std::vector<StudyPart> parts;  ///< in the order begun, at least one
     int answered = 0;              ///< rows "answer" in its files
 };
@@ -190,6 +191,9 @@ public:
     [[nodiscard]] Result<BegunSession> continueSession(std::string_view id, const SessionRequest& request);
     /// Books the end of a session with the chain head of its last file. A complete or stopped one is never continued.
     [[nodiscard]] Result<void> endSession(std::string_view id, StudySessionState state, std::string_view chainHead);
+    /// Ends one that was just begun and whose bench could not be opened: it counts neither as a session of the
+    /// participant nor for the gap. A file that is merely gone is not one of these.
+    [[nodiscard]] Result<void> cancelSession(std::string_view id);
     /// What opens the file of a part. Errors: NotFound for an unknown part; Unsupported once withdrawn or without key.
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealOf(std::string_view file) const;
     [[nodiscard]] std::filesystem::path pathOf(std::string_view file) const;

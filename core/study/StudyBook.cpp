@@ -26,14 +26,12 @@ std::string headOf(const std::filesystem::path& file) {
 
 std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files, const StudySession& session) {
     constexpr std::string_view kTrialBegin = "trial-begin";
+    if (!session.opened) return {};
     std::optional<std::chrono::sys_seconds> last;
     for (const auto& part : session.parts) {
-        const auto file = files.session(part.file);
-        std::error_code error;
-        if (!std::filesystem::exists(file, error) && !error) continue;  // booked, and never made
-        const auto reader = SessionReader::open(file);
+        const auto reader = SessionReader::open(files.session(part.file));
         const auto events = reader ? reader->events() : Result<std::vector<SessionRow>>(failure(reader));
-        if (!events) {  // unknown is not none
+        if (!events) {  // gone or unreadable: unknown is not none
             last = part.begun;
             continue;
         }
@@ -174,8 +172,12 @@ Result<void> StudyBook::nextDay(std::string_view session, const NextDay& said) {
             "skin on a day after the session scored {} of 4; severity and relation as noted by the program, for the "
             "investigator to judge",
             said.skin());
-        if (auto noted = adverseEvent(session, {.what = what, .severity = said.skin(), .relation = 5}); !noted)
-            return noted;
+        // The last entry counts, and is of the same event.
+        const auto isNoted = [&](const auto& each) { return each.first == session && each.second.what == what; };
+        if (std::ranges::none_of(known.adverseEvents, isNoted)) {
+            auto noted = adverseEvent(session, {.what = what, .severity = said.skin(), .relation = 5});
+            if (!noted) return noted;
+        }
     }
     return appendOf(participant, ledger::kNextDay, {{"session", session}}, toJson(said));
 }
@@ -209,6 +211,8 @@ Result<void> StudyBook::gates(const SessionRequest& request, Participant partici
     if (auto holds = stillApproved(); !holds) return holds;
     if (auto holds = scriptGate(settings, request.script); !holds) return holds;
     if (again) --participant.sessions;
+    participant.sessions -= static_cast<int>(std::ranges::count_if(
+        known.sessions, [&](const StudySession& each) { return each.participant == participant.id && !each.opened; }));
     if (auto holds = participantGate(settings, participant); !holds) return holds;
     std::optional<std::chrono::sys_seconds> last;
     for (const auto& session : known.sessions) {

@@ -86,7 +86,7 @@ const largest = (values) => (values.some((x) => x === null || !isFinite(x)) ? nu
 const best = (pair) => largest([pair.amplitude_jnd, pair.interval_jnd]);
 const smallest = (values) => (values.length === 0 || values.some((x) => x === null || !isFinite(x)) ? null
   : Math.min.apply(null, values));
-// Of one axis: pairs that share its level are none of its business.
+// Compares one axis: pairs that share its level do not concern it.
 const smallestApart = (pairs, key) => smallest(pairs.map((pair) => pair[key]).filter((x) => x === null || x > 1));
 const mean = (values) => (smallest(values) === null ? null : values.reduce((sum, x) => sum + x, 0) / values.length);
 
@@ -222,7 +222,7 @@ function movedRow(each, base) {
   return row;
 }
 
-// Of the default assignment alone: the other one repeats them.
+// Taken from the default assignment alone: the other one repeats them.
 function tablesOf(done) {
   const curves = done.filter((each) => each.assignment === "texture_to_amplitude");
   return [

@@ -170,7 +170,7 @@ function changeRows(changes) {
   }));
 }
 
-// Of a pass: what was found, and what 2 s would need and cannot have.
+// What a pass says: what was found, and what 2 s would need and cannot have.
 function passed(p, changes) {
   const groups = changes.groups;
   const most = largest(groups.map((group) => Math.max(group.amplitude_jnd, group.interval_jnd)));

@@ -172,7 +172,7 @@ function fewText(found) {
 
 // What is not everybody's result.
 function remarks(p, found) {
-  const out = ["Everything here is simulated: predicted from stated distributions, not measured on anybody. A " +
+  const out = ["Everything here is simulated: predicted from stated distributions, not measured on people. A " +
     "condition counts for a participant only if it is presented, felt and not too strong."];
   if (p.source === "voltage") out.push("A voltage source is refused for people: this shows what it would do, judged " +
     "as on a bench load.");

@@ -195,13 +195,30 @@ TEST_F(Desk, ASessionInWhichNothingWasPresentedCostsNoDay) {
     RecordProperty("hazard", "H12");
     auto study = make();
     const auto code = enrolled(study);
-    const auto booked = study.beginSession(test::someRequest(code)).value();  // its file was never made
-    ASSERT_TRUE(study.endSession(booked.session.id, StudySessionState::Stopped, ""));
+    for (int i = 0; i < study.settings().sessionsMax + 1; ++i) {
+        const auto booked = study.beginSession(test::someRequest(code));
+        ASSERT_TRUE(booked) << booked.error().message;
+        ASSERT_TRUE(study.cancelSession(booked->session.id));
+        EXPECT_FALSE(study.cancelSession(booked->session.id)) << "once";
+    }
     auto next = study.beginSession(test::someRequest(code));
     ASSERT_TRUE(next) << next.error().message;
     std::ofstream(next->path) << "no session";  // what cannot be read may hold anything
     ASSERT_TRUE(study.endSession(next->session.id, StudySessionState::Stopped, ""));
     EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
+}
+
+TEST_F(Desk, ASessionWhoseFileIsGoneCountsFromItsBeginning) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    ASSERT_FALSE(std::filesystem::exists(begun.path)) << "killed before it was made, or lost: both look like this";
+    EXPECT_EQ(study.mayBegin(test::someRequest(code)).error().code, kGateRefused);
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, ""));
+    EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
+    time.now += std::chrono::hours(20);
+    EXPECT_TRUE(study.beginSession(test::someRequest(code)));
 }
 
 TEST_F(Desk, ARecordThatWasExchangedBarsTheNextSession) {

@@ -199,7 +199,7 @@ void LiveWorkspace::addPlotTools(QHBoxLayout& row) {
     };
     connect(strips_, &StripPlots::viewChanged, this, enable);
     enable();
-    auto* key = new QShortcut(QKeySequence::Undo, strips_, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
+    auto* key = new QShortcut(QKeySequence::Undo, strips_);  // wherever the focus is, as after Freeze
     connect(key, &QShortcut::activated, strips_, &StripPlots::undoZoom);
 }
 

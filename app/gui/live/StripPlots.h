@@ -33,7 +33,7 @@ public:
     /// The picture stands still and can be dragged and zoomed in time; the bench goes on.
     void setFrozen(bool frozen);
     [[nodiscard]] bool frozen() const { return frozen_ != nullptr; }
-    /// Of a frozen picture: all of it again, and the view before the last drag or zoom.
+    /// A frozen picture: all of it again, or the view before the last drag or zoom.
     void fit();
     void undoZoom();
     [[nodiscard]] bool canUndo() const;

@@ -27,7 +27,7 @@ public:
     void setBlind(bool study);
     /// What that means, to be placed below the form.
     [[nodiscard]] QLabel* about() const { return about_; }
-    /// Of the rows that take the focus.
+    /// The last row that takes the focus.
     [[nodiscard]] QWidget* last() const { return blind_; }
 
 private:

@@ -44,7 +44,11 @@ ProtocolParameter sessionField(const Study& study, const QString& code) {
         if (!code.isEmpty() && qtext(each.code) == code) made.value = each.id;
     }
     if (made.choices.empty()) made.choices.emplace_back("", QObject::tr("no session was begun").toStdString());
-    if (made.value == "") made.value = last;
+    if (made.value == "" && code.isEmpty()) made.value = last;
+    if (made.value == "" && made.choices.front().first != "") {
+        const auto none = QObject::tr("to be chosen: %1 has no session").arg(code).toStdString();
+        made.choices.insert(made.choices.begin(), {"", none});
+    }
     return made;
 }
 

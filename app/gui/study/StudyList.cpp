@@ -232,7 +232,7 @@ QWidget* StudyList::buildFoot() {
         connect(action, &QAction::triggered, this, [this, text, file, more] { makeReport(text, file, more); });
     };
     addReport(tr("For the study: results, with codes…"), "studyReport", "study-report.pdf", {});
-    addReport(tr("For the committee: no answers, no codes…"), "committeeReport", "committee-report.pdf",
+    addReport(tr("For the committee: side effects and events, no codes…"), "committeeReport", "committee-report.pdf",
               {"--for", "committee"});
     reports->setMenu(menu);
     auto* out = button(tr("Export…"), tr("Results without codes and dates, as a BIDS dataset in a new folder."),
@@ -391,7 +391,9 @@ void StudyList::makeReport(const QString& title, const QString& name, const QStr
                                          .out = out,
                                          .more = more + QStringList{"--noted"},
                                          .passphrase = study_.passphrase(),
-                                         .assurance = tr("The study is unchanged.")});
+                                         .assurance = more.contains("committee")
+                                                          ? tr("The study is unchanged.")
+                                                          : tr("The study notes that this report was asked for.")});
     });
 }
 

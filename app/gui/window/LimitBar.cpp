@@ -45,8 +45,12 @@ QString briefText(const ExposureRow& row) {
     const double least = std::pow(10.0, -most);
     if (value > 0 && value < least) return QObject::tr("< %1 of %2").arg(decimalText(least, most), limit);
     const int digits = value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2;
-    return QObject::tr("%1 of %2")
-        .arg(decimalText(value, std::min(most, digits == 2 && number < 1 ? 3 : digits)), limit);
+    const auto point = limit.left(end).indexOf('.');
+    const int limitDecimals = point < 0 ? 0 : int(end - point - 1);
+    const int decimals = std::max(std::min(most, digits == 2 && number < 1 ? 3 : digits), limitDecimals);
+    const auto said = decimalText(value, decimals);
+    if (value > number && !(said.toDouble() > number)) return QObject::tr("> %1").arg(limit);
+    return QObject::tr("%1 of %2").arg(said, limit);
 }
 
 }  // namespace
@@ -61,7 +65,7 @@ std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows, const std
         if (std::find(quantities.begin(), quantities.end(), row.quantity) == quantities.end()) continue;
         // Says what to print on a label; nothing is held to it.
         if (row.action == LimitAction::Disclose && !std::isnan(row.limit)) continue;
-        if (!found || share(row) > share(*found) * (1 + kTie)) found = row;
+        if (!found || share(row) > share(*found) + kTie * std::abs(share(*found))) found = row;
     }
     return found;
 }

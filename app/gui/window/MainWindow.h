@@ -74,7 +74,7 @@ public:
     /// Opens the docks with this one ("deviceDock") unfolded.
     void showDock(const QString& name);
     void setTheme(Theme theme);
-    /// Safety bar and plot alone, without menus, tools and paths; STOP stays, and all keys do what they did.
+    /// Safety bar and plot alone, without menus, tools and paths; STOP and the menus' keys stay.
     void showPlotOnly(bool only);
     void resetLayout();
 

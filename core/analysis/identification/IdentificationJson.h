@@ -25,6 +25,5 @@ namespace tacto {
 [[nodiscard]] nlohmann::json toJson(const FewPeople& people);
 /// {"encodings", "pairs": [{"a", "b", "difference"}], "preferred"}
 [[nodiscard]] nlohmann::json toJson(const EncodingComparison& compared);
-/// {"sessions", "against_first", "trend_per_day", "smallest_change"}
 
 }  // namespace tacto

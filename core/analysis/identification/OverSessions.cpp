@@ -34,7 +34,7 @@ const SessionFigures* firstOf(const std::vector<SessionFigures>& sessions, Known
     return found == sessions.end() ? nullptr : &*found;
 }
 
-/// Of a figure, divided by that of the first session that has it.
+/// A figure divided by that of the first session that has it.
 template <class Figure>
 double ratioToFirst(const std::vector<SessionFigures>& sessions, const SessionFigures& session, Figure figure) {
     const auto* first = firstOf(sessions, [&](const auto& each) { return figure(each) > 0; });
@@ -65,8 +65,8 @@ Estimate ratioOf(const Estimate& a, const Estimate& b) noexcept {
 }
 
 double smallestChange(std::size_t n, double accuracy) noexcept {
-    constexpr double kZ = 1.959963984540054;  // 97.5 % point of the normal distribution
-    if (n == 0) return kNaN;
+    constexpr double kZ = 1.959963984540054;                     // 97.5 % point of the normal distribution
+    if (n == 0 || !(accuracy > 0 && accuracy < 1)) return kNaN;  // all alike: the spread is not known
     return kZ * std::sqrt(2 * accuracy * (1 - accuracy) / static_cast<double>(n));
 }
 

@@ -53,7 +53,8 @@ struct OverSessions {
 [[nodiscard]] Result<OverSessions> compareSessions(std::vector<SessionFigures> sessions);
 
 /// The difference of two accuracies near `accuracy`, of `n` trials each, that leaves 0 outside the 95 % interval:
-/// 1.96 √(2 p (1 - p)/n), 14 % for two sessions of 80 trials at 70 %. NaN for n = 0.
+/// 1.96 √(2 p (1 - p)/n), 14 % for two sessions of 80 trials at 70 %. NaN for n = 0, and for an
+/// accuracy of 0 or 1, where the spread is not known.
 [[nodiscard]] double smallestChange(std::size_t n, double accuracy) noexcept;
 
 }  // namespace tacto

@@ -21,6 +21,7 @@ SessionFigures sessionOn(double days, std::size_t hits, Estimate detection = {})
 TEST(OverSessions, TwoSessionsOf80At70PerCentShow14PerCent) {
     EXPECT_NEAR(smallestChange(80, 0.7), 0.142, 0.0005);
     EXPECT_TRUE(std::isnan(smallestChange(0, 0.7)));
+    EXPECT_TRUE(std::isnan(smallestChange(80, 1))) << "all right: no change is not what it could show";
 }
 
 TEST(OverSessions, EachIsHeldAgainstTheFirst) {

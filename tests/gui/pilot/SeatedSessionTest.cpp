@@ -26,7 +26,7 @@ protected:
         page.setVisible(true);
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&page));
         giveKeys();
-        onePress = std::chrono::milliseconds(100);  // as SessionConduct, on a session that goes on by itself
+        onePress = std::chrono::seconds(2);  // they press STOP once: in its test
         QObject::connect(&desk, &gui::ParticipantDesk::asked, &page, [this](const PilotPrompt& prompt, quint64 id) {
             asked = prompt;
             page.ask(prompt, id);
@@ -213,7 +213,6 @@ TEST_F(SeatedSession, TheParticipantsScreenIsTheSameInATrialWhateverIsPresented)
     prompt.within = Seconds(1e6);  // the time that is left is drawn, and stands still in these pictures
     std::vector<QImage> shown;
     const auto look = [&] {
-        QCoreApplication::processEvents();
         const auto now = window.grab().toImage();
         if (shown.empty() || shown.back() != now) shown.push_back(now);
     };

@@ -49,6 +49,21 @@ TEST(LimitBar, IsNoFinerThanAHundredthOfALimitInPercentThatIsFar) {
     EXPECT_EQ(said(0), "0 % of 1 %");
 }
 
+TEST(LimitBar, InALineItSaysTheNumberInTheUnitOfItsLimit) {
+    RecordProperty("hazard", "H9");
+    const auto said = [](Quantity quantity, double value, double limit, const char* unit) {
+        gui::LimitBar bar("RMS", nullptr, gui::LimitBar::Shape::Line);
+        bar.show(row(quantity, value, limit, unit));
+        return QString(bar.numbers()).replace(QChar(0x202f), ' ').toStdString();
+    };
+    EXPECT_EQ(said(Quantity::RmsCurrent5s, 0.82, 10, "mA"), "0.82 of 10 mA");
+    EXPECT_EQ(said(Quantity::RmsCurrent5s, 0.0012, 10, "mA"), "< 0.01 of 10 mA");
+    EXPECT_EQ(said(Quantity::RmsCurrent5s, 10.25, 10.25, "mA"), "10.25 of 10.25 mA");
+    EXPECT_EQ(said(Quantity::RmsCurrent5s, 10.049, 10.04, "mA"), "10.05 of 10.04 mA");
+    EXPECT_EQ(said(Quantity::RmsCurrent5s, 10.04, 10, "mA"), "> 10 mA") << "over its limit and never shown as at it";
+    EXPECT_EQ(said(Quantity::PulseEnergy, 300, 300, "mJ"), "300 of 300 mJ");
+}
+
 TEST(LimitBar, InADockNoRowIsCutAtTheUsualWidth) {
     for (const int percent : {100, 200}) {
         gui::applyTextSize(percent);
