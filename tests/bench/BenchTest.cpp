@@ -287,7 +287,7 @@ TEST_F(BenchTest, DisarmingEndsTheDriveToo) {
     const auto delivered = bench_->telemetry().trainsDelivered;
     ASSERT_TRUE(arm());
     ASSERT_TRUE(bench_->wait(Seconds(1.2)));
-    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered) << "armed again, and nobody said drive";
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered) << "armed again, and drive() was not called";
 }
 
 TEST_F(BenchTest, AFaultIsLeftOnlyWhenItsCauseIsGone) {

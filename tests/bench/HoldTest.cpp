@@ -120,7 +120,7 @@ TEST_F(SeenLoadTest, UntilACaptureThereIsTheLoadThatArmingSaw) {
     deliver(Hold::Charge, "load=1kohm, drift 1.5 %/s");
     EXPECT_NEAR(bench_->telemetry().impedance_ohm, 1000, 30);
     ASSERT_TRUE(bench_->wait(Seconds(5)));
-    EXPECT_NEAR(bench_->telemetry().impedance_ohm, 1000, 30) << "nobody looked since";
+    EXPECT_NEAR(bench_->telemetry().impedance_ohm, 1000, 30) << "it was not measured since";
     EXPECT_NEAR(bench_->telemetry().trainAmplitude, 25, 0.01);
     EXPECT_GT(bench_->telemetry().trainsDelivered, 8U);
 }

@@ -100,7 +100,7 @@ TEST_F(RealTimeBenchTest, DisarmingEndsTheDriveToo) {
     const auto delivered = bench_->telemetry().trainsDelivered;
     ASSERT_IN_TIME(arm());
     ASSERT_IN_TIME(bench_->wait(Seconds(1.2)));
-    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered) << "armed again, and nobody said drive";
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered) << "armed again, and drive() was not called";
 }
 
 TEST_F(RealTimeBenchTest, ClosesWithEverythingRunning) {

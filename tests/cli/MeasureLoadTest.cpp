@@ -87,7 +87,7 @@ TEST(MeasureLoad, TrustIsInTheJsonAndInTheText) {
     EXPECT_EQ(channel["flagged"]["coarse"], 0);
     EXPECT_THAT(desk.run({"measure", file}).out, HasSubstr("uncertainty (k = 2): amplitude not known"));
     const auto silent = jsonOf(desk.run({"measure", file, "--json"}));
-    EXPECT_TRUE(silent["channels"][0]["amplitude_uncertainty"].is_null()) << "nobody stated it";
+    EXPECT_TRUE(silent["channels"][0]["amplitude_uncertainty"].is_null()) << "it was not stated";
     EXPECT_THAT(silent["not_stated"].get<std::string>(), HasSubstr("the gain of voltage"));
     const auto refused = desk.run({"measure", file, "--accuracy", "gain=1"});
     EXPECT_EQ(refused.code, 2);

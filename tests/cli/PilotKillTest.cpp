@@ -36,7 +36,7 @@ const KilledSession kKilledSessions[] = {
      {"sim:"},
      {"--set", "participant=virtual:5", "--set", "method=staircase"},
      1,
-     {.local = 80, .ci = 1, .campaign = 1},
+     {.local = 80, .ci = 4, .campaign = 1},
      false},
     // The long break with a look at the skin; masking noise; killed, and killed once more.
     {"FourBlocksWithAMassagerTwice",
@@ -44,7 +44,7 @@ const KilledSession kKilledSessions[] = {
      {"sim:massager"},
      {"--set", "participant=virtual:7", "--set", "blocks=4"},
      1,
-     {.local = 120, .ci = 3, .campaign = 1},
+     {.local = 120, .ci = 12, .campaign = 1},
      true},
     // Rests of five minutes in the drift check, and a block that is marked.
     {"Adapted",
@@ -52,7 +52,7 @@ const KilledSession kKilledSessions[] = {
      {"sim:"},
      {"--set", "participant=virtual:7", "--set", "blocks=2", "--set", "adaptation=3"},
      1,
-     {.local = 120, .ci = 3, .campaign = 1},
+     {.local = 120, .ci = 12, .campaign = 1},
      false},
 };
 

@@ -197,7 +197,7 @@ TEST(ReplayedCaptures, ComeInOrderFromArmingOnAtTheirOwnDistances) {
     scope.disarm();
     ASSERT_TRUE(scope.arm());
     bench.wait(Seconds(0.4));
-    EXPECT_NEAR((*scope.poll())->trigger_s, 1.6005, 2e-5) << "armed at 1.6 s: nobody waits out the gap between files";
+    EXPECT_NEAR((*scope.poll())->trigger_s, 1.6005, 2e-5) << "armed at 1.6 s: the gap between files is not waited out";
     bench.wait(Seconds(5));
     EXPECT_FALSE(scope.poll()->has_value());
 }

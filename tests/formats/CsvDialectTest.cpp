@@ -168,7 +168,7 @@ TEST(CsvDialects, ABadRowIsNamedInEveryDialect) {
     EXPECT_EQ(refusal("x-axis,1\nsecond,Volt\n0,1\n1\n"), "t.csv:4: 1 fields; 2 were expected, as in the header");
     EXPECT_EQ(refusal("Time,Channel A\n(ms),(bar)\n\n0,1\n1,2\n"),
               "t.csv:2: '(ms)' in column 'Time'; a number was expected")
-        << "a line of units that nobody knows is no line of units";
+        << "unknown units make no line of units";
 }
 
 }  // namespace

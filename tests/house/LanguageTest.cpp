@@ -153,5 +153,41 @@ TEST(Language, SentencesAreFoundInSources) {
     EXPECT_EQ(jargonIn("The Gate refuses"), "Gate: The Gate refuses");
 }
 
+/// What a line says without its subject: "nobody" and the like, or a comment that begins as a fragment ("Of a pass").
+std::string riddleIn(const std::string& line) {
+    const auto has = [&](const char* part) { return strcasestr(line.c_str(), part) != nullptr; };
+    if (!has("body") && !has("whoever") && !has("/ Of ")) return "";
+    static const std::regex words(R"(\b(nobody|somebody|anybody|whoever)\b)", std::regex::icase);
+    static const std::regex fragment(R"(//[/!<]*\s+Of [a-z])");
+    std::smatch found;
+    return std::regex_search(line, found, words) || std::regex_search(line, found, fragment) ? found.str() : "";
+}
+
+TEST(Language, NamesItsSubjects) {
+    std::size_t lines = 0;
+    for (const char* top : {"app", "core", "drivers", "tests", "resources/protocols"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(test::sourceDir() / top)) {
+            const auto kind = entry.path().extension();
+            if (kind != ".cpp" && kind != ".h" && kind != ".js") continue;
+            if (entry.path().filename() == "LanguageTest.cpp") continue;
+            std::ifstream in(entry.path(), std::ios::binary);
+            std::size_t at = 0;
+            for (std::string line; std::getline(in, line);) {
+                ++lines;
+                ++at;
+                EXPECT_EQ(riddleIn(line), "") << fs::relative(entry.path(), test::sourceDir()) << ":" << at;
+            }
+        }
+    }
+    EXPECT_GT(lines, 200'000U);
+}
+
+TEST(Language, RiddlesAreFound) {
+    EXPECT_EQ(riddleIn("x();  // nobody looks"), "nobody");
+    EXPECT_EQ(riddleIn("EXPECT_TRUE(x) << \"Whoever asks\";"), "Whoever");
+    EXPECT_EQ(riddleIn("    /// Of a pass: what was found"), "/// Of a");
+    EXPECT_EQ(riddleIn("/// The body of a request, of one kind"), "");
+}
+
 }  // namespace
 }  // namespace tacto

@@ -40,7 +40,7 @@ TEST(InstrumentStatement, LaterSourcesWinFigureByFigureAndEachKeepsItsName) {
     EXPECT_DOUBLE_EQ(capture.channels[0].probeTolerance, 0);
     EXPECT_DOUBLE_EQ(capture.timeBaseTolerance, 25e-6);
     EXPECT_TRUE(notStated(capture).empty());
-    EXPECT_TRUE(std::isnan(capture.stampTolerance_s)) << "nobody stated it";
+    EXPECT_TRUE(std::isnan(capture.stampTolerance_s)) << "it was not stated";
     EXPECT_EQ(capture.channels[1].statedBy, "gain: data sheet; shunt: address");
 }
 

@@ -202,9 +202,9 @@ TEST(StudyReport, PreferencesAreShownWithTheirOrderAndNotTested) {
     EXPECT_THAT(said, HasSubstr("five alike of five people have p = 0.06 (two-sided). In the order in which they had "
                                 "the encodings: 1 participant(s) had standard, swapped. The orders are not balanced"));
     EXPECT_THAT(textOf(committeeReport(studyOfThree())), Not(HasSubstr("Easier")));
-    auto nobody = studyOfThree();
-    nobody.participants[0].sessions[1].results.ratings.clear();
-    EXPECT_THAT(textOf(*studyReport(nobody)), Not(HasSubstr("Preferences are shown")));
+    auto unrated = studyOfThree();
+    unrated.participants[0].sessions[1].results.ratings.clear();
+    EXPECT_THAT(textOf(*studyReport(unrated)), Not(HasSubstr("Preferences are shown")));
 }
 
 TEST(StudyReport, TheCommitteesNamesNoCodeAndNoAnswer) {

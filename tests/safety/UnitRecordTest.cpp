@@ -333,7 +333,7 @@ TEST_F(UnitRecordFile, WithoutAPlaceForClaimsAUnitAlwaysRests) {
     std::filesystem::remove(claim);
     EXPECT_EQ(rests(claims_.path()), "") << "the computer was started";
     std::filesystem::resize_file(claim, 3);
-    EXPECT_THAT(rests(claims_.path()), HasSubstr("from another record")) << "a damaged claim is nobody's";
+    EXPECT_THAT(rests(claims_.path()), HasSubstr("from another record")) << "a damaged claim belongs to no program";
     EXPECT_EQ(rests(claims_.path()), "");
 }
 
@@ -424,7 +424,7 @@ TEST_F(UnitRecordFile, AnotherStartOfTheComputerIsLongAgoOnlyWhenTheWallClockSay
     EXPECT_FALSE(restsAfter("boot-2", 61));
     EXPECT_TRUE(restsAfter("boot-2", 59));
     EXPECT_TRUE(restsAfter("boot-2", -3600)) << "a wall clock that was set back";
-    EXPECT_TRUE(restsAfter("", 1)) << "nobody knows which start of the computer this is";
+    EXPECT_TRUE(restsAfter("", 1)) << "which start of the computer this is, is not known";
     EXPECT_FALSE(restsAfter("", 61));
 }
 

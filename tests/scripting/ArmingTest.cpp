@@ -38,7 +38,7 @@ protected:
 
 TEST_F(Arming, AskedForOnHardwareIsNotConfirmedByTheProgram) {
     const auto outcome = run("bench.arm({ load: 1000 });", {});
-    ASSERT_TRUE(outcome.error) << "a stimulator was armed and nobody confirmed it";
+    ASSERT_TRUE(outcome.error) << "a stimulator was armed without a confirmation";
     EXPECT_EQ(outcome.error->code, ErrorCode::NotFound);
     EXPECT_THAT(outcome.error->message, HasSubstr(fmt::format("--set confirm-arming=\"{}\"", kInto1k)));
     EXPECT_TRUE(nothingWasDelivered());

@@ -229,11 +229,11 @@ TEST_F(MachineGate, AMassagerIsAskedForItsStepsAndForBeingAlone) {
 }
 
 /// A person who is there and does nothing.
-class Somebody final : public PilotParticipant {
+class SilentPerson final : public PilotParticipant {
 public:
     void show(const PilotScreen&) override {}
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
-        return fail(ErrorCode::NotFound, "nobody answers {}", prompt.name);
+        return fail(ErrorCode::NotFound, "no answer to {}", prompt.name);
     }
     void delivered(const FeltPresentation&) override {}
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
@@ -254,7 +254,7 @@ TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
         code = study.enrol({}).value().code;
         ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
     }
-    Somebody person;
+    SilentPerson person;
     auto registry = labRegistry();
     const auto prepare = [&](const std::map<std::string, std::string>& more = {}) {
         auto given = more;
@@ -307,7 +307,7 @@ TEST_F(MachineGate, APersonAtAMassagerPassesEveryGateButThoseOfCurrent) {
         auto study = Study::create(at, study_, Passphrase::from("correct horse 4711").value()).value();
         code = study.enrol({}).value().code;
     }
-    Somebody person;
+    SilentPerson person;
     auto registry = labRegistry();
     const auto prepare = [&](const char* uri) {
         RunOrder order;

@@ -1,5 +1,5 @@
-// Technician.h - a laboratory's own bench as far as a protocol can tell: a stimulator that says it is real, nobody but
-// a technician to fit loads, and a technician who does what is asked, on the twin behind it.
+// Technician.h - a laboratory's own bench as far as a protocol can tell: a stimulator that says it is real, and a
+// technician who fits the loads and does what is asked, on the twin behind it.
 //
 // Thread-safety: as an Operator: the script's thread asks.
 #pragma once

@@ -48,7 +48,7 @@ TEST(ScienceModeReadBack, ImpedanceIsThatAtTheEndOfTheLeadingPhase) {
             ASSERT_TRUE(read.impedance.has_value()) << name;
             // 0.5 % of the magnitude, and the last digit of 0.01 V.
             EXPECT_NEAR(read.impedance->value(), wanted, 0.005 * wanted + 0.011 / (mA * 1e-3)) << name << ", " << width;
-            EXPECT_FALSE(read.amplitude.has_value()) << "nobody measured the current";
+            EXPECT_FALSE(read.amplitude.has_value()) << "the current was not measured";
             EXPECT_FALSE(read.imbalance.has_value());
         }
     }

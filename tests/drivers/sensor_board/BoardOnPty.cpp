@@ -26,8 +26,8 @@ BoardOnPty::BoardOnPty(const Clock& clock, sensorboard::EmulatedBoardSettings se
     if (slave_ < 0 || tcgetattr(slave_, &raw) != 0) throw std::runtime_error(path_ + " cannot be opened");
     cfmakeraw(&raw);  // or what a client sends before it has set up the terminal comes back as an echo
     tcsetattr(slave_, TCSANOW, &raw);
-    // As on USB, where the host fetches: the board waits, and keeps meanwhile what its buffer holds. What nobody
-    // fetches within a second is lost.
+    // As on USB, where the host fetches: the board waits, and keeps meanwhile what its buffer holds. What is
+    // not fetched within a second is lost.
     const auto send = [master = master_](std::span<const std::uint8_t> bytes) {
         while (!bytes.empty()) {
             const auto written = ::write(master, bytes.data(), bytes.size());

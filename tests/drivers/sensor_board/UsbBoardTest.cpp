@@ -85,7 +85,7 @@ TEST_F(SensorBoardOnUsb, IsFoundAndOpenedBySerialNumberWhicheverInterfaceItShows
 TEST_F(SensorBoardOnUsb, ADeviceOfThePrivateTestNumberThatIsNoBoardIsLeftAlone) {
     RecordProperty("hazard", "H4");
     auto other = boardDescription(BoardInterface::Serial, "X-1");
-    other.name = "Somebody's lamp";
+    other.name = "A lamp";
     EmulatedUsbDevice lamp(bed_, other, {});
     BoardOnUsb board(bed_, clock_, settingsFor("TSB-0001"), BoardInterface::Serial, 2);
     ASSERT_IN_TIME(listed(1));

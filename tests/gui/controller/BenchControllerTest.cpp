@@ -60,7 +60,7 @@ TEST_F(Controller, IsClosedUntilABenchIsOpened) {
     EXPECT_EQ(controller.activity(), Activity::Closed);
     EXPECT_EQ(controller.telemetry().state, InterlockState::Disconnected);
     EXPECT_FALSE(controller.open());
-    controller.stop("nobody");  // does no harm
+    controller.stop("a test");  // does no harm
     open();
     EXPECT_TRUE(controller.open()->simulated());
     EXPECT_TRUE(controller.open()->paced);
@@ -198,7 +198,7 @@ TEST_F(Controller, GivesUntriggeredRecordsWhereTheyAreAskedFor) {
     controller.runScope(settings, false);
     const auto at = controller.telemetry().at;
     ASSERT_IN_TIME(comesTrue([&] { return controller.telemetry().at > at + std::chrono::seconds(2); }));
-    EXPECT_TRUE(captures.empty()) << "nobody asked for them";
+    EXPECT_TRUE(captures.empty()) << "they were not asked for";
     controller.runScope(settings, false, Seconds(0.3));
     ASSERT_IN_TIME(comesTrue([&] { return captures.size() >= 3; }));
     for (const auto& capture : captures) EXPECT_TRUE(capture->untriggered);

@@ -233,7 +233,7 @@ TEST_F(Scope, OthersAreFedThoughTheOscilloscopeIsNotVisible) {
     scope.hide();
     openBench();
     deliver();
-    EXPECT_FALSE(scope.running()) << "nobody looks";
+    EXPECT_FALSE(scope.running()) << "it is not looked at";
     scope.setWatched(true);
     ASSERT_IN_TIME(comes([&] { return find<QLabel>(summary, "Amplitude of Voltage") != nullptr; }));
     EXPECT_NE(figure(summary, "Amplitude of Voltage"), "–");

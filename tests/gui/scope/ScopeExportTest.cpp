@@ -85,7 +85,7 @@ TEST_F(Exports, AFileThatCannotBeWrittenIsToldAndAnOldOneStays) {
 TEST_F(Exports, TheVisibleDataReadBackAsACapture) {
     const auto path = folder.filePath("part.csv");
     QFile other(path + ".part");
-    ASSERT_TRUE(other.open(QIODevice::WriteOnly) && other.write("somebody's work") > 0);
+    ASSERT_TRUE(other.open(QIODevice::WriteOnly) && other.write("another program's work") > 0);
     other.close();
     const double zero = model.shown()->zero_s;
     ASSERT_EQ(gui::saveData(*model.shown(), zero - 0.5e-3, zero + 1.5e-3, path), std::nullopt);

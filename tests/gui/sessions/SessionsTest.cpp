@@ -85,7 +85,7 @@ TEST_F(Recorded, AForeignFileIsListedWithItsReason) {
 TEST_F(Recorded, AnExportTouchesNothingThatItDidNotMake) {
     RecordProperty("hazard", "H8");
     const auto target = folder.path() / "csv";
-    const auto kept = folder.write("csv.part/notes.txt", "somebody's work");
+    const auto kept = folder.write("csv.part/notes.txt", "another program's work");
     const auto entries = [this] {
         return std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator());
     };
@@ -98,7 +98,7 @@ TEST_F(Recorded, AnExportTouchesNothingThatItDidNotMake) {
     EXPECT_EQ(entries(), before + 1);
     EXPECT_FALSE(gui::exportCsv(session, target, port())) << "it is there already";
     std::filesystem::create_directory(folder.path() / "empty");
-    EXPECT_FALSE(gui::exportCsv(session, folder.path() / "empty", port())) << "an empty folder is somebody's too";
+    EXPECT_FALSE(gui::exportCsv(session, folder.path() / "empty", port())) << "an empty folder may be in use too";
     std::filesystem::create_symlink(folder.path() / "nowhere", folder.path() / "link");
     EXPECT_FALSE(gui::exportCsv(session, folder.path() / "link", port()));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "nowhere"));
@@ -213,7 +213,7 @@ TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
     let = true;  // not reached if start() waited
     ASSERT_IN_TIME(comesTrue([&] { return second; }));
     EXPECT_EQ(order, (std::vector<std::string>{"first", "second"}));
-    EXPECT_FALSE(first) << "nobody wants its result any more";
+    EXPECT_FALSE(first) << "its result is not wanted any more";
 }
 
 TEST_F(Recorded, TwoAreComparedOverEachOther) {

@@ -122,7 +122,7 @@ TEST_F(StudyPageTest, WithdrawingTakesTheCodeTypedAndSaysWhatItDoesNotReach) {
     EXPECT_FALSE(page.findChild<QTableWidget*>("participants")->isVisible());
 }
 
-/// Of a virtual participant whose only session was begun some days ago and has ended.
+/// A virtual participant's study, whose only session was begun some days ago and has ended.
 class StudyWithASession : public StudyInThePage {
 protected:
     /// Makes it and opens it in the window; the value is the session's id.

@@ -18,8 +18,8 @@ inline void publish() noexcept { publications.fetch_add(1, std::memory_order_acq
 /// The other side takes it over.
 inline void takeOver() noexcept { (void)publications.load(std::memory_order_acquire); }
 
-/// Has `callback` answer a signal of umockdev's. What is behind it lives as long as the handler, which whoever still
-/// has the node open keeps: a test may be done with a device before the program is.
+/// Has `callback` answer a signal of umockdev's. What is behind it lives as long as the handler, which a program
+/// that still has the node open keeps: a test may be done with a device before the program is.
 template <class T>
 void connect(UMockdevIoctlBase* handler, const char* signal, GCallback callback, const std::shared_ptr<T>& emulation) {
     const auto release = [](void* user, GClosure*) {

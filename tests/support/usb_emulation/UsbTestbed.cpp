@@ -47,7 +47,7 @@ UnprivilegedUser::UnprivilegedUser(const UsbTestbed& testbed) {
         std::filesystem::permissions(entry, std::filesystem::perms(0777));
     }
     if (setresuid(kUnprivilegedUser, kUnprivilegedUser, 0) != 0)
-        throw std::runtime_error("setresuid to nobody was refused");
+        throw std::runtime_error("setresuid to an unprivileged user was refused");
     changed_ = true;
 }
 
