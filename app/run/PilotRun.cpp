@@ -428,6 +428,7 @@ Result<void> PilotRun::start(RunRequest hooks) {
 }
 
 RunResult PilotRun::finish() {
+    session_->stage().participant().leave();  // their STOP must not find a bench that is gone
     auto result = run_->finish();
     const auto ended = session_->stage().ended();
     if (result.outcome.abandoned || ended == PilotEnd::Unfinished) return result;

@@ -60,6 +60,8 @@ public:
     [[nodiscard]] virtual std::vector<EarlyPress> takeEarly() = 0;
     /// Makes a waiting ask() return Stopped, and every later one: the session is over.
     virtual void cancel() noexcept = 0;
+    /// The session is over and its bench goes next: once this returns, `stop` is not called any more.
+    virtual void leave() noexcept {}
 
     /// While levels rise: whether the participant still holds the key, pedal or target. From Hold's answer on until
     /// the session shows Rest, letting go also calls `stop("participant let go")`.

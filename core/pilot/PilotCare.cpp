@@ -253,6 +253,7 @@ Result<void> PilotCare::asAtFirst(const std::string& name) {
 }
 
 Result<void> PilotCare::skin(const std::string& moment) {
+    stage_.rest();  // what is on the skin may be taken off
     int worst = 0;
     for (const auto& [what, words] :
          {std::pair{"erythema", "Redness of the skin, 0 to 4"}, std::pair{"oedema", "Swelling of the skin, 0 to 4"}}) {
@@ -332,6 +333,7 @@ Result<void> PilotCare::compareEncodings() {
 }
 
 Result<void> PilotCare::sideEffects(const std::string& moment) {
+    stage_.rest();
     const auto noticed =
         stage_.ask(row::kSideEffect, moment,
                    severalPrompt("side-effects", "Which of these do you notice now?", targets(kSideEffects)));

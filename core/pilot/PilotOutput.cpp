@@ -53,6 +53,10 @@ Result<PilotAnswer> PilotOutput::insist(const PilotPrompt& prompt) {
         stage_.bench().attend(PilotStage::kAskingTakes);
         auto said = stage_.participant().ask(prompt);
         if (said) return said;
+        if (stage_.ended() != PilotEnd::Unfinished && takeStop()) {  // off for good: what is asked after it stays asked
+            stage_.participant().show({});
+            continue;
+        }
         if (auto goesOn = recover(prompt.name, said.error()); !goesOn) return failure(goesOn);
     }
 }
@@ -227,7 +231,7 @@ Result<void> PilotOutput::takeBreak(const std::string& during, PilotScreen scree
     auto mark = bench.stops().mark();
     for (auto hindrance = people.hindrance(); hindrance && hindrance->isBreak; hindrance = people.hindrance()) {
         bench.idle(kWayLook);
-        if (!bench.stops().movedSince(mark)) continue;
+        if (!bench.stops().movedSince(mark) && !stopped()) continue;
         mark = bench.stops().mark();
         const Error stopped{ErrorCode::Stopped, "stopped in a break"};
         if (auto goesOn = interrupted(name, stopped); !goesOn) return goesOn;
@@ -373,6 +377,11 @@ Result<void> PilotOutput::askToGoOn(const std::string& text) {
     for (;;) {
         stage_.participant().show(screen);
         const auto mark = bench.stops().mark();  // a stop from here on is one after their "go on"
+        if (stopped()) {                         // one that came while the last was handled
+            const Error stopped{ErrorCode::Stopped, "stopped before the participant was asked"};
+            if (auto goesOn = interrupted("go on", stopped); !goesOn) return goesOn;
+            continue;
+        }
         const auto asked = stage_.participant().ask(goOnPrompt(text, PromptTo::Participant));
         const auto begun = asked ? bench.begin(mark) : Result<void>(failure(asked));
         if (begun) break;

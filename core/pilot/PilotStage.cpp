@@ -55,7 +55,8 @@ PilotStage::PilotStage(Bench& bench, PilotParticipant& participant, PilotRecord&
 }
 
 PilotStage::~PilotStage() {
-    participant_.stop = [](const char*) {};
+    participant_.leave();
+    participant_.stop = nullptr;
 }
 
 double PilotStage::step() const {

@@ -306,7 +306,7 @@ void BM_PilotStopKey(benchmark::State& state) {
         if (auto begun = behind.bench->begin(behind.bench->stops().mark()); !begun)
             return state.SkipWithError(begun.error().message.c_str());
     }
-    desk.end();
+    desk.leave();
     report(state, std::move(all_ms));
 }
 BENCHMARK(BM_PilotStopKey)

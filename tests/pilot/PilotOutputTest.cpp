@@ -223,6 +223,23 @@ TEST_F(PilotOutputTest, AnAbortIsAskedForItsReasonOnceTheOutputIsOff) {
     EXPECT_THAT(bodies(row::kNote), SizeIs(1)) << "asked once";
 }
 
+TEST_F(PilotOutputTest, AnAbortWhileAStopIsHandledIsNotForgotten) {
+    RecordProperty("hazard", "H2");
+    someone_.stops = 1;
+    bool aborted = false;
+    someone_.onShow = [&] {  // before they are asked to go on, and after the stop was noted
+        if (someone_.shown.back().text.starts_with("Stopped.") && !std::exchange(aborted, true))
+            someone_.stop(kOperatorAborts);
+    };
+    const auto answer = stage_->trial(trial());
+    ASSERT_TRUE(aborted);
+    ASSERT_FALSE(answer) << "it went on after an abort";
+    EXPECT_EQ(answer.error().code, ErrorCode::Stopped);
+    EXPECT_THAT(someone_.asked, testing::Not(Contains("go-on"))) << "the participant is not asked to";
+    EXPECT_EQ(record_->count(row::kOperatorStop), 1U);
+    EXPECT_NE(state(), InterlockState::Armed);
+}
+
 TEST_F(PilotOutputTest, AnAbortWithoutAReasonEndsAllTheSame) {
     RecordProperty("hazard", "H2");
     atFirstFeel([this] { someone_.press(kOperatorAborts); });

@@ -18,10 +18,11 @@ void ParticipantDesk::begin(std::shared_ptr<const Clock> clock) {
     holding_ = false;
 }
 
-void ParticipantDesk::end() {
+void ParticipantDesk::leave() noexcept {
     cancel();
     const std::scoped_lock lock(stopMutex_);
     listens_ = false;
+    stop = nullptr;  // else the next screen would listen again
     holding_ = false;
 }
 

@@ -28,14 +28,13 @@ public:
     /// Before a session, with its clock, by which it says when targets appear; on a virtual one, or without any, they
     /// appear at once. Any thread, while no session has the desk.
     void begin(std::shared_ptr<const Clock> clock);
-    /// After it: `stop` leads nowhere from here on.
-    void end();
 
     void show(const PilotScreen& screen) override;
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override;
     void delivered(const FeltPresentation& /*felt*/) override {}
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override;
     void cancel() noexcept override;
+    void leave() noexcept override;
     [[nodiscard]] bool holding() const noexcept override { return holding_; }
     [[nodiscard]] std::optional<Hindrance> hindrance() const override;
     [[nodiscard]] bool hasScreen() const noexcept override;

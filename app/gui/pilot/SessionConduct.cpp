@@ -43,7 +43,7 @@ SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, 
 }
 
 SessionConduct::~SessionConduct() {
-    desk_.end();  // answers what asker_ waits for
+    desk_.leave();  // answers what asker_ waits for
 }
 
 void SessionConduct::connectPage() {
@@ -194,7 +194,9 @@ void SessionConduct::run() {
             // StopKeys hears one press several times. What it tested is off already, and a question comes next.
             const auto since = std::chrono::steady_clock::now() - testedAt_.load();
             if (since < std::chrono::milliseconds(kOnePress_ms)) return true;
-            heldTested_ = desk_.testsStopOf(PromptTo::Operator) && desk_.stopBy(by);
+            // In the test of the participant's it is a press of the wrong one: asked again, and no stop of the session.
+            const bool tests = desk_.testsStopOf(PromptTo::Operator) || desk_.testsStopOf(PromptTo::Participant);
+            heldTested_ = tests && desk_.stopBy(by);
             if (heldTested_) testedAt_ = std::chrono::steady_clock::now();
             return heldTested_.load();
         };
@@ -228,7 +230,7 @@ bool SessionConduct::stopAsParticipant(const char* by) {
         desk_.cancel();
         return true;
     }
-    const bool tested = desk_.testsStopOf(PromptTo::Participant);
+    const bool tested = desk_.testsStopOf(PromptTo::Participant) || desk_.testsStopOf(PromptTo::Operator);
     const bool heard = desk_.stopBy(by);
     if (!heard) controller_.stop(by);  // the session has not begun, or is over
     if (window_) window_->noteStop();
@@ -325,7 +327,7 @@ void SessionConduct::seatTheirWindow() {
 
 void SessionConduct::leaveSeats() {
     running_ = false;
-    desk_.end();
+    desk_.leave();
     strip_ = nullptr;
     if (!window_) return;
     window_->hide();

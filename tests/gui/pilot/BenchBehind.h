@@ -49,7 +49,9 @@ private:
 class Feeling final : public PilotParticipant {
 public:
     explicit Feeling(gui::ParticipantDesk& desk) : desk_(desk) {
-        desk_.stop = [this](const char* by) { stop(by); };
+        desk_.stop = [this](const char* by) {
+            if (stop) stop(by);
+        };
     }
     void show(const PilotScreen& screen) override { desk_.show(screen); }
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override { return desk_.ask(prompt); }

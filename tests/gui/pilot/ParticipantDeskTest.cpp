@@ -21,7 +21,7 @@ protected:
                          [this](const PilotPrompt&, quint64 id) { asked = id; });
     }
     ~Desk() override {
-        desk.end();
+        desk.leave();
         if (answer.valid()) answer.wait();
     }
     void ask(const PilotPrompt& prompt) {
@@ -133,9 +133,13 @@ TEST_F(Desk, ACancelledSessionAsksNothingMore) {
 }
 
 TEST_F(Desk, AfterTheSessionAStopLeadsNowhere) {
-    desk.end();
+    RecordProperty("hazard", "H2");
+    desk.leave();
     EXPECT_FALSE(desk.stopBy("participant"));
     EXPECT_TRUE(stops.empty());
+    desk.begin(nullptr);
+    desk.show({});  // the next person's code is asked for
+    EXPECT_FALSE(desk.stopBy("participant")) << "a stop while devices open is the program's to hear";
 }
 
 TEST_F(Desk, AScreenThatGoesEndsTheQuestion) {

@@ -165,7 +165,7 @@ TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain)
     ASSERT_IN_TIME(
         comesTrue([&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; }, 20'000));
     QTest::qWait(150);
-    window.controller().stop("operator (STOP)");
+    window.controller().stop("operator (signal)");  // a press would be one of the wrong STOP
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
     ASSERT_TRUE(study) << study.error().message;

@@ -47,7 +47,7 @@ protected:
         EXPECT_IN_TIME(QTest::qWaitForWindowActive(&window));
     }
     ~Seated() override {
-        desk.end();
+        desk.leave();
         if (answer.valid()) answer.wait();
         window.hide();
     }
