@@ -233,8 +233,8 @@ Result<void> PilotOutput::takeBreak(const std::string& during, PilotScreen scree
         bench.idle(kWayLook);
         if (!bench.stops().movedSince(mark) && !stopped()) continue;
         mark = bench.stops().mark();
-        const Error stopped{ErrorCode::Stopped, "stopped in a break"};
-        if (auto goesOn = interrupted(name, stopped); !goesOn) return goesOn;
+        const Error why{ErrorCode::Stopped, "stopped in a break"};
+        if (auto goesOn = interrupted(name, why); !goesOn) return goesOn;
         people.show(screen);
     }
     if (auto wanted = askToGoOn("The break is over. Go on when you want to."); !wanted) return wanted;
@@ -378,8 +378,8 @@ Result<void> PilotOutput::askToGoOn(const std::string& text) {
         stage_.participant().show(screen);
         const auto mark = bench.stops().mark();  // a stop from here on is one after their "go on"
         if (stopped()) {                         // one that came while the last was handled
-            const Error stopped{ErrorCode::Stopped, "stopped before the participant was asked"};
-            if (auto goesOn = interrupted("go on", stopped); !goesOn) return goesOn;
+            const Error why{ErrorCode::Stopped, "stopped before the participant was asked"};
+            if (auto goesOn = interrupted("go on", why); !goesOn) return goesOn;
             continue;
         }
         const auto asked = stage_.participant().ask(goOnPrompt(text, PromptTo::Participant));

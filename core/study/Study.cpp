@@ -340,21 +340,27 @@ Result<BegunSession> Study::continueSession(std::string_view id, const SessionRe
     return state_->begun(id);
 }
 
+namespace {
+
+nlohmann::json endedBody(const StudySession& session, StudySessionState ended, const std::string& head) {
+    return {{"session", session.id},
+            {"participant", session.participant},
+            {"state", wordFor(Words<StudySessionState>(kStudySessionStates), ended)},
+            {"file", session.parts.back().file},
+            {"head", head}};
+}
+
+}  // namespace
+
 Result<void> Study::cancelSession(std::string_view id) {
     if (auto may = state_->changeable(); !may) return may;
     const auto* session = state_->known.session(id);
     if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", id);
     if (session->state != StudySessionState::Unfinished || session->parts.size() != 1)
         return fail(ErrorCode::InvalidArgument, "session {} was opened and cannot be cancelled", id);
-    const auto& file = session->parts.back().file;
-    return state_->append(
-        ledger::kSessionEnded,
-        {{"session", session->id},
-         {"participant", session->participant},
-         {"state", wordFor(Words<StudySessionState>(kStudySessionStates), StudySessionState::Stopped)},
-         {"opened", false},
-         {"file", file},
-         {"head", headOf(pathOf(file))}});
+    auto body = endedBody(*session, StudySessionState::Stopped, headOf(pathOf(session->parts.back().file)));
+    body["opened"] = false;
+    return state_->append(ledger::kSessionEnded, std::move(body));
 }
 
 Result<void> Study::endSession(std::string_view id, StudySessionState ended, std::string_view chainHead) {
@@ -366,14 +372,8 @@ Result<void> Study::endSession(std::string_view id, StudySessionState ended, std
                     wordFor(Words<StudySessionState>(kStudySessionStates), session->state),
                     wordFor(Words<StudySessionState>(kStudySessionStates), ended));
     }
-    const auto& file = session->parts.back().file;
-    const auto head = chainHead.empty() ? headOf(pathOf(file)) : std::string(chainHead);
-    return state_->append(ledger::kSessionEnded,
-                          {{"session", session->id},
-                           {"participant", session->participant},
-                           {"state", wordFor(Words<StudySessionState>(kStudySessionStates), ended)},
-                           {"file", file},
-                           {"head", head}});
+    const auto head = chainHead.empty() ? headOf(pathOf(session->parts.back().file)) : std::string(chainHead);
+    return state_->append(ledger::kSessionEnded, endedBody(*session, ended, head));
 }
 
 Result<std::shared_ptr<const RowSeal>> Study::sealOf(std::string_view file) const {

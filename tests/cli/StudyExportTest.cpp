@@ -118,6 +118,13 @@ TEST_F(StudyExport, AReportThatNamesPeopleIsNotedBeforeItIsWritten) {
     ASSERT_EQ(desk_.run({"report", study(), "--out", at("study.html")}).code, 0);
     const auto noted = head();
     EXPECT_NE(noted, atFirst);
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("study.html"), "--noted"}).code, 0);
+    EXPECT_EQ(head(), noted) << "it stands there already";
+    expectRefused(desk_.run({"report", study(), "--out", at("other.html"), "--noted"}), 2,
+                  {"notes no study report in", "other.html"});
+    EXPECT_FALSE(fs::exists(at("other.html"))) << "a claim is not a row";
+    expectRefused(desk_.run({"report", study(), "--out", at("nowhere/study.html")}), 3, {"is no folder"});
+    EXPECT_EQ(head(), noted) << "nothing is noted that cannot be written";
     const auto code = run_.at("participant").at("code").get<std::string>();
     ASSERT_EQ(desk_.run({"report", study(), "--out", at("page.html"), "--participant", code}).code, 0);
     EXPECT_NE(head(), noted);
