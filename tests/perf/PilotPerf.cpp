@@ -26,23 +26,13 @@
 #include "core/devices/StatesCalibration.h"
 #include "core/study/SessionSeal.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/perf/Windows.h"
 
 namespace tacto {
 namespace {
 
 namespace fs = std::filesystem;
 using SteadyMoment = std::chrono::steady_clock::time_point;
-
-/// Made at first need, never destroyed: benchmark's main() knows nothing of Qt.
-void needProgram() {
-    static int argc = 1;
-    static char name[] = "perf";
-    static char* argv[] = {name, nullptr};
-    if (QCoreApplication::instance() != nullptr) return;
-    if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
-    new QApplication(argc, argv);
-    gui::applyTheme(gui::Theme::Light);
-}
 
 /// Where sessions are written; nothing of the user's is.
 class Place {
@@ -70,7 +60,7 @@ void report(benchmark::State& state, std::vector<double> all_ms) {
 
 /// From the command to the result: study, script, sealed rows.
 void BM_PilotSession(benchmark::State& state) {
-    needProgram();
+    needWindows();
     const Place place;
     int number = 0;
     double trials = 0;
@@ -161,7 +151,8 @@ public:
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return people_.takeEarly(); }
     void cancel() noexcept override { people_.cancel(); }
     [[nodiscard]] bool holding() const noexcept override { return people_.holding(); }
-    [[nodiscard]] Result<void> ready() const override { return people_.ready(); }
+    [[nodiscard]] std::optional<Hindrance> hindrance() const override { return people_.hindrance(); }
+    [[nodiscard]] bool hasScreen() const noexcept override { return people_.hasScreen(); }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return people_.answersInRealTime(); }
     std::optional<SteadyMoment> saidAt;
 
@@ -185,7 +176,7 @@ Result<void> answersAll(PilotSession& session) {
 /// From the answer to the row `trial-begin` of the next trial, with the row `answer` between them, both durable. The
 /// bench lets the response time pass meanwhile, in virtual time.
 void BM_PilotNextTrial(benchmark::State& state) {
-    needProgram();
+    needWindows();
     const Place place;
     std::vector<double> all_ms;
     for (auto _ : state) {
@@ -246,7 +237,7 @@ private:
 
 /// In real time: the key comes from outside at a moment that the window does not choose, while trains are delivered.
 void BM_PilotStopKey(benchmark::State& state) {
-    needProgram();
+    needWindows();
     const Place place;
     const auto clock = std::make_shared<SteadyClock>();
     PersonBench behind(place, clock, "200 ohm + (3 kohm || 20 nF)", [](std::unique_ptr<Stimulator> inner) {

@@ -11,6 +11,7 @@
 #include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Random.h"
+#include "tests/perf/Windows.h"
 
 namespace tacto {
 namespace {
@@ -18,17 +19,6 @@ namespace {
 constexpr std::size_t kSamples = 10'000'000;
 constexpr double kRate_hz = 10e6;
 const QSize kScreen(1280, 720);
-
-/// Made at first need, never destroyed: benchmark's main() knows nothing of Qt.
-void needWindows() {
-    static int argc = 1;
-    static char name[] = "perf";
-    static char* argv[] = {name, nullptr};
-    if (QCoreApplication::instance() != nullptr) return;
-    if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
-    new QApplication(argc, argv);
-    gui::applyTheme(gui::Theme::Light);
-}
 
 enum Signal { kPulses, kNoise };
 
