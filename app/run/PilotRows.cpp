@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/base/JsonFields.h"
 #include "core/devices/Device.h"
+#include "core/pilot/PilotRecord.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto {
@@ -23,7 +25,7 @@ std::chrono::sys_seconds wallTimeFrom(const std::string& iso) {
 
 Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
     PilotRows rows;
-    rows.lastAt = session.parts.back().begun;
+    rows.answeredAt = session.parts.front().begun;
     for (const auto& part : session.parts) {
         const auto path = study.pathOf(part.file);
         if (!std::filesystem::exists(path)) continue;
@@ -33,17 +35,21 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
         if (!reader) return failure(reader);
         auto events = reader->events();
         if (!events) return failure(events);
-        std::ranges::move(*events, std::back_inserter(rows.events));
         const auto& about = reader->about();
+        for (const auto& event : *events) {
+            if (event.name == row::kSessionEnd) rows.ended = pilotEndFrom(textOr(event.body, "state"));
+            if (event.name != row::kAnswer && event.name != row::kNoAnswer && event.name != row::kTrialBegin) continue;
+            auto at = wallTimeFrom(about.wallStart);
+            if (!about.virtualClock) at += std::chrono::floor<std::chrono::seconds>(event.at);
+            rows.answeredAt = std::max(rows.answeredAt, at);
+        }
+        std::ranges::move(*events, std::back_inserter(rows.events));
         if (!rows.seed) rows.seed = about.seed;
         const auto delivers = std::ranges::find_if(about.devices, [](const SessionDevice& device) {
             return device.role == nameOf(Role::Stimulator) || device.role == nameOf(Role::Massager);
         });
         if (!rows.delivers && delivers != about.devices.end()) rows.delivers = *delivers;
         rows.chainHead = reader->chainHead();
-        auto last = wallTimeFrom(about.wallStart);
-        if (!about.virtualClock) last += std::chrono::floor<std::chrono::seconds>(reader->lastAt());
-        rows.lastAt = std::max(rows.lastAt, last);
     }
     return rows;
 }

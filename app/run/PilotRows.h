@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "core/pilot/PilotStage.h"
 #include "core/session/SessionTypes.h"
 #include "core/study/Study.h"
 
 namespace tacto {
 
-/// A session that was broken off goes on so long after its last answer.
+/// A session that was broken off goes on so long after something was last presented or answered in it.
 inline constexpr std::chrono::hours kResumedWithin{2};
 
 struct PilotRows {
@@ -22,9 +23,15 @@ struct PilotRows {
     std::optional<std::uint64_t> seed;      ///< of the first part
     std::string chainHead;                  ///< of the last part
     std::optional<SessionDevice> delivers;  ///< the stimulator or massager of the first part
-    /// When the last row was written. On a virtual clock a session's time runs ahead of the wall's, so a part counts
-    /// from its beginning.
-    std::chrono::sys_seconds lastAt{};
+    /// When something was last presented or answered; else when the session began, however often it was gone on with.
+    /// On a virtual clock a session's time runs ahead of the wall's, so a part counts from its beginning.
+    std::chrono::sys_seconds answeredAt{};
+    std::optional<PilotEnd> ended;  ///< as its row says; nothing where there is none
+
+    /// What is complete has nothing left to present, however late it is.
+    [[nodiscard]] bool mayGoOn(std::chrono::sys_seconds now) const {
+        return ended == PilotEnd::Complete || now - answeredAt <= kResumedWithin;
+    }
 };
 
 /// A part that was booked and never made holds none. Errors: Unsupported without the participant's key; as

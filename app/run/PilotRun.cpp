@@ -182,7 +182,17 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
     unfinished_ = study_->unfinished(who_.id);
     if (!unfinished_) return {};
     const auto wanted = textOf(order, "unfinished");
+    if (wanted == "end" || wanted == "resume") {
+        auto rows = pilotRows(*study_, *unfinished_);
+        if (!rows) return failure(rows);
+        earlier_ = std::move(*rows);
+    }
+    if (wanted == "end" && earlier_.ended == PilotEnd::Complete)
+        return fail(ErrorCode::NotFound,
+                    "session {} of {} is complete, and the program was ended before the study knew; {} is expected",
+                    unfinished_->number, who_.code, whatGoesOn());
     if (wanted == "end") {
+        earlier_ = {};
         toEnd_ = std::exchange(unfinished_, std::nullopt);
         return {};
     }
@@ -193,20 +203,19 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
     if (unfinished_->protocol != order.script.name)
         return fail(ErrorCode::NotFound, "session {} of {} is of {}; it goes on with that protocol, or ends with {}",
                     unfinished_->number, who_.code, unfinished_->protocol, whatEnds());
-    auto rows = pilotRows(*study_, *unfinished_);
-    if (!rows) return failure(rows);
-    earlier_ = std::move(*rows);
     return mayResume();
 }
+
+std::string_view PilotRun::whatGoesOn() const { return inWindow_ ? "“Go on”" : "--set unfinished=resume"; }
 
 std::string_view PilotRun::whatEnds() const { return inWindow_ ? "“End it as stopped”" : "--set unfinished=end"; }
 
 Result<void> PilotRun::mayResume() const {
     const auto now = SystemTime::real().wall();
-    if (now - earlier_.lastAt <= kResumedWithin) return {};
+    if (earlier_.mayGoOn(now)) return {};
     return fail(kGateRefused, "session {} of {} was broken off {:.1f} h ago; it can go on within 2 h, and ends with {}",
                 unfinished_->number, who_.code,
-                std::chrono::duration<double, std::ratio<3600>>(now - earlier_.lastAt).count(), whatEnds());
+                std::chrono::duration<double, std::ratio<3600>>(now - earlier_.answeredAt).count(), whatEnds());
 }
 
 /// What was too strong, and the range, were found with the first part's device and hold for no other.

@@ -64,6 +64,7 @@ private:
     [[nodiscard]] Result<void> noteSkin(const std::string& moment, int score);
     /// What ends an unfinished session, for messages: an option, or what the window offers.
     [[nodiscard]] std::string_view whatEnds() const;
+    [[nodiscard]] std::string_view whatGoesOn() const;
     [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
     [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
     void fitOrder(RunOrder& order, const PilotOrder& pilot);

@@ -43,6 +43,9 @@ inline constexpr const char* kScreenGone = "the participant's screen";
 inline constexpr const char* kOperatorPauses = "operator (break now)";
 inline constexpr const char* kOperatorAborts = "operator (abort)";
 
+/// How often `waiting` is called while a person is asked.
+inline constexpr Seconds kWaitingLook{0.1};
+
 class PilotParticipant {
 public:
     virtual ~PilotParticipant() = default;
@@ -79,6 +82,9 @@ public:
     /// kScreenGone where the participant's window was closed or its screen went. Set by the session before the first
     /// show(); any thread may call it, at any time until the session ends. Does not block.
     std::function<void(const char* by)> stop;
+    /// Called by ask(), on the session's thread and every kWaitingLook, while it waits for a person; may be null. Set
+    /// by the session.
+    std::function<void()> waiting;
 };
 
 }  // namespace tacto

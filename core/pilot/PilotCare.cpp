@@ -103,8 +103,9 @@ const nlohmann::json* PilotCare::firstImpedance() const {
 }
 
 Result<void> PilotCare::gate(const std::string& name, bool holds, const std::string& sentence) {
-    auto kept = stage_.record().write(row::kGate, name, {{"holds", holds}, {"said", holds ? "" : sentence}});
-    if (!kept) return kept;
+    nlohmann::json body{{"holds", holds}, {"said", holds ? "" : sentence}};
+    if (!holds) body[row::kEnds] = true;
+    if (auto kept = stage_.record().write(row::kGate, name, std::move(body)); !kept) return kept;
     return holds ? Result<void>() : stage_.end(PilotEnd::Stopped, sentence);
 }
 
@@ -130,9 +131,9 @@ Result<void> PilotCare::stopTest(PromptTo by) {
     const auto name = fmt::format("{} {}", part(), nameOf(by));
     const auto other = by == PromptTo::Participant ? PromptTo::Operator : PromptTo::Participant;
     std::optional<PilotStage::PressedStop> pressed;
-    bool theirs = false;
+    bool theirs = false, armed = true;
     for (int asked = 0; asked < kStopTries && !theirs;) {
-        if (auto armed = stage_.arm(); !armed) return armed;
+        if (auto ready = stage_.arm(); !ready) return ready;
         auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
         prompt.name = "stop-test";
         PilotScreen screen;  // from here on a stop is theirs
@@ -141,25 +142,35 @@ Result<void> PilotCare::stopTest(PromptTo by) {
         stage_.participant().show(screen);
         const auto answered = stage_.participant().ask(prompt);
         pressed = stage_.takeStop();
+        const auto mark = stage_.bench().stops().mark();  // one from here on is no test
+        armed = stage_.isArmed();
         if (!answered && !pressed) {  // an abort, a lost screen, the program: no test
             if (auto goesOn = stage_.goOnAfter("stop-test", answered.error()); !goesOn) return goesOn;
             continue;
         }
         ++asked;
         if (answered) pressed.reset();
-        theirs = pressed && pressed->participants == (by == PromptTo::Participant);
+        const bool own = pressed && pressed->participants == (by == PromptTo::Participant);
+        theirs = own && armed;
         stage_.rest();
         nlohmann::json body{{"by", nameOf(by)}, {"pressed", theirs}, {"off_ms", theirs ? inMs(pressed->took) : kNaN}};
-        if (pressed && !theirs) body["other"] = nameOf(other);
+        if (pressed && !own) body["other"] = nameOf(other);
+        if (!armed) body["armed"] = false;
         if (auto kept = stage_.record().write(row::kStopTest, name, std::move(body)); !kept) return kept;
-        if (auto begun = stage_.bench().begin(stage_.bench().stops().mark()); !begun) return begun;
+        auto begun = stage_.bench().begin(mark);
+        if (begun && stage_.stopped()) begun = fail(ErrorCode::Stopped, "stopped after the test");
+        if (!begun) {
+            if (auto goesOn = stage_.goOnAfter("stop-test", begun.error()); !goesOn) return goesOn;
+        }
         screen.text.clear();
         stage_.participant().show(screen);  // the stop of the test is over
         if (!pressed) break;
     }
     return gate(name + " stop", theirs && pressed->took <= kStopIn,
-                theirs    ? fmt::format("the {}'s STOP took {:.1f} ms to switch off; at most 10 ms are accepted",
-                                        nameOf(by), inMs(pressed->took))
+                theirs ? fmt::format("the {}'s STOP took {:.1f} ms to switch off; at most 10 ms are accepted",
+                                     nameOf(by), inMs(pressed->took))
+                : !armed
+                    ? fmt::format("the output was off when the {}'s STOP was tested, {} times", nameOf(by), kStopTries)
                 : pressed ? fmt::format("in the test of the {}'s STOP the {}'s was pressed, {} times", nameOf(by),
                                         nameOf(other), kStopTries)
                           : fmt::format("the {}'s STOP was not pressed in its test", nameOf(by)));
@@ -171,20 +182,17 @@ Result<void> PilotCare::electrodes() {
     lot.kind = PromptKind::Text;
     const auto noted = stage_.ask(row::kGate, "electrode lot", lot);
     if (!noted) return failure(noted);
-    if (resumed) {
-        const auto untouched =
-            stage_.ask(row::kGate, part() + " electrodes",
-                       yesNoPrompt("electrodes-untouched", "Were the electrodes left untouched?", PromptTo::Operator));
-        if (!untouched) return failure(untouched);
-        if (textOr(*untouched, "key") != "yes")
-            return stage_.end(PilotEnd::Stopped,
-                              "the electrodes were touched since the last answer, which ends a session");
+    // As they were measured first; where nothing was, they may have been fitted since.
+    const auto* begun = resumed ? firstImpedance() : nullptr;
+    const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;
+    if (begun != nullptr) {
+        auto untouched = mustHold("electrodes", "electrodes-untouched", "Were the electrodes left untouched?",
+                                  "the electrodes were touched since the last answer, which ends a session");
+        if (!untouched) return untouched;
     }
     const auto second = checkedTwice();
     if (!second) return failure(second);
-    const auto* begun = firstImpedance();
-    if (!resumed || begun == nullptr) return {};
-    const double before = numberOr(*begun, "impedance_ohm");
+    if (std::isnan(before)) return {};
     return gate(
         part() + " impedance since", std::abs(*second - before) / before <= kBlocksAgree,
         fmt::format("the electrodes measure {:.0f} ohm after {:.0f} ohm; a change of at most 30 % is accepted, so "
@@ -215,18 +223,23 @@ Result<double> PilotCare::checkedTwice() {
 
 /// A motor is heard, and where it sits decides how strong it is.
 Result<void> PilotCare::massager() {
-    const auto held = [this](const std::string& what, const char* question, const char* sentence) -> Result<void> {
-        const auto said = stage_.ask(row::kGate, part() + " " + what, yesNoPrompt(what, question, PromptTo::Operator));
-        if (!said) return failure(said);
-        return textOr(*said, "key") == "yes" ? Result<void>() : stage_.end(PilotEnd::Stopped, sentence);
-    };
     if (stage_.record().isResumed()) {
-        auto untouched = held("massager-untouched", "Was the massager left where it was?",
-                              "the massager was moved since the last answer, which ends a session");
+        auto untouched = mustHold("massager-untouched", "massager-untouched", "Was the massager left where it was?",
+                                  "the massager was moved since the last answer, which ends a session");
         if (!untouched) return untouched;
     }
-    return held("masking-noise", "Does the participant hear masking noise on earphones?",
-                "the participant hears the motor without masking noise on earphones, so there is no session");
+    return mustHold("masking-noise", "masking-noise", "Does the participant hear masking noise on earphones?",
+                    "the participant hears the motor without masking noise on earphones, so there is no session");
+}
+
+/// Asked of the operator, once in each part; a no ends the session.
+Result<void> PilotCare::mustHold(const std::string& name, const char* asked, const char* question,
+                                 const char* sentence) {
+    auto prompt = yesNoPrompt(asked, question, PromptTo::Operator);
+    prompt.noEnds = sentence;
+    const auto said = stage_.ask(row::kGate, part() + " " + name, prompt);
+    if (!said) return failure(said);
+    return textOr(*said, "key") == "yes" ? Result<void>() : stage_.end(PilotEnd::Stopped, sentence);
 }
 
 Result<void> PilotCare::beforeBlock(int block) {

@@ -41,6 +41,8 @@ public:
     [[nodiscard]] Result<void> ratings(const std::vector<PresentedCondition>& conditions);
     /// `moment`: "before", "after".
     [[nodiscard]] Result<void> sideEffects(const std::string& moment);
+    /// The row of a gate; ends the session where it does not hold.
+    [[nodiscard]] Result<void> gate(const std::string& name, bool holds, const std::string& sentence);
 
 private:
     [[nodiscard]] Result<void> machine();
@@ -48,12 +50,12 @@ private:
     [[nodiscard]] Result<void> compareEncodings();
     [[nodiscard]] Result<void> electrodes();
     [[nodiscard]] Result<void> massager();
+    [[nodiscard]] Result<void> mustHold(const std::string& name, const char* asked, const char* question,
+                                        const char* sentence);
     /// |Z| of the second of two checks that agree; the session ends where those of the third seating do not.
     [[nodiscard]] Result<double> checkedTwice();
     /// |Z|, into the record as `name`; the session ends where it is not what it was at first after the third seating.
     [[nodiscard]] Result<void> asAtFirst(const std::string& name);
-    /// Ends the session where the gate does not hold.
-    [[nodiscard]] Result<void> gate(const std::string& name, bool holds, const std::string& sentence);
     [[nodiscard]] std::string part() const;
     [[nodiscard]] const nlohmann::json* firstImpedance() const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/analysis/psychophysics/TrainingRule.h"
 #include "core/base/JsonFields.h"
@@ -169,8 +170,8 @@ Result<void> PilotIdentification::familiarise() {
     std::vector<PromptTarget> offered = conditionPrompt(labels()).targets;
     offered.resize(labels().size());
     offered.insert(offered.begin(), {"go-on", "Go on"});
-    const auto most = kMaxOnDemand * static_cast<int>(labels().size());
-    for (int n = 1; n <= most; ++n) {
+    std::map<std::string, int> onDemand;
+    for (int n = 1; offered.size() > 1; ++n) {
         const auto wanted = stage_.ask(row::kPhase, fmt::format("on demand {}", n),
                                        choicePrompt("on-demand", "Feel one again, or go on?", offered));
         if (!wanted) return failure(wanted);
@@ -187,6 +188,8 @@ Result<void> PilotIdentification::familiarise() {
         trial.screen.named = trial.felt.named = at->name;
         const auto felt = stage_.trial(trial);
         if (!felt) return failure(felt);
+        if (++onDemand[key] == kMaxOnDemand)
+            std::erase_if(offered, [&key](const PromptTarget& each) { return each.key == key; });
     }
     return {};
 }
@@ -248,8 +251,8 @@ Result<void> PilotIdentification::testBlock(int block) {
     return {};
 }
 
-Result<void> PilotIdentification::driftCheck(int block) {
-    if (auto ready = prepare(); !ready) return ready;
+Result<bool> PilotIdentification::driftCheck(int block) {
+    if (auto ready = prepare(); !ready) return failure(ready);
     DriftCheckSettings settings;
     settings.felt = thresholds_.limits().felt;
     settings.last = lastDetection_;
@@ -264,15 +267,15 @@ Result<void> PilotIdentification::driftCheck(int block) {
     if (!check) return failure(check);
     for (int trials = 1; !check->done();) {
         if (check->step() == DriftStep::Rest) {
-            if (auto rested = takeBreak(block, kDriftRest); !rested) return rested;
-            if (auto taken = check->rested(); !taken) return taken;
+            if (auto rested = takeBreak(block, kDriftRest); !rested) return failure(rested);
+            if (auto taken = check->rested(); !taken) return failure(taken);
             continue;
         }
         const auto next = check->next();
         if (!next) break;
         const auto said = thresholds_.twoIntervals(fmt::format("drift {}.{}", block, trials++), *next, "drift");
         if (!said) return failure(said);
-        if (auto taken = check->answer(*said); !taken) return taken;
+        if (auto taken = check->answer(*said); !taken) return failure(taken);
     }
     const auto& found = check->result();
     lastDetection_ = found.estimate.value;
@@ -290,7 +293,16 @@ Result<void> PilotIdentification::driftCheck(int block) {
     auto row = *stored;
     row.erase("name");
     drift_.push_back(std::move(row));
-    return {};
+    return found.adapted ? goesOnAdapted(block) : Result<bool>(true);
+}
+
+/// What is weakest is felt too little by now, and rests did not help: whether to go on is the participant's to say.
+Result<bool> PilotIdentification::goesOnAdapted(int block) {
+    const auto said = stage_.ask(row::kPhase, fmt::format("ending before block {}", block),
+                                 choicePrompt("ending", "You may feel the weakest less by now. Go on, or end here?",
+                                              {{"go-on", "Go on"}, {"end", "End here"}}));
+    if (!said) return failure(said);
+    return textOr(*said, "key") != "end";
 }
 
 Result<void> PilotIdentification::takeBreak(int block, Seconds time) {
@@ -311,7 +323,9 @@ Result<void> PilotIdentification::takeBreak(int block, Seconds time) {
     if (auto passed = stage_.pass(time); !passed) return passed;
     const auto on = stage_.ask(row::kPhase, name, goOnPrompt("Go on when both of you want to."));
     if (!on) return failure(on);
-    return record.write(row::kBreakEnd, name);
+    if (auto kept = record.write(row::kBreakEnd, name); !kept) return kept;
+    stage_.electrodesTouched();
+    return {};
 }
 
 }  // namespace tacto

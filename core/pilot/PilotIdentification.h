@@ -30,8 +30,9 @@ public:
     [[nodiscard]] Result<void> train();
     /// Block 1, 2, ...
     [[nodiscard]] Result<void> testBlock(int block);
-    /// Before a later block: is the lowest level still felt? Marks the block where it is not.
-    [[nodiscard]] Result<void> driftCheck(int block);
+    /// Before a later block: is the lowest level still felt? Marks the block where it is not and asks the participant:
+    /// false where they end here.
+    [[nodiscard]] Result<bool> driftCheck(int block);
     /// After block `block`: output off, at least `time`, until both people press on.
     [[nodiscard]] Result<void> takeBreak(int block, Seconds time);
 
@@ -48,6 +49,7 @@ public:
     [[nodiscard]] const nlohmann::json& driftJson() const noexcept { return drift_; }
 
 private:
+    [[nodiscard]] Result<bool> goesOnAdapted(int block);
     [[nodiscard]] Result<void> prepare();
     [[nodiscard]] StageTrial stageTrial(const PlannedTrial& planned) const;
     [[nodiscard]] Result<StageAnswer> present(const PlannedTrial& planned, const StageTrial& trial);

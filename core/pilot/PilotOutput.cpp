@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/base/JsonFields.h"
 #include "core/pilot/PilotStage.h"
 
 namespace tacto {
@@ -11,6 +12,10 @@ namespace {
 
 constexpr std::size_t kMaxStops = 3;   // of the participant: the third ends the session
 constexpr std::size_t kMaxFaults = 2;  // the second ends it
+constexpr const char* kThirdStop = "the participant stopped for the third time, which ends the session";
+constexpr const char* kSecondFault = "a second fault ends the session";
+constexpr const char* kTooStrong = "too-strong";
+constexpr const char* kRamp = "ramp";  // in the body of a trial: its level was accepted before
 constexpr Seconds kWayLook{0.1};       // between two looks at what is in the way
 constexpr Seconds kReasonTakes{300};
 
@@ -19,7 +24,23 @@ bool isUnseated(const Error& why) { return why.code == ErrorCode::NotArmed || wh
 
 bool isParticipants(std::string_view by) { return by.starts_with("participant"); }
 
+std::string tooStrongNow(const std::string& level) {
+    return fmt::format("{} was accepted before and is too strong now; the session ends here", level);
+}
+
 }  // namespace
+
+std::string PilotOutput::endedBy(const PilotRecord& record) {
+    if (record.count(row::kParticipantStop) >= kMaxStops) return kThirdStop;
+    if (record.count(row::kFault) >= kMaxFaults) return kSecondFault;
+    std::string ended;
+    record.each([&](std::string_view kind, const nlohmann::json& body) {
+        if (kind == row::kGate && flagOr(body, row::kEnds)) ended = textOr(body, "said");
+        if (kind == row::kAnswer && flagOr(body, kRamp) && textOr(body, "response") == kTooStrong)
+            ended = tooStrongNow(textOr(body, "name"));
+    });
+    return ended;
+}
 
 // Stops
 
@@ -79,18 +100,31 @@ Result<ArmRequest> PilotOutput::confirmed(const char* question) {
     return request;
 }
 
+Result<void> PilotOutput::notOver() const {
+    if (stage_.record().find(row::kSessionEnd, row::kEnd) == nullptr) return {};
+    return fail(ErrorCode::Stopped, "the session is over; nothing is armed any more");
+}
+
 Result<void> PilotOutput::arm() {
-    for (int tries = 1; !armed_; ++tries) {
+    if (auto may = notOver(); !may) return may;
+    for (int seatings = 0; !armed_;) {
+        if (auto measured = measureTouched(); !measured) return measured;
         const auto request = confirmed("Arm");
         if (!request) return failure(request);
         const auto armed = stage_.bench().arm(*request);
         armed_ = armed.has_value();
         if (armed_) break;
-        const bool unseated = isUnseated(armed.error());
-        if (auto goesOn = afterArmingFailed("arming", armed.error(), tries); !goesOn) return goesOn;
-        if (!unseated) continue;
-        if (auto measured = measuredAnew(); !measured) return measured;
+        if (auto goesOn = afterArmingFailed("arming", armed.error(), seatings); !goesOn) return goesOn;
     }
+    return {};
+}
+
+Result<void> PilotOutput::measureTouched() {
+    if (!unmeasured_) return {};
+    if (measureAnew) {
+        if (auto measured = measureAnew(); !measured) return measured;
+    }
+    unmeasured_ = false;
     return {};
 }
 
@@ -102,33 +136,36 @@ Result<void> PilotOutput::ready() {
 }
 
 Result<double> PilotOutput::measureImpedance(const std::string& name) {
-    for (int tries = 1;; ++tries) {
+    if (auto may = notOver(); !may) return failure(may);
+    for (int seatings = 0;;) {
         rest();
         const auto request = confirmed("Measure the electrodes with");
         if (!request) return failure(request);
         const auto found = stage_.bench().checkImpedance(*request);
         if (!found) {
-            if (auto goesOn = afterArmingFailed(name, found.error(), tries); !goesOn) return failure(goesOn);
+            if (auto goesOn = afterArmingFailed(name, found.error(), seatings); !goesOn) return failure(goesOn);
             continue;
         }
         const double ohm = *found ? (*found)->value() : kNaN;
         if (auto kept = stage_.record().write(row::kImpedance, name, {{"impedance_ohm", ohm}}); !kept)
             return failure(kept);
         impedance_ = ohm;
+        unmeasured_ = false;
         return ohm;
     }
 }
 
-Result<void> PilotOutput::afterArmingFailed(const std::string& during, const Error& why, int tries) {
+/// A stop or a fault in between is no seating.
+Result<void> PilotOutput::afterArmingFailed(const std::string& during, const Error& why, int& seatings) {
     if (!isUnseated(why)) return recover(during, why);
-    if (tries >= kSeatings) return tl::unexpected<Error>(why);
+    if (++seatings >= kSeatings) return tl::unexpected<Error>(why);
     return seatAgain(during, why.message);
 }
 
 Result<void> PilotOutput::seatAgain(const std::string& during, const std::string& why) {
     rest();
     if (auto kept = stage_.record().write(row::kGate, during, {{"holds", false}, {"said", why}}); !kept) return kept;
-    rampDue_ = true;
+    rampDue_ = unmeasured_ = true;
     return askToSee(why);
 }
 
@@ -164,7 +201,7 @@ Result<void> PilotOutput::ramp() {
         if (level >= tooStrong_ || (settled_ && level > *settled_)) break;
         StageTrial again;
         again.name = named(level);
-        again.about = {{"ramp", true}};
+        again.about = {{kRamp, true}};
         again.level = level;
         again.presentation = ascendingPresentation(stage_.levelOf(level), stage_.settings().shortest);
         again.prompt = strengthPrompt();
@@ -175,11 +212,9 @@ Result<void> PilotOutput::ramp() {
         again.drawnAs = first;  // A virtual participant says of a level what they said of it before
         const auto answer = stage_.trial(again);
         if (!answer) return failure(answer);
-        if (answer->response == "too-strong") {
+        if (answer->response == kTooStrong) {
             if (auto told = bench.reportDiscomfort(stage_.levelOf(level)); !told) return told;
-            return stage_.end(PilotEnd::Stopped,
-                              fmt::format("{} was accepted before and is too strong now; the session ends here",
-                                          textOf(stage_.levelOf(level))));
+            return stage_.end(PilotEnd::Stopped, tooStrongNow(textOf(stage_.levelOf(level))));
         }
         if (auto told = bench.accept(stage_.levelOf(level)); !told) return told;
     }
@@ -208,17 +243,30 @@ Result<void> PilotOutput::clearTheWay(const StageTrial& trial) {
         if (waited >= kFocusTakes && armed_) rest();
         waited += kWayLook;
         if (const auto passed = stage_.bench().wait(kWayLook); !passed) {
-            if (auto goesOn = recover(trial.name, passed.error()); !goesOn) return goesOn;
+            if (auto goesOn = recover("before " + trial.name, passed.error()); !goesOn) return goesOn;
         }
     }
     return {};
+}
+
+/// Nothing is on while a question waits, and what is armed does not stay so. A row that cannot be written is the error
+/// of the answer's row.
+void PilotOutput::whileAsked() {
+    const auto hindrance = stage_.participant().hindrance();
+    if (!armed_ || !hindrance || hindrance->isBreak) {
+        keysGone_ = Seconds(0);
+        return;
+    }
+    keysGone_ += kWaitingLook;
+    if (keysGone_ < kFocusTakes) return;
+    rest();
+    static_cast<void>(stage_.record().write(row::kFocusLost, "question", {{"why", hindrance->why}}));
 }
 
 /// The output is off. The operator ends it, then the participant goes on.
 Result<void> PilotOutput::takeBreak(const std::string& during, PilotScreen screen) {
     auto& record = stage_.record();
     auto& people = stage_.participant();
-    auto& bench = stage_.bench();
     rest();
     const auto name = fmt::format("operator's break {}", record.count(row::kBreakBegin) + 1);
     auto kept = record.write(row::kBreakBegin, name, {{"by", "operator"}, {"during", during}});
@@ -227,26 +275,49 @@ Result<void> PilotOutput::takeBreak(const std::string& during, PilotScreen scree
     screen.state = ScreenState::Break;
     screen.named.clear();
     screen.right.reset();
+    const auto lasts = [&people] {
+        const auto hindrance = people.hindrance();
+        return hindrance && hindrance->isBreak;
+    };
+    if (auto over = idleWhile(name, screen, lasts); !over) return over;
+    if (auto wanted = askToGoOn("The break is over. Go on when you want to."); !wanted) return wanted;
+    unmeasured_ = true;
+    return record.write(row::kBreakEnd, name);
+}
+
+Result<void> PilotOutput::idleWhile(const std::string& during, const PilotScreen& screen,
+                                    const std::function<bool()>& lasts) {
+    auto& people = stage_.participant();
+    auto& bench = stage_.bench();
     people.show(screen);
     auto mark = bench.stops().mark();
-    for (auto hindrance = people.hindrance(); hindrance && hindrance->isBreak; hindrance = people.hindrance()) {
+    while (lasts()) {
         bench.idle(kWayLook);
         if (!bench.stops().movedSince(mark) && !stopped()) continue;
         mark = bench.stops().mark();
         const Error why{ErrorCode::Stopped, "stopped in a break"};
-        if (auto goesOn = interrupted(name, why); !goesOn) return goesOn;
+        if (auto goesOn = interrupted(during, why); !goesOn) return goesOn;
         people.show(screen);
     }
-    if (auto wanted = askToGoOn("The break is over. Go on when you want to."); !wanted) return wanted;
-    if (kept = record.write(row::kBreakEnd, name); !kept) return kept;
-    return measuredAnew();
+    return {};
+}
+
+bool PilotOutput::isPaused() {
+    stage_.bench().idle(kWayLook);
+    return stage_.bench().telemetry().paused;
 }
 
 Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
     rest();
     if (auto kept = stage_.record().write(row::kPause, trial.name, {{"why", "paused by the operator"}}); !kept)
         return kept;
-    return askToGoOn("Paused. Nothing is on. Go on when you want to.");
+    stage_.participant().show({});  // what is held may be let go
+    PilotScreen screen;
+    screen.state = ScreenState::Break;
+    screen.text = "Paused. Nothing is on.";
+    if (auto over = idleWhile(trial.name, screen, [this] { return isPaused(); }); !over) return over;
+    unmeasured_ = true;
+    return askToGoOn("The pause is over. Nothing is on. Go on when you want to.");
 }
 
 // After a stop, a fault or a lost screen
@@ -260,8 +331,7 @@ Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
     if (auto goesOn = interrupted(during, why); !goesOn) return goesOn;
     if (const auto hindrance = stage_.participant().hindrance(); paused && hindrance && hindrance->isBreak)
         return takeBreak(during, {});
-    if (auto wanted = askToGoOn("Stopped. Nothing is on. Go on when you want to."); !wanted) return wanted;
-    return std::exchange(screenSeated_, false) ? measuredAnew() : Result<void>();
+    return askToGoOn("Stopped. Nothing is on. Go on when you want to.");
 }
 
 Result<void> PilotOutput::interrupted(const std::string& during, const Error& why) {
@@ -283,7 +353,7 @@ Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
     auto& bench = stage_.bench();
     auto kept = stage_.record().write(row::kPause, during, {{"why", "the participant's screen is gone"}});
     if (!kept) return kept;
-    rampDue_ = screenSeated_ = true;
+    rampDue_ = unmeasured_ = true;
     people.show({});
     const auto until =
         std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::seconds>(kScreenTakes);
@@ -344,18 +414,25 @@ Result<void> PilotOutput::noteStop(const std::string& during, const Error& why) 
         const auto kept = record.write(row::kOperatorStop, during, {{"why", why.message}});
         return kept ? Result<void>(tl::unexpected<Error>(why)) : kept;
     }
+    return noteParticipantStop(during, by);
+}
+
+Result<void> PilotOutput::noteParticipantStop(const std::string& during, const char* by) {
+    auto& record = stage_.record();
     if (auto kept = record.write(row::kParticipantStop, during, {{"by", by}}); !kept) return kept;
     if (record.count(row::kParticipantStop) < kMaxStops) return {};
-    return stage_.end(PilotEnd::Stopped, "the participant stopped for the third time, which ends the session");
+    return stage_.end(PilotEnd::Stopped, kThirdStop);
 }
 
 /// Seated again, wanted again, measured again, reached again (ready()).
 Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& why) {
-    stoppedBy_.store(nullptr);
     auto& record = stage_.record();
     if (auto kept = record.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
     if (record.count(row::kFault) >= kMaxFaults)
-        return stage_.end(PilotEnd::Stopped, "a second fault ends the session: " + why.message);
+        return stage_.end(PilotEnd::Stopped, fmt::format("{}: {}", kSecondFault, why.message));
+    if (const char* by = stoppedBy_.exchange(nullptr); by != nullptr && isParticipants(by)) {  // and they pressed too
+        if (auto noted = noteParticipantStop(during, by); !noted) return noted;
+    }
     auto cause = why.message;
     for (int tries = 1;; ++tries) {
         if (auto seen = askToSee(cause); !seen) return seen;
@@ -364,10 +441,8 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
         if (tries >= kSeatings) return reset;
         cause = reset.error().message;  // it is still there
     }
-    if (auto wanted = askToGoOn("The output was off because of a fault. Go on when you want to."); !wanted)
-        return wanted;
-    rampDue_ = true;
-    return measuredAnew();
+    rampDue_ = unmeasured_ = true;
+    return askToGoOn("The output was off because of a fault. Go on when you want to.");
 }
 
 Result<void> PilotOutput::askToGoOn(const std::string& text) {

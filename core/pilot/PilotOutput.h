@@ -1,8 +1,9 @@
 // PilotOutput.h - the output of a pilot session: armed before something is presented, off again after a stop, a fault,
 // a pause and a participant's screen that is gone, and the levels that were accepted reached again step by step.
 //
-// What PilotStage is made of. What is in the way of a presentation is waited for here: in the operator's break the
-// output is off; without the keys it is off after kFocusTakes.
+// What PilotStage is made of. What is in the way of a presentation is waited for here: in the operator's break and
+// while the bench is paused the output is off; without the keys it is off after kFocusTakes, also while a question
+// waits.
 //
 // Errors of all calls: as PilotStage.
 //
@@ -23,6 +24,7 @@
 
 namespace tacto {
 
+class PilotRecord;
 class PilotStage;
 struct StageTrial;
 
@@ -50,7 +52,13 @@ public:
         return stoppedBy_.load() != nullptr || screenGone_ || aborted_ || paused_;
     }
 
+    /// What ends a session by the rows that it has: the third stop, the second fault, a gate that did not hold, a level
+    /// of the ramp that is too strong now. A sentence; empty while nothing has. A session that was killed before it
+    /// ended is not tried again.
+    [[nodiscard]] static std::string endedBy(const PilotRecord& record);
+
     // As those of PilotStage.
+    [[nodiscard]] bool isArmed() const noexcept { return armed_; }
     [[nodiscard]] Result<void> arm();
     [[nodiscard]] Result<void> ready();
     void rest() noexcept;
@@ -62,8 +70,12 @@ public:
 
     /// Waits until nothing is in the way of `trial`; a break of the operator's is taken meanwhile.
     [[nodiscard]] Result<void> clearTheWay(const StageTrial& trial);
-    /// The bench was paused while `trial` was presented, and the pause is over.
+    /// The bench is paused: looks for kWayLook, in which it says so.
+    [[nodiscard]] bool isPaused();
+    /// The bench was paused while `trial` was presented: waits until the pause is over and the participant goes on.
     [[nodiscard]] Result<void> afterThePause(const StageTrial& trial);
+    /// A question waits, and kWaitingLook has passed.
+    void whileAsked();
     /// After a stop, a fault or a lost screen: nothing when the session goes on.
     [[nodiscard]] Result<void> recover(const std::string& during, const Error& why);
     /// Asks again after each stop, once the participant wants to go on.
@@ -72,25 +84,32 @@ public:
     /// them again. Levels are reached again by a ramp from here on.
     [[nodiscard]] Result<void> seatAgain(const std::string& during, const std::string& why);
 
-    /// Called once electrodes may be others than they were, before anything is presented. Its errors end the trial.
+    /// Electrodes may be others than they were: measured before anything is armed again.
+    void electrodesTouched() noexcept { unmeasured_ = true; }
+    /// Measures electrodes that may be others than they were. Its errors end the trial.
     std::function<Result<void>()> measureAnew;
 
 private:
     /// `question` names what would be armed; the operator's yes to it is part of the request.
     [[nodiscard]] Result<ArmRequest> confirmed(const char* question);
-    [[nodiscard]] Result<void> afterArmingFailed(const std::string& during, const Error& why, int tries);
+    [[nodiscard]] Result<void> afterArmingFailed(const std::string& during, const Error& why, int& seatings);
+    [[nodiscard]] Result<void> notOver() const;
     [[nodiscard]] Result<void> ramp();
     [[nodiscard]] Result<void> takeBreak(const std::string& during, PilotScreen screen);
+    /// Shows `screen` while `lasts`, with the output off; a stop meanwhile is handled as one in a break.
+    [[nodiscard]] Result<void> idleWhile(const std::string& during, const PilotScreen& screen,
+                                         const std::function<bool()>& lasts);
     [[nodiscard]] Result<void> afterTheFault(const std::string& during, const Error& why);
     /// A lost screen or a stop, until the participant may be asked whether they want to go on.
     [[nodiscard]] Result<void> interrupted(const std::string& during, const Error& why);
     [[nodiscard]] Result<void> seatTheirScreen(const std::string& during);
     /// Writes who stopped; nothing when it may go on once the participant wants to.
     [[nodiscard]] Result<void> noteStop(const std::string& during, const Error& why);
+    [[nodiscard]] Result<void> noteParticipantStop(const std::string& during, const char* by);
     [[nodiscard]] Result<void> noteAbort(const std::string& during);
     [[nodiscard]] Result<void> askToGoOn(const std::string& text);
     [[nodiscard]] Result<void> askToSee(const std::string& why);
-    [[nodiscard]] Result<void> measuredAnew() const { return measureAnew ? measureAnew() : Result<void>(); }
+    [[nodiscard]] Result<void> measureTouched();
 
     PilotStage& stage_;
     std::atomic<const char*> stoppedBy_{nullptr};
@@ -101,7 +120,8 @@ private:
     bool armed_ = false;
     bool reasonAsked_ = false;
     bool rampDue_ = false;
-    bool screenSeated_ = false;                                   // Since the last impedance
+    bool unmeasured_ = false;                                     // Since electrodes may have been touched
+    Seconds keysGone_{0};                                         // While a question waits
     std::map<double, std::string> accepted_;                      // Level and the trial in which it was accepted first
     double tooStrong_ = std::numeric_limits<double>::infinity();  // Lowest so far
     std::optional<double> settled_;

@@ -44,6 +44,10 @@ Result<PilotRecord::Json> PilotRecord::once(std::string_view kind, const std::st
     return *find(kind, name);
 }
 
+void PilotRecord::each(const std::function<void(std::string_view kind, const Json& body)>& visit) const {
+    for (const auto& [of, body] : last_) visit(of.first, body);
+}
+
 std::size_t PilotRecord::count(std::string_view kind) const {
     const auto found = counts_.find(kind);
     return found != counts_.end() ? found->second : 0;

@@ -57,6 +57,8 @@ inline constexpr const char* kRating = "rating";
 inline constexpr const char* kSideEffect = "side-effect";
 inline constexpr const char* kAdverseEvent = "adverse-event";
 inline constexpr const char* kSessionEnd = "session-end";
+inline constexpr const char* kEnd = "end";    // name of its row
+inline constexpr const char* kEnds = "ends";  // in the body of a gate that did not hold: `said` ends the session
 
 // Ratings that compare the session's encoding with an earlier one are named by the first of these and one of the next
 // two. What is said is an encoding, or the last.
@@ -81,6 +83,8 @@ public:
     /// What the row says; where there is none, what `make` returns, written first. Errors: as `make` and write().
     [[nodiscard]] Result<Json> once(std::string_view kind, const std::string& name,
                                     const std::function<Result<Json>()>& make);
+    /// The last row of each kind and name, of any part.
+    void each(const std::function<void(std::string_view kind, const Json& body)>& visit) const;
     /// Rows of `kind`, of all parts.
     [[nodiscard]] std::size_t count(std::string_view kind) const;
     /// Times the trial named `name` was begun.

@@ -46,12 +46,12 @@ Result<void> PilotSession::begin(bool withTrials) {
                                  {{"part", resumedPart_}, {"chain_head", resumedHead_}});
         if (!kept) return kept;
     }
-    // Stopped for good, and killed before the study knew.
-    if (const auto* ended = record.find(row::kSessionEnd, "end");
-        ended != nullptr && textOr(*ended, "state") == nameOf(PilotEnd::Stopped)) {
-        return stage_.end(PilotEnd::Stopped, textOr(*ended, "why"));
-    }
-    if (auto planned = identification_.plan(withTrials); !planned) return planned;
+    // Over, and killed before the study knew. What is complete is replayed to its results; nothing is asked.
+    const auto* ended = record.find(row::kSessionEnd, row::kEnd);
+    const bool complete = ended != nullptr && textOr(*ended, "state") == nameOf(PilotEnd::Complete);
+    if (ended != nullptr && !complete) return stage_.end(PilotEnd::Stopped, textOr(*ended, "why"));
+    if (auto why = PilotOutput::endedBy(record); !complete && !why.empty()) return stage_.end(PilotEnd::Stopped, why);
+    if (auto planned = identification_.plan(withTrials); !planned || complete) return planned;
     return care_.checklist();
 }
 
@@ -60,10 +60,8 @@ Result<void> PilotSession::beforeBlock(int block) {
     auto& record = stage_.record();
     if (mayGoOn && record.find(row::kGate, name) == nullptr) {
         const auto may = mayGoOn();
-        const auto said = may ? std::string() : may.error().message;
-        if (auto kept = record.write(row::kGate, name, {{"holds", may.has_value()}, {"said", said}}); !kept)
-            return kept;
-        if (!may) return stage_.end(PilotEnd::Stopped, said);
+        if (auto held = care_.gate(name, may.has_value(), may ? std::string() : may.error().message); !held)
+            return held;
     }
     return care_.beforeBlock(block);
 }

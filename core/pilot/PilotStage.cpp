@@ -44,6 +44,8 @@ std::string silentName(const StageTrial& trial) { return trial.askedAgain ? tria
 
 std::string_view nameOf(PilotEnd end) noexcept { return wordFor<PilotEnd>(kPilotEnds, end); }
 
+std::optional<PilotEnd> pilotEndFrom(std::string_view word) noexcept { return valueFor(kPilotEnds, word); }
+
 PilotStage::PilotStage(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings)
     : bench_(bench),
       participant_(participant),
@@ -52,11 +54,13 @@ PilotStage::PilotStage(Bench& bench, PilotParticipant& participant, PilotRecord&
       vibration_(bench),
       output_(*this, record.isResumed()) {
     participant_.stop = [this](const char* by) { output_.stop(by); };
+    participant_.waiting = [this] { output_.whileAsked(); };
 }
 
 PilotStage::~PilotStage() {
     participant_.leave();
     participant_.stop = nullptr;
+    participant_.waiting = nullptr;
 }
 
 double PilotStage::step() const {
@@ -88,11 +92,17 @@ Result<void> PilotStage::end(PilotEnd how, const std::string& why) {
     if (end_ != PilotEnd::Unfinished) return fail(ErrorCode::Stopped, "{}", why);  // it ends once
     end_ = how;
     // Before anything is asked: killed meanwhile, it is over all the same.
-    if (auto kept = record_.write(row::kSessionEnd, "end", {{"state", nameOf(how)}, {"why", why}}); !kept) return kept;
+    const auto ended = record_.once(row::kSessionEnd, row::kEnd, [&]() -> Result<Json> {
+        return Json{{"state", nameOf(how)}, {"why", why}};
+    });
+    if (!ended) return failure(ended);
     if (how == PilotEnd::Complete) return {};
     if (afterCare && record_.count(row::kTrialBegin) > 0) {
         participant_.show({});  // the stop that ended it stops no question after it
-        static_cast<void>(afterCare());
+        if (const auto cared = afterCare(); !cared) {
+            auto kept = record_.write(row::kNote, "after care", {{"not_asked", cared.error().message}});
+            if (!kept) return kept;
+        }
     }
     return fail(ErrorCode::Stopped, "{}", why);
 }
@@ -103,6 +113,8 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
     if (const auto* answered = record_.find(row::kAnswer, trial.name)) return replay(trial, *answered);
     if (const auto* silent = record_.find(row::kNoAnswer, silentName(trial))) return replay(trial, *silent);
     for (std::size_t late = 0; late < kMaxLate;) {
+        if (trial.stopAnswers && record_.find(row::kParticipantStop, trial.name) != nullptr)
+            return stoppedAnswer(trial);
         if (auto clear = output_.clearTheWay(trial); !clear) return failure(clear);
         if (auto armed = ready(); !armed) return failure(armed);
         if (participant_.hindrance()) continue;
@@ -111,22 +123,21 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
             continue;  // a stop may have come before they held: armed anew
         }
         const auto number = record_.begun(trial.name) + 1;
-        auto answer = attempt(trial, number);
+        auto answer = attempt(trial, number, late);
         if (answer && *answer) return **answer;
-        if (answer) {  // void, and nothing is wrong: once more
-            ++late;
-            continue;
-        }
-        const auto stops = record_.count(row::kParticipantStop);
+        if (answer) continue;
         if (auto goesOn = output_.recover(trial.name, answer.error()); !goesOn) return failure(goesOn);
-        if (!trial.stopAnswers || record_.count(row::kParticipantStop) == stops) continue;
-        Json body = about(trial, number);
-        body["response"] = kStopAnswer;
-        if (auto kept = record_.write(row::kAnswer, trial.name, std::move(body)); !kept) return failure(kept);
-        return StageAnswer{kStopAnswer, kNaN, number, true, false, {}};
     }
     return fail(ErrorCode::Timeout, "{}: the bench could not begin a presentation in time {} times in a row",
                 trial.name, kMaxLate);
+}
+
+Result<StageAnswer> PilotStage::stoppedAnswer(const StageTrial& trial) {
+    const auto number = record_.begun(trial.name);
+    Json body = about(trial, number);
+    body["response"] = kStopAnswer;
+    if (auto kept = record_.write(row::kAnswer, trial.name, std::move(body)); !kept) return failure(kept);
+    return StageAnswer{kStopAnswer, kNaN, number, true, false, {}};
 }
 
 Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body) {
@@ -175,7 +186,7 @@ PilotStage::Json PilotStage::about(const StageTrial& trial, std::size_t attempt)
     return body;
 }
 
-Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, std::size_t number) {
+Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, std::size_t number, std::size_t& late) {
     Json about = this->about(trial, number);
     if (auto kept = record_.write(row::kTrialBegin, trial.name, about); !kept) return failure(kept);
 
@@ -188,7 +199,11 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     presentation.notBefore = std::max(earliest, bench_.clock().now() + toInstant(kDot));
     if (trial.screen.state != ScreenState::Rest) participant_.show(trial.screen);
     auto presented = present(presentation, trial.screen);
-    if (!presented) return failure(presented);
+    if (!presented) {  // paused before it began, or something is wrong
+        if (presented.error().code != ErrorCode::NotArmed || !output_.isPaused()) return failure(presented);
+        if (auto goesOn = output_.afterThePause(trial); !goesOn) return failure(goesOn);
+        return std::optional<StageAnswer>();
+    }
     if (presented->impedance) output_.setImpedance(presented->impedance->value());
     switch (presented->end) {
         case PresentationEnd::Complete:
@@ -203,6 +218,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
             if (auto goesOn = output_.afterThePause(trial); !goesOn) return failure(goesOn);
             return std::optional<StageAnswer>();
         case PresentationEnd::Late:
+            ++late;
             return std::optional<StageAnswer>();
     }
     feel(trial);
@@ -280,6 +296,10 @@ Result<PilotStage::Json> PilotStage::ask(const char* kind, const std::string& na
             body["keys"] = said->keys;
         else if (!said->keys.empty())
             body["key"] = said->key();
+        if (!prompt.noEnds.empty() && said->key() == "no") {
+            body[row::kEnds] = true;
+            body["said"] = prompt.noEnds;
+        }
         return body;
     });
 }

@@ -31,6 +31,8 @@ enum class PilotEnd {
     Stopped,  ///< ended before its end, for good
 };
 [[nodiscard]] std::string_view nameOf(PilotEnd end) noexcept;  // "unfinished", "complete", "stopped"
+/// Nothing for another word.
+[[nodiscard]] std::optional<PilotEnd> pilotEndFrom(std::string_view word) noexcept;
 
 /// One presentation with its question.
 struct StageTrial {
@@ -45,7 +47,7 @@ struct StageTrial {
     PilotScreen screen;
     FeltPresentation felt;     ///< `named` and `inInterval`; the stage fills in the rest
     bool askedAgain = false;   ///< this is the second time: no answer is final
-    bool stopAnswers = false;  ///< a participant's stop is its answer ("stop"), once they want to go on
+    bool stopAnswers = false;  ///< a participant's stop of it is its answer ("stop"), once they want to go on
     bool held = false;         ///< levels rise: not presented while the participant does not hold
     bool counts = true;        ///< it adds to how long the participant was stimulated
     std::string drawnAs;       ///< what the answer is drawn for; empty: `name`
@@ -89,9 +91,10 @@ public:
     [[nodiscard]] Result<void> hold();
     /// |Z|, with nothing armed before or after; into the record as `name`. NaN where the stimulator reads nothing back.
     [[nodiscard]] Result<double> measureImpedance(const std::string& name) { return output_.measureImpedance(name); }
-    /// Called before anything is presented after a fault, a break of the operator's and a lost screen: electrodes may
-    /// be others than they were. Its errors end the trial.
+    /// Called before anything is armed after a fault, a break, a pause and a lost screen, where the electrodes were not
+    /// measured since: they may be others than they were. Its errors end the trial.
     void onSeatedAgain(std::function<Result<void>()> measure) { output_.measureAnew = std::move(measure); }
+    void electrodesTouched() noexcept { output_.electrodesTouched(); }
     /// Electrodes that are not as they have to be: a row, and the operator seats them again. At most kSeatings times
     /// in a row, counted by the caller.
     [[nodiscard]] Result<void> seatAgain(const std::string& during, const std::string& why) {
@@ -103,7 +106,7 @@ public:
         return output_.recover(during, why);
     }
     /// Called with the output off once a session in which something was presented was stopped for good: who was
-    /// stimulated is looked after. Its errors change nothing.
+    /// stimulated is looked after. Its errors are a note in the record and change nothing else.
     std::function<Result<void>()> afterCare;
     /// Output off. Nothing is presented until ready().
     void rest() noexcept { output_.rest(); }
@@ -124,6 +127,8 @@ public:
     /// the output was told. For the test of the STOPs; any other stop is handled where it interrupts.
     using PressedStop = PilotOutput::PressedStop;
     [[nodiscard]] std::optional<PressedStop> takeStop() noexcept { return output_.takeStop(); }
+    [[nodiscard]] bool stopped() const noexcept { return output_.stopped(); }
+    [[nodiscard]] bool isArmed() const noexcept { return output_.isArmed(); }
     /// Wakes the people's prompts: for the end of the script. Any thread.
     void cancel() noexcept;
 
@@ -147,7 +152,10 @@ public:
 private:
     [[nodiscard]] Result<StageAnswer> replay(const StageTrial& trial, const Json& row);
     [[nodiscard]] Json about(const StageTrial& trial, std::size_t attempt) const;
-    [[nodiscard]] Result<std::optional<StageAnswer>> attempt(const StageTrial& trial, std::size_t number);
+    /// Nothing where it is void and nothing is wrong; `late` counts those that could not begin in time.
+    [[nodiscard]] Result<std::optional<StageAnswer>> attempt(const StageTrial& trial, std::size_t number,
+                                                             std::size_t& late);
+    [[nodiscard]] Result<StageAnswer> stoppedAnswer(const StageTrial& trial);
     [[nodiscard]] Result<Presented> present(const Presentation& presentation, const PilotScreen& screen);
     [[nodiscard]] std::function<void(Seconds)> passing(const PilotScreen& screen);
     [[nodiscard]] Result<void> writeEarly(const StageTrial& trial);

@@ -53,6 +53,7 @@ struct PilotPrompt {
     int least = 0, most = 10;  ///< Scale
     std::string leastText;     ///< Scale: what its ends mean
     std::string mostText;
+    std::string noEnds;  ///< YesNo: why a no ends the session, which its row says; empty: it does not
 };
 
 struct PilotAnswer {

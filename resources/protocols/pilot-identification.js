@@ -62,20 +62,25 @@ function run(p) {
   pilot.familiarise();
   pilot.train();
 
-  // The test: four of each condition and two empty presentations in each block, without feedback.
+  // The test: four of each condition and two empty presentations in each block, without feedback. A participant who
+  // feels less by now may end before a block.
+  let why = "complete";
   for (const block of progress(pilot.blocks, "Blocks")) {
     if (block > 1) {
       pilot.takeBreak(block - 1, block === 4 ? LONG_BREAK : SHORT_BREAK);
       if (block === 4) pilot.skin("break 3");
     }
     pilot.beforeBlock(block);
-    if (block > 1) pilot.driftCheck(block);
+    if (block > 1 && !pilot.driftCheck(block)) {
+      why = `ended by the participant before block ${block}: what is weakest is felt less`;
+      break;
+    }
     pilot.testBlock(block);
   }
 
   pilot.ratings();
   pilot.skin("after");
   pilot.sideEffects("after");
-  pilot.finish("complete");
+  pilot.finish(why);
   verdict(pilot.results("identification"));
 }

@@ -100,6 +100,18 @@ TEST_F(DisturbedSession, WithAClockThatWasMovedBetweenItsPartsItIsRefusedOrGoesO
     }
 }
 
+TEST_F(DisturbedSession, GoingOnAndOffAgainExtendsNothing) {
+    RecordProperty("hazard", "H12");
+    constexpr long kBeforeAnythingIsPresented = 12;
+    ASSERT_EQ(desk.runKilled(kAmongItsRows, kSession, shortSession()), -9);
+    takeIn("study");
+    const auto again = desk.runDisturbed({.killAtSync = kBeforeAnythingIsPresented, .clock = 90min}, kSession,
+                                         shortSession() + kResume);
+    ASSERT_EQ(again.code, -9) << again.err;
+    EXPECT_EQ(desk.runDisturbed({.clock = 90min}, kSession, shortSession()).code, 3) << "it is taken in";
+    expectUnchanged({.clock = 150min}, 4, "it can go on within 2 h", "study");
+}
+
 TEST_F(DisturbedSession, WithAClockThatIsMovedWhileItRunsNoFurtherBlockBegins) {
     RecordProperty("hazard", "H12");
     const Words twoBlocks{"--set", "participant=virtual:7", "--set", "blocks=2"};

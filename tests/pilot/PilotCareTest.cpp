@@ -145,6 +145,145 @@ TEST_F(PilotCareTest, ASessionThatWasStoppedGoesOnWithNothingButItsQuestions) {
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
 }
 
+TEST_F(PilotCareTest, AStopRightAfterATestOfItIsOneAndIsHandled) {
+    RecordProperty("hazard", "H2");
+    PilotCare care(*stage_);
+    someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
+    record_->onWritten = [this](std::size_t) {
+        if (record_->count(row::kStopTest) != 1) return;
+        record_->onWritten = {};
+        someone_.stop("participant");
+    };
+    const auto passed = care.checklist();
+    ASSERT_TRUE(passed) << passed.error().message;
+    EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
+    EXPECT_THAT(someone_.asked, Contains("go-on")) << "nothing resumes without them";
+}
+
+/// What is on disk where the program was killed before it wrote that the session had ended.
+struct Killed {
+    const char* name;
+    std::vector<std::pair<const char*, nlohmann::json>> rows;
+    const char* says;
+};
+
+class EndedByItsRowsTest : public PilotCareTest, public testing::WithParamInterface<Killed> {
+protected:
+    [[nodiscard]] static std::vector<SessionRow> rowsOf(const Killed& killed) {
+        std::vector<SessionRow> all;
+        for (const auto& [kind, body] : killed.rows) {
+            SessionRow row;
+            row.name = kind;
+            row.body = body;
+            all.push_back(row);
+        }
+        return all;
+    }
+};
+
+TEST_P(EndedByItsRowsTest, IsNotTriedAgain) {
+    RecordProperty("hazard", "H12");
+    someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
+    begin(rowsOf(GetParam()));
+    PilotSession session(*bench_, someone_, *record_, PilotSettings{}, nullptr, 2);
+    session.resumesFrom("part 1", "head");
+    const auto begun = session.begin(false);
+    ASSERT_FALSE(begun);
+    EXPECT_THAT(begun.error().message, HasSubstr(GetParam().says));
+    EXPECT_EQ(session.stage().ended(), PilotEnd::Stopped);
+    EXPECT_THAT(bodies(row::kStopTest), SizeIs(0)) << "nothing is armed";
+    ASSERT_THAT(bodies(row::kSessionEnd), SizeIs(1));
+    EXPECT_EQ(bodies(row::kSessionEnd)[0]["state"], "stopped");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Pilot, EndedByItsRowsTest,
+    testing::Values(
+        Killed{"TheThirdStop",
+               {{row::kParticipantStop, {{"name", "test 1"}}},
+                {row::kParticipantStop, {{"name", "go on"}}},
+                {row::kParticipantStop, {{"name", "test 1"}}}},
+               "for the third time"},
+        Killed{"TheSecondFault",
+               {{row::kFault, {{"name", "test 1"}}}, {row::kFault, {{"name", "test 1"}}}},
+               "a second fault"},
+        Killed{"AGate",
+               {{row::kGate,
+                 {{"name", "block 2 impedance"}, {"holds", false}, {"said", "the electrodes moved"}, {"ends", true}}}},
+               "the electrodes moved"},
+        Killed{"ANo",
+               {{row::kGate,
+                 {{"name", "part 1 electrodes"}, {"key", "no"}, {"said", "they were touched"}, {"ends", true}}}},
+               "they were touched"},
+        Killed{"ARampThatIsTooStrong",
+               {{row::kAnswer, {{"name", "ramp 0 1.5"}, {"ramp", true}, {"response", "too-strong"}}}},
+               "too strong now"}),
+    [](const auto& each) { return each.param.name; });
+
+TEST_F(PilotCareTest, TheRowsThatEndASessionSaySo) {
+    RecordProperty("hazard", "H12");
+    PilotCare care(*stage_);
+    someone_.answers = {{"erythema", "3"}, {"oedema", "0"}};
+    ASSERT_FALSE(care.skin("after"));
+    EXPECT_THAT(PilotOutput::endedBy(*record_), HasSubstr("the skin scores 3"));
+}
+
+TEST_F(PilotCareTest, WhatIsCompleteIsReplayedAndNothingIsAskedOrArmed) {
+    RecordProperty("hazard", "H12");
+    SessionRow ended;
+    ended.name = row::kSessionEnd;
+    ended.body = {{"name", row::kEnd}, {"state", "complete"}, {"why", "complete"}};
+    begin({ended});
+    PilotSession session(*bench_, someone_, *record_, PilotSettings{}, nullptr, 2);
+    const auto begun = session.begin(false);
+    ASSERT_TRUE(begun) << begun.error().message;
+    EXPECT_TRUE(someone_.asked.empty());
+    const auto armed = session.stage().ready();
+    ASSERT_FALSE(armed);
+    EXPECT_EQ(armed.error().code, ErrorCode::Stopped);
+    EXPECT_FALSE(session.stage().measureImpedance("part 2 first"));
+    ASSERT_TRUE(session.stage().end(PilotEnd::Complete, "complete"));
+    EXPECT_THAT(bodies(row::kSessionEnd), SizeIs(0)) << "the earlier part has it";
+    EXPECT_EQ(session.stage().ended(), PilotEnd::Complete);
+}
+
+TEST_F(PilotCareTest, ElectrodesThatWereNeverMeasuredAreNotAskedAfter) {
+    RecordProperty("hazard", "H3");
+    someone_.answers = {{"erythema", "0"}, {"oedema", "0"}, {"electrodes-untouched", "no"}};
+    SessionRow planned;
+    planned.name = row::kPlan;
+    planned.body = {{"name", "plan"}};
+    begin({planned});
+    PilotCare care(*stage_);
+    const auto passed = care.checklist();
+    ASSERT_TRUE(passed) << passed.error().message;
+    EXPECT_THAT(someone_.asked, testing::Not(Contains("electrodes-untouched")));
+}
+
+TEST_F(PilotCareTest, AfterABreakNothingIsArmedBeforeTheElectrodesAreMeasured) {
+    RecordProperty("hazard", "H3");
+    PilotSession session(*bench_, someone_, *record_, PilotSettings{}, nullptr, 1);
+    someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
+    ASSERT_TRUE(session.begin(false));
+    ASSERT_TRUE(session.identification().takeBreak(1, Seconds(60)));
+    const auto measured = record_->count(row::kImpedance);
+    ASSERT_TRUE(bench_->devices().load->fitLoad("1600 ohm"));
+    const auto armed = session.stage().ready();
+    ASSERT_FALSE(armed) << "a script need not ask for it";
+    EXPECT_THAT(armed.error().message, HasSubstr("a change of at most 30 % is accepted"));
+    EXPECT_EQ(record_->count(row::kImpedance), measured + 3) << "three seatings";
+    EXPECT_EQ(session.stage().ended(), PilotEnd::Stopped);
+}
+
+TEST_F(PilotCareTest, WhatCouldNotBeAskedAfterwardsIsANote) {
+    RecordProperty("hazard", "H12");
+    ASSERT_TRUE(stage_->trial(trial()));
+    stage_->afterCare = []() -> Result<void> { return fail(ErrorCode::Device, "the screen is gone"); };
+    EXPECT_FALSE(stage_->end(PilotEnd::Stopped, "stopped"));
+    ASSERT_THAT(bodies(row::kNote), SizeIs(1));
+    EXPECT_EQ(bodies(row::kNote)[0]["not_asked"], "the screen is gone");
+}
+
 TEST_F(PilotCareTest, ASkinThatEndsItLeavesTheSideEffectsToBeAsked) {
     RecordProperty("hazard", "H12");
     PilotCare care(*stage_);

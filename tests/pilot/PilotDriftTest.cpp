@@ -13,6 +13,11 @@ public:
     void show(const PilotScreen& screen) override { people_.show(screen); }
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
         people_.stop = stop;
+        if (prompt.name == "ending") return answer("end");
+        if (prompt.name == "on-demand") {
+            offered.push_back(prompt.targets.size());
+            return answer(prompt.targets.back().key);
+        }
         return people_.ask(prompt);
     }
     void delivered(const FeltPresentation& presented) override {
@@ -25,8 +30,14 @@ public:
     [[nodiscard]] std::optional<Hindrance> hindrance() const override { return people_.hindrance(); }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return people_.answersInRealTime(); }
     std::vector<FeltPresentation> felt;
+    std::vector<std::size_t> offered;  // on demand, with "go on"
 
 private:
+    [[nodiscard]] static PilotAnswer answer(std::string key) {
+        PilotAnswer made;
+        made.keys = {std::move(key)};
+        return made;
+    }
     PilotParticipant& people_;
 };
 
@@ -54,13 +65,24 @@ TEST_F(PilotStageTest, NoDriftTrialLiesAboveTheTopOfTheRange) {
                                                    [&] { return test.familiarise(); },
                                                    [&] { return test.train(); },
                                                    [&] { return test.testBlock(1); },
-                                                   [&] { return test.driftCheck(2); }};
+                                                   [&]() -> Result<void> {
+                                                       const auto goesOn = test.driftCheck(2);
+                                                       if (!goesOn) return failure(goesOn);
+                                                       EXPECT_FALSE(*goesOn) << "they end it here";
+                                                       return {};
+                                                   }};
     for (const auto& step : steps) {
         const auto done = step();
         ASSERT_TRUE(done) << done.error().message;
     }
     ASSERT_TRUE(thresholds.found()->usable);
     EXPECT_EQ(test.driftJson()[0]["adapted"], true) << "higher levels were wanted: " << test.driftJson().dump();
+    std::size_t onDemand = 0;
+    for (const auto& each : people.felt) onDemand += each.drawnFor.find(" on demand ") != std::string::npos;
+    EXPECT_EQ(onDemand, 5 * names.size()) << "each at most five times";
+    EXPECT_EQ(people.offered.front(), names.size() + 1);
+    EXPECT_EQ(people.offered.back(), 2U) << "what was felt five times is offered no more";
+    EXPECT_TRUE(record_->find(row::kPhase, "ending before block 2"));
     std::size_t trials = 0;
     for (const auto& each : people.felt) {
         if (each.drawnFor.find(" drift ") == std::string::npos) continue;
@@ -68,6 +90,14 @@ TEST_F(PilotStageTest, NoDriftTrialLiesAboveTheTopOfTheRange) {
         EXPECT_LE(each.level, thresholds.found()->max) << each.drawnFor;
     }
     EXPECT_EQ(trials, 4 * DriftCheckSettings().trials) << "a check, and one after each rest";
+    const auto measured = rows();
+    EXPECT_EQ(std::ranges::count_if(measured,
+                                    [](const SessionRow& each) {
+                                        return each.name == row::kImpedance &&
+                                               each.body["name"].get<std::string>().starts_with("seated again");
+                                    }),
+              3)
+        << "the electrodes, before it is armed after each rest";
 }
 
 TEST_F(PilotStageTest, ElectrodesThatMeasureOtherwiseBeforeABlockHoldItBack) {

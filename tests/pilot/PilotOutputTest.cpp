@@ -1,5 +1,7 @@
 // Breaks, pauses, a lost screen, electrodes that are seated again, an abort: the output is off, a row says so, and what
 // follows is armed anew.
+#include <thread>
+
 #include "core/pilot/PilotCare.h"
 #include "tests/pilot/StageFixture.h"
 
@@ -200,6 +202,132 @@ TEST_F(PilotOutputTest, ABreakNowSwitchesOffAtOnceAndTheTrialIsRepeatedAfterIt) 
     EXPECT_THAT(bodies(row::kBreakEnd), SizeIs(1));
     EXPECT_EQ(record_->count(row::kParticipantStop) + record_->count(row::kOperatorStop), 0U);
     EXPECT_THAT(someone_.asked, ElementsAre("go-on", "strength"));
+}
+
+TEST_F(PilotOutputTest, ABenchThatIsPausedIsWaitedForAndTheTrialIsRepeatedHoweverOften) {
+    RecordProperty("hazard", "H2");
+    reachOne();
+    constexpr int kPauses = 6;  // more than presentations may be late in a row
+    int paused = 0;
+    std::jthread resumes;
+    someone_.onShow = [&] {
+        const auto& screen = someone_.shown.back();
+        if (screen.text.starts_with("Paused")) {
+            EXPECT_EQ(state(), InterlockState::Disarmed);
+        }
+        if (screen.state != ScreenState::Feel || paused == kPauses) return;
+        ++paused;
+        bench_->pause();
+        resumes = std::jthread([this] {  // while it presents, or in the pause that the stage makes of it
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            bench_->resume();
+        });
+    };
+    someone_.onAsk = [&](const PilotPrompt& prompt) {
+        if (prompt.name != "go-on") return;
+        EXPECT_FALSE(bench_->telemetry().paused) << "they are asked once it is over";
+    };
+    const auto answer = stage_->trial(trial("test 1", 1));
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(answer->attempt, 1U + kPauses);
+    EXPECT_EQ(record_->count(row::kPause), std::size_t(kPauses));
+    EXPECT_EQ(record_->count(row::kContinue), std::size_t(kPauses));
+    EXPECT_EQ(measured_, kPauses) << "the impedance, before it is armed again";
+}
+
+TEST_F(PilotOutputTest, AStopInAPauseIsARowAndThePauseGoesOn) {
+    RecordProperty("hazard", "H2");
+    reachOne();
+    bool paused = false, pressed = false;
+    std::jthread acts;
+    someone_.onShow = [&] {
+        const auto& screen = someone_.shown.back();
+        if (screen.state == ScreenState::Feel && !std::exchange(paused, true)) bench_->pause();
+        if (!screen.text.starts_with("Paused")) return;
+        const bool first = !std::exchange(pressed, true);
+        acts = std::jthread([this, first] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            if (first)
+                someone_.stop("participant");
+            else
+                bench_->resume();
+        });
+    };
+    const auto answer = stage_->trial(trial());
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_TRUE(pressed);
+    EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
+    EXPECT_EQ(record_->count(row::kPause), 1U);
+    EXPECT_THAT(someone_.asked, ElementsAre("go-on", "strength"));
+}
+
+TEST_F(PilotOutputTest, WithoutTheKeysWhileAQuestionWaitsTheOutputIsSoonOff) {
+    RecordProperty("hazard", "H2");
+    someone_.onAsk = [this](const PilotPrompt& prompt) {
+        if (prompt.name != "strength") return;
+        const auto elsewhere = [] { return std::optional(Hindrance{false, "the keys are elsewhere"}); };
+        someone_.onHindrance = elsewhere;
+        for (int looks = 0; looks < 60; ++looks) someone_.waiting();
+        someone_.onHindrance = {};
+        someone_.waiting();  // they were back for a moment
+        someone_.onHindrance = elsewhere;
+        for (int looks = 0; looks < 99; ++looks) someone_.waiting();
+        EXPECT_NE(state(), InterlockState::Disarmed) << "9.9 s";
+        for (int looks = 0; looks < 50; ++looks) someone_.waiting();
+        EXPECT_EQ(state(), InterlockState::Disarmed) << "14.9 s";
+        someone_.onHindrance = {};
+    };
+    ASSERT_TRUE(stage_->trial(trial()));
+    ASSERT_THAT(bodies(row::kFocusLost), SizeIs(1));
+    EXPECT_EQ(bodies(row::kFocusLost)[0]["why"], "the keys are elsewhere");
+    someone_.onAsk = {};
+    ASSERT_TRUE(stage_->trial(trial("test 2"))) << "armed anew";
+}
+
+TEST_F(PilotOutputTest, AStopAtGoOnIsNoAnswerToTheTrialThatWasInterrupted) {
+    RecordProperty("hazard", "H2");
+    loseScreen();
+    someone_.onAsk = [this](const PilotPrompt& prompt) {
+        if (prompt.name == kScreenPrompt) someone_.there = true;
+    };
+    someone_.stopsAtGoOn = 1;
+    const auto answer = stage_->trial(rising(0.5));
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
+    EXPECT_EQ(answer->response, "nothing") << "they did not stop what they felt";
+}
+
+TEST_F(PilotOutputTest, AStopOfARisingLevelIsItsAnswerAlsoWhereTheProgramWasKilledBeforeItWasWritten) {
+    RecordProperty("hazard", "H6");
+    atFirstFeel([this] { someone_.press("participant"); });
+    ASSERT_EQ(stage_->trial(rising(0.5)).value().response, "stop");
+    std::vector<SessionRow> earlier;
+    for (const auto& each : rows()) {
+        earlier.push_back(each);
+        if (each.name == row::kParticipantStop) break;
+    }
+    begin(earlier);
+    const auto answer = stage_->trial(rising(0.5));
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(answer->response, "stop");
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U) << "it is not presented once more";
+}
+
+TEST_F(PilotOutputTest, AStopWithAFaultCounts) {
+    RecordProperty("hazard", "H2");
+    more_ = "&fault=open@20.2s..21s";
+    begin();
+    ASSERT_TRUE(stage_->pass(Seconds(19)));
+    operatorTakesTime();
+    record_->onWritten = [this](std::size_t) {
+        if (record_->count(row::kFault) == 1 && record_->count(row::kParticipantStop) == 0) {
+            record_->onWritten = {};
+            someone_.stop("participant");
+        }
+    };
+    ASSERT_TRUE(stage_->trial(trial()));
+    EXPECT_EQ(record_->count(row::kFault), 1U);
+    EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
 }
 
 TEST_F(PilotOutputTest, AnAbortIsAskedForItsReasonOnceTheOutputIsOff) {

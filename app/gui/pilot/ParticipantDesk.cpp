@@ -58,14 +58,17 @@ Result<PilotAnswer> ParticipantDesk::ask(const PilotPrompt& prompt) {
     operators_.reset();
     if (!theirs) shownAt_ = std::chrono::steady_clock::now();  // the operator's own window is there
     emit asked(prompt, id_);
-    while (!broken() && !answered()) {
-        const bool limited = prompt.within && shownAt_;
-        if (!limited) {
-            changed_.wait(lock);
-            continue;
-        }
-        const auto until = *shownAt_ + std::chrono::duration_cast<SteadyTime::duration>(*prompt.within);
-        if (changed_.wait_until(lock, until) == std::cv_status::timeout) break;
+    const auto look = std::chrono::duration_cast<SteadyTime::duration>(kWaitingLook);
+    for (auto next = std::chrono::steady_clock::now() + look; !broken() && !answered();) {
+        const auto until = prompt.within && shownAt_
+                               ? *shownAt_ + std::chrono::duration_cast<SteadyTime::duration>(*prompt.within)
+                               : SteadyTime::max();
+        if (changed_.wait_until(lock, std::min(until, next)) != std::cv_status::timeout) continue;
+        if (std::chrono::steady_clock::now() >= until) break;
+        next += look;
+        lock.unlock();
+        if (waiting) waiting();
+        lock.lock();
     }
     auto result = outcome(prompt);
     open_.reset();

@@ -36,6 +36,7 @@ public:
     [[nodiscard]] QString stopWords() const;
     /// Pause and Resume of the safety bar: a break at once, and its end.
     void pauseSession(bool pause) { pause ? session_->breakNow() : session_->wantBreak(false); }
+    [[nodiscard]] bool sessionPaused() const { return session_->breakWanted(); }
     /// A stop by the participant's keys; false where no session of a person runs.
     bool stopAsParticipant(const char* by) { return session_->stopAsParticipant(by); }
     /// Null while no session runs.

@@ -236,6 +236,7 @@ bool SessionConduct::stopAsParticipant(const char* by) {
     if (window_) window_->noteStop();
     if (!tested) ++participantStops_;
     emit changed();
+    stoppedAt_.start();  // what was repainted meanwhile may have taken longer than a press does
     return heard;
 }
 

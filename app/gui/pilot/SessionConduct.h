@@ -54,6 +54,7 @@ public:
     bool stopAsParticipant(const char* by);
     /// From the next trial on, until they want it no more.
     void wantBreak(bool due);
+    [[nodiscard]] bool breakWanted() const { return desk_.breakWanted(); }
     /// The trial under way is void: it is repeated after the break.
     void breakNow();
 

@@ -26,8 +26,9 @@ Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Partici
     found.number = open->number;
     found.protocol = open->protocol;
     found.answered = whole->answered;
-    found.brokenOff = QDateTime::fromSecsSinceEpoch(rows->lastAt.time_since_epoch().count());
-    found.mayGoOn = SystemTime::real().wall() - rows->lastAt <= kResumedWithin;
+    found.brokenOff = QDateTime::fromSecsSinceEpoch(rows->answeredAt.time_since_epoch().count());
+    found.mayGoOn = rows->mayGoOn(SystemTime::real().wall());
+    found.complete = rows->ended == PilotEnd::Complete;
     return std::optional(found);
 }
 
@@ -73,14 +74,19 @@ void UnfinishedOffer::offer(const std::optional<Unfinished>& unfinished) {
     both->setExclusive(true);
     if (!offered_) return;
     const bool today = offered_->brokenOff.date() == QDate::currentDate();
-    says_->setText(tr("Session %1 was broken off %2, after %3 answers.")
-                       .arg(offered_->number)
-                       .arg(today ? tr("at %1").arg(offered_->brokenOff.toString("HH:mm"))
-                                  : tr("on %1").arg(offered_->brokenOff.toString("yyyy-MM-dd HH:mm")))
-                       .arg(offered_->answered));
+    says_->setText(
+        (offered_->complete
+             ? tr("Session %1 is complete (%2, %3 answers), but the program was ended before the study knew.")
+             : tr("Session %1 was broken off %2, after %3 answers."))
+            .arg(offered_->number)
+            .arg(today ? tr("at %1").arg(offered_->brokenOff.toString("HH:mm"))
+                       : tr("on %1").arg(offered_->brokenOff.toString("yyyy-MM-dd HH:mm")))
+            .arg(offered_->answered));
     goOn_->setEnabled(offered_->mayGoOn);
-    goOn_->setText(offered_->mayGoOn ? tr("Go on: nothing is asked twice")
-                                     : tr("Go on: only within 2 h of the last answer"));
+    end_->setEnabled(!offered_->complete);
+    goOn_->setText(offered_->complete  ? tr("Go on: nothing is presented or asked any more")
+                   : offered_->mayGoOn ? tr("Go on: nothing is asked twice")
+                                       : tr("Go on: only within 2 h of the last answer"));
     fit();
     emit changed();
 }

@@ -19,7 +19,8 @@ struct Unfinished {
     std::string protocol;
     int answered = 0;  ///< answers on disk
     QDateTime brokenOff;
-    bool mayGoOn = true;  ///< it was not too long ago
+    bool mayGoOn = true;    ///< it was not too long ago
+    bool complete = false;  ///< the program was ended before the study knew: nothing is left to ask
     bool operator==(const Unfinished&) const = default;
 };
 /// The participant's; nothing where there is none. Errors: as pilotRows().

@@ -321,8 +321,10 @@ void MainWindow::noteBlind() {
     rail_->keepTo(blind ? std::optional<int>(kPilot) : std::nullopt,
                   tr("Hidden until the session ends: it would show what is delivered."));
     const bool pauses = pilot_->running() && pilot_->participantWindow() != nullptr;
-    safety_->setPauseInstead(pauses ? [this](bool pause) { pilot_->pauseSession(pause); }
-                                    : std::function<void(bool)>());
+    std::optional<PauseInstead> instead;
+    if (pauses)
+        instead = {[this](bool pause) { pilot_->pauseSession(pause); }, [this] { return pilot_->sessionPaused(); }};
+    safety_->setPauseInstead(std::move(instead));
     docks_->setHidden(DockColumn::Hidden::Blind, blind);
     safety_->setBlind(blind);
 }

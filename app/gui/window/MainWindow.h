@@ -48,6 +48,7 @@ public:
     explicit MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages = Pages::AtOnce);
     ~MainWindow() override;
 
+    [[nodiscard]] SafetyBar& safetyBar() { return *safety_; }
     [[nodiscard]] BenchController& controller() noexcept { return controller_; }
     /// 0 to 6, in the order at the left.
     void showWorkspace(int index);

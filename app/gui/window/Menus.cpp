@@ -62,8 +62,8 @@ void Menus::addBench() {
     bench->addSeparator();
     bench->addAction(tr("&Arm…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A), &window_, &MainWindow::askToArm);
     bench->addAction(tr("&Disarm"), controller, &BenchController::disarm);
-    bench->addAction(tr("&Pause"), controller, &BenchController::pause);
-    bench->addAction(tr("Res&ume"), controller, &BenchController::resume);
+    bench->addAction(tr("&Pause"), &window_, [this] { window_.safetyBar().holdOutput(true); });
+    bench->addAction(tr("Res&ume"), &window_, [this] { window_.safetyBar().holdOutput(false); });
     bench->addAction(tr("&Reset fault"), controller, &BenchController::resetFault);
     bench->addAction(tr("Check &impedance"), &window_, &MainWindow::checkImpedance);
     bench->addSeparator();

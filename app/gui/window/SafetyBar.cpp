@@ -332,11 +332,11 @@ void SafetyBar::showButtons(InterlockState state) {
         action_->setToolTip(tr("First of two steps. Nothing is delivered before the second."));
     }
     action_->setEnabled(live && state != InterlockState::Disconnected);
-    if (!pauseInstead_) pausedInstead_ = false;
     const bool runs = controller_.activity() == Activity::Running;
-    paused_ = state == InterlockState::Paused || pausedInstead_ || (runs && controller_.paused());
+    paused_ =
+        pauseInstead_ ? pauseInstead_->paused() : state == InterlockState::Paused || (runs && controller_.paused());
     pause_->setMeaning(paused_ ? tr("Res&ume") : tr("&Pause"), paused_);
-    pause_->setEnabled(pauseInstead_ || runs || state == InterlockState::Delivering || paused_);
+    pause_->setEnabled(pauseInstead_.has_value() || runs || state == InterlockState::Delivering || paused_);
     pause_->setVisible(state != InterlockState::Faulted);
     details_->setVisible(state == InterlockState::Faulted);
     makePrimary(*action_, state == InterlockState::Faulted);
@@ -353,15 +353,15 @@ void SafetyBar::pressAction() {
 }
 
 void SafetyBar::pressPause() {
-    if (!pause_->listens()) return;
-    if (pauseInstead_) {
-        pausedInstead_ = !pausedInstead_;
-        return pauseInstead_(pausedInstead_);
-    }
-    if (paused_)
-        controller_.resume();
-    else
+    if (pause_->listens()) holdOutput(!paused_);
+}
+
+void SafetyBar::holdOutput(bool hold) {
+    if (pauseInstead_) return pauseInstead_->pause(hold);
+    if (hold)
         controller_.pause();
+    else
+        controller_.resume();
 }
 
 }  // namespace tacto::gui

@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
@@ -24,6 +25,12 @@ class LimitBarRow;
 class StateBlock;
 class StopButton;
 
+/// What Pause and Resume do in place of the bench's own, and whether it is paused so.
+struct PauseInstead {
+    std::function<void(bool pause)> pause;
+    std::function<bool()> paused;
+};
+
 class SafetyBar final : public QFrame {
     Q_OBJECT
 public:
@@ -33,8 +40,10 @@ public:
     /// During a blind session nothing here shows levels or trains: a word in place of the bars, no pulse with trains.
     void setBlind(bool blind);
     void setParticipantsStop(const QString& words);
-    /// What Pause and Resume do in place of the bench's own: a session holds itself back. Empty: the bench's.
-    void setPauseInstead(std::function<void(bool pause)> pause) { pauseInstead_ = std::move(pause); }
+    /// A session holds itself back. Nothing: the bench's own.
+    void setPauseInstead(std::optional<PauseInstead> instead) { pauseInstead_ = std::move(instead); }
+    /// As the button Pause or Resume.
+    void holdOutput(bool hold);
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:
@@ -72,8 +81,7 @@ private:
     QLabel* within_ = nullptr;
     QLabel* participantsStop_ = nullptr;
     bool blind_ = false;
-    std::function<void(bool)> pauseInstead_;
-    bool pausedInstead_ = false;
+    std::optional<PauseInstead> pauseInstead_;
     bool paused_ = false;  ///< as shown
     QWidget* buttons_ = nullptr;
     ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…

@@ -174,6 +174,38 @@ TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain)
     EXPECT_EQ(std::ranges::count(events, std::string(row::kParticipantStop), &SessionRow::name), 0);
 }
 
+TEST_F(RehearsalInTheWindow, PauseFromTheMenuIsTheSessionsOwnBreak) {
+    RecordProperty("hazard", "H2");
+    begin(true);
+    auto* theirs = pilot->participantWindow();
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
+    const auto choose = [this](const QString& words) {
+        for (auto* action : window.findChildren<QAction*>())
+            if (action->text().remove('&') == words) action->trigger();
+    };
+    const auto* button = window.findChild<QPushButton*>("pauseButton");
+    ASSERT_NE(button, nullptr);
+    choose("Pause");
+    EXPECT_TRUE(pilot->sessionPaused());
+    EXPECT_FALSE(window.controller().paused()) << "the bench itself is not: the session would be late and broken off";
+    ASSERT_IN_TIME(comesTrue([&] { return button->text().remove('&') == "Resume"; }, 5'000));
+    choose("Resume");
+    EXPECT_FALSE(pilot->sessionPaused());
+    ASSERT_IN_TIME(comesTrue([&] { return button->text().remove('&') == "Pause"; }, 5'000));
+    EXPECT_TRUE(pilot->running()) << headline();
+    ASSERT_IN_TIME(comesTrue(
+        [this] {
+            window.controller().stop("operator (STOP)");
+            return !pilot->running();
+        },
+        20'000));
+    const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
+    ASSERT_TRUE(study) << study.error().message;
+    const auto events = study->events(study->sessions()[0]).value();
+    EXPECT_EQ(std::ranges::count(events, std::string(row::kPause), &SessionRow::name), 1);
+    EXPECT_EQ(std::ranges::count(events, std::string(row::kParticipantStop), &SessionRow::name), 0);
+}
+
 TEST_F(RehearsalInTheWindow, ClosingTheParticipantsWindowPausesAndStopsNothingForGood) {
     RecordProperty("hazard", "H2");
     begin(true);

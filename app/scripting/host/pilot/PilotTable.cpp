@@ -82,8 +82,11 @@ std::vector<HostFunction> pilotFunctions() {
          .call = host::pilot::beforeBlock},
         {.name = "driftCheck",
          .parameters = {block},
-         .text = "12 detection trials: whether the lowest level is still felt. Where it is not, a rest of 5 min and "
-                 "again, three times at most; then the block is marked as adapted.",
+         .text =
+             "12 detection trials: whether the lowest level is still felt. Where it is not, a rest of 5 min and "
+             "again, three times at most; then the block is marked as adapted, and the participant says whether to go "
+             "on.",
+         .returns = "false where the participant ends the session here",
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::driftCheck},

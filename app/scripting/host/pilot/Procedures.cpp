@@ -46,7 +46,9 @@ Result<Json> beforeBlock(ScriptSession& session, const Arguments& arguments) {
 Result<Json> driftCheck(ScriptSession& session, const Arguments& arguments) {
     auto pilot = session.pilot();
     if (!pilot) return failure(pilot);
-    return done((*pilot)->identification().driftCheck(arguments.whole("block")));
+    const auto goesOn = (*pilot)->identification().driftCheck(arguments.whole("block"));
+    if (!goesOn) return failure(goesOn);
+    return Json(*goesOn);
 }
 
 Result<Json> testBlock(ScriptSession& session, const Arguments& arguments) {
