@@ -182,17 +182,12 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
     unfinished_ = study_->unfinished(who_.id);
     if (!unfinished_) return {};
     const auto wanted = textOf(order, "unfinished");
-    if (wanted == "end" || wanted == "resume") {
-        auto rows = pilotRows(*study_, *unfinished_);
-        if (!rows) return failure(rows);
-        earlier_ = std::move(*rows);
-    }
-    if (wanted == "end" && earlier_.ended == PilotEnd::Complete)
+    auto rows = pilotRows(*study_, *unfinished_);
+    if (wanted == "end" && rows && rows->ended == PilotEnd::Complete)
         return fail(ErrorCode::NotFound,
                     "session {} of {} is complete, and the program was ended before the study knew; {} is expected",
                     unfinished_->number, who_.code, whatGoesOn());
-    if (wanted == "end") {
-        earlier_ = {};
+    if (wanted == "end") {  // also one that can no longer be read
         toEnd_ = std::exchange(unfinished_, std::nullopt);
         return {};
     }
@@ -203,6 +198,8 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
     if (unfinished_->protocol != order.script.name)
         return fail(ErrorCode::NotFound, "session {} of {} is of {}; it goes on with that protocol, or ends with {}",
                     unfinished_->number, who_.code, unfinished_->protocol, whatEnds());
+    if (!rows) return failure(rows);
+    earlier_ = std::move(*rows);
     return mayResume();
 }
 
