@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "core/base/QuantityText.h"
-#include "core/devices/DeviceUri.h"
+#include "core/bench/DeliveryJudge.h"
 #include "core/safety/TrainCheck.h"
 #include "drivers/sciencemode/ReadBack.h"
 
@@ -20,14 +20,6 @@ GateSetup setupFor(const PulseOrder& order, const SourceTraits& source) {
     setup.electrodeArea = order.electrodeArea;
     setup.check = order.pulse;  // the same shape, so that |Z| means the same; the amplitude is the source's
     return setup;
-}
-
-TrainReadBack readBackOf(const TrainReport& report) noexcept {
-    TrainReadBack read{report.statusAt, report.stillDelivering, ElectrodeReading::NotMeasured, {}, {}};
-    if (report.electrode == ElectrodeState::Ok) read.electrode = ElectrodeReading::Ok;
-    if (report.electrode == ElectrodeState::Open) read.electrode = ElectrodeReading::Open;
-    if (report.electrode == ElectrodeState::Short) read.electrode = ElectrodeReading::Short;
-    return read;
 }
 
 std::string ohmText(Ohms value) { return scaledText(value.value(), "ohm", 4); }
@@ -49,7 +41,7 @@ Result<std::unique_ptr<BenchPulse>> BenchPulse::create(PulseOrder order, science
     std::unique_ptr<BenchPulse> made(new BenchPulse(std::move(order), std::move(setup), device, clock));
     const auto& identity = device.identity();
     if (!identity.simulated) {
-        auto record = UnitRecord::open(unitFolders(), unitOf(identity.serial, identity.uri), clock);
+        auto record = takeUpUnit(identity, unitFolders(), clock, SystemTime::real(), made->gate_);
         if (!record) return failure(record);
         if (const auto left = (*record)->fault()) {
             return fail(ErrorCode::NotArmed,
@@ -58,7 +50,6 @@ Result<std::unique_ptr<BenchPulse>> BenchPulse::create(PulseOrder order, science
                         left->reason.view());
         }
         made->record_ = std::move(*record);
-        made->gate_.continueFrom(*made->record_);
     }
     if (auto configured = made->gate_.configure(made->setup_); !configured) return failure(configured);
     if (auto connected = made->interlock_.connect(); !connected) return failure(connected);

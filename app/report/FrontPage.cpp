@@ -9,9 +9,9 @@ constexpr auto kNotRecorded = "not recorded";
 
 QString orNotRecorded(const QString& text) { return text.isEmpty() ? QString(kNotRecorded) : text; }
 
-bool has(const ReportModel& model, const char* role) {
+bool has(const ReportModel& model, Role role) {
     return std::any_of(model.devices.begin(), model.devices.end(),
-                       [role](const ReportDevice& device) { return device.role == QLatin1String(role); });
+                       [role](const ReportDevice& device) { return device.is(role); });
 }
 
 TableBlock instrumentsTable(const ReportModel& model, const QString& caption) {
@@ -29,13 +29,13 @@ FactsBlock factsOf(const ReportModel& model) {
     const auto& basis = model.basis;
     block.facts.insert(block.facts.end(), basis.rule.begin(), basis.rule.end());
     block.facts.insert(block.facts.end(), basis.restsOn.begin(), basis.restsOn.end());
-    if (has(model, "oscilloscope")) {
+    if (has(model, Role::Oscilloscope)) {
         block.facts.push_back(
             {"Certificate", basis.certificate.isEmpty() ? QString("none of the oscilloscope") : basis.certificate});
     }
     QStringList open = basis.notEvaluated;
     // A run that broke off, or that approved nothing, has no exposure: said here, and no section is left empty for it.
-    if (has(model, "stimulator") && model.exposure.empty())
+    if (has(model, Role::Stimulator) && model.exposure.empty())
         open << "exposure was not computed: this session holds no approved train";
     block.facts.push_back(
         {"Not evaluated", open.isEmpty() ? QString("nothing, as far as this session says") : open.join(";\n") + "."});

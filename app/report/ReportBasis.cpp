@@ -85,7 +85,7 @@ void readInstruments(const QJsonObject& results, ReportModel& model) {
     }
     if (!instruments.empty()) return;
     for (const auto& device : model.devices) {
-        if (device.role != "oscilloscope") continue;
+        if (!device.is(Role::Oscilloscope)) continue;
         instruments.push_back({device.name + (device.serial.isEmpty() ? QString() : " " + device.serial), "–",
                                "not in this session's results",
                                device.simulated ? QString("digital twin") : QString("unknown")});

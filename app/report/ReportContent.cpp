@@ -10,20 +10,21 @@
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
 #include "app/report/TableContent.h"
+#include "core/session/Origin.h"
 
 namespace tacto {
 namespace {
 
 QString originOf(const ReportDevice& device) {
-    return !device.origin.isEmpty() ? device.origin : device.simulated ? "simulated" : "real";
+    return !device.origin.isEmpty() ? device.origin : device.simulated ? origin::kSimulated : origin::kHardware;
 }
 
 /// Whether a device of one of these roles was simulated; true where there is none and the session is, as in a
 /// prediction.
-bool isSimulated(const ReportModel& model, std::initializer_list<const char*> roles) {
+bool isSimulated(const ReportModel& model, std::initializer_list<Role> roles) {
     bool any = false, found = false;
     for (const auto& device : model.devices) {
-        if (std::find(roles.begin(), roles.end(), device.role) == roles.end()) continue;
+        if (std::none_of(roles.begin(), roles.end(), [&](Role role) { return device.is(role); })) continue;
         found = true;
         any = any || device.simulated;
     }
@@ -34,8 +35,9 @@ bool isSimulated(const ReportModel& model, std::initializer_list<const char*> ro
 /// texture (hazard H9).
 bool isSimulated(const ReportModel& model, const Figure& figure) {
     if (std::holds_alternative<TimelineFigure>(figure.content)) return model.simulated;
-    if (std::holds_alternative<ExposureFigure>(figure.content)) return isSimulated(model, {"stimulator", "massager"});
-    return isSimulated(model, {"stimulator", "oscilloscope", "massager"});
+    if (std::holds_alternative<ExposureFigure>(figure.content))
+        return isSimulated(model, {Role::Stimulator, Role::Massager});
+    return isSimulated(model, {Role::Stimulator, Role::Oscilloscope, Role::Massager});
 }
 
 /// True when every device is simulated.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/report/Figure.h"
+#include "core/base/Role.h"
 
 namespace tacto {
 
@@ -19,13 +20,14 @@ namespace tacto {
 enum class ReportVerdict { None, Pass, Fail, Indeterminate, Stopped };
 
 struct ReportDevice {
-    QString role;  ///< "stimulator", "oscilloscope", ...
+    QString role;  ///< its word
     QString name;
     QString uri;
     QString serial;
     QString firmware;
     bool simulated = false;
-    QString origin;  ///< "real", "simulated", "replayed, origin not stated", ...
+    QString origin;  ///< one of core/session/Origin.h
+    [[nodiscard]] bool is(Role wanted) const { return role == QLatin1String(nameOf(wanted).data()); }
 };
 
 /// A thing used and what identifies it: {"separability.js", "sha256", "9f86d0…"}; {"Seed", "", "42"}.

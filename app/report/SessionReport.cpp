@@ -330,7 +330,7 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     for (const auto& row : *measurements) last = std::max(last, row.at);
     for (const auto& row : *items) last = std::max(last, row.at);
     const bool stimulates = std::any_of(model.devices.begin(), model.devices.end(),
-                                        [](const ReportDevice& device) { return device.role == "stimulator"; });
+                                        [](const ReportDevice& device) { return device.is(Role::Stimulator); });
     if (stimulates) {
         model.identity.insert(model.identity.begin(),
                               {"Stimulator calibration",

@@ -6,6 +6,7 @@
 
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
+#include "core/safety/LimitSet.h"
 
 namespace tacto {
 namespace {
@@ -123,13 +124,8 @@ QString noteOf(const QJsonObject& row) {
 }  // namespace
 
 QString limitSetTitle(const QString& id) {
-    if (id == "fda-pms") return "FDA guidance";
-    if (id == "iec-60601-2-10") return "IEC 60601-2-10";
-    if (id == "paper") return "the paper";
-    if (id == "gate") return "this program";  // what it refuses, and must
-    if (id == "interlock") return "the rules of arming";
-    if (id == "laboratory") return "the laboratory";
-    return id;
+    const auto text = id.toStdString();
+    return QString::fromStdString(std::string(shortTitleOf(text)));
 }
 
 QString loadText(QString name) {

@@ -41,7 +41,7 @@ KnownCalibration knownCalibration(const DeviceSet& devices) {
         known.text = fmt::format("calibrated {}, until {}; applied: {}", dateText(found->made),
                                  dateText(found->validUntil), lineText("amplitude", found->amplitude, found->unit, 1));
         for (const auto& time : kStoredTimes)
-            known.text += "; " + lineText(time.title, *((*found).*time.line), "us", 1e6);
+            known.text += "; " + lineText(time.words, *((*found).*time.line), "us", 1e6);
     }
     return known;
 }

@@ -29,7 +29,7 @@ TrainReach reachOf(const Profile& profile) {
 std::optional<LoadSafetyCheck> loadSafetyCheckOf(const ProtocolSource& script, const SessionAbout& about,
                                                  const Profile& profile, const std::string& session) {
     if (script.name != kLoadSafety || sha256Hex(script.text) != shippedLoadSafetySha256()) return std::nullopt;
-    const auto stimulator = std::ranges::find(about.devices, std::string("stimulator"), &SessionDevice::role);
+    const auto stimulator = std::ranges::find(about.devices, nameOf(Role::Stimulator), &SessionDevice::role);
     if (stimulator == about.devices.end()) return std::nullopt;
     LoadSafetyCheck check;
     check.serial = calibratedOutput(stimulator->serial, stimulator->uri);

@@ -5,7 +5,6 @@
 
 #include "core/bench/BenchPerson.h"
 #include "core/bench/LoopJournal.h"
-#include "core/devices/DeviceUri.h"
 
 namespace tacto {
 
@@ -97,12 +96,10 @@ Result<void> Bench::State::open() {
 Result<void> Bench::State::takeUpRecord() {
     const auto& stimulating = config.devices.stimulator;
     if (!stimulating || stimulating->identity().simulated || config.units.records.empty()) return {};
-    const auto& identity = stimulating->identity();
-    auto opened = UnitRecord::open(config.units, unitOf(identity.serial, identity.uri), *config.clock,
-                                   config.systemTime != nullptr ? *config.systemTime : SystemTime::real());
+    auto opened = takeUpUnit(stimulating->identity(), config.units, *config.clock,
+                             config.systemTime != nullptr ? *config.systemTime : SystemTime::real(), gate);
     if (!opened) return failure(opened);
     record = std::move(*opened);
-    gate.continueFrom(*record);
     return {};
 }
 

@@ -31,6 +31,8 @@ FixedText<255> faultText(fmt::format_string<const Values&...> text, const Values
 
 std::optional<double> present(double value) noexcept { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
+}  // namespace
+
 TrainReadBack readBackOf(const TrainReport& report) noexcept {
     return {.at = report.statusAt,
             .delivering = report.stillDelivering,
@@ -38,8 +40,6 @@ TrainReadBack readBackOf(const TrainReport& report) noexcept {
             .imbalance = present(report.imbalance),
             .imbalanceUncertainty = present(report.imbalanceUncertainty)};
 }
-
-}  // namespace
 
 std::optional<LoopFault> DeliveryJudge::delivered(const TrainReport& report, bool permitted) {
     const auto judgement = status(report);

@@ -20,6 +20,9 @@ struct LoopFault {
     FixedText<255> reason;  ///< no heap before the output is off
 };
 
+/// What the report's status says of the train.
+[[nodiscard]] TrainReadBack readBackOf(const TrainReport& report) noexcept;
+
 class DeliveryJudge {
 public:
     /// All outlive the judge, which keeps `load` up to date. `source`: the stimulator's.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/devices/DeviceUri.h"
 #include "core/safety/TrainCheck.h"
 
 namespace tacto {
@@ -25,6 +26,13 @@ bool isPlausible(const StimulatorStatus& status) noexcept {
            (!status.imbalanceUncertainty || fine(*status.imbalanceUncertainty));
 }
 }  // namespace
+
+Result<std::unique_ptr<UnitRecord>> takeUpUnit(const DeviceIdentity& stimulator, const UnitFolders& folders,
+                                               const Clock& clock, const SystemTime& time, SafetyGate& gate) {
+    auto record = UnitRecord::open(folders, unitOf(stimulator.serial, stimulator.uri), clock, time);
+    if (record) gate.continueFrom(**record);
+    return record;
+}
 
 void StimulatorSession::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
     const Instant latest = onset + kBeginsWithin + durationOf(train.train());

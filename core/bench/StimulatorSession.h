@@ -9,8 +9,15 @@
 #pragma once
 
 #include "core/bench/OutputSession.h"
+#include "core/safety/UnitRecord.h"
 
 namespace tacto {
+
+/// The record of a stimulator that is real, from which `gate` goes on. Both, `clock` and `time` outlive the use of it.
+/// Errors: as UnitRecord::open().
+[[nodiscard]] Result<std::unique_ptr<UnitRecord>> takeUpUnit(const DeviceIdentity& stimulator,
+                                                             const UnitFolders& folders, const Clock& clock,
+                                                             const SystemTime& time, SafetyGate& gate);
 
 struct TrainOrder {
     ApprovedTrain train;

@@ -47,7 +47,7 @@ Result<void> CalibrationStore::add(const StoredCalibration& calibration) {
     for (const auto& time : kStoredTimes) {
         if (calibration.*time.line) continue;
         return fail(ErrorCode::InvalidArgument, "calibration of {}: no {}; all four quantities were expected",
-                    calibration.serial, time.title);
+                    calibration.serial, time.words);
     }
     const auto added = lines_.append([&]() -> Result<nlohmann::json> {
         if (auto done = read(); !done) return failure(done);  // another process may have added one since
@@ -94,7 +94,7 @@ Result<StoredCalibration> CalibrationStore::valid(std::string_view serial, std::
         return fail(ErrorCode::NotFound,
                     "the calibration of stimulator {} of {} is without its {}; one of amplitude, interval, phase width "
                     "and gap is expected",
-                    serial, dateText(found->made), time.title);
+                    serial, dateText(found->made), time.words);
     }
     if (day < found->made || day > found->validUntil) {
         return fail(ErrorCode::NotFound,

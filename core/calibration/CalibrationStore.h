@@ -55,15 +55,7 @@ struct StoredCalibration {
     std::vector<CalibrationInstrument> instruments;
 };
 
-/// The times of a calibration by what files and scripts call them, and people.
-struct StoredTime {
-    std::string_view key;
-    std::string_view title;
-    std::optional<StoredLine> StoredCalibration::*line;
-};
-inline constexpr std::array<StoredTime, 3> kStoredTimes{{{"interval", "interval", &StoredCalibration::interval},
-                                                         {"width", "phase width", &StoredCalibration::phaseWidth},
-                                                         {"gap", "inter-phase gap", &StoredCalibration::gap}}};
+inline constexpr auto kStoredTimes = kTimeLines<StoredCalibration>;
 /// The lines with their spread: U and the largest residual. Where the residual is not stated, U alone, or ± 5 % where
 /// that is more.
 [[nodiscard]] StimulatorCalibration linesOf(const StoredCalibration& stored);

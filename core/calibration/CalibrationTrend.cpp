@@ -8,9 +8,9 @@
 namespace tacto {
 
 const StoredLine* lineOf(const StoredCalibration& stored, std::string_view quantity) {
-    if (quantity == "amplitude") return &stored.amplitude;
+    if (quantity == kCalibratedAmplitude.id) return &stored.amplitude;
     for (const auto& time : kStoredTimes) {
-        if (time.key == quantity && stored.*time.line) return &*(stored.*time.line);
+        if (time.id == quantity && stored.*time.line) return &*(stored.*time.line);
     }
     return nullptr;
 }

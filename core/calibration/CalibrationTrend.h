@@ -16,7 +16,7 @@
 
 namespace tacto {
 
-/// "amplitude", or a key of kStoredTimes.
+/// By the id of a calibrated quantity. Null where there is none.
 [[nodiscard]] const StoredLine* lineOf(const StoredCalibration& stored, std::string_view quantity);
 
 struct TrendPoint {

@@ -55,7 +55,7 @@ RecordFields<StoredCalibration> buildCalibrationFields() {
     all.text("device", &C::device, kAnyText).required = true;
     all.text("unit", &C::unit, kAnyText).required = true;
     addLine(all, &C::amplitude);  // at the top: files were written so before times were kept
-    for (const auto& time : kStoredTimes) all.record(time.key, time.line, line).leftOutIfEmpty = true;
+    for (const auto& time : kStoredTimes) all.record(time.id, time.line, line).leftOutIfEmpty = true;
     all.add("made", &C::made, dateKind()).required = true;
     all.add("valid_until", &C::validUntil, dateKind()).required = true;
     all.flag("simulated", &C::simulated).required = true;
@@ -111,10 +111,10 @@ Result<void> check(const StoredCalibration& c) {
     if (c.unit != "V" && c.unit != "mA") {
         return fail(ErrorCode::InvalidArgument, "calibration of {}: unit '{}'; V or mA was expected", c.serial, c.unit);
     }
-    if (auto sane = checkLine(c.amplitude, c.serial, "amplitude"); !sane) return sane;
+    if (auto sane = checkLine(c.amplitude, c.serial, kCalibratedAmplitude.words); !sane) return sane;
     for (const auto& time : kStoredTimes) {
         if (!(c.*time.line)) continue;
-        if (auto sane = checkLine(*(c.*time.line), c.serial, time.title); !sane) return sane;
+        if (auto sane = checkLine(*(c.*time.line), c.serial, time.words); !sane) return sane;
     }
     if (!c.made.ok() || !c.validUntil.ok() || c.validUntil < c.made) {
         return fail(ErrorCode::InvalidArgument, "calibration of {}: valid until {}; a day from {} on was expected",

@@ -9,17 +9,10 @@
 #include <string_view>
 
 #include "core/base/Result.h"
+#include "core/base/Role.h"
 #include "core/base/Units.h"
-#include "core/base/Words.h"
 
 namespace tacto {
-
-enum class Role { Sensor, Stimulator, Oscilloscope, Massager };
-inline constexpr Word<Role> kRoles[] = {{"sensor", Role::Sensor},
-                                        {"stimulator", Role::Stimulator},
-                                        {"oscilloscope", Role::Oscilloscope},
-                                        {"massager", Role::Massager}};
-[[nodiscard]] constexpr std::string_view nameOf(Role role) noexcept { return wordFor(kRoles, role, "device"); }
 
 struct DeviceIdentity {
     std::string uri;  ///< opens this device again

@@ -12,14 +12,12 @@ Seconds programmed(Seconds wanted, const std::optional<CalibrationLine>& line) n
 
 template <class Check>
 Result<void> ofEachLine(const StimulatorCalibration& c, Check check) {
-    if (auto sound = check(c.amplitude, "amplitude"); !sound) return sound;
-    if (c.interval) {
-        if (auto sound = check(*c.interval, "interval"); !sound) return sound;
+    if (auto sound = check(c.amplitude, kCalibratedAmplitude.words); !sound) return sound;
+    for (const auto& time : kTimeLines<StimulatorCalibration>) {
+        if (!(c.*time.line)) continue;
+        if (auto sound = check(*(c.*time.line), time.words); !sound) return sound;
     }
-    if (c.phaseWidth) {
-        if (auto sound = check(*c.phaseWidth, "phase width"); !sound) return sound;
-    }
-    return c.gap ? check(*c.gap, "inter-phase gap") : Result<void>();
+    return {};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include <optional>
 
+#include "core/encoding/CalibratedQuantity.h"
 #include "core/encoding/CalibrationLine.h"
 #include "core/encoding/PulseTrain.h"
 
@@ -25,6 +26,15 @@ struct StimulatorCalibration {
     [[nodiscard]] bool complete() const noexcept { return interval && phaseWidth && gap; }
     bool operator==(const StimulatorCalibration&) const = default;
 };
+/// A time, and the member that is its line: of StimulatorCalibration or StoredCalibration.
+template <class Calibration>
+struct TimeLine : CalibratedQuantity {
+    decltype(&Calibration::interval) line;
+};
+template <class Calibration>
+inline constexpr std::array<TimeLine<Calibration>, 3> kTimeLines{{{kCalibratedInterval, &Calibration::interval},
+                                                                  {kCalibratedWidth, &Calibration::phaseWidth},
+                                                                  {kCalibratedGap, &Calibration::gap}}};
 using KnownLines = std::optional<StimulatorCalibration>;  ///< nothing: everything is as it is programmed
 
 /// Errors: as for one line, of the first that has one.

@@ -25,12 +25,6 @@ void addRectangle(std::span<double> out, double from, double to, double level) n
 
 }  // namespace
 
-std::size_t sampleCount(const PulseTrain& train, Hertz sampleRate) noexcept {
-    const double samples = train.duration().count() * sampleRate.value();
-    if (!(samples > 0) || !(samples < 1e15)) return 0;
-    return static_cast<std::size_t>(std::ceil(samples * (1 - 1e-12)));
-}
-
 Result<void> synthesize(const PulseTrain& train, Hertz sampleRate, std::span<double> out, Seconds start) {
     if (auto valid = validate(train); !valid) return valid;
     const double fs = sampleRate.value();

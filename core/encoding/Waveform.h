@@ -8,15 +8,11 @@
 // Thread-safety: pure functions; the caller owns the buffer, nothing allocates.
 #pragma once
 
-#include <cstddef>
 #include <span>
 
 #include "core/encoding/PulseTrain.h"
 
 namespace tacto {
-
-/// Samples that hold the whole train, n / rate long, at `sampleRate`.
-[[nodiscard]] std::size_t sampleCount(const PulseTrain& train, Hertz sampleRate) noexcept;
 
 /// Fills `out` with the train's level in V or A. Sample k covers `start` + [k, k + 1)/sampleRate, time 0 being the
 /// leading edge; outside the pulses (gap, rest, before and after) the level is 0. Errors: InvalidArgument as

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/JsonFields.h"
+#include "core/base/RecordFields.h"
 
 namespace tacto {
 
@@ -14,65 +16,68 @@ using nlohmann::json;
 constexpr std::string_view kMark = "# tactoscope {";
 constexpr std::string_view kComment = "# tactoscope ";
 
-/// A tolerance: stated, and not below zero.
-double toleranceOr(const json& object, const char* key) {
-    const double value = numberOr(object, key);
-    return value >= 0 ? value : kNaN;
+constexpr AcceptedText kAnyText{.mayBeEmpty = true};
+constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
+
+/// A tolerance: stated, and not below zero; else NaN.
+ValueKind<double> toleranceKind() {
+    return codedKind<double>(
+        "a number of 0 or more, or null",
+        [](const json& value) {
+            const double stated = numberOr(value);
+            return std::optional(stated >= 0 ? stated : kNaN);
+        },
+        numberOrNull);
+}
+
+RecordFields<Capture> buildCaptureFields() {
+    using H = CaptureChannel;
+    RecordFields<H> channel;
+    channel.texts({{"name", &H::name}, {"unit", &H::unit}, {"stated_by", &H::statedBy}}, kAnyText);
+    channel.number("low", &H::low);
+    channel.number("high", &H::high);
+    channel.number("lsb", &H::lsb);
+    channel.add("gain_tolerance", &H::gainTolerance, toleranceKind());
+    channel.add("offset_tolerance", &H::offsetTolerance, toleranceKind());
+    channel.add("linearity_tolerance", &H::linearityTolerance, toleranceKind());
+    channel.add("probe_tolerance", &H::probeTolerance, toleranceKind());
+    channel.passOverUnknownKeys();
+
+    using C = Capture;
+    RecordFields<C> all;
+    all.number("rate_hz", &C::rate_hz);
+    all.number("start_s", &C::start_s);
+    all.number("trigger_s", &C::trigger_s);
+    all.flag("simulated", &C::simulated);
+    all.add("timebase_tolerance", &C::timeBaseTolerance, toleranceKind());
+    all.add("stamp_tolerance_s", &C::stampTolerance_s, toleranceKind());
+    all.list("channels", &C::channels, channel.kind(), 0, kAnyNumber);
+    all.passOverUnknownKeys();
+    return all;
+}
+
+const RecordFields<Capture>& captureFields() {
+    static const auto fields = buildCaptureFields();
+    return fields;
 }
 
 }  // namespace
 
-json describeCapture(const Capture& capture) {
-    auto channels = json::array();
-    for (const auto& channel : capture.channels) {
-        channels.push_back({{"name", channel.name},
-                            {"unit", channel.unit},
-                            {"low", channel.low},
-                            {"high", channel.high},
-                            {"lsb", channel.lsb},
-                            {"gain_tolerance", numberOrNull(channel.gainTolerance)},
-                            {"offset_tolerance", numberOrNull(channel.offsetTolerance)},
-                            {"linearity_tolerance", numberOrNull(channel.linearityTolerance)},
-                            {"probe_tolerance", numberOrNull(channel.probeTolerance)},
-                            {"stated_by", channel.statedBy}});
-    }
-    return {{"rate_hz", capture.rate_hz},
-            {"start_s", capture.start_s},
-            {"trigger_s", numberOrNull(capture.trigger_s)},
-            {"simulated", capture.simulated},
-            {"timebase_tolerance", numberOrNull(capture.timeBaseTolerance)},
-            {"stamp_tolerance_s", numberOrNull(capture.stampTolerance_s)},
-            {"channels", std::move(channels)}};
-}
+json describeCapture(const Capture& capture) { return captureFields().write(capture); }
 
 std::optional<Capture> captureDescribed(const json& description) {
-    if (!description.is_object()) return std::nullopt;
-    const auto channels = description.find("channels");
-    if (channels == description.end() || !channels->is_array()) return std::nullopt;
+    const auto channels = valueOr(description, "channels");
+    const auto isObject = [](const json& value) { return value.is_object(); };
+    if (!channels.is_array() || !std::all_of(channels.begin(), channels.end(), isObject)) return std::nullopt;
     Capture capture;
-    capture.rate_hz = numberOr(description, "rate_hz");
-    capture.start_s = numberOr(description, "start_s");
-    capture.trigger_s = numberOr(description, "trigger_s");
-    capture.simulated = flagOr(description, "simulated");
-    capture.timeBaseTolerance = toleranceOr(description, "timebase_tolerance");
-    capture.stampTolerance_s = toleranceOr(description, "stamp_tolerance_s");
-    for (const auto& each : *channels) {
-        if (!each.is_object()) return std::nullopt;
-        auto& channel = capture.channels.emplace_back();
-        channel.name = textOr(each, "name");
-        channel.unit = textOr(each, "unit");
-        channel.low = numberOr(each, "low");
-        channel.high = numberOr(each, "high");
-        channel.lsb = numberOr(each, "lsb");
-        channel.gainTolerance = toleranceOr(each, "gain_tolerance");
-        channel.offsetTolerance = toleranceOr(each, "offset_tolerance");
-        channel.linearityTolerance =
-            each.contains("linearity_tolerance") ? toleranceOr(each, "linearity_tolerance") : 0;
-        channel.probeTolerance = toleranceOr(each, "probe_tolerance");
-        channel.statedBy = textOr(each, "stated_by");
+    capture.rate_hz = capture.start_s = capture.trigger_s = kNaN;
+    static_cast<void>(captureFields().read(description, capture, {.lenient = true}));
+    for (std::size_t i = 0; i < channels.size(); ++i) {
         // Older files have 0 where the instrument did not state a tolerance.
-        if (!each.contains("stated_by") && channel.gainTolerance == 0) channel.gainTolerance = kNaN;
-        if (!each.contains("stated_by") && channel.offsetTolerance == 0) channel.offsetTolerance = kNaN;
+        if (channels[i].contains("stated_by")) continue;
+        for (double* stated : {&capture.channels[i].gainTolerance, &capture.channels[i].offsetTolerance}) {
+            if (*stated == 0) *stated = kNaN;
+        }
     }
     return capture;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/analysis/identification/IdentificationJson.h"
 #include "core/base/JsonFields.h"
 #include "core/session/SessionWriter.h"
 
@@ -56,21 +57,6 @@ std::size_t PilotRecord::count(std::string_view kind) const {
 std::size_t PilotRecord::begun(const std::string& name) const {
     const auto found = begun_.find(name);
     return found != begun_.end() ? found->second : 0;
-}
-
-IdentificationTrial identificationTrialFrom(const nlohmann::json& body) {
-    IdentificationTrial trial;
-    trial.number = countOr(body, "number");
-    if (const auto phase = trialPhaseFrom(textOr(body, "phase"))) trial.phase = *phase;
-    trial.block = countOr(body, "block");
-    trial.condition = textOr(body, "condition");
-    trial.response = textOr(body, "response");
-    trial.attempt = countOr(body, "attempt");
-    trial.rt_s = numberOr(body, "rt_s");
-    trial.current = Milliamps(numberOr(body, "current_ma"));
-    trial.interval_s = numberOr(body, "interval_s");
-    trial.trains = countOr(body, "trains");
-    return trial;
 }
 
 PilotTrials pilotTrials(const std::vector<SessionRow>& rows) {

@@ -116,9 +116,6 @@ struct OpenTrial {
     bool operator==(const OpenTrial&) const = default;
 };
 
-/// The trial in the body of an `answer` or `no-answer` row; what is missing keeps its default, or is NaN.
-[[nodiscard]] IdentificationTrial identificationTrialFrom(const nlohmann::json& body);
-
 /// What the rows of all parts of a session say of its trials with a number: those of the plan.
 struct PilotTrials {
     nlohmann::json plan;                      ///< [{number, phase, block, condition}]; null where none is stored

@@ -10,6 +10,7 @@
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/base/Units.h"
 #include "core/encoding/EncodingProfile.h"
+#include "core/study/StudySettings.h"
 
 namespace tacto {
 
@@ -32,9 +33,9 @@ struct PilotSettings {
     int catchTrials = 2;    ///< of a block
     double adaptation = 0;  ///< noted only; the virtual participant has it
 
-    /// What the participant feels it through, as the record says it: "electrodes" or "massager".
-    [[nodiscard]] const char* modality() const noexcept {
-        return unit == LevelUnit::Intensity ? "massager" : "electrodes";
+    /// What the participant feels it through, as the record says it.
+    [[nodiscard]] std::string_view modality() const noexcept {
+        return nameOf(unit == LevelUnit::Intensity ? Modality::Massager : Modality::Electrodes);
     }
 };
 

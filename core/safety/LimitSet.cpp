@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/Csv.h"
-#include "core/base/GivenOnce.h"
 #include "core/base/RecordFields.h"
 
 namespace tacto {
@@ -114,35 +112,22 @@ Result<LimitSet> parseLimitSet(std::string_view text, std::string_view name) {
     return fields.read(*document, {.file = std::string(name)}).map_error(asParseError);
 }
 
+std::string_view shortTitleOf(std::string_view id) noexcept {
+    if (id == "fda-pms") return "FDA guidance";
+    if (id == "iec-60601-2-10") return "IEC 60601-2-10";
+    if (id == "paper") return "the paper";
+    if (id == "gate") return "this program";  // what it refuses, and must
+    if (id == "interlock") return "the rules of arming";
+    if (id == "laboratory") return "the laboratory";
+    return id;
+}
+
 std::string_view titleOf(std::span<const LimitSet> sets, std::string_view id) noexcept {
     if (id == "profile") return "the encoding profile";
     for (const auto& set : sets) {
         if (set.id == id) return set.title;
     }
     return id;
-}
-
-Result<LimitSet> loadLimitSet(const std::filesystem::path& file) {
-    const auto text = readTextFile(file, JsonLimits{}.bytes);
-    if (!text) return failure(text);
-    return parseLimitSet(*text, file.filename().string());
-}
-
-Result<std::vector<LimitSet>> loadLimitSets(const std::filesystem::path& folder) {
-    const auto files = documentsIn(folder);
-    if (!files) return failure(files);
-    if (files->empty()) return fail(ErrorCode::NotFound, "no limit sets (*.json) in {}", folder.string());
-    std::vector<LimitSet> sets;
-    for (const auto& file : *files) {
-        auto set = loadLimitSet(file);
-        if (!set) return failure(set);
-        sets.push_back(std::move(*set));
-        if (const auto* second = secondIn(sets, &LimitSet::id)) {
-            return fail(ErrorCode::ParseError, "{}: {}", file.filename().string(),
-                        givenTwice("the limit set {}", second->id));
-        }
-    }
-    return sets;
 }
 
 }  // namespace tacto

@@ -4,7 +4,6 @@
 // Thread-safety: plain data and pure functions.
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -78,15 +77,12 @@ struct LimitSet {
 /// where no set has it.
 [[nodiscard]] std::string_view titleOf(std::span<const LimitSet> sets, std::string_view id) noexcept;
 
+/// The same in two words, and who else refuses: "the paper", "this program" for "gate". The id itself where there are
+/// none.
+[[nodiscard]] std::string_view shortTitleOf(std::string_view id) noexcept;
+
 /// Reads one limit set. `name` stands in messages for the file's name.
 /// Errors: ParseError, one sentence naming file, row and what would be accepted. Never throws, whatever the text.
 [[nodiscard]] Result<LimitSet> parseLimitSet(std::string_view json, std::string_view name);
-
-/// Errors: NotFound, Io, ParseError; also a file over 1 MB.
-[[nodiscard]] Result<LimitSet> loadLimitSet(const std::filesystem::path& file);
-
-/// All *.json of a folder, by file name. Errors: NotFound for a missing folder or one without a limit set;
-/// ParseError also for two sets with one id.
-[[nodiscard]] Result<std::vector<LimitSet>> loadLimitSets(const std::filesystem::path& folder);
 
 }  // namespace tacto

@@ -350,11 +350,6 @@ std::optional<Milliamps> SafetyGate::levelCeiling(const PulseTrain& train) const
     return state_->levels->ceilingFor(train);
 }
 
-std::optional<LoadRange> SafetyGate::loadRange() const {
-    if (!state_->setup) return std::nullopt;
-    return state_->load;
-}
-
 void SafetyGate::latchStop() noexcept { epoch_.fetch_add(1, std::memory_order_acq_rel); }
 
 bool SafetyGate::isCurrent(std::uint64_t epoch, Instant expires) const noexcept {

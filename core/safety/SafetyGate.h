@@ -141,9 +141,6 @@ public:
     /// The highest current that a train of this kind may have now; nothing outside person mode.
     [[nodiscard]] std::optional<Milliamps> levelCeiling(const PulseTrain& train) const noexcept;
 
-    /// The loads that requests are judged at now; nothing before configure().
-    [[nodiscard]] std::optional<LoadRange> loadRange() const;
-
     /// Voids every approval handed out so far. Irreversible for those approvals.
     void latchStop() noexcept;
 

@@ -42,7 +42,6 @@ struct TrainJudgement {
     TrainFinding finding = TrainFinding::Pending;
     ChargeBalance balance = ChargeBalance::NotEvaluated;
     FixedText<159> reason;  ///< one sentence unless Ok or Pending
-    [[nodiscard]] bool released() const noexcept { return finding == TrainFinding::Ok; }
     /// True when output must go off now.
     [[nodiscard]] bool stops() const noexcept {
         return finding != TrainFinding::Ok && finding != TrainFinding::Pending;

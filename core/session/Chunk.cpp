@@ -3,13 +3,57 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
-#include "core/base/JsonText.h"
+#include "core/base/NaN.h"
+#include "core/base/RecordFields.h"
 
 namespace tacto {
 
 static_assert(std::endian::native == std::endian::little, "session files are little-endian");
+
+namespace {
+
+/// A number of the line, which stands in an object of its own nowhere.
+ValueKind<ChunkHead> lineKind(double StampLine::*number) {
+    ValueKind<ChunkHead> kind;
+    kind.info.accepted = "a number";
+    kind.reads([number](const nlohmann::json& value, ChunkHead& head, const RecordPlace& place,
+                        std::string_view key) -> Result<void> {
+        if (!value.is_number()) return place.refuse(ErrorCode::ParseError, key, shownJson(value), "a number");
+        if (!head.line) head.line = StampLine{kNaN, kNaN};
+        (*head.line).*number = value.get<double>();
+        return {};
+    });
+    kind.writes([number](const ChunkHead& head) {
+        return head.line ? nlohmann::json((*head.line).*number) : nlohmann::json();
+    });
+    return kind;
+}
+
+RecordFields<ChunkHead> buildChunkFields() {
+    using C = ChunkHead;
+    RecordFields<C> all;
+    all.number("stream", &C::stream, {.low = 0}).required = true;
+    all.number("index", &C::index, {.low = 0}).required = true;
+    all.number("first", &C::firstSample).required = true;
+    all.number("samples", &C::samples).required = true;
+    all.number("crc32", &C::crc).required = true;
+    all.add("t0_s", std::identity{}, lineKind(&StampLine::t0_s)).leftOutIfEmpty = true;
+    all.add("step_s", std::identity{}, lineKind(&StampLine::step_s)).leftOutIfEmpty = true;
+    all.passOverUnknownKeys();
+    all.rule([](const C& head) -> Result<void> {
+        if (!head.line || !(std::isnan(head.line->t0_s) || std::isnan(head.line->step_s))) return {};
+        return fail(ErrorCode::ParseError, "it has one of t0_s and step_s; both or neither was expected");
+    });
+    return all;
+}
+
+const RecordFields<ChunkHead>& chunkFields() {
+    static const auto fields = buildChunkFields();
+    return fields;
+}
+
+}  // namespace
 
 std::optional<StampLine> lineThrough(std::span<const double> t_s) noexcept {
     if (t_s.empty() || !std::isfinite(t_s.front()) || !std::isfinite(t_s.back())) return std::nullopt;
@@ -21,41 +65,13 @@ std::optional<StampLine> lineThrough(std::span<const double> t_s) noexcept {
     return StampLine{t0, step};
 }
 
-std::string toJsonText(const ChunkHead& head) {
-    nlohmann::json json = {{"stream", head.stream},
-                           {"index", head.index},
-                           {"first", head.firstSample},
-                           {"samples", head.samples},
-                           {"crc32", head.crc}};
-    if (head.line) {
-        json["t0_s"] = head.line->t0_s;
-        json["step_s"] = head.line->step_s;
-    }
-    return dumpJson(json);
-}
+std::string toJsonText(const ChunkHead& head) { return dumpJson(chunkFields().write(head)); }
 
 Result<ChunkHead> parseChunkHead(std::string_view text) {
-    const auto parsed = parseJson(text, "the description of a chunk");
-    if (!parsed) return failure(parsed);
-    const auto& json = *parsed;
-    const auto isCount = [&](const char* key) { return json.contains(key) && json[key].is_number_unsigned(); };
-    if (!json.is_object() || !isCount("stream") || !isCount("index") || !isCount("first") || !isCount("samples") ||
-        !isCount("crc32")) {
-        return fail(ErrorCode::ParseError, "the description of a chunk reads '{}'", text);
-    }
-    ChunkHead head;
-    head.stream = json["stream"].get<int>();
-    head.index = json["index"].get<std::int64_t>();
-    head.firstSample = json["first"].get<std::uint64_t>();
-    head.samples = json["samples"].get<std::uint64_t>();
-    head.crc = json["crc32"].get<std::uint32_t>();
-    if (json.contains("t0_s")) {
-        if (!json["t0_s"].is_number() || !json.contains("step_s") || !json["step_s"].is_number()) {
-            return fail(ErrorCode::ParseError, "the time stamps of a chunk read '{}'", text);
-        }
-        head.line = StampLine{json["t0_s"].get<double>(), json["step_s"].get<double>()};
-    }
-    return head;
+    constexpr const char* kPlace = "the description of a chunk";
+    const auto json = parseJson(text, kPlace);
+    if (!json) return failure(json);
+    return chunkFields().read(*json, {.file = kPlace}).map_error(asParseError);
 }
 
 Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<const std::byte> stamps,

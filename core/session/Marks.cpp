@@ -66,7 +66,7 @@ Result<std::vector<std::string>> sessionMarks(const SessionReader& session) {
     const auto recorded = recordedIn(*events);
     if (recorded.uncalibratedStimulator) marks.emplace_back("The stimulator is not calibrated.");
     marks.insert(marks.end(), recorded.flags.begin(), recorded.flags.end());
-    const bool felt = std::ranges::any_of(about.devices, [](const auto& device) { return device.role == "sensor"; });
+    const bool felt = std::ranges::any_of(about.devices, [](const auto& device) { return device.is(Role::Sensor); });
     const bool uncalibrated =
         std::ranges::find(recorded.flags, nameOf(RoughnessFlag::UncalibratedR)) != recorded.flags.end();
     if (felt && recorded.complete && !uncalibrated) marks.push_back(uncertaintyText(recorded));

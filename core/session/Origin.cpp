@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-std::string nounOf(const SessionDevice& device) { return device.role == "sensor" ? "fingertip sensor" : device.role; }
+std::string nounOf(const SessionDevice& device) { return device.is(Role::Sensor) ? "fingertip sensor" : device.role; }
 
 std::string named(const SessionDevice& device) {
     auto text = nounOf(device);
@@ -28,7 +28,7 @@ std::string deliveredText(const Delivered& delivered) {
     return text;
 }
 
-bool isOutput(const SessionDevice& device) { return device.role == "stimulator" || device.role == "massager"; }
+bool isOutput(const SessionDevice& device) { return device.is(Role::Stimulator) || device.is(Role::Massager); }
 
 }  // namespace
 

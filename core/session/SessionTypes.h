@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/Role.h"
 #include "core/base/Units.h"
 
 namespace tacto {
@@ -29,12 +30,13 @@ inline constexpr const char* kCertificateEvent = "oscilloscope certificate";
 /// One device of the session.
 struct SessionDevice {
     std::string uri;
-    std::string role;  ///< "sensor", "stimulator", "oscilloscope", "massager"
+    std::string role;  ///< its word
     std::string name;
     std::string serial;
     std::string firmware;
     bool simulated = false;
     std::string origin{};  ///< one of core/session/Origin.h; empty in sessions from before it was said
+    [[nodiscard]] bool is(Role wanted) const noexcept { return role == nameOf(wanted); }
     bool operator==(const SessionDevice&) const = default;
 };
 

@@ -33,7 +33,6 @@ struct UsbContext::Callbacks {
         } catch (...) {
             return 0;  // no memory for one more entry: the device stays unlisted until it is plugged in again
         }
-        self.changed_.notify_all();
         if (gone != nullptr) libusb_unref_device(gone);
         return 0;
     }
@@ -117,13 +116,6 @@ Result<UsbDeviceInfo> UsbContext::find(const UsbIdentity& wanted, std::string_vi
     }
     if (!list.front().permitted) return tl::unexpected(Error{ErrorCode::Io, list.front().obstacle()});
     return list.front();
-}
-
-std::uint64_t UsbContext::waitForChange(std::uint64_t seen, Seconds timeout) const {
-    const auto deadline = deadlineAfter(timeout).value_or(std::chrono::steady_clock::now());
-    std::unique_lock lock(mutex_);
-    changed_.wait_until(lock, deadline, [&] { return generation() != seen; });
-    return generation();
 }
 
 Result<libusb_device_handle*> UsbContext::openHandle(const UsbDeviceInfo& info) const {

@@ -1,8 +1,7 @@
 // UsbContext.h - libusb, running: one context with an event thread of its own, and the list of what is plugged in.
 //
 // Every transfer's callback runs on the event thread; none of them calls into a driver or a program. A caller that
-// wants to know of plugging and unplugging compares generation() from time to time (a window), or waits in
-// waitForChange() (a command, a thread).
+// wants to know of plugging and unplugging compares generation() from time to time.
 //
 // Ownership: shared; open devices hold it, so that it ends after the last of them. It must not be let go on the event
 // thread; nothing of this library does.
@@ -10,7 +9,6 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -46,9 +44,6 @@ public:
 
     /// Grows with each device that comes or goes.
     [[nodiscard]] std::uint64_t generation() const noexcept { return generation_.load(std::memory_order_acquire); }
-    /// Waits until generation() differs from `seen` or the time is over; returns generation().
-    /// `timeout`: 0 to 3600 s; another is taken as 0.
-    [[nodiscard]] std::uint64_t waitForChange(std::uint64_t seen, Seconds timeout) const;
 
     /// For UsbDevice: opens a listed device, if it was not unplugged meanwhile. The caller closes it, never on the
     /// event thread. Errors: NotFound; Io (not permitted, or the system refused).
@@ -66,8 +61,7 @@ private:
     std::thread events_;
     std::atomic<bool> ending_{false};
     std::atomic<std::uint64_t> generation_{0};
-    mutable std::mutex mutex_;  // never held while libusb opens or closes: see UsbContext.cpp
-    mutable std::condition_variable changed_;
+    mutable std::mutex mutex_;             // never held while libusb opens or closes: see UsbContext.cpp
     std::vector<libusb_device*> present_;  // referenced; guarded by mutex_
 };
 

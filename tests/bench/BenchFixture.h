@@ -10,6 +10,7 @@
 #include "core/bench/Bench.h"
 #include "core/session/SessionWriter.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/support/Limits.h"
 #include "tests/support/RealLookingStimulator.h"
 #include "tests/support/Support.h"
 
@@ -41,9 +42,7 @@ protected:
         config.devices = std::move(*devices);
         config.clock = clock_;
         config.profile = profile_;
-        auto limits = loadLimitSets(sourceDir() / "resources" / "limits");
-        ASSERT_TRUE(limits) << limits.error().message;
-        config.limits = std::move(*limits);
+        config.limits = limitSets();
         config.session = session_;
         config.calibration = calibration_;
         config.calibrationHolds = calibrationHolds_;

@@ -8,6 +8,7 @@
 #include "core/electrode/Load.h"
 #include "core/safety/UnitRecord.h"
 #include "tests/bench/FakeStimulator.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -51,7 +52,7 @@ protected:
         BenchConfig config;
         config.devices.stimulator = std::move(unit);
         config.clock = clock_;
-        config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
+        config.limits = limitSets();
         config.units = {folder_.path(), claims_.path()};
         config.systemTime = &time_;
         auto made = Bench::create(std::move(config));

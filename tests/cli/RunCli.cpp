@@ -25,33 +25,6 @@ std::vector<char*> pointersTo(Words& words) {
     return pointers;
 }
 
-/// With signals as in a terminal, whatever the test's own parent ignores or blocks.
-pid_t spawn(Words& words, Words& environment, const std::string& folder, const std::string& out,
-            const std::string& err) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t defaults;
-    sigemptyset(&defaults);
-    sigset_t mask = defaults;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&defaults, signal);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setsigmask(&attributes, &mask);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-    pid_t pid = -1;
-    const int failed = posix_spawn(&pid, words[0].c_str(), &actions, &attributes, pointersTo(words).data(),
-                                   pointersTo(environment).data());
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) throw std::runtime_error(words[0] + " cannot be started: " + std::strerror(failed));
-    return pid;
-}
-
 }  // namespace
 
 std::string contentOf(const std::filesystem::path& file) {
@@ -74,14 +47,39 @@ Words Desk::environment() const {
     return kept;
 }
 
+pid_t Desk::spawn(const Words& words, posix_spawn_file_actions_t& actions, short flags) const {
+    posix_spawn_file_actions_addchdir_np(&actions, path().c_str());
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t defaults;
+    sigemptyset(&defaults);
+    sigset_t mask = defaults;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&defaults, signal);
+    posix_spawnattr_setsigdefault(&attributes, &defaults);
+    posix_spawnattr_setsigmask(&attributes, &mask);
+    posix_spawnattr_setflags(&attributes, static_cast<short>(flags | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK));
+    Words command{TACTO_CLI};
+    command.insert(command.end(), words.begin(), words.end());
+    auto kept = environment();
+    pid_t pid = -1;
+    const int failed =
+        posix_spawn(&pid, TACTO_CLI, &actions, &attributes, pointersTo(command).data(), pointersTo(kept).data());
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    if (failed != 0) throw std::runtime_error(std::string(TACTO_CLI " cannot be started: ") + std::strerror(failed));
+    return pid;
+}
+
 Desk::Started::Started(const Desk& desk, const Words& words)
     : out_(desk.streams_.path() / (std::to_string(desk.count_) + ".out")),
       err_(desk.streams_.path() / (std::to_string(desk.count_) + ".err")) {
     ++desk.count_;
-    Words command{TACTO_CLI};
-    command.insert(command.end(), words.begin(), words.end());
-    auto environment = desk.environment();
-    pid_ = spawn(command, environment, desk.path().string(), out_.string(), err_.string());
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, 2, err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    pid_ = desk.spawn(words, actions);
     ended_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
     if (ended_ < 0) throw std::runtime_error("pidfd_open failed");
 }

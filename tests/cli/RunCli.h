@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <spawn.h>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -49,6 +50,10 @@ public:
 
     [[nodiscard]] Ran run(const Words& words) const { return start(words).wait(); }
     [[nodiscard]] Started start(const Words& words) const { return {*this, words}; }
+
+    /// Starts the program with these streams, and with signals as in a terminal, whatever the test's own parent ignores
+    /// or blocks. Destroys `actions`.
+    [[nodiscard]] pid_t spawn(const Words& words, posix_spawn_file_actions_t& actions, short flags = 0) const;
 
     [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
     /// What the program is started with: no display, none of the tester's own settings, and a home of the desk's.

@@ -30,29 +30,7 @@ TerminalCli::TerminalCli(const Desk& desk, const Words& words, unsigned short co
     posix_spawn_file_actions_addopen(&actions, 0, slave.c_str(), O_RDWR, 0);
     posix_spawn_file_actions_adddup2(&actions, 0, 1);
     posix_spawn_file_actions_adddup2(&actions, 0, 2);
-    posix_spawn_file_actions_addchdir_np(&actions, desk.path().c_str());
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t defaults;
-    sigemptyset(&defaults);
-    sigset_t mask = defaults;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&defaults, signal);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setsigmask(&attributes, &mask);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-    Words command{TACTO_CLI};
-    command.insert(command.end(), words.begin(), words.end());
-    std::vector<char*> pointers;
-    for (auto& word : command) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    Words environment = desk.environment();
-    std::vector<char*> settings;
-    for (auto& setting : environment) settings.push_back(setting.data());
-    settings.push_back(nullptr);
-    const int failed = posix_spawn(&pid_, TACTO_CLI, &actions, &attributes, pointers.data(), settings.data());
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) throw std::runtime_error("tactoscope-cli cannot be started");
+    pid_ = desk.spawn(words, actions, POSIX_SPAWN_SETSID);
 }
 
 TerminalCli::~TerminalCli() {

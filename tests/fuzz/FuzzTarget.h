@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <string>
@@ -22,6 +23,11 @@ using Target = int (*)(const std::uint8_t* data, std::size_t size);
 [[nodiscard]] inline std::map<std::string, Target, std::less<>>& targets() {
     static std::map<std::string, Target, std::less<>> all;
     return all;
+}
+
+/// Ends the program where what must hold does not.
+inline void require(bool held) {
+    if (!held) std::abort();
 }
 
 }  // namespace tacto::fuzz

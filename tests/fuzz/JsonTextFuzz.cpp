@@ -1,7 +1,6 @@
 // Any text for a profile or another JSON file is read as the library reads it, or refused with a sentence (H10): never
 // deeper than it may nest, never with a key that stood twice.
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "core/base/JsonText.h"
@@ -19,10 +18,6 @@ int depthOf(const json& value) {
     if (!value.is_structured()) return 0;
     for (const auto& member : value) deepest = std::max(deepest, depthOf(member));
     return deepest + 1;
-}
-
-void require(bool held) {
-    if (!held) std::abort();
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include "drivers/sciencemode/Exchange.h"
@@ -17,10 +16,6 @@ namespace {
 
 using namespace tacto;
 using namespace tacto::sciencemode;
-
-void require(bool held) {
-    if (!held) std::abort();
-}
 
 PulsePlan samplePlan() {
     PulseTrain train;

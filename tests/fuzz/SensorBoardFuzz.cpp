@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include "drivers/sensor_board/SensorBoard.h"
@@ -17,10 +16,6 @@ namespace {
 
 using namespace tacto;
 using namespace tacto::sensorboard;
-
-void require(bool held) {
-    if (!held) std::abort();
-}
 
 /// Content of any bytes as a frame whose CRC is right.
 std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> content) {

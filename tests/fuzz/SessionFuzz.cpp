@@ -2,7 +2,6 @@
 // H10). The first byte says what the others are: a file as it is, or places in a sound session that are changed, three
 // bytes of position and one that is laid over the one there; or the same, and the file is cut at the last position.
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -23,10 +22,6 @@ namespace {
 
 using namespace tacto;
 using Bytes = std::vector<char>;
-
-void require(bool held) {
-    if (!held) std::abort();
-}
 
 /// A session with a row of every kind, closed in order.
 Bytes soundSession(const std::filesystem::path& path) {

@@ -3,7 +3,6 @@
 // The input: one byte for which kind of row; one byte, how much of the rest is the row's JSON (in 1/256); what remains
 // is its data.
 #include <cstdint>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
@@ -20,10 +19,6 @@ namespace {
 
 using namespace tacto;
 using Data = std::span<const std::byte>;
-
-void require(bool held) {
-    if (!held) std::abort();
-}
 
 void chunk(std::string_view text, Data data) {
     const auto head = parseChunkHead(text);

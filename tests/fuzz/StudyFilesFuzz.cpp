@@ -2,7 +2,6 @@
 // read or refused with a sentence (hazard H10), and nothing that was altered opens (hazards H8 and H11). The first byte
 // says what the others are: study.json; the key file of a rehearsal; changes to a key file under a passphrase, two
 // bytes of position and one that is laid over the one there; rows of a ledger, "NAME JSON" a line; a sealed text.
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -30,9 +29,6 @@ constexpr const char* kStudy = "0123456789abcdef";
 constexpr const char* kPerson = "00112233445566aa";
 constexpr std::size_t kMostRows = 12;  // each is committed to a disk
 
-void require(bool held) {
-    if (!held) std::abort();
-}
 template <class T>
 bool refused(const Result<T>& read) {
     if (read) return false;

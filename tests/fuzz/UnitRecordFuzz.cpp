@@ -2,7 +2,6 @@
 // all of it is as it was written nothing of it is believed, the unit rests, and a fault that may have been there stands
 // (hazards H1 and H2). The first byte says what the others are: changes to a sound record, three bytes of position and
 // one that is laid over the one there; or the whole file.
-#include <cstdlib>
 #include <vector>
 
 #include "core/base/Csv.h"
@@ -19,10 +18,6 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr const char* kUnit = "sciencemode 1234";
 constexpr int kTrainsBooked = 3;
-
-void require(bool held) {
-    if (!held) std::abort();
-}
 
 struct StandingTime final : SystemTime {
     [[nodiscard]] Instant sinceBoot() const noexcept override { return std::chrono::hours(1); }

@@ -1,7 +1,6 @@
 // The log of a session that was cut off by a crash, with any of its bytes changed: judged and read without a crash or a
 // hang (hazard H10), and never with a row more than were written. The input is a list of changes: three bytes of place
 // in the log, one that is laid over the one there; a first byte that is odd cuts the log at the last place.
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -25,10 +24,6 @@ using namespace tacto;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kTrials = 4;
-
-void require(bool held) {
-    if (!held) std::abort();
-}
 
 Bytes bytesOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);

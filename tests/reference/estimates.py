@@ -106,10 +106,6 @@ def figures():
             log_ratio([10, 0, 25, 0.1], [40, 0, 25, 0]),
         ],
         "normal_and_rectangle": normal_and_rectangle(1.1),
-        "ranks": {
-            "values": [0.02, 0.3, 0.25, 0.8, 0.95, 0.95],
-            "ranks": stats.rankdata([0.02, 0.3, 0.25, 0.8, 0.95, 0.95]).tolist(),
-        },
         "spearman": {
             "ties": spearman([1.6, 3.0, 12.0, 24.0, 42.0, 91.0], [0.02, 0.3, 0.25, 0.8, 0.95, 0.95]),
             # Intelligence against hours of television, the worked example of Wikipedia's "Spearman's rank correlation

@@ -320,7 +320,7 @@ void addStateCases(std::vector<GateCase>& cases) {
     // 40 V into 100 ohm: four trains fill 5 s.
     const auto fills = [](SafetyGate& gate, VirtualClock& clock) {
         GateSetup setup = benchSetup(Load::resistor(Ohms(100)));
-        setup.limits = shippedLimits();
+        setup.limits = limitSets();
         if (!gate.configure(setup)) return false;
         for (int k = 0; k < 4; ++k) {
             if (!gate.approve({volts(40), Seconds(10), clock.now()})) return false;
@@ -350,7 +350,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         const auto record = recorded(folder, second.clock);
         second.gate.continueFrom(*record);
         GateSetup setup = benchSetup(Load::resistor(Ohms(100)));
-        setup.limits = shippedLimits();
+        setup.limits = limitSets();
         return second.gate.configure(setup).has_value() && full(second.gate, second.clock);
     });
     add(PastUnknown, "a unit whose record is damaged", [=] {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/safety/SafetyGate.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -29,8 +30,6 @@ inline LimitRow rowFor(Quantity quantity, double max, LimitAction action = Limit
 
 /// Refuses nothing that a test asks for.
 inline LimitSet lenient() { return limitsOf({rowFor(Quantity::PeakVoltage, 1e6)}, "lenient"); }
-
-inline std::vector<LimitSet> shippedLimits() { return loadLimitSets(sourceDir() / "resources" / "limits").value(); }
 
 /// Both deliver exactly what is programmed, so that limits can be met to the last digit.
 inline SourceTraits voltageSource() {
@@ -68,7 +67,7 @@ inline GateSetup personSetup() {
     GateSetup setup;
     setup.mode = OutputMode::Person;
     setup.source = currentSource();
-    setup.limits = shippedLimits();
+    setup.limits = limitSets();
     setup.electrodeArea = SquareCentimetres(1);
     PersonSetup person;
     person.participant = "P01";

@@ -6,16 +6,12 @@
 #include "core/safety/SafetyGate.h"
 #include "core/safety/UnitRecord.h"
 #include "tests/safety/SequenceReferee.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
 
 namespace {
-
-const std::vector<LimitSet>& shippedLimits() {
-    static const std::vector<LimitSet> sets = loadLimitSets(sourceDir() / "resources" / "limits").value();
-    return sets;
-}
 
 /// The computer's time, which goes on with the clock.
 struct ComputerTime final : SystemTime {
@@ -96,7 +92,7 @@ private:
         source_.widthMin = Micros(1);
         source_.deadMan = Seconds(dice_.chance(0.7) ? 2 : 0);
         setup.source = source_;
-        setup.limits = shippedLimits();
+        setup.limits = limitSets();
 
         halving_ = 0;
         const bool capacitive = !allowed.person && theme_ != Near::Rms500 && dice_.chance(0.4);

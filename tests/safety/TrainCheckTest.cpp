@@ -24,7 +24,7 @@ TrainJudgement judge(const TrainReadBack& status, OutputMode mode = OutputMode::
 
 TEST(TrainCheck, AGoodAnswerReleasesTheNextTrain) {
     const auto judgement = judge(goodStatus());
-    EXPECT_TRUE(judgement.released());
+    EXPECT_EQ(judgement.finding, TrainFinding::Ok);
     EXPECT_FALSE(judgement.stops());
     EXPECT_EQ(judgement.balance, ChargeBalance::Green);
     EXPECT_TRUE(judgement.reason.empty());
@@ -55,11 +55,11 @@ TEST(TrainCheck, NetChargeAboveOnePercentBeyondItsUncertaintyFaultsForAPerson) {
         status.imbalanceUncertainty = u;
         return judge(status, mode);
     };
-    EXPECT_TRUE(with(0.0149, 0.005).released()) << "not beyond its uncertainty";
+    EXPECT_EQ(with(0.0149, 0.005).finding, TrainFinding::Ok) << "not beyond its uncertainty";
     EXPECT_EQ(with(0.0151, 0.005).finding, TrainFinding::NetCharge);
     EXPECT_EQ(with(0.5, 0.02).finding, TrainFinding::NetCharge) << "a poor reading does not excuse a gross imbalance";
     EXPECT_EQ(with(0.02, std::nullopt).finding, TrainFinding::NetCharge) << "nothing excuses it";
-    EXPECT_TRUE(with(0.58, 0.001, OutputMode::BenchLoad).released()) << "on a bench load it is reported";
+    EXPECT_EQ(with(0.58, 0.001, OutputMode::BenchLoad).finding, TrainFinding::Ok) << "on a bench load it is reported";
     EXPECT_EQ(with(0.58, 0.001, OutputMode::BenchLoad).balance, ChargeBalance::Red);
     EXPECT_FALSE(with(0.02, 0.001).reason.empty());
 }

@@ -228,7 +228,7 @@ TEST(TrainExposure, WhatIsNoTrainIsNoNumber) {
 TEST(ExposureTable, ListsEveryLimitAndSaysWhatWasNotEvaluated) {
     RecordProperty("hazard", "H9");
     GateSetup setup = benchSetup(Load::resistor(Ohms(500)));
-    setup.limits = shippedLimits();
+    setup.limits = limitSets();
     auto rows = exposureTable(setup, volts(40), Seconds(0.5));
     int densities = 0;
     for (const auto& row : rows) {
@@ -277,7 +277,7 @@ TEST(ExposureTable, TheFirstRowThatForbidsIsTheOneThatTheGateNames) {
     EXPECT_FALSE(forbids(row));
 
     GateSetup setup = benchSetup(Load::resistor(Ohms(1000)));
-    setup.limits = shippedLimits();
+    setup.limits = limitSets();
     EXPECT_EQ(firstForbidding(exposureTable(setup, volts(40), Seconds(0.5))), nullptr);
     EXPECT_EQ(forbiddenBy(setup, volts(40), Seconds(0.5)), "");
     setup.load = LoadRange::declared(Load::resistor(Ohms(100)));

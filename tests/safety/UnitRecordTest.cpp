@@ -31,7 +31,7 @@ struct FakeTime final : SystemTime {
 /// 40 V into 100 ohm: 1e-4 A²s a train at the low end of the load range, so that 5 s hold four.
 GateSetup strongSetup() {
     GateSetup setup = benchSetup(Load::resistor(Ohms(100)));
-    setup.limits = shippedLimits();
+    setup.limits = limitSets();
     return setup;
 }
 

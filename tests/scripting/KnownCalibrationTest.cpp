@@ -10,6 +10,7 @@
 #include "core/calibration/CertificateStore.h"
 #include "core/devices/DeviceUri.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -102,7 +103,7 @@ TEST_F(Known, OneThatIsOutOfOrderReachesTheGateWhichArmsNothing) {
     BenchConfig config;
     config.devices = std::move(devices_);
     config.clock = clock_;
-    config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
+    config.limits = limitSets();
     applyKnown(std::move(known), config);
     auto bench = Bench::create(std::move(config));
     ASSERT_TRUE(bench) << bench.error().message;

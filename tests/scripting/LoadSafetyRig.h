@@ -13,6 +13,7 @@
 #include "core/session/SessionReader.h"
 #include "core/session/SessionWriter.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -31,7 +32,7 @@ public:
         config.devices =
             registry.open(parsed, {Role::Stimulator, Role::Oscilloscope}, OpenContext{*clock_, seed, "1 kohm"}).value();
         config.clock = clock_;
-        config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
+        config.limits = limitSets();
         if (recorded) {
             SessionAbout about;
             about.protocol = "load-safety";

@@ -21,7 +21,7 @@ RunBench::RunBench(bool virtualTime, std::string device, std::uint64_t seed, boo
     if (looksReal) technician_ = lookReal(config.devices);
     config.clock = clock_;
     config.calibration = calibration;
-    config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
+    config.limits = limitSets();
     if (recorded) {
         SessionAbout about;
         about.protocol = "probe";

@@ -13,6 +13,7 @@
 #include "core/bench/Bench.h"
 #include "core/session/SessionWriter.h"
 #include "tests/scripting/Technician.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {

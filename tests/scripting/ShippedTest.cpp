@@ -6,6 +6,7 @@
 #include "app/run/ProtocolRun.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/Csv.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -53,7 +54,7 @@ TEST_F(Shipped, LimitsAreBuiltInAndNeedNoFolder) {
     std::filesystem::remove_all(folder_.path() / "limits");
     const auto limits = shippedLimits().value();
     ASSERT_EQ(limits.sets.size(), 3U);
-    const auto files = loadLimitSets(sourceDir() / "resources" / "limits").value();
+    const auto files = limitSets();
     for (std::size_t i = 0; i < files.size(); ++i) {
         EXPECT_EQ(limits.sets[i].id, files[i].id);
         ASSERT_EQ(limits.sets[i].rows.size(), files[i].rows.size());

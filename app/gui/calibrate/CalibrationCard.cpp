@@ -42,7 +42,7 @@ QString factsOf(const StoredCalibration& c) {
                       settingText(c.amplitude.highest, unit));
     QStringList times;  // their lines are under Stored calibrations
     for (const auto& time : kStoredTimes) {
-        const auto title = QString::fromUtf8(time.title.data(), qsizetype(time.title.size()));
+        const auto title = QString::fromUtf8(time.words.data(), qsizetype(time.words.size()));
         if (const auto& line = c.*time.line) times << QString("%1 ± %2").arg(title, within(*line));
     }
     if (!times.isEmpty()) facts << times.join(", ");

@@ -32,7 +32,7 @@ QString timesText(const StoredCalibration& c) {
         const auto& line = c.*time.line;
         if (!line) continue;
         all << QString("%1 × %2 %3 %4, ± %5")
-                   .arg(titled(qtext(time.title)), decimalText(line->gain, 4), line->offset < 0 ? "−" : "+",
+                   .arg(qtext(time.title), decimalText(line->gain, 4), line->offset < 0 ? "−" : "+",
                         quantityText(std::abs(line->offset), "s", 2), quantityText(line->uncertainty_pct, "%", 2));
     }
     return all.join("\n");

@@ -2,32 +2,20 @@
 
 #include <QObject>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "app/gui/theme/Text.h"
 #include "core/base/JsonFields.h"
+#include "core/encoding/CalibratedQuantity.h"
 
 namespace tacto::gui {
 
 namespace {
 
-struct Quantity {
-    const char* name;
-    const char* key;  ///< in a reading and in what was commanded
-};
-constexpr std::array kQuantities{Quantity{"amplitude", "amplitude"}, Quantity{"interval", "interval_s"},
-                                 Quantity{"width", "width_s"}, Quantity{"gap", "gap_s"}};
 /// A source whose current follows a measured load is programmed to a slightly different one each time.
 constexpr double kSameCurrent = 0.02;
 constexpr double kSameCommand = 1e-9;
-
-const char* keyOf(const std::string& quantity) {
-    for (const auto& one : kQuantities) {
-        if (quantity == one.name) return one.key;
-    }
-    return nullptr;
-}
 
 SweepDirection directionOf(const std::string& word) {
     return valueFor(kSweepDirections, word).value_or(SweepDirection::None);
@@ -57,16 +45,16 @@ std::string calibratedQuantity(const nlohmann::json& trial) {
     if (!trial.is_object() || !trial.contains("commanded") || !trial["commanded"].is_object()) return {};
     const auto condition = textOr(trial, "condition");
     const auto word = condition.substr(0, condition.find(' '));
-    return keyOf(word) != nullptr ? word : std::string();
+    return tacto::calibratedQuantity(word) != nullptr ? word : std::string();
 }
 
 CalibrationReading readingFrom(const nlohmann::json& trial) {
-    const auto* key = keyOf(calibratedQuantity(trial));
+    const auto* quantity = tacto::calibratedQuantity(calibratedQuantity(trial));
     CalibrationReading reading;
     reading.commanded = std::nan("");
-    if (key == nullptr) return reading;
-    reading.commanded = numberOr(trial["commanded"], key);
-    reading.measured = numberOr(trial, key);
+    if (quantity == nullptr) return reading;
+    reading.commanded = numberOr(trial["commanded"], quantity->reading.data());
+    reading.measured = numberOr(trial, quantity->reading.data());
     const auto condition = textOr(trial, "condition");
     reading.direction = directionOf(condition.substr(condition.rfind(' ') + 1));
     return reading;
@@ -82,7 +70,8 @@ double toleranceOf(const std::string& quantity, const nlohmann::json& parameters
 }
 
 std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, const nlohmann::json& found) {
-    if (keyOf(quantity) == nullptr || !found.is_object() || !found.contains("readings") || !found.contains("levels"))
+    if (tacto::calibratedQuantity(quantity) == nullptr || !found.is_object() || !found.contains("readings") ||
+        !found.contains("levels"))
         return std::nullopt;
     CalibrationReadings out;
     out.quantity = quantity;
@@ -121,11 +110,8 @@ std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, con
 }
 
 QString quantityTitle(const std::string& quantity) {
-    if (quantity == "amplitude") return QObject::tr("Amplitude");
-    if (quantity == "interval") return QObject::tr("Interval");
-    if (quantity == "width") return QObject::tr("Phase width");
-    if (quantity == "gap") return QObject::tr("Inter-phase gap");
-    return QString::fromStdString(quantity);
+    const auto* known = tacto::calibratedQuantity(quantity);
+    return known != nullptr ? qtext(known->title) : QString::fromStdString(quantity);
 }
 
 }  // namespace tacto::gui

@@ -143,7 +143,7 @@ void CalibrationTrendView::fillChooser() {
     };
     for (const auto& one : units) {
         add(tr("Amplitude"), one, "amplitude");
-        for (const auto& time : kStoredTimes) add(titled(qtext(time.title)), one, time.key);
+        for (const auto& time : kStoredTimes) add(qtext(time.title), one, time.id);
     }
     quantity_->setCurrentIndex(std::max(0, quantity_->findData(before)));
     if (quantity_->count() == 0) quantity_->setCurrentIndex(-1);

@@ -34,9 +34,9 @@ constexpr int kPlaneEvery_ms = 30;                // smooth to the eye; the stri
 constexpr int kReadingEvery_ms = 100;             // captures that are measured for the trains' strip
 constexpr std::size_t kLongestReading = 100'000;  // samples; a longer one belongs to the oscilloscope workspace
 
-bool isSimulated(const OpenBench& bench, std::string_view role) {
+bool isSimulated(const OpenBench& bench, Role role) {
     return std::any_of(bench.about.devices.begin(), bench.about.devices.end(),
-                       [&](const auto& device) { return device.role == role && device.simulated; });
+                       [&](const auto& device) { return device.is(role) && device.simulated; });
 }
 
 bool isReplay(const OpenBench& bench) {
@@ -208,7 +208,7 @@ void LiveWorkspace::begin() {
     tools_->setEnabled(open != nullptr);
     if (!open) health_->clear();  // nothing is fresh, and nothing is missing
     stack_->setCurrentIndex(open ? kBench : controller_.activity() == Activity::Opening ? kOpening : kEmpty);
-    const bool touch = open && isSimulated(*open, "sensor"), source = open && isSimulated(*open, "stimulator");
+    const bool touch = open && isSimulated(*open, Role::Sensor), source = open && isSimulated(*open, Role::Stimulator);
     if (controller_.tap() != tap_) {
         tap_ = controller_.tap();
         history_.begin(open ? open->streams : std::vector<StreamInfo>{});

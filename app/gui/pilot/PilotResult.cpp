@@ -27,7 +27,9 @@ QString textIn(const nlohmann::json& record, const std::string& path) {
 }
 
 /// Whether the result is one with a massager, whose levels are strengths.
-bool isMassager(const nlohmann::json& results) { return textIn(results, "modality") == "massager"; }
+bool isMassager(const nlohmann::json& results) {
+    return textIn(results, "modality") == qtext(nameOf(Modality::Massager));
+}
 
 QString rangeWords(const nlohmann::json& range) {
     const double low = numberIn(range, "min_intensity"), high = numberIn(range, "max_intensity");

@@ -108,8 +108,8 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     seed_->setToolTip(tr("The same seed gives the same order, and the same virtual participant."));
     form->addRow(tr("Seed"), seed_);
     modality_->setObjectName("rehearsalModality");
-    modality_->addItem(tr("electrodes"), "electrodes");
-    modality_->addItem(tr("a massager"), "massager");
+    modality_->addItem(tr("electrodes"), qtext(nameOf(Modality::Electrodes)));
+    modality_->addItem(tr("a massager"), qtext(nameOf(Modality::Massager)));
     modality_->setToolTip(
         tr("What is felt comes from these; a massager has a strength in place of a current. A rehearsal keeps what it "
            "began with."));
@@ -173,7 +173,7 @@ PilotStart RehearsalPage::rehearsal() const {
     made.protocol = protocol_->currentData().toString().toStdString();
     made.method = method_->currentData().toString().toStdString();
     made.unfinished = offer_->chosen();
-    made.massager = modality_->currentData().toString() == "massager";
+    made.massager = modality_->currentData() == qtext(nameOf(Modality::Massager));
     if (modality_->isEnabled()) made.modality = modality_->currentData().toString().toStdString();
     if (made.unfinished != "resume") made.blocks = blocks_->value();
     seats_->writeTo(made);
@@ -182,7 +182,7 @@ PilotStart RehearsalPage::rehearsal() const {
 
 void RehearsalPage::look() {
     const auto known = modalityIn(folder_->text().trimmed());
-    if (known) modality_->setCurrentIndex(modality_->findData(qtext(std::string(nameOf(*known)))));
+    if (known) modality_->setCurrentIndex(modality_->findData(qtext(nameOf(*known))));
     modality_->setEnabled(!known);
     offer_->offer(unfinishedIn(folder_->text().trimmed(), fmt::format("virtual:{}", seed_->value())));
     judge();

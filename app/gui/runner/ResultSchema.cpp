@@ -4,6 +4,7 @@
 #include <map>
 
 #include "app/report/NumberText.h"
+#include "core/encoding/CalibratedQuantity.h"
 #include "core/session/ResultKind.h"
 
 namespace tacto::gui {
@@ -183,9 +184,8 @@ Tables loadSafety() {
 
 Tables stimulatorCalibration() {
     Tables all;
-    const std::pair<const char*, const char*> quantities[] = {
-        {"Amplitude", "amplitude"}, {"Interval", "interval"}, {"Phase width", "width"}, {"Inter-phase gap", "gap"}};
-    for (const auto& [title, key] : quantities) all.push_back({word(title), key, Shape::Calibration, {}, {}});
+    for (const auto& one : kCalibratedQuantities)
+        all.push_back({word(one.title.data()), one.id.data(), Shape::Calibration, {}, {}});
     all.push_back(
         rows("Check of the stored calibration", "check",
              {verdict(), text("Quantity", "quantity"), number("Commanded", "commanded", "@unit"),

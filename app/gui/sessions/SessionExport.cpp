@@ -230,8 +230,8 @@ Result<void> exportRecording(const fs::path& session, const fs::path& folder, co
         {"streams", described}};
     for (const auto& device : reader->about().devices) {
         const auto from = originOf(device);
-        if (device.role == "sensor" && !device.serial.empty()) recording["fingertip"] = device.serial;
-        if (device.role == "sensor" && from != origin::kReplayedUnknown)
+        if (device.is(Role::Sensor) && !device.serial.empty()) recording["fingertip"] = device.serial;
+        if (device.is(Role::Sensor) && from != origin::kReplayedUnknown)
             recording["simulated"] = from == origin::kSimulated || from == origin::kReplayedSimulated;
     }
     TextFile file(draft.path() / "recording.json");

@@ -14,7 +14,7 @@ namespace {
 QString knownLoad(const SessionAbout& about) {
     for (const auto& device : about.devices) {
         const auto uri = DeviceUri::parse(device.uri);
-        if (device.role != "stimulator" || !uri || uri->scheme != "sim") continue;
+        if (!device.is(Role::Stimulator) || !uri || uri->scheme != "sim") continue;
         const auto load = std::ranges::find(uri->parameters, "load", [](const auto& p) { return p.first; });
         return QString::fromStdString(load == uri->parameters.end() ? kDefaultLoad : load->second);
     }

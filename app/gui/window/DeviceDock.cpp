@@ -176,9 +176,9 @@ void DeviceDock::describe() {
         for (const auto& device : open->about.devices) {
             if (QString::fromStdString(device.uri) != uri) continue;
             lines << factsOf(device, *open);
-            if (const auto stimulator = calibrations_.connected(); stimulator && device.role == "stimulator")
+            if (const auto stimulator = calibrations_.connected(); stimulator && device.is(Role::Stimulator))
                 lines << sentence(standingText(calibrations_.standing(*stimulator)));
-            if (device.role == nameOf(Role::Oscilloscope) && !certificate_.isEmpty()) lines << certificate_;
+            if (device.is(Role::Oscilloscope) && !certificate_.isEmpty()) lines << certificate_;
             if (const auto role = valueFor(kRoles, device.role)) {
                 if (const auto report = controller_.deviceReport(*role)) lines << rowsOf(*report);
             }
@@ -198,7 +198,7 @@ void DeviceDock::lookForCertificate() {
     certificateOf_ = open->session;
     certificate_.clear();
     for (const auto& device : open->about.devices) {
-        if (device.role != nameOf(Role::Oscilloscope)) continue;
+        if (!device.is(Role::Oscilloscope)) continue;
         const auto known = knownCertificate(
             {device.uri, Role::Oscilloscope, device.name, device.serial, device.firmware, device.simulated});
         if (!known.text.empty()) certificate_ = sentence(qtext(known.text)).toHtmlEscaped();

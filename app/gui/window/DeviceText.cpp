@@ -41,13 +41,13 @@ QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
     QStringList lines;
     lines << tr("Serial %1, firmware %2").arg(orDash(device.serial), orDash(device.firmware));
     if (device.simulated) lines << tr("Simulated: no number of it was measured on hardware.");
-    if (device.role == "stimulator" && open.source) {
+    if (device.is(Role::Stimulator) && open.source) {
         const bool current = open.source->drive == Drive::Current;
         lines << tr("%1 source, at most %2")
                      .arg(current ? tr("Current") : tr("Voltage"),
                           settingText(open.source->amplitudeMax, current ? "mA" : "V"));
     }
-    if (device.role == "sensor") {
+    if (device.is(Role::Sensor)) {
         for (const auto& stream : open.streams) {
             const auto kind = nameOf(stream.kind);
             const auto unit = symbolOf(stream.unit);
@@ -58,7 +58,7 @@ QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
                               settingText(stream.rate_hz, "Hz"));
         }
     }
-    if (device.role == "oscilloscope" && open.scope) {
+    if (device.is(Role::Oscilloscope) && open.scope) {
         lines << tr("%1 bits, up to %2").arg(open.scope->bits).arg(settingText(open.scope->maxRate.value(), "S/s"));
     }
     return lines;

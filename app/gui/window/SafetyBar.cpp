@@ -276,7 +276,7 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     }
     QString name = tr("no stimulator");
     for (const auto& device : open->about.devices) {
-        if (device.role == "stimulator" || (device.role == "massager" && !open->source))
+        if (device.is(Role::Stimulator) || (device.is(Role::Massager) && !open->source))
             name = QString::fromStdString(device.name);
     }
     const auto text = open->simulated() && !name.contains(tr("simulated")) ? tr("%1 · simulated").arg(name) : name;

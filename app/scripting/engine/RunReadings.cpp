@@ -64,13 +64,13 @@ const OwnCalibration* RunReadings::calibration(const nlohmann::json& number) con
     return &calibrations_[static_cast<std::size_t>(index) - 1];
 }
 
-const OwnQuantity* ownQuantity(std::string_view name) noexcept {
-    static constexpr std::array<OwnQuantity, 4> kQuantities{{{"amplitude", "amplitude", &CapturedCommand::amplitude},
-                                                             {"interval", "interval_s", &CapturedCommand::interval_s},
-                                                             {"width", "width_s", &CapturedCommand::width_s},
-                                                             {"gap", "gap_s", &CapturedCommand::gap_s}}};
+const OwnQuantity* ownQuantity(std::string_view id) noexcept {
+    static constexpr std::array<OwnQuantity, 4> kQuantities{{{kCalibratedAmplitude, &CapturedCommand::amplitude},
+                                                             {kCalibratedInterval, &CapturedCommand::interval_s},
+                                                             {kCalibratedWidth, &CapturedCommand::width_s},
+                                                             {kCalibratedGap, &CapturedCommand::gap_s}}};
     for (const auto& quantity : kQuantities) {
-        if (quantity.name == name) return &quantity;
+        if (quantity.id == id) return &quantity;
     }
     return nullptr;
 }

@@ -12,6 +12,7 @@
 
 #include "core/base/NaN.h"
 #include "core/base/Result.h"
+#include "core/encoding/CalibratedQuantity.h"
 
 namespace tacto {
 
@@ -75,13 +76,11 @@ private:
     std::vector<nlohmann::json> made_;
 };
 
-/// The names by which a calibration's quantities are known: amplitude, interval, width, gap.
-struct OwnQuantity {
-    std::string_view name;
-    std::string_view key;  ///< of what was read
+/// A calibrated quantity, and what was commanded of it.
+struct OwnQuantity : CalibratedQuantity {
     double CapturedCommand::*commanded;
 };
-/// Nothing for another name.
-[[nodiscard]] const OwnQuantity* ownQuantity(std::string_view name) noexcept;
+/// Null for another id.
+[[nodiscard]] const OwnQuantity* ownQuantity(std::string_view id) noexcept;
 
 }  // namespace tacto

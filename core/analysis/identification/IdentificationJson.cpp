@@ -1,6 +1,7 @@
 #include "core/analysis/identification/IdentificationJson.h"
 
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/RecordFields.h"
 
 namespace tacto {
 
@@ -24,6 +25,35 @@ json medianAndRange(const Statistics& of) {
 
 json sequenceJson(const BlockFigures& after) {
     return {{"n", after.n}, {"hits", after.hits}, {"accuracy", toJson(wilsonInterval(after.hits, after.n))}};
+}
+
+/// What a result says of a trial.
+RecordFields<IdentificationTrial> answerFields() {
+    using T = IdentificationTrial;
+    RecordFields<T> all;
+    all.number("number", &T::number);
+    all.word("phase", &T::phase, kTrialPhases);
+    all.number("block", &T::block);
+    all.text("condition", &T::condition, {.mayBeEmpty = true});
+    all.add("response", &T::response,
+            codedKind<std::string>(
+                "a text or null",
+                [](const json& value) { return std::optional(value.is_string() ? value.get<std::string>() : ""); },
+                [](const std::string& said) { return said.empty() ? json() : json(said); }));
+    all.number("attempt", &T::attempt);
+    all.number("rt_s", &T::rt_s);
+    all.passOverUnknownKeys();
+    return all;
+}
+
+/// What a session's row says beside.
+RecordFields<IdentificationTrial> trialFields() {
+    using T = IdentificationTrial;
+    auto all = answerFields();
+    all.number("current_ma", &T::current);
+    all.number("interval_s", &T::interval_s);
+    all.number("trains", &T::trains);
+    return all;
 }
 
 }  // namespace
@@ -63,13 +93,13 @@ json toJson(const Identification& found) {
 }
 
 json toJson(const IdentificationTrial& trial) {
-    return {{"number", trial.number},
-            {"phase", nameOf(trial.phase)},
-            {"block", trial.block},
-            {"condition", trial.condition},
-            {"response", trial.response.empty() ? json(nullptr) : json(trial.response)},
-            {"attempt", trial.attempt},
-            {"rt_s", numberOrNull(trial.rt_s)}};
+    static const auto fields = answerFields();
+    return fields.write(trial);
+}
+
+IdentificationTrial identificationTrialFrom(const json& row) {
+    static const auto fields = trialFields();
+    return fields.read(row, {.lenient = true}).value_or(IdentificationTrial{});
 }
 
 json toJson(const FewPeople& people) {

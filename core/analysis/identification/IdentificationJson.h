@@ -20,6 +20,8 @@ namespace tacto {
 [[nodiscard]] nlohmann::json toJson(const ConfusionFigures& figures);
 /// {"number", "phase", "block", "condition", "response", "attempt", "rt_s"}; response null without an answer
 [[nodiscard]] nlohmann::json toJson(const IdentificationTrial& trial);
+/// The trial in the body of a session's row of an answer, or of none; what is missing keeps its default.
+[[nodiscard]] IdentificationTrial identificationTrialFrom(const nlohmann::json& row);
 /// {"people", "accuracy": {"median", "min", "max"}, "it_corrected_bits", "above_chance": {"k", "n", "share",
 /// "prevalence", "prevalence_at_least"}}
 [[nodiscard]] nlohmann::json toJson(const FewPeople& people);

@@ -1,15 +1,6 @@
 #include "core/analysis/identification/IdentificationTrial.h"
 
-#include "core/base/Words.h"
-
 namespace tacto {
-
-namespace {
-constexpr Word<TrialPhase> kTrialPhases[] = {
-    {"familiarisation", TrialPhase::Familiarisation}, {"training", TrialPhase::Training}, {"test", TrialPhase::Test}};
-}  // namespace
-
-std::string_view nameOf(TrialPhase phase) noexcept { return wordFor(kTrialPhases, phase); }
 
 Result<TrialPhase> trialPhaseFrom(std::string_view name) {
     if (const auto known = valueFor(kTrialPhases, name)) return *known;

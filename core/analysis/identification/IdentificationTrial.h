@@ -11,11 +11,14 @@
 #include "core/base/NaN.h"
 #include "core/base/Result.h"
 #include "core/base/Units.h"
+#include "core/base/Words.h"
 
 namespace tacto {
 
 enum class TrialPhase { Familiarisation, Training, Test };
-[[nodiscard]] std::string_view nameOf(TrialPhase phase) noexcept;  // "familiarisation", "training", "test"
+inline constexpr Word<TrialPhase> kTrialPhases[] = {
+    {"familiarisation", TrialPhase::Familiarisation}, {"training", TrialPhase::Training}, {"test", TrialPhase::Test}};
+[[nodiscard]] constexpr std::string_view nameOf(TrialPhase phase) noexcept { return wordFor(kTrialPhases, phase); }
 /// Errors: InvalidArgument naming the phases.
 [[nodiscard]] Result<TrialPhase> trialPhaseFrom(std::string_view name);
 

@@ -170,12 +170,6 @@ bool QuestPlus::done() const noexcept {
     return trials_.size() >= settings_.least && sd_db() <= settings_.enough_db;
 }
 
-std::vector<double> QuestPlus::alphaPosterior() const {
-    std::vector<double> out;
-    for (std::size_t i = 0; i < alphas_.size(); ++i) out.push_back(weightOf(i));
-    return out;
-}
-
 double QuestPlus::weightOf(std::size_t alpha) const noexcept {
     const auto first = posterior_.begin() + static_cast<std::ptrdiff_t>(alpha * kSlopes.size());
     return std::accumulate(first, first + static_cast<std::ptrdiff_t>(kSlopes.size()), 0.0);

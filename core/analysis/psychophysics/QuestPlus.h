@@ -64,8 +64,6 @@ public:
     /// Posterior probability that α lies above `level` (> 0, in the grid's unit).
     [[nodiscard]] double probabilityAbove(double level) const;
 
-    /// The posterior of α, which sums to 1, and the grid that it stands on.
-    [[nodiscard]] std::vector<double> alphaPosterior() const;
     /// Probability of a right answer by the model.
     [[nodiscard]] static double probabilityRight(double level_db, double alpha_db, double slope) noexcept;
 

@@ -166,10 +166,4 @@ std::vector<std::vector<double>> VirtualObserver::predicted(std::span<const Deli
     return responseProbabilities(taskFor(conditions), observerAfter(stimulated));
 }
 
-std::vector<double> VirtualObserver::predictedCatch(std::size_t conditions) const {
-    std::vector<double> row(conditions, settings_.who.lapse / static_cast<double>(conditions));
-    row.push_back(1 - settings_.who.lapse);
-    return row;
-}
-
 }  // namespace tacto

@@ -82,8 +82,6 @@ public:
     /// [condition][response] with "none" last: what identify() does in the long run.
     [[nodiscard]] std::vector<std::vector<double>> predicted(std::span<const DeliveredCondition> conditions,
                                                              Seconds stimulated) const;
-    /// Probabilities of the responses to a catch trial; "none" is the last.
-    [[nodiscard]] std::vector<double> predictedCatch(std::size_t conditions) const;
     /// Probability of the right interval in detect().
     [[nodiscard]] double probabilityRight(double level, Seconds stimulated) const noexcept;
 

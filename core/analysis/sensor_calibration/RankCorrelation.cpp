@@ -37,8 +37,7 @@ Estimate intervalOf(double rho, double n) {
     return out;
 }
 
-}  // namespace
-
+/// Ranks from 1; equal values get the mean of theirs.
 std::vector<double> midRanks(std::span<const double> values) {
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -53,6 +52,8 @@ std::vector<double> midRanks(std::span<const double> values) {
     }
     return ranks;
 }
+
+}  // namespace
 
 Result<RankCorrelation> spearman(std::span<const double> x, std::span<const double> y) {
     if (x.size() != y.size()) {

@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/analysis/statistics/Estimate.h"
 #include "core/base/Result.h"
@@ -29,9 +28,6 @@ struct RankCorrelation {
     bool ties = false;  ///< some values were equal and shared their ranks
     std::string note;   ///< a sentence where n is small; else empty
 };
-
-/// Ranks from 1; equal values get the mean of theirs. Values are finite.
-[[nodiscard]] std::vector<double> midRanks(std::span<const double> values);
 
 /// Errors: InvalidArgument for fewer than kFewestRanked pairs, unequal lengths, a value that is not finite, or a side
 /// on which all values are equal.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/JsonFields.h"
 #include "core/pilot/PilotRecord.h"

@@ -5,6 +5,7 @@
 #include "core/analysis/load_safety/LoadSafety.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 #include "tests/analysis/load_safety/LoadCaptures.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -18,7 +19,7 @@ using test::LoadTruth;
 class LoadSafetyCheck : public testing::Test {
 protected:
     void SetUp() override {
-        input.limits = loadLimitSets(test::sourceDir() / "resources" / "limits").value();
+        input.limits = test::limitSets();
         input.source.amplitudeMax = 100;
         input.source.compliance = Volts(100);
         input.area_cm2 = 3.0;

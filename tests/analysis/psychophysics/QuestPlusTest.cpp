@@ -43,10 +43,14 @@ TEST(QuestPlus, AsksForTheLevelsAndKnowsThePosteriorOfAnIndependentComputation) 
         }
         EXPECT_TRUE(quest.done());
         EXPECT_FALSE(quest.next());
-        const auto posterior = quest.alphaPosterior();
+        // Of α in cells of 0.5 dB, the first 12 dB below what was felt.
         const auto expected = run.at("posterior").get<std::vector<double>>();
-        ASSERT_EQ(posterior.size(), expected.size());
-        for (std::size_t i = 0; i < posterior.size(); ++i) EXPECT_NEAR(posterior[i], expected[i], 1e-10);
+        ASSERT_EQ(expected.size(), 43U);
+        const auto aboveCell = [&](std::size_t i) {
+            return quest.probabilityAbove(settings.felt * std::pow(10, (0.5 * static_cast<double>(i) - 12.25) / 20));
+        };
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_NEAR(aboveCell(i) - aboveCell(i + 1), expected[i], 1e-10) << i;
         const auto result = quest.result();
         EXPECT_NEAR(result.estimate.value, run.at("estimate").get<double>(), 1e-9);
         EXPECT_NEAR(result.estimate.low, run.at("low").get<double>(), 1e-8);

@@ -12,12 +12,6 @@
 namespace tacto {
 namespace {
 
-TEST(MidRanks, ShareTheRankOfEqualValues) {
-    const auto& scipy = test::figuresOf("estimates").at("ranks");
-    EXPECT_EQ(midRanks(scipy.at("values").get<std::vector<double>>()), scipy.at("ranks").get<std::vector<double>>());
-    EXPECT_EQ((midRanks(std::vector{7.0, 7.0, 7.0})), (std::vector{2.0, 2.0, 2.0}));
-}
-
 RankCorrelation expectScipys(const nlohmann::json& scipy) {
     const auto found =
         spearman(scipy.at("x").get<std::vector<double>>(), scipy.at("y").get<std::vector<double>>()).value();

@@ -3,7 +3,7 @@
 
 #include "core/analysis/variation/VariationJson.h"
 #include "core/analysis/variation/VariationPremises.h"
-#include "tests/support/Support.h"
+#include "tests/support/Limits.h"
 
 namespace tacto {
 namespace {
@@ -12,7 +12,7 @@ VariationOptions peopleWith(AmplitudeLevels levels, double discomfort_ma = 9.8) 
     VariationOptions out;
     out.trials = 5;
     out.stimulation.source = idealSource(Drive::Current);
-    out.stimulation.limits = loadLimitSets(test::sourceDir() / "resources/limits").value();
+    out.stimulation.limits = test::limitSets();
     out.stimulation.levels = levels;
     out.population.discomfort_ma = discomfort_ma;
     return out;

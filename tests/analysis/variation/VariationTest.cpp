@@ -7,7 +7,7 @@
 #include "core/analysis/variation/Variation.h"
 #include "core/analysis/variation/VariationJson.h"
 #include "tests/support/InTime.h"
-#include "tests/support/Support.h"
+#include "tests/support/Limits.h"
 
 namespace tacto {
 namespace {
@@ -18,7 +18,7 @@ VariationOptions options(std::size_t participants = 60) {
     out.trials = 10;
     out.seed = 7;
     out.stimulation.source = idealSource(Drive::Current);
-    out.stimulation.limits = loadLimitSets(test::sourceDir() / "resources/limits").value();
+    out.stimulation.limits = test::limitSets();
     out.stimulation.electrodeArea = SquareCentimetres(1);
     return out;
 }

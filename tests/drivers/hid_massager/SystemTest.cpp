@@ -15,6 +15,7 @@
 #include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/Support.h"
+#include "tests/support/usb_emulation/Comes.h"
 #include "tests/support/usb_emulation/EmulatedHidDevice.h"
 
 namespace tacto::test {
@@ -158,11 +159,7 @@ class TranceTest : public testing::Test {
 protected:
     void waitForDevice() {
         const auto usb = provider().value();
-        auto seen = usb->generation();
-        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-        while (usb->devices().empty() && std::chrono::steady_clock::now() < deadline) {
-            seen = usb->waitForChange(seen, Seconds(1));
-        }
+        ASSERT_IN_TIME(comes([&] { return !usb->devices().empty(); }));
     }
     static std::vector<int> speeds(const EmulatedUsbDevice& device) {
         std::vector<int> all;
@@ -207,8 +204,7 @@ TEST_F(TranceTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
     RecordProperty("hazard", "H4");
     const EmulatedUsbDevice first(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, ""), {});
     const EmulatedUsbDevice second(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, ""), {}, 2);
-    auto seen = context->generation();
-    while (context->devices().size() < 2) seen = context->waitForChange(seen, Seconds(1));
+    ASSERT_IN_TIME(comes([&] { return context->devices().size() == 2u; }));
     const auto driver = systemDriver(provider);
     const auto list = driver->list();
     ASSERT_IN_TIME(list.size() == 2u);

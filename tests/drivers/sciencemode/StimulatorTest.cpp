@@ -26,6 +26,15 @@ void setLoad(ScienceModeBench& bench, const Load& load) {
     bench.line->inspect([&](auto& device, Instant now) { device.fit(load, now); });
 }
 
+/// 9 ms from onset to onset or more.
+void expectEightNoneTooSoon(ScienceModeBench& bench) {
+    const auto pulses = bench.line->pulseList();
+    ASSERT_EQ(pulses.size(), 8U);
+    for (std::size_t i = 1; i < pulses.size(); ++i) {
+        EXPECT_GE(pulses[i].onset - pulses[i - 1].onset, milliseconds(9)) << i;
+    }
+}
+
 /// Whether opening what `line` has, as `wanted`, succeeds.
 Result<void> opens(const std::shared_ptr<EmulatedLine>& line, const Clock& clock, std::string_view wanted = {}) {
     const auto opened = ScienceModeStimulator::open(line->connector(), "sciencemode:", wanted, {}, clock);
@@ -187,11 +196,7 @@ TEST(ScienceModeDeliver, AHostThatIsALittleLateNeverHurriesAfterwards) {
         bench.clock.advanceTo(next + milliseconds(i % 2 == 0 ? 4 : 0));
     }
     bench.wait(Seconds(0.1));
-    const auto pulses = bench.line->pulseList();
-    ASSERT_EQ(pulses.size(), 8U);
-    for (std::size_t i = 1; i < pulses.size(); ++i) {
-        EXPECT_GE(pulses[i].onset - pulses[i - 1].onset, milliseconds(9)) << i;
-    }
+    expectEightNoneTooSoon(bench);
 }
 
 TEST(ScienceModeDeliver, APulseHeldUpOnItsWayToTheWireIsNotFollowedTooFast) {
@@ -203,11 +208,7 @@ TEST(ScienceModeDeliver, APulseHeldUpOnItsWayToTheWireIsNotFollowedTooFast) {
     });
     ASSERT_TRUE(bench.stimulator->deliver(bench.approved(5, 8)).has_value());
     bench.wait(Seconds(0.2));
-    const auto pulses = bench.line->pulseList();
-    ASSERT_EQ(pulses.size(), 8U);
-    for (std::size_t i = 1; i < pulses.size(); ++i) {
-        EXPECT_GE(pulses[i].onset - pulses[i - 1].onset, milliseconds(9)) << i;
-    }
+    expectEightNoneTooSoon(bench);
 }
 
 TEST(ScienceModeDeliver, SmallSlipsDoNotAddUpUntilTheTrainIsGivenUp) {

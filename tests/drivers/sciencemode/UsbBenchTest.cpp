@@ -1,66 +1,27 @@
 // A whole bench on a stimulator that is plugged in: found, driven, unplugged in the middle, found again.
-#include <gtest/gtest.h>
-#include <thread>
-
-#include "core/bench/Bench.h"
-#include "core/session/SessionReader.h"
-#include "core/session/SessionVerify.h"
-#include "core/session/SessionWriter.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/usb/UsbPorts.h"
+#include "tests/drivers/UsbBench.h"
 #include "tests/drivers/sciencemode/EmulatedOnUsb.h"
-#include "tests/support/InTime.h"
-#include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
 
 using namespace std::chrono_literals;
 
-class ScienceModeOnUsb : public testing::Test {
+class ScienceModeOnUsb : public UsbBench {
 protected:
-    [[nodiscard]] Registry registry() {
+    [[nodiscard]] Registry registry() override {
         std::vector<std::unique_ptr<Driver>> drivers;
         drivers.push_back(makeScienceModeDriver(makeUsbPorts(usb_, {{0x0483, 0x5740}}, {})));
         return Registry(std::move(drivers));
     }
-    /// As long as a person would wait for it.
-    template <class Condition>
-    [[nodiscard]] static bool comes(Condition condition, std::chrono::milliseconds within = 5s) {
-        const auto end = std::chrono::steady_clock::now() + within;
-        while (!condition()) {
-            if (std::chrono::steady_clock::now() > end) return false;
-            std::this_thread::sleep_for(5ms);
-        }
-        return true;
-    }
     void open() {
         ASSERT_IN_TIME(comes([&] { return registry().list().size() == 1; }));
-        auto drivers = registry();
-        auto devices = drivers.open(std::vector{*DeviceUri::parse("sciencemode:")}, {Role::Stimulator},
-                                    OpenContext{*clock_, 1, "1 kohm"});
-        ASSERT_IN_TIME(devices);
-        SessionAbout about;
-        about.protocol = "test";
-        session_ = SessionWriter::create(folder_.path() / "run.tacto", about, *clock_).value();
-        BenchConfig config;
-        config.devices = std::move(*devices);
-        config.clock = clock_;
-        config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
-        config.session = session_.get();
-        auto bench = Bench::create(std::move(config));
-        ASSERT_IN_TIME(bench);
-        bench_ = std::move(*bench);
+        UsbBench::open({*DeviceUri::parse("sciencemode:")}, {Role::Stimulator});
     }
-    [[nodiscard]] Result<void> arm() { return bench_->arm(ArmRequest{"1 kohm", true, true}); }
 
-    UsbTestbed bed_;
-    std::shared_ptr<SteadyClock> clock_ = std::make_shared<SteadyClock>();
     EmulatedOnUsb device_{bed_, *clock_};
-    UsbProvider usb_ = makeUsbProvider();
-    const ScratchDir folder_;
-    std::unique_ptr<SessionWriter> session_;
-    std::unique_ptr<Bench> bench_;
 };
 
 TEST_F(ScienceModeOnUsb, IsFoundAndDrivenThroughTheRealLibusb) {
@@ -129,7 +90,7 @@ TEST_F(ScienceModeOnUsb, UnpluggedInMidDeliveryFaultsKeepsTheSessionAndComesBack
 
     bench_.reset();
     ASSERT_TRUE(session_->close());
-    const auto verified = verifySession(folder_.path() / "run.tacto");
+    const auto verified = verifySession(file());
     ASSERT_TRUE(verified) << verified.error().message;
     EXPECT_EQ(verified->status, SessionStatus::Intact);
 }

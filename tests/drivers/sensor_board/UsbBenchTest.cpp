@@ -4,15 +4,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/bench/Bench.h"
-#include "core/session/SessionReader.h"
-#include "core/session/SessionVerify.h"
-#include "core/session/SessionWriter.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/drivers/UsbBench.h"
 #include "tests/drivers/sensor_board/BoardOnUsb.h"
-#include "tests/support/InTime.h"
-#include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
@@ -27,22 +22,13 @@ sensorboard::EmulatedBoardSettings boardNamed(const std::string& serial) {
     return settings;
 }
 
-class SensorBoardBenchOnUsb : public testing::Test {
+class SensorBoardBenchOnUsb : public UsbBench {
 protected:
-    [[nodiscard]] Registry registry() {
+    [[nodiscard]] Registry registry() override {
         std::vector<std::unique_ptr<Driver>> drivers;
         drivers.push_back(makeSimulatedDriver());
         drivers.push_back(makeSensorBoardDriver(makeUsbSensorBoards(usb_, nullptr)));
         return Registry(std::move(drivers));
-    }
-    template <class Condition>
-    [[nodiscard]] static bool comes(Condition condition) {
-        const auto end = std::chrono::steady_clock::now() + 5s;
-        while (!condition()) {
-            if (std::chrono::steady_clock::now() > end) return false;
-            std::this_thread::sleep_for(5ms);
-        }
-        return true;
     }
     [[nodiscard]] bool present() {
         const auto devices = registry().list();
@@ -50,27 +36,13 @@ protected:
     }
     void open() {
         ASSERT_IN_TIME(comes([&] { return present(); }));
-        auto drivers = registry();
-        auto devices = drivers.open(std::vector{*DeviceUri::parse("sensor:"), *DeviceUri::parse("sim:")},
-                                    {Role::Sensor, Role::Stimulator}, OpenContext{*clock_, 1, "1 kohm"});
-        ASSERT_IN_TIME(devices);
-        session_ = SessionWriter::create(file(), SessionAbout{}, *clock_).value();
-        BenchConfig config;
-        config.devices = std::move(*devices);
-        config.clock = clock_;
-        config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
-        config.session = session_.get();
-        auto bench = Bench::create(std::move(config));
-        ASSERT_IN_TIME(bench);
-        bench_ = std::move(*bench);
+        UsbBench::open({*DeviceUri::parse("sensor:"), *DeviceUri::parse("sim:")}, {Role::Sensor, Role::Stimulator});
     }
     void deliver() {
-        const auto armed = bench_->arm(ArmRequest{"1 kohm", true, true});
-        ASSERT_IN_TIME(armed);
+        ASSERT_IN_TIME(arm());
         ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 0.5, 1));
         ASSERT_IN_TIME(comes([&] { return bench_->telemetry().trainsDelivered > 0; }));
     }
-    [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "run.tacto"; }
     /// The bodies of all events of a kind, once the bench is closed.
     [[nodiscard]] std::vector<nlohmann::json> eventsOf(const std::string& kind) {
         bench_.reset();
@@ -94,15 +66,9 @@ protected:
         return std::nan("");
     }
 
-    UsbTestbed bed_;
-    std::shared_ptr<SteadyClock> clock_ = std::make_shared<SteadyClock>();
     BoardOnUsb device_{bed_, *clock_, boardNamed("TSB-0001"), BoardInterface::Serial, 1, [](Instant now) {
                            return std::make_unique<FingerSignal>(sim::FingerSettings{}, now);
                        }};
-    UsbProvider usb_ = makeUsbProvider();
-    const ScratchDir folder_;
-    std::unique_ptr<SessionWriter> session_;
-    std::unique_ptr<Bench> bench_;
 };
 
 TEST_F(SensorBoardBenchOnUsb, WhatIsLostIsCountedInTheStreamsAndKeptInTheSession) {

@@ -8,6 +8,7 @@
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
+#include "tests/support/usb_emulation/Comes.h"
 
 namespace tacto::test {
 namespace {
@@ -35,15 +36,6 @@ protected:
     Result<void> open(const std::string& text) {
         devices_ = {};
         return driver_->open(*DeviceUri::parse(text), {}, {clock_}, devices_);
-    }
-    template <class Condition>
-    [[nodiscard]] static bool comes(Condition condition) {
-        const auto end = std::chrono::steady_clock::now() + 5s;
-        while (!condition()) {
-            if (std::chrono::steady_clock::now() > end) return false;
-            std::this_thread::sleep_for(5ms);
-        }
-        return true;
     }
     [[nodiscard]] bool listed(std::size_t boards) {
         return comes([&] { return driver_->list().size() == boards; });

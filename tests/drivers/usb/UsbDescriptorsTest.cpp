@@ -20,8 +20,7 @@ protected:
         // A device whose descriptors libusb cannot read at all is not even listed: one that is plugged in after it
         // tells when it would have been.
         const EmulatedUsbDevice after(bed, vendorDevice(0x1209, 2, "after"), {}, 2);
-        if (!waitFor([&] { return context->find({0x1209, 2}).has_value(); }))
-            return {ErrorCode::Timeout, "no hot-plug"};
+        if (!comes([&] { return context->find({0x1209, 2}).has_value(); })) return {ErrorCode::Timeout, "no hot-plug"};
         const auto found = context->find({description.vendor, description.product});
         if (!found) return found.error();
 #ifdef __SANITIZE_ADDRESS__

@@ -11,6 +11,7 @@
 #include "drivers/usb/UsbBulkTransport.h"
 #include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
+#include "tests/support/usb_emulation/Comes.h"
 #include "tests/support/usb_emulation/EmulatedUsbDevice.h"
 
 namespace tacto::test {
@@ -31,19 +32,8 @@ protected:
         context = *started;
     }
 
-    /// Waits until plugging and unplugging has made `condition` true, as a program does.
-    template <class Condition>
-    [[nodiscard]] bool waitFor(Condition&& condition) const {
-        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-        for (;;) {
-            const auto seen = context->generation();
-            if (condition()) return true;
-            if (std::chrono::steady_clock::now() > deadline) return false;
-            (void)context->waitForChange(seen, Seconds(1));
-        }
-    }
     [[nodiscard]] bool waitForDevices(std::size_t count) const {
-        return waitFor([&] { return context->devices().size() == count; });
+        return comes([&] { return context->devices().size() == count; });
     }
 
     [[nodiscard]] std::unique_ptr<UsbBulkTransport> open(const EmulatedUsbDevice& device,

@@ -5,19 +5,14 @@
 #pragma once
 
 #include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
-#include <QTest>
 #include <QTreeWidget>
 #include <gtest/gtest.h>
 
 #include "app/gui/window/DeviceDock.h"
-#include "app/gui/window/MainWindow.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/drivers/sciencemode/EmulatedLine.h"
-#include "tests/gui/Person.h"
-#include "tests/support/InTime.h"
+#include "tests/gui/window/WindowFixture.h"
 #include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
 
 namespace tacto::test {
@@ -47,16 +42,8 @@ private:
     const std::shared_ptr<Plugs> plugs_;
 };
 
-class HardwareWindow : public testing::Test {
-protected:
-    HardwareWindow() {
-        window.resize(1440, 900);
-        window.show();
-        EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
-        window.activateWindow();
-    }
-    ~HardwareWindow() override { window.close(); }
-
+/// What is plugged in.
+struct Hardware {
     [[nodiscard]] Registry registry() const {
         std::vector<std::unique_ptr<Driver>> drivers;
         drivers.push_back(makeSimulatedDriver());
@@ -64,14 +51,25 @@ protected:
         drivers.push_back(makeSensorBoardDriver(board));
         return Registry(std::move(drivers));
     }
-    void unplugStimulator() {
+    void unplugStimulator() const {
         plugs->in = false;
         stimulator->unplug();
     }
-    void plugStimulator() {
+    void plugStimulator() const {
         stimulator->plug();
         plugs->in = true;
     }
+
+    const SteadyClock clock;
+    std::shared_ptr<EmulatedLine> stimulator = std::make_shared<EmulatedLine>(clock, nullptr);
+    std::shared_ptr<StimulatorSockets::Plugs> plugs = std::make_shared<StimulatorSockets::Plugs>();
+    std::shared_ptr<sensorboard::EmulatedBoardLine> board =
+        std::make_shared<sensorboard::EmulatedBoardLine>(clock, nullptr);
+};
+
+class HardwareWindow : protected Hardware, public Window {
+protected:
+    HardwareWindow() : Window([this] { return registry(); }) {}
 
     [[nodiscard]] QTreeWidget& tree() { return *window.findChild<gui::DeviceDock*>()->findChild<QTreeWidget*>(); }
     /// The dock's line for a URI, as soon as there is one. The test ends after 10 s.
@@ -103,19 +101,6 @@ protected:
         ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }))
             << banner().toStdString();
     }
-    /// Both steps, as a person takes them.
-    void arm() {
-        auto* first = window.findChild<QPushButton*>("armButton");
-        ASSERT_IN_TIME(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
-        click(*first);
-        auto* second = window.findChild<QPushButton*>("armOutput");
-        ASSERT_NE(second, nullptr);
-        ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
-        auto* load = second->window()->findChild<QLineEdit*>();
-        if (load->text().isEmpty()) QTest::keyClicks(load, "1 kohm");
-        click(*second);
-        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Armed; })) << banner().toStdString();
-    }
     void deliver() {
         window.controller().drive(DriveSource::Manual, 0.5, 1);
         ASSERT_IN_TIME(comesTrue([this] { return window.controller().telemetry().trainsDelivered > 0; }));
@@ -125,23 +110,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([&] { return button->text().contains("Reset"); }));
         click(*button);
     }
-    [[nodiscard]] InterlockState state() { return window.controller().telemetry().state; }
-    [[nodiscard]] QString banner() {
-        // A fault stands in the safety bar, all else above the workspaces.
-        QString all;
-        const auto* fault = window.findChild<QLabel*>("faultText");
-        if (fault->isVisible()) all = "Fault: " + fault->parentWidget()->toolTip();
-        const auto* label = window.findChild<QLabel*>("bannerText");
-        return label->isVisible() ? all + label->text() : all;
-    }
     [[nodiscard]] QString facts() { return window.findChild<QLabel*>("deviceFacts")->text(); }
-
-    const SteadyClock clock;
-    std::shared_ptr<EmulatedLine> stimulator = std::make_shared<EmulatedLine>(clock, nullptr);
-    std::shared_ptr<StimulatorSockets::Plugs> plugs = std::make_shared<StimulatorSockets::Plugs>();
-    std::shared_ptr<sensorboard::EmulatedBoardLine> board =
-        std::make_shared<sensorboard::EmulatedBoardLine>(clock, nullptr);
-    gui::MainWindow window{[this] { return registry(); }};
 };
 
 }  // namespace tacto::test

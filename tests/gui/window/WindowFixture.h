@@ -4,6 +4,7 @@
 #pragma once
 
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QTest>
 #include <gtest/gtest.h>
@@ -60,8 +61,10 @@ protected:
         auto* second = window.findChild<QPushButton*>("armOutput");
         ASSERT_NE(second, nullptr);
         ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
+        auto* load = second->window()->findChild<QLineEdit*>();
+        if (load->text().isEmpty()) QTest::keyClicks(load, "1 kohm");
         click(*second);
-        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Armed; }));
+        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Armed; })) << banner().toStdString();
     }
     void deliver() {
         window.controller().drive(DriveSource::Manual, 0.5, 1);

@@ -11,6 +11,7 @@
 #include "drivers/sciencemode/ScienceModeStimulator.h"
 #include "drivers/usb/UsbPorts.h"
 #include "tests/drivers/sciencemode/EmulatedOnUsb.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -50,7 +51,7 @@ GateSetup setupFor(const SourceTraits& source) {
     GateSetup setup;
     setup.source = source;
     setup.load = LoadRange::declared(Load::resistor(Ohms(1000)));
-    setup.limits = loadLimitSets(test::sourceDir() / "resources" / "limits").value();
+    setup.limits = test::limitSets();
     return setup;
 }
 

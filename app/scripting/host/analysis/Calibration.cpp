@@ -33,7 +33,7 @@ public:
     OwnSeries(ScriptSession& session, const OwnQuantity& quantity, std::vector<std::int64_t> numbers,
               std::vector<const OwnReading*> readings)
         : session_(session), quantity_(quantity), readings_(std::move(readings)) {
-        made_.quantity = quantity.name;
+        made_.quantity = quantity.id;
         made_.readings = std::move(numbers);
         for (const auto* reading : readings_) {
             for (const auto& command : reading->commands) {
@@ -53,9 +53,9 @@ public:
                 return fail(ErrorCode::InvalidArgument,
                             "analysis.calibration: reading {} has captures of different commands of {}; one command is "
                             "expected",
-                            made_.readings[i], quantity_.name);
+                            made_.readings[i], quantity_.id);
             }
-            const Json& measured = readings_[i]->read[quantity_.key];
+            const Json& measured = readings_[i]->read[quantity_.reading];
             rows[i].commanded = commanded;
             rows[i].measured = measured.is_number() ? measured.get<double>() : std::nan("");
         }
@@ -65,7 +65,7 @@ public:
     /// The captures carry what the operator or else the instrument states; what neither does is not known, whatever a
     /// script says of it.
     void widen(InstrumentErrors& errors) {
-        const bool amplitude = quantity_.name == "amplitude";
+        const bool amplitude = quantity_.isAmplitude();
         const double stated = worst(amplitude ? &OwnReading::gainTolerance : &OwnReading::timeBaseTolerance);
         if (!std::isnan(stated)) {
             const auto said = session_.operatorsNumber(amplitude ? "scope_gain_pct" : "timebase_ppm");
@@ -80,7 +80,8 @@ public:
             widenTo(errors.resolution, worst(&OwnReading::resolution));
         } else {
             errors.resolution = 0;
-            if (quantity_.name == "interval") widenTo(errors.stampTolerance, worst(&OwnReading::stampTolerance_s));
+            if (quantity_.id == kCalibratedInterval.id)
+                widenTo(errors.stampTolerance, worst(&OwnReading::stampTolerance_s));
             widenTo(errors.samplingStep, worst(&OwnReading::samplingStep_s));
         }
         errors.unit = amplitude ? readings_.front()->unit : "s";

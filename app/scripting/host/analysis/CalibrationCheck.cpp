@@ -5,6 +5,7 @@
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
 #include "core/base/QuantityText.h"
+#include "core/encoding/CalibratedQuantity.h"
 
 namespace tacto::host::analysis {
 
@@ -28,8 +29,8 @@ std::string notHeld(const Json& row) {
 Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
     const Json &found = arguments.object("found"), &line = arguments.object("line");
     const auto quantity = textIn(found, "quantity");
-    const bool isShort = quantity == "width" || quantity == "gap";
-    const double scale = isShort ? 1e6 : 1;  // as people read them
+    const auto* one = calibratedQuantity(quantity);
+    const double scale = one != nullptr ? one->perUnit : 1;  // as people read them
     Json rows = Json::array(), reasons = Json::array();
     const Json& levels = report::listIn(found, "levels");
     Verdict verdict = levels.empty() ? Verdict::Indeterminate : Verdict::Pass;
@@ -52,7 +53,7 @@ Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
                         {"off", numberOrNull(off * scale)},
                         {"expanded_uncertainty", numberOrNull(u * scale)},
                         {"allowed", numberOrNull(allowed * scale)},
-                        {"unit", isShort ? "us" : textIn(found, "unit")},
+                        {"unit", scale != 1 ? "us" : textIn(found, "unit")},
                         {"verdict", nameOf(judged)}});
         if (judged != Verdict::Pass) reasons.push_back(notHeld(rows.back()));
     }

@@ -92,7 +92,7 @@ Result<Json> storedCalibration(ScriptSession& session, const Arguments&) {
                 {"amplitude", lineJson(found->amplitude, found->unit)},
                 {"made", dateText(found->made)},
                 {"valid_until", dateText(found->validUntil)}};
-    for (const auto& time : kStoredTimes) out[std::string(time.key)] = lineJson(*((*found).*time.line), "s");
+    for (const auto& time : kStoredTimes) out[std::string(time.id)] = lineJson(*((*found).*time.line), "s");
     return out;
 }
 

@@ -38,7 +38,9 @@ Parameters withLevels(Parameters first) {
 }
 
 HostParameter quantity() {
-    return text("quantity", "what is calibrated").oneOf({"amplitude", "interval", "width", "gap"});
+    std::vector<std::string_view> ids;
+    for (const auto& one : kCalibratedQuantities) ids.push_back(one.id);
+    return text("quantity", "what is calibrated").oneOf(std::move(ids));
 }
 
 }  // namespace

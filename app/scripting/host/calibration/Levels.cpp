@@ -12,21 +12,16 @@ namespace tacto::host::calibration {
 
 namespace {
 
-struct LevelRange {
-    double low, high;
-    [[nodiscard]] double at(double share) const { return low + share * (high - low); }
-};
-
 /// What the levels of a run go by.
 struct LevelSettings {
     explicit LevelSettings(const Arguments& from)
         : load_ohm(from.number("settings.load")),
           rate_hz(from.number("settings.rate_hz")),
           settling_s(from.number("settings.settling_s")),
-          amplitude_v{from.number("settings.amplitude_min_v"), from.number("settings.amplitude_max_v")},
-          interval_s{from.number("settings.interval_min_s"), from.number("settings.interval_max_s")},
-          width_us{from.number("settings.width_min_us"), from.number("settings.width_max_us")},
-          gap_us{from.number("settings.gap_min_us"), from.number("settings.gap_max_us")} {}
+          amplitude_v(from, kCalibratedAmplitude),
+          interval_s(from, kCalibratedInterval),
+          width_us(from, kCalibratedWidth),
+          gap_us(from, kCalibratedGap) {}
 
     double load_ohm, rate_hz, settling_s;
     LevelRange amplitude_v, interval_s, width_us, gap_us;
@@ -102,14 +97,6 @@ Result<Json> readInterval(ScriptSession& session, const LevelSettings& settings,
     return readTrains(session, settings, 2);
 }
 
-/// The member of measure.pulse()'s answer that a quantity is read from.
-const char* keyOf(std::string_view quantity) {
-    return quantity == "interval" ? "interval_s"
-           : quantity == "width"  ? "width_s"
-           : quantity == "gap"    ? "gap_s"
-                                  : "amplitude";
-}
-
 }  // namespace
 
 Result<Json> readKnownLoad(ScriptSession& session, const Arguments& arguments) {
@@ -150,7 +137,7 @@ Result<Json> readLevel(ScriptSession& session, const Arguments& arguments) {
     }
     auto reading = quantity == "interval" ? readInterval(session, settings, share) : readTrains(session, settings, 1);
     if (!reading) return reading;
-    const char* key = keyOf(quantity);
+    const auto key = calibratedQuantity(quantity)->reading;
     Json row = {{"reading", reading->at("reading")},
                 {"commanded", reading->at("commanded").at(key)},
                 {"measured", reading->at(key)},

@@ -17,18 +17,6 @@ using report::listIn, report::numberIn, report::textIn;
 
 constexpr double kClock_pct = 0.5;  // how far intervals may be from the computer's clock (choice)
 
-struct RangeKeys {
-    std::string_view quantity;
-    std::string_view low, high;  // members of the settings
-    double perUnit;              // of the range, to one of the stored line
-};
-constexpr RangeKeys kRanges[] = {{"amplitude", "settings.amplitude_min_v", "settings.amplitude_max_v", 1},
-                                 {"interval", "settings.interval_min_s", "settings.interval_max_s", 1},
-                                 {"width", "settings.width_min_us", "settings.width_max_us", 1e6},
-                                 {"gap", "settings.gap_min_us", "settings.gap_max_us", 1e6}};
-
-std::string keyOfMember(std::string_view member) { return std::string(member.substr(member.find('.') + 1)); }
-
 std::string worstOf(const Json& judged) {
     const auto any = [&judged](std::string_view verdict) {
         return std::ranges::any_of(judged, [&](const Json& one) { return textIn(one, "verdict") == verdict; });
@@ -39,11 +27,11 @@ std::string worstOf(const Json& judged) {
 }  // namespace
 
 Result<Json> checkRanges(ScriptSession&, const Arguments& arguments) {
-    for (const auto& range : kRanges) {
-        const double low = arguments.number(range.low), high = arguments.number(range.high);
-        if (!(low < high))
-            return arguments.wrong(keyOfMember(range.low), low,
-                                   fmt::format("a number below {}, {:g},", keyOfMember(range.high), high));
+    for (const auto& one : kCalibratedQuantities) {
+        const LevelRange range(arguments, one);
+        if (!(range.low < range.high))
+            return arguments.wrong(LevelRange::key(one, "min"), range.low,
+                                   fmt::format("a number below {}, {:g},", LevelRange::key(one, "max"), range.high));
     }
     return Json();
 }
@@ -51,15 +39,16 @@ Result<Json> checkRanges(ScriptSession&, const Arguments& arguments) {
 Result<Json> knownRanges(ScriptSession&, const Arguments& arguments) {
     const Json& stored = arguments.object("stored");
     Json settings = arguments.object("settings");
-    for (const auto& range : kRanges) {
-        const Json line = stored.value(range.quantity, Json::object());
-        const double lowest = range.perUnit * numberIn(line, "lowest");
-        const double highest = range.perUnit * numberIn(line, "highest");
+    for (const auto& one : kCalibratedQuantities) {
+        const Json line = stored.value(one.id, Json::object());
+        const double lowest = one.perUnit * numberIn(line, "lowest");
+        const double highest = one.perUnit * numberIn(line, "highest");
         if (std::isnan(lowest) || std::isnan(highest))
             return arguments.wrong("stored", stored, "what bench.calibration holds");
         if (textIn(line, "unit") == "mA") continue;
-        settings[keyOfMember(range.low)] = std::max(lowest, arguments.number(range.low));
-        settings[keyOfMember(range.high)] = std::min(highest, arguments.number(range.high));
+        const LevelRange range(arguments, one);
+        settings[LevelRange::key(one, "min")] = std::max(lowest, range.low);
+        settings[LevelRange::key(one, "max")] = std::min(highest, range.high);
     }
     return settings;
 }
@@ -68,7 +57,7 @@ Result<Json> judge(ScriptSession& session, const Arguments& arguments) {
     analysis::CalibrationAsked asked;
     asked.quantity = arguments.text("quantity");
     asked.tolerance_pct = arguments.number("settings.timing_tolerance_pct");
-    if (asked.quantity == "amplitude") {
+    if (asked.quantity == kCalibratedAmplitude.id) {
         asked.tolerance_pct = arguments.number("settings.tolerance_pct");
         asked.errors.loadTolerance = arguments.number("settings.load_tolerance_pct") / 100;
         // A current source is programmed to A / |Z|, and |Z| is measured each time.

@@ -113,10 +113,10 @@ Result<Json> keepCalibration(ScriptSession& session, const Arguments& arguments)
     if (!line) return failure(line);
     made.amplitude = *line;
     for (const auto& time : kStoredTimes) {
-        const auto own = ownOf(session, found, time.key);
+        const auto own = ownOf(session, found, time.id);
         if (!own) return failure(own);
         all.push_back(*own);
-        const auto one = lineFound(arguments, (*own)->found, time.key);
+        const auto one = lineFound(arguments, (*own)->found, time.id);
         if (!one) return failure(one);
         made.*time.line = *one;
     }

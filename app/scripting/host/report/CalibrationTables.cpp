@@ -6,6 +6,7 @@
 #include "app/scripting/host/report/Cells.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
+#include "core/encoding/CalibratedQuantity.h"
 
 namespace tacto::host::report {
 
@@ -78,11 +79,8 @@ std::string coverage(const Json& of) {
 }  // namespace
 
 std::string titleOfQuantity(const std::string& quantity) {
-    return quantity == "amplitude"  ? "Amplitude"
-           : quantity == "interval" ? "Interval"
-           : quantity == "width"    ? "Phase width"
-           : quantity == "gap"      ? "Inter-phase gap"
-                                    : quantity;
+    const auto* known = calibratedQuantity(quantity);
+    return known != nullptr ? std::string(known->title) : quantity;
 }
 
 Json calibrationItems(const Json& found) {

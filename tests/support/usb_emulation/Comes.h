@@ -1,0 +1,22 @@
+// Comes.h - asks again and again whether something has come.
+//
+// Thread-safety: the caller's thread.
+#pragma once
+
+#include <chrono>
+#include <thread>
+
+namespace tacto::test {
+
+/// As long as a person would wait for it.
+template <class Condition>
+[[nodiscard]] bool comes(Condition condition, std::chrono::milliseconds within = std::chrono::seconds(5)) {
+    const auto end = std::chrono::steady_clock::now() + within;
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+}
+
+}  // namespace tacto::test
