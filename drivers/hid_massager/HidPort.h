@@ -1,10 +1,11 @@
 // HidPort.h - reports to and from one open device: a HID device through hidapi, a device that is driven by a control
 // request, a fake in tests. Destruction closes.
 //
-// Thread-safety: write() and feature() one caller at a time; stopNow() any thread, at any moment, also while write()
-// waits.
+// Thread-safety: write(), feature() and read() one caller at a time; stopNow() any thread, at any moment, also while
+// write() waits.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,6 +28,15 @@ public:
     /// Fetches the feature report whose number is in byte 0 of `report`; returns its bytes, that one included.
     /// Errors: Device; Unsupported where there are no feature reports.
     [[nodiscard]] virtual Result<std::size_t> feature(std::span<std::uint8_t> report) = 0;
+
+    /// Waits for an input report, at most so long; returns its bytes, cut to the size of `report`, as the device sent
+    /// them: with its number in front where reports are numbered. 0: none came. Errors: Device (gone); Unsupported
+    /// where there are none.
+    [[nodiscard]] virtual Result<std::size_t> read(std::span<std::uint8_t> report, std::chrono::milliseconds wait) {
+        static_cast<void>(report);
+        static_cast<void>(wait);
+        return fail(ErrorCode::Unsupported, "this device sends no input reports");
+    }
 
     /// Starts what sends `stop`, the device's stop report, when this program cannot. Errors: the device must not be
     /// driven; a sentence that says so.

@@ -44,6 +44,12 @@ public:
         return std::min(static_cast<std::size_t>(came), report.size());
     }
 
+    Result<std::size_t> read(std::span<std::uint8_t> report, std::chrono::milliseconds wait) override {
+        const int came = hid_read_timeout(device_, report.data(), report.size(), static_cast<int>(wait.count()));
+        if (came < 0) return wrong("reading an input report");
+        return std::min(static_cast<std::size_t>(came), report.size());
+    }
+
     Result<std::unique_ptr<Watchdog>> watch(std::span<const std::uint8_t> stop) override {
         StopWay way;
         way.node = path_;

@@ -58,6 +58,18 @@ public:
         return size;
     }
 
+    Result<std::size_t> read(std::span<std::uint8_t> report, std::chrono::milliseconds wait) override {
+        std::unique_lock lock(device_.mutex_);
+        device_.changed_.wait_for(lock, wait, [&] { return !device_.sent_.empty() || !there(); });
+        if (!there()) return fail(ErrorCode::Device, "the fake device is unplugged");
+        if (device_.sent_.empty()) return std::size_t{0};
+        const auto sent = std::move(device_.sent_.front());
+        device_.sent_.pop_front();
+        const auto size = std::min(report.size(), sent.size());
+        std::copy_n(sent.begin(), size, report.begin());
+        return size;
+    }
+
     Result<std::unique_ptr<hid::Watchdog>> watch(std::span<const std::uint8_t> stop) override {
         const std::scoped_lock lock(device_.mutex_);
         if (device_.watchRefused_) return fail(ErrorCode::Io, "the massager is not driven: no watchdog");
@@ -87,7 +99,8 @@ FakeHidDevice::FakeHidDevice(const Clock& clock, hid::HidDeviceInfo info, Bytes 
     what;                                \
     changed_.notify_all()
 
-void FakeHidDevice::unplug() { CHANGE(plugged_ = false); }
+void FakeHidDevice::unplug() { CHANGE((plugged_ = false, sent_.clear())); }
+void FakeHidDevice::send(Bytes report) { CHANGE(sent_.push_back(std::move(report))); }
 void FakeHidDevice::plug() { CHANGE((plugged_ = true, ++session_)); }
 void FakeHidDevice::hold(bool held) { CHANGE(held_ = held); }
 void FakeHidDevice::takeOnly(std::size_t bytes) { CHANGE(takeOnly_ = bytes); }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -31,6 +32,8 @@ public:
     /// All writes fail while it is so.
     void refuse(bool refused);
     void setFeature(Bytes report);
+    /// An input report that the device sends by itself.
+    void send(Bytes report);
     void setDescriptor(Bytes descriptor);
     void setPermitted(bool permitted);
 
@@ -73,6 +76,7 @@ private:
     hid::HidDeviceInfo info_;
     Bytes descriptor_, feature_, urgentStop_, watchedStop_;
     std::vector<Write> writes_;
+    std::deque<Bytes> sent_;
     std::optional<std::size_t> takeOnly_;
     bool plugged_ = true, refused_ = false, held_ = false, watchRefused_ = false, resting_ = true;
     int beats_ = 0, waiting_ = 0, attempts_ = 0, openings_ = 0, openNow_ = 0;

@@ -1,0 +1,58 @@
+// ButtonDevice.h - game pads and foot switches: devices with buttons, of which each serves one person of a pilot
+// session.
+//
+// Thread-safety: ButtonDevices from any thread; a listener is called on the device's own thread and must not block.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/Result.h"
+
+namespace tacto {
+
+struct ButtonDeviceInfo {
+    std::string address;               ///< while it is plugged in: "/dev/hidraw3"
+    std::string identity;              ///< the same after it was plugged in again: "046d:c216", "046d:c216 17"
+    std::string name;                  ///< as the device says
+    std::vector<std::string> buttons;  ///< their numbers: "1", "2"; of a second pad in one device "2-1"
+    std::string obstacle;              ///< why it cannot be used, and what helps, a sentence; empty where it can
+
+    bool operator==(const ButtonDeviceInfo&) const = default;
+};
+
+struct ButtonPress {
+    std::size_t button = 0;  ///< index in ButtonDeviceInfo::buttons
+    bool down = false;       ///< went down; else came up. A held button comes once
+    std::chrono::steady_clock::time_point at;
+};
+
+struct ButtonListener {
+    std::function<void(const ButtonPress& press)> moved;
+    /// False when the device went, also while buttons are down, which do not come up then; true when it is back.
+    std::function<void(bool there)> plugged;
+};
+
+/// One that is open. Destruction closes it, within 50 ms; the listener is not called afterwards. One that went is
+/// opened again by itself when it is back.
+class ButtonDevice {
+public:
+    virtual ~ButtonDevice() = default;
+};
+
+class ButtonDevices {
+public:
+    virtual ~ButtonDevices() = default;
+    /// All that are plugged in, also those that cannot be used.
+    [[nodiscard]] virtual std::vector<ButtonDeviceInfo> list() const = 0;
+    /// Errors: NotFound where it is not plugged in any more; Io (not permitted), Unsupported and ParseError with the
+    /// sentence of its obstacle.
+    [[nodiscard]] virtual Result<std::unique_ptr<ButtonDevice>> open(const ButtonDeviceInfo& info,
+                                                                     ButtonListener listener) const = 0;
+};
+
+}  // namespace tacto

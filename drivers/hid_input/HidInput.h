@@ -1,0 +1,21 @@
+// HidInput.h - game pads and foot switches over hidraw. The kernel's own driver keeps the device, which hidraw shares.
+//
+// Two that are plugged in with the same vendor, product and serial number (or none) cannot be told apart when one is
+// plugged in again, so neither can be used (H4). One that went is opened again when a device of its identity and its
+// very report descriptor is back. A device that types keys is a keyboard, and is not listed.
+//
+// Thread-safety: as ButtonDevices.
+#pragma once
+
+#include <memory>
+
+#include "core/devices/ButtonDevice.h"
+#include "drivers/hid_massager/HidBackend.h"
+
+namespace tacto::hid {
+
+[[nodiscard]] std::shared_ptr<const ButtonDevices> makeHidInput(std::shared_ptr<const HidBackend> backend);
+/// The devices of this computer.
+[[nodiscard]] std::shared_ptr<const ButtonDevices> systemHidInput();
+
+}  // namespace tacto::hid

@@ -1,0 +1,78 @@
+// Game pads on the real hidapi, over emulated devices.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/hid_input/HidInput.h"
+#include "tests/drivers/hid_input/PadDescriptors.h"
+#include "tests/support/InTime.h"
+#include "tests/support/Support.h"
+#include "tests/support/usb_emulation/EmulatedHidDevice.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::ElementsAre;
+
+class SystemInput : public testing::Test {
+protected:
+    ButtonListener listener() {
+        return {[this](const ButtonPress& press) { add(press.down ? int(press.button) + 1 : -int(press.button) - 1); },
+                [this](bool there) { add(there ? 1000 : -1000); }};
+    }
+    void add(int what) {
+        const std::scoped_lock lock(mutex);
+        heard.push_back(what);
+        changed.notify_all();
+    }
+    bool wait(std::size_t count) {
+        std::unique_lock lock(mutex);
+        return changed.wait_for(lock, std::chrono::seconds(5), [&] { return heard.size() >= count; });
+    }
+    UsbTestbed bed;
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::vector<int> heard;  // button from 1, negative where it came up; ±1000: back, gone
+};
+
+TEST_F(SystemInput, APadIsListedAndItsButtonsAreHeardUntilItIsUnpluggedAndAfterItIsBack) {
+    RecordProperty("hazard", "H2");
+    EmulatedHidDevice pad(bed, 0x046D, 0xC216, "", padDescriptor(), {});
+    const auto devices = hid::systemHidInput();
+    const auto list = devices->list();
+    ASSERT_EQ(list.size(), 1U);
+    EXPECT_EQ(list[0].address, "/dev/hidraw0");
+    EXPECT_EQ(list[0].identity, "046d:c216");
+    EXPECT_EQ(list[0].buttons.size(), 12U);
+    const auto opened = devices->open(list[0], listener());
+    ASSERT_TRUE(opened) << opened.error().message;
+    const auto before = std::chrono::steady_clock::now();
+    pad.send(padReport({6}));
+    ASSERT_IN_TIME(wait(1));
+    EXPECT_IN_TIME(std::chrono::steady_clock::now() - before <= std::chrono::milliseconds(5));
+    pad.send(padReport({}));
+    ASSERT_IN_TIME(wait(2));
+    pad.unplug();
+    ASSERT_IN_TIME(wait(3));
+    pad.plug();
+    ASSERT_IN_TIME(wait(4));
+    pad.send(padReport({1}));
+    ASSERT_IN_TIME(wait(5));
+    const std::scoped_lock lock(mutex);
+    EXPECT_THAT(heard, ElementsAre(6, -6, -1000, 1000, 1));
+}
+
+TEST_F(SystemInput, AFootSwitchOfProgrammableButtons) {
+    EmulatedHidDevice pedal(bed, 0x05F3, 0x00FF, "", pedalDescriptor(), {});
+    const auto devices = hid::systemHidInput();
+    const auto list = devices->list();
+    ASSERT_EQ(list.size(), 1U);
+    const auto opened = devices->open(list[0], listener());
+    ASSERT_TRUE(opened) << opened.error().message;
+    pedal.send(Bytes{0x04, 0x00});
+    ASSERT_IN_TIME(wait(1));
+    const std::scoped_lock lock(mutex);
+    EXPECT_THAT(heard, ElementsAre(3));
+}
+
+}  // namespace
+}  // namespace tacto::test
