@@ -4,6 +4,7 @@
 #include <QSvgGenerator>
 
 #include "app/report/NumberText.h"
+#include "app/report/SvgText.h"
 
 namespace tacto {
 namespace {
@@ -137,9 +138,7 @@ QByteArray sheetSvg(PlotSheet& sheet, const QString& title) {
               .arg(sheet.size().height())
               .arg(title.toHtmlEscaped()) +
           body;
-    // Verdana has DejaVu's widths, for readers without DejaVu.
-    svg.replace("font-family=\"DejaVu Sans\"", "font-family=\"'DejaVu Sans',Verdana,sans-serif\"");
-    return visible(svg).toUtf8();
+    return visible(withWholeTexts(svg)).toUtf8();
 }
 
 std::vector<std::size_t> visiblePoints(std::span<const double> values, std::size_t keep) {

@@ -6,11 +6,11 @@
 namespace tacto {
 namespace {
 
-constexpr auto kText = "DejaVu Sans";
+constexpr auto kFallback = "DejaVu Sans";
 constexpr auto kMono = "DejaVu Sans Mono";
 
-QFont fontOf(const char* family, double size) {
-    QFont font(QString::fromLatin1(family));
+QFont fontOf(const QStringList& families, double size) {
+    QFont font(families);
     font.setPixelSize(qMax(1, qRound(size)));
     // Hinted advances are rounded to pixels of a screen that a page does not have.
     font.setHintingPreference(QFont::PreferNoHinting);
@@ -23,7 +23,7 @@ QFont fontOf(const char* family, double size) {
 bool fontInstalled(const QString& family) { return QFontDatabase::families().contains(family); }
 
 Result<void> requireFonts(const FontCheck& installed) {
-    for (const char* family : {kText, kMono}) {
+    for (const char* family : {kFallback, kMono}) {
         if (!installed(QString::fromLatin1(family))) {
             return fail(ErrorCode::Unsupported,
                         "The font \"{}\" is not installed, and without it a report would lose its text; install the "
@@ -35,11 +35,13 @@ Result<void> requireFonts(const FontCheck& installed) {
 }
 
 QFont textFont(double size, bool bold) {
-    QFont font = fontOf(kText, size);
+    // Debian's Noto Sans has no minus, ≤ or arrows; Noto Sans Math has them, of the same widths.
+    static const QStringList kFamilies{"Noto Sans", "Noto Sans Math", kFallback};
+    QFont font = fontOf(kFamilies, size);
     font.setBold(bold);
     return font;
 }
 
-QFont monoFont(double size) { return fontOf(kMono, size); }
+QFont monoFont(double size) { return fontOf({kMono}, size); }
 
 }  // namespace tacto

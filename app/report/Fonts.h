@@ -1,5 +1,6 @@
-// Fonts.h - the faces a report is set in, and the check that they are there: without a font Qt writes pages that have
-// lost their text and says nothing.
+// Fonts.h - the faces a report is set in, the window's own (Noto Sans, and for each sign that it lacks Noto Sans Math,
+// then DejaVu Sans), and the check that the last of them is there: without a font Qt writes pages that have lost their
+// text and says nothing. Debian has the first two in fonts-noto-core.
 //
 // Sizes are in the report's unit, 1/96 inch.
 //

@@ -7,21 +7,23 @@ namespace tacto {
 namespace {
 
 constexpr auto kStyle = R"css(
-:root { color-scheme: light dark; --text: #222; --quiet: #5f666d; --page: #fff; --rule: #dfe3e7; --tint: #f3f4f6; }
+:root { color-scheme: light dark; --text: @text; --quiet: @quiet; --page: #fff; --rule: @grid; --line: @line;
+        --tint: @tint; }
 @media (prefers-color-scheme: dark) {
-  :root { --text: #e8eaed; --quiet: #a8afb7; --page: #16191d; --rule: #3a4047; --tint: #22272d; }
+  :root { --text: #e9ecef; --quiet: #a9b2bc; --page: #14171b; --rule: #272d34; --line: #363d46; --tint: #23282e; }
 }
 body { margin: 0; background: var(--page); color: var(--text);
-       font: 15px/1.5 "DejaVu Sans", Verdana, system-ui, sans-serif; font-variant-numeric: tabular-nums; }
+       font: 15px/1.5 "Noto Sans", "Noto Sans Math", "Open Sans", "Segoe UI", "DejaVu Sans", system-ui, sans-serif;
+       font-variant-numeric: tabular-nums; }
 main { max-width: 860px; margin: 0 auto; padding: 32px 20px 64px; }
 h1 { font-size: 30px; line-height: 1.2; margin: 0 0 4px; }
 h2 { font-size: 20px; margin: 40px 0 12px; }
 p { margin: 0 0 12px; } .quiet { color: var(--quiet); }
-.verdict { margin: 20px 0; padding: 16px 20px; border-left: 6px solid var(--mark); background: var(--tint);
-           display: grid; grid-template-columns: auto 1fr; column-gap: 16px; }
-.verdict .symbol { color: var(--mark); font-size: 30px; line-height: 1.2; }
-.verdict strong { color: var(--mark); font-size: 24px; line-height: 1.3; }
-.verdict ul { margin: 6px 0 0; padding-left: 20px; }
+.verdict { margin: 20px 0; background: var(--tint); }
+.verdict p { margin: 0; padding: 10px 20px; font-size: 24px; line-height: 1.3; font-weight: bold;
+             -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+.verdict .symbol { display: inline-block; min-width: 36px; }
+.verdict ul { margin: 0; padding: 12px 20px 12px 38px; }
 figure { margin: 24px 0; }
 figure svg { display: block; width: 100%; height: auto; background: #fff; border-radius: 4px; }
 figcaption { margin-top: 8px; } figcaption span { display: block; color: var(--quiet); font-size: 13px; }
@@ -29,41 +31,50 @@ figcaption { margin-top: 8px; } figcaption span { display: block; color: var(--q
 table { border-collapse: collapse; font-size: 13.5px; }
 caption { text-align: left; font-weight: bold; margin-bottom: 6px; font-size: 15px; white-space: nowrap; }
 th, td { padding: 5px 12px 5px 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--rule); }
-thead th { border-top: 1.5px solid var(--text); border-bottom: 1px solid var(--text); }
-tbody tr:last-child td { border-bottom: 1.5px solid var(--text); }
+thead th { color: var(--quiet); font-size: 12px; font-weight: normal; vertical-align: bottom;
+           border-bottom: 1px solid var(--line); }
+tbody tr:last-child > * { border-bottom-color: var(--line); }
 .matrix { font-size: 13px; } .matrix th[scope=row] { font-weight: normal; min-width: 150px; }
 .matrix td, .matrix th { padding: 4px 8px; } .matrix small { display: block; color: var(--quiet); font-size: 11px; }
-.close { background: #fcecc4; color: #222; font-weight: bold; }
-.broken { background: #f2cccc; color: #9c0006; font-weight: bold; }
+.close { background: @amberCell; color: @amberText; font-weight: bold; }
+.broken { background: @fail; color: @onFail; font-weight: bold; }
+.close, .broken, .open { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 .open { background: repeating-linear-gradient(135deg, transparent 0 5px, var(--rule) 5px 6px); }
-.matrix .close small, .matrix .broken small { color: #444; font-weight: normal; }
+.matrix .close small, .matrix .broken small { color: inherit; font-weight: normal; }
 .number { text-align: right; white-space: nowrap; }
 dl { display: grid; grid-template-columns: minmax(120px, 200px) 1fr; gap: 4px 16px; margin: 0 0 16px; }
 dt { color: var(--quiet); } dd { margin: 0; overflow-wrap: anywhere; }
 code, pre { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: 13px; }
 pre { background: var(--tint); padding: 12px 14px; border-radius: 4px; white-space: pre-wrap; overflow-wrap: anywhere; }
 .simulated { color: var(--quiet); text-transform: uppercase; letter-spacing: .08em; font-size: 13px; }
-.damaged { position: sticky; top: 0; padding: 6px 10px; background: #9c0006; color: #fff; font-weight: bold; }
+.damaged { position: sticky; top: 0; padding: 6px 10px; background: @fault; color: #fff; font-weight: bold; }
 @media print { .damaged { position: fixed; left: 0; right: 0; } }
 .signatures { width: 100%; } .signatures td, .signatures th[scope=row] { height: 44px; vertical-align: bottom; }
 footer { border-top: 1px solid var(--rule); margin-top: 40px; padding-top: 12px; font-size: 13px; color: var(--quiet); }
 @media print {
-  :root { --text: #222; --quiet: #5f666d; --page: #fff; --rule: #dfe3e7; --tint: #f3f4f6; }
+  :root { --text: @text; --quiet: @quiet; --page: #fff; --rule: @grid; --line: @line; --tint: @tint; }
   @page { size: A4; margin: 18mm; }
   main { max-width: none; padding: 0; } body { font-size: 10pt; }
   figure, .verdict, tr, pre { break-inside: avoid; } h2, caption { break-after: avoid; } .scroll { overflow: visible; }
 }
 )css";
 
-// On dark pages the verdict's colour is lifted so that it keeps its contrast.
-QString markStyle(const QColor& color) {
-    const QString light = color.name();
-    const QString dark =
-        QColor::fromHslF(color.hslHueF() < 0 ? 0 : color.hslHueF(), color.hslSaturationF() * 0.7F, 0.68F).name();
-    return QString(
-               ".verdict { --mark: %1; } @media (prefers-color-scheme: dark) { .verdict { --mark: %2; } } "
-               "@media print { .verdict { --mark: %1; } }")
-        .arg(light, dark);
+QString pageStyle() {
+    QString style = QString::fromUtf8(kStyle);
+    const auto fail = verdictMark("fail");
+    // The longer of two names that begin alike comes first.
+    for (const auto& [role, colour] : {std::pair("@amberCell", ink::kAmberCell),
+                                       {"@amberText", ink::kAmberText},
+                                       {"@onFail", fail.ink},
+                                       {"@fail", fail.fill},
+                                       {"@fault", ink::kFault},
+                                       {"@text", ink::kText},
+                                       {"@quiet", ink::kQuiet},
+                                       {"@grid", ink::kGrid},
+                                       {"@line", ink::kLine},
+                                       {"@tint", ink::kWindow}})
+        style.replace(QLatin1String(role), colour.name());
+    return style;
 }
 
 class Writer {
@@ -73,11 +84,12 @@ public:
     }
 
     void operator()(const VerdictBlock& block) {
-        out_ += "<style>" + markStyle(block.color) + "</style>\n";
-        out_ += "<section class=\"verdict\"><span class=\"symbol\" aria-hidden=\"true\">" + escaped(block.symbol) +
-                "</span><div><strong>" + escaped(block.word) + "</strong>\n<ul>";
+        out_ += QString("<section class=\"verdict\"><p style=\"background: %1; color: %2\">")
+                    .arg(block.mark.fill.name(), block.mark.ink.name()) +
+                "<span class=\"symbol\" aria-hidden=\"true\">" + escaped(block.mark.shape) + "</span><strong>" +
+                escaped(block.word) + "</strong></p>\n<ul>";
         for (const auto& reason : block.reasons) out_ += "<li>" + escaped(reason) + "</li>";
-        out_ += "</ul></div></section>\n";
+        out_ += "</ul></section>\n";
     }
 
     void operator()(const HeadingBlock& block) { out_ += "<h2>" + escaped(block.text) + "</h2>\n"; }
@@ -186,7 +198,7 @@ QByteArray reportHtml(const ReportContent& content) {
         "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
         "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
         "<title>" +
-        Writer::escaped(content.documentTitle) + "</title>\n<style>" + QString::fromUtf8(kStyle) +
+        Writer::escaped(content.documentTitle) + "</title>\n<style>" + pageStyle() +
         "</style>\n</head>\n<body>\n<main>\n";
     // One page on a screen, where it stays in sight; on paper it is repeated on each.
     html += QString("<p class=\"simulated%1\">").arg(content.damaged ? " damaged" : "") +

@@ -2,6 +2,7 @@
 
 #include <QJsonArray>
 #include <QJsonObject>
+#include <QRegularExpression>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -167,6 +168,50 @@ QString quantityText(double value, const QString& unit, const ColumnFormat& form
     const double scaled = value * split.factor * std::pow(10.0, -format.exponent);
     return withUnit(fixed(scaled, format.decimals),
                     split.base.isEmpty() ? shown : prefixOf(format.exponent).symbol + split.base);
+}
+
+QString withMinus(QString text) {
+    static const QRegularExpression kHyphen(R"((^|[\s(\[])-(?=\d))");
+    return text.replace(kHyphen, "\\1" + kMinus);
+}
+
+bool isFigure(const QString& text) {
+    static const QRegularExpression kFigure(
+        R"(^(± )?[−-]?\d+(\.\d+)?( ± \d+(\.\d+)?)?([ \x{202f}\x{a0}]?[^\d\s−-][^\d\s]{0,7})?$)",
+        QRegularExpression::UseUnicodePropertiesOption);
+    return kFigure.match(text).hasMatch();
+}
+
+void alignPoints(QStringList& cells) {
+    static const QRegularExpression kNumber(R"(\d+(\.\d+)?)");
+    const QString digit(QChar(0x2007)), point(QChar(0x2008));
+    const auto between = [](const QString& cell) { return QString(cell).remove(kNumber).remove(kMinus); };
+    std::optional<QString> like;
+    std::vector<qsizetype> most;  // places behind the point, of each number of a cell
+    for (const auto& cell : cells) {
+        std::size_t n = 0;
+        for (auto each = kNumber.globalMatch(cell); each.hasNext(); ++n) {
+            const qsizetype places = std::max<qsizetype>(0, each.next().capturedLength(1) - 1);
+            if (n >= most.size()) most.push_back(places);
+            most[n] = std::max(most[n], places);
+        }
+        if (n == 0) continue;
+        if (!like) like = between(cell);
+        if (between(cell) != *like) return;
+    }
+    for (auto& cell : cells) {
+        QString filled;
+        qsizetype taken = 0;
+        std::size_t n = 0;
+        for (auto each = kNumber.globalMatch(cell); each.hasNext(); ++n) {
+            const auto number = each.next();
+            const qsizetype places = std::max<qsizetype>(0, number.capturedLength(1) - 1);
+            filled += cell.mid(taken, number.capturedEnd() - taken);
+            if (places < most[n]) filled += (places == 0 ? point : QString()) + digit.repeated(most[n] - places);
+            taken = number.capturedEnd();
+        }
+        cell = filled + cell.mid(taken);
+    }
 }
 
 QString visible(QString text) {

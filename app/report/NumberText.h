@@ -6,6 +6,7 @@
 
 #include <QJsonValue>
 #include <QString>
+#include <QStringList>
 #include <optional>
 #include <vector>
 
@@ -56,6 +57,16 @@ struct ColumnFormat {
 };
 [[nodiscard]] std::optional<ColumnFormat> columnFormat(const std::vector<double>& values, const QString& unit);
 [[nodiscard]] QString quantityText(double value, const QString& unit, const ColumnFormat& format);
+
+/// `text` with a true minus before every number that has a hyphen there; dates and ranges keep theirs.
+[[nodiscard]] QString withMinus(QString text);
+
+/// True for a figure as it stands in a cell: "5.03 mA", "± 200 mV", "−0.3 ± 1.2 %".
+[[nodiscard]] bool isFigure(const QString& text);
+
+/// Puts the decimal points of a column of numbers one below the other where all have the same unit: fills the places
+/// that a number lacks with spaces as wide as a digit and a point. Cells without a number stay as they are.
+void alignPoints(QStringList& cells);
 
 /// `text` with every character that moves a cursor, turns the reading direction or cannot be seen as U+FFFD: what a
 /// script, a file or a device said never reaches a reader's terminal or page as a command.

@@ -2,6 +2,7 @@
 
 #include "app/report/Fonts.h"
 #include "app/report/PlotSheet.h"
+#include "app/report/VerdictMark.h"
 
 namespace tacto {
 namespace {
@@ -94,19 +95,18 @@ private:
     [[nodiscard]] double headerHeight() const {
         double height = 0;
         for (const auto& column : matrix_.columns)
-            height = std::max(height, PdfPages::textHeight(cell_ - 2 * kPad, column, textFont(10, true)));
+            height = std::max(height, PdfPages::textHeight(cell_ - 2 * kPad, column, textFont(10)));
         return height + 2 * kPad;
     }
 
     void header() {
         const double height = headerHeight(), top = pages_.y();
-        rule(ink::kText, 1);
         pages_.advance(kPad);
         for (int c = 0; c < matrix_.columns.size(); ++c)
-            pages_.text(title_ + c * cell_ + kPad, cell_ - 2 * kPad, matrix_.columns[c], textFont(10, true), ink::kText,
+            pages_.text(title_ + c * cell_ + kPad, cell_ - 2 * kPad, matrix_.columns[c], textFont(10), ink::kQuiet,
                         Qt::AlignRight);
         pages_.advance(top + height - pages_.y());
-        rule(ink::kText, 0.7);
+        rule(ink::kLine, 1);
     }
 
     [[nodiscard]] double rowHeight(const MatrixBlock::Row& row) const {
@@ -136,22 +136,25 @@ private:
             cell(row.cells[c], title_ + static_cast<double>(c) * cell_);
         }
         pages_.advance(top + height - pages_.y());
-        rule(last ? ink::kText : ink::kGrid, last ? 1 : 0.7);
+        rule(last ? ink::kLine : ink::kGrid, 0.8);
     }
 
     void cell(const MatrixBlock::Cell& cell, double x) {
-        const QColor color = cell.state == State::Broken ? ink::kFault : ink::kText;
+        const auto fail = verdictMark("fail");
+        const bool broken = cell.state == State::Broken;
+        const QColor color = broken ? fail.ink : cell.state == State::Close ? ink::kAmberText : ink::kText;
         pages_.advance(pages_.text(x + kPad, cell_ - 2 * kPad, cell.main, mainFont(cell), color, Qt::AlignRight));
-        pages_.text(x + kPad, cell_ - 2 * kPad, cell.detail, textFont(kDetailSize), ink::kQuiet, Qt::AlignRight);
+        pages_.text(x + kPad, cell_ - 2 * kPad, cell.detail, textFont(kDetailSize), broken ? fail.ink : ink::kQuiet,
+                    Qt::AlignRight);
     }
 
     void background(State state, const QRectF& box) {
         auto* painter = pages_.painter();
         if (painter == nullptr) return;
-        if (state == State::Close) painter->fillRect(box, QColor(0xfc, 0xec, 0xc4));
-        if (state == State::Broken) painter->fillRect(box, QColor(0xf2, 0xcc, 0xcc));
+        if (state == State::Close) painter->fillRect(box, ink::kAmberCell);
+        if (state == State::Broken) painter->fillRect(box, verdictMark("fail").fill);
         if (state != State::Open) return;
-        painter->setPen(QPen(ink::kGrid, 0.8));
+        painter->setPen(QPen(ink::kHatch, 0.8));
         constexpr double kStep = 6;
         for (double offset = kStep; offset < box.width() + box.height(); offset += kStep) {
             painter->drawLine(

@@ -11,12 +11,15 @@ namespace {
 constexpr int kResolution = 1200;
 constexpr double kMargin = 68.85;  // (A4 width of 793.7 - 656) / 2
 constexpr double kTop = 64;
-constexpr double kLeading = 1.08;  // of a line's own height
+// Of the size of the type: a sign from another face moves neither its line nor the next.
+constexpr double kLineOfSize = 1.26;
+constexpr double kBaselineOfSize = 0.95;
 
 /// Lays `text` out in lines; calls `each` with a line's layout.
 double layOut(double width, const QString& text, const QFont& font, Qt::Alignment alignment, bool breakAnywhere,
               const std::function<void(QTextLayout&, double)>& each) {
     double height = 0;
+    const double size = font.pixelSize();
     for (const auto& paragraph : text.split('\n')) {
         QTextLayout layout(paragraph, font);
         QTextOption option(alignment);
@@ -26,8 +29,8 @@ double layOut(double width, const QString& text, const QFont& font, Qt::Alignmen
         double inner = 0;
         for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {
             line.setLineWidth(width);
-            line.setPosition(QPointF(0, inner));
-            inner += line.height() * kLeading;
+            line.setPosition(QPointF(0, inner + kBaselineOfSize * size - line.ascent()));
+            inner += kLineOfSize * size;
         }
         layout.endLayout();
         if (each) each(layout, height);

@@ -11,6 +11,7 @@ namespace {
 constexpr double kGap = 12;       // between blocks
 constexpr double kTextSize = 12;  // 9 pt
 constexpr double kFactColumn = 150;
+constexpr double kSymbol = 34;            // room of a verdict's shape before its word
 constexpr double kHalf = 316;             // two columns of facts with a gutter
 constexpr double kBriefFactColumn = 210;  // of a half: a setting's name is longer than its value
 
@@ -24,25 +25,25 @@ public:
     }
 
     void operator()(const VerdictBlock& block) {
-        constexpr double kInset = 16;
-        const double width = PdfPages::kWidth - 2 * kInset - 44;
-        double height = 2 * kInset + PdfPages::textHeight(width, block.word, textFont(22, true)) + 2;
+        constexpr double kInset = 16, kWordInset = 8, kBelow = 10;
+        const QFont wordFont = textFont(22, true);
+        const double width = PdfPages::kWidth - 2 * kInset;
+        const double head = PdfPages::textHeight(width - kSymbol, block.word, wordFont) + 2 * kWordInset;
+        double height = head + 2 * kBelow;
         for (const auto& reason : block.reasons) height += reasonHeight(width, reason);
         pages_.require(height);
-        if (auto* painter = pages_.painter()) {
-            QColor tint = block.color;
-            tint.setAlphaF(0.08F);
-            const QRectF box(0, pages_.y(), PdfPages::kWidth, height);
-            painter->fillRect(box, tint);
-            painter->fillRect(QRectF(box.topLeft(), QSizeF(5, height)), block.color);
-        }
         const double top = pages_.y();
-        pages_.advance(kInset);
-        pages_.text(kInset + 4, 40, block.symbol, textFont(24), block.color);
-        pages_.advance(pages_.text(kInset + 44, width, block.word, textFont(22, true), block.color) + 2);
+        if (auto* painter = pages_.painter()) {
+            painter->fillRect(QRectF(0, top, PdfPages::kWidth, height), ink::kWindow);
+            painter->fillRect(QRectF(0, top, PdfPages::kWidth, head), block.mark.fill);
+        }
+        pages_.advance(kWordInset);
+        pages_.text(kInset, kSymbol, block.mark.shape, wordFont, block.mark.ink);
+        pages_.text(kInset + kSymbol, width - kSymbol, block.word, wordFont, block.mark.ink);
+        pages_.advance(top + head + kBelow - pages_.y());
         for (const auto& reason : block.reasons) {
-            pages_.text(kInset + 44, 12, "–", textFont(kTextSize), ink::kQuiet);
-            pages_.text(kInset + 56, width - 12, reason, textFont(kTextSize), ink::kText);
+            pages_.text(kInset, 12, "–", textFont(kTextSize), ink::kQuiet);
+            pages_.text(kInset + 12, width - 12, reason, textFont(kTextSize), ink::kText);
             pages_.advance(reasonHeight(width, reason));
         }
         pages_.advance(top + height - pages_.y() + kGap);
@@ -154,7 +155,7 @@ public:
             const double height = PdfPages::textHeight(PdfPages::kWidth - 20, line, font) + 8;
             pages_.require(height);
             if (auto* painter = pages_.painter()) {
-                painter->fillRect(QRectF(0, pages_.y(), PdfPages::kWidth, height), QColor(0xf3, 0xf4, 0xf6));
+                painter->fillRect(QRectF(0, pages_.y(), PdfPages::kWidth, height), ink::kWindow);
             }
             pages_.advance(4);
             pages_.text(10, PdfPages::kWidth - 20, line, font, ink::kText);

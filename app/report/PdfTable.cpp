@@ -6,14 +6,18 @@ namespace tacto {
 namespace {
 
 constexpr double kSize = 11;
+constexpr double kHeaderSize = 10;
 constexpr double kPadX = 6;
-constexpr double kPadY = 2;
+constexpr double kPadY = 2.5;
 constexpr double kWidestText = 420;  // longer cells wrap
 
-double widthOf(const QString& text, bool bold) {
+/// A header is smaller and quieter than its cells, as in the window.
+QFont cellFont(bool header) { return textFont(header ? kHeaderSize : kSize); }
+
+double widthOf(const QString& text, bool header) {
     double widest = 0;
     for (const auto& line : text.split('\n')) {
-        widest = std::max(widest, QFontMetricsF(textFont(kSize, bold)).horizontalAdvance(line));
+        widest = std::max(widest, QFontMetricsF(cellFont(header)).horizontalAdvance(line));
     }
     return widest;
 }
@@ -26,15 +30,15 @@ struct Want {
 
 Want wantOf(const TableBlock& table, std::size_t column) {
     Want want;
-    const auto include = [&](const QString& text, bool bold) {
-        want.ideal = std::max(want.ideal, std::min(kWidestText, widthOf(text, bold)));
+    const auto include = [&](const QString& text, bool header) {
+        want.ideal = std::max(want.ideal, std::min(kWidestText, widthOf(text, header)));
         // Numbers keep their unit and their uncertainty on one line.
-        if (table.columns[column].numeric && !bold) {
-            want.least = std::max(want.least, std::min(kWidestText, widthOf(text, bold)));
+        if (table.columns[column].numeric && !header) {
+            want.least = std::max(want.least, std::min(kWidestText, widthOf(text, header)));
             return;
         }
         for (const auto& word : text.split(' '))
-            want.least = std::max(want.least, std::min(150.0, widthOf(word, bold)));
+            want.least = std::max(want.least, std::min(150.0, widthOf(word, header)));
     };
     include(table.columns[column].title, true);
     for (const auto& row : table.rows) include(row.value(static_cast<qsizetype>(column)), false);
@@ -101,35 +105,35 @@ public:
     }
 
     void setHeader(double left = 0) {
-        rule(left, ink::kText, 1);
         setCells(
             left, [&](std::size_t c) { return table_.columns[c].title; }, true);
-        rule(left, ink::kText, 0.7);
+        rule(left, ink::kLine, 1);
     }
     void setRow(std::size_t row, bool last, double left = 0) {
         setCells(
             left, [&](std::size_t c) { return table_.rows[row].value(static_cast<qsizetype>(c)); }, false);
-        rule(left, last ? ink::kText : ink::kGrid, last ? 1 : 0.7);
+        rule(left, last ? ink::kLine : ink::kGrid, 0.8);
     }
 
 private:
     template <class Text>
-    [[nodiscard]] double heightOf(Text text, bool bold) const {
+    [[nodiscard]] double heightOf(Text text, bool header) const {
         double height = 0;
         for (std::size_t i = 0; i < part_.columns.size(); ++i) {
-            height = std::max(height, PdfPages::textHeight(part_.widths[i] - 2 * kPadX, text(part_.columns[i]),
-                                                           textFont(kSize, bold)));
+            height = std::max(
+                height, PdfPages::textHeight(part_.widths[i] - 2 * kPadX, text(part_.columns[i]), cellFont(header)));
         }
         return height + 2 * kPadY;
     }
 
     template <class Text>
-    void setCells(double x, Text text, bool bold) {
-        const double height = heightOf(text, bold);
+    void setCells(double x, Text text, bool header) {
+        const double height = heightOf(text, header);
         pages_.advance(kPadY);
         for (std::size_t i = 0; i < part_.columns.size(); ++i) {
             const auto column = part_.columns[i];
-            pages_.text(x + kPadX, part_.widths[i] - 2 * kPadX, text(column), textFont(kSize, bold), ink::kText,
+            pages_.text(x + kPadX, part_.widths[i] - 2 * kPadX, text(column), cellFont(header),
+                        header ? ink::kQuiet : ink::kText,
                         table_.columns[column].numeric ? Qt::AlignRight : Qt::AlignLeft);
             x += part_.widths[i];
         }

@@ -13,7 +13,7 @@ ConditionStyle conditionStyle(const QString& name, int index) {
         {"rough-high", {QColor(0xd5, 0x5e, 0x00), Qt::SolidLine, S::ssDiamond}}};
     if (const auto found = known.find(name); found != known.end()) return found->second;
     static const std::array<ConditionStyle, 8> further{
-        {{QColor(0x00, 0x9e, 0x73), Qt::SolidLine, S::ssDiamond},
+        {{ink::kCurrent, Qt::SolidLine, S::ssDiamond},
          {QColor(0xcc, 0x79, 0xa7), Qt::DashLine, S::ssCross},
          {QColor(0x33, 0x33, 0x33), Qt::DotLine, S::ssPlus},
          {QColor(0x7a, 0x7a, 0x7a), Qt::DashDotLine, S::ssStar},

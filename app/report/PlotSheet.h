@@ -11,6 +11,8 @@
 #include <qcustomplot.h>
 #include <vector>
 
+#include "app/report/Ink.h"
+
 namespace tacto {
 
 struct ConditionStyle {
@@ -21,17 +23,6 @@ struct ConditionStyle {
 };
 /// The four conditions have their own; other names take the further colours by `index`.
 [[nodiscard]] ConditionStyle conditionStyle(const QString& name, int index);
-
-namespace ink {
-inline const QColor kText(0x22, 0x22, 0x22);
-inline const QColor kQuiet(0x5f, 0x66, 0x6d);
-inline const QColor kAxis(0x8a, 0x90, 0x96);
-inline const QColor kGrid(0xe4, 0xe7, 0xea);
-inline const QColor kVoltage(0x00, 0x72, 0xb2);
-inline const QColor kCurrent(0x00, 0x9e, 0x73);
-inline const QColor kAmber(0xe6, 0x9f, 0x00);
-inline const QColor kFault(0xb0, 0x1e, 0x1e);
-}  // namespace ink
 
 inline constexpr int kSheetWidth = 656;  ///< the text width of an A4 page
 

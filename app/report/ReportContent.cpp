@@ -49,25 +49,26 @@ bool isAllSimulated(const ReportModel& model) {
 VerdictBlock verdictOf(const ReportModel& model) {
     VerdictBlock block;
     block.verdict = model.verdict;
-    block.reasons = model.reasons;
+    for (const auto& reason : model.reasons) block.reasons << loadText(withMinus(reason));
     // H9: nothing passes on evidence that was altered.
     const bool unproven = !model.damage.isEmpty() && model.verdict == ReportVerdict::Pass;
     if (unproven) block.verdict = ReportVerdict::Indeterminate;
+    block.mark = verdictMark(block.verdict);
     switch (block.verdict) {
         case ReportVerdict::Pass:
-            block.symbol = "✔", block.word = "Pass", block.color = QColor(0x00, 0x6b, 0x50);
+            block.word = "Pass";
             break;
         case ReportVerdict::Fail:
-            block.symbol = "✘", block.word = "Fail", block.color = QColor(0x9c, 0x3d, 0x00);
+            block.word = "Fail";
             break;
         case ReportVerdict::Indeterminate:
-            block.symbol = "◐", block.word = "Indeterminate", block.color = QColor(0x7a, 0x5a, 0x00);
+            block.word = "Indeterminate";
             break;
         case ReportVerdict::Stopped:
-            block.symbol = "■", block.word = "Stopped", block.color = ink::kFault;
+            block.word = "Stopped";
             break;
         case ReportVerdict::None:
-            block.symbol = "○", block.word = "No verdict", block.color = ink::kQuiet;
+            block.word = "No verdict";
             if (block.reasons.isEmpty()) block.reasons << "This protocol records; it does not judge.";
             break;
     }

@@ -14,6 +14,7 @@
 
 #include "app/report/PlotSheet.h"
 #include "app/report/ReportModel.h"
+#include "app/report/VerdictMark.h"
 
 namespace tacto {
 
@@ -23,10 +24,9 @@ struct TitleBlock {
 };
 struct VerdictBlock {
     ReportVerdict verdict = ReportVerdict::None;
-    QString symbol;  ///< told apart by shape as well as by colour
+    VerdictMark mark;
     QString word;
     QStringList reasons;
-    QColor color;
 };
 struct HeadingBlock {
     QString text;

@@ -6,6 +6,7 @@
 
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
+#include "app/report/VerdictMark.h"
 #include "core/safety/LimitSet.h"
 
 namespace tacto {
@@ -52,22 +53,28 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
                          (key == "value" || key == "limit");
     std::vector<double> numbers;
     bool numeric = ownUnit;
+    bool figures = key != "load" && !source.rows.isEmpty();  // texts of numbers are numbers too
     for (const auto& row : source.rows) {
         const auto value = row.toObject().value(key);
         if (value.isDouble()) numbers.push_back(value.toDouble());
         numeric = numeric || value.isDouble() || value.isObject();
+        figures = figures && value.isString() && isFigure(value.toString());
     }
     const auto format = columnFormat(numbers, name.unit);
-    table.columns.push_back({shownText(name.title, kShownCell), numeric});
+    QStringList cells;
     for (qsizetype r = 0; r < source.rows.size(); ++r) {
         const auto row = source.rows[r].toObject();
         const auto value = row.value(key);
-        table.rows[static_cast<std::size_t>(r)]
-            << (ownUnit                      ? withOwnUnit(row, key)
-                : value.isDouble() && format ? quantityText(value.toDouble(), name.unit, *format)
-                : key == "load"              ? shownText(loadText(cellText(value, {})), kShownCell)
-                                             : shownText(cellText(value, name.unit), kShownCell));
+        cells << (ownUnit                      ? withOwnUnit(row, key)
+                  : value.isDouble() && format ? quantityText(value.toDouble(), name.unit, *format)
+                  : key == "verdict"           ? shownText(verdictCell(cellText(value, {})), kShownCell)
+                  : key == "load"              ? shownText(loadText(cellText(value, {})), kShownCell)
+                                               : shownText(cellText(value, name.unit), kShownCell));
+        if (figures) cells.back() = withMinus(cells.back());
     }
+    if (numeric || figures) alignPoints(cells);
+    table.columns.push_back({shownText(name.title, kShownCell), numeric || figures});
+    for (qsizetype r = 0; r < cells.size(); ++r) table.rows[static_cast<std::size_t>(r)] << cells[r];
 }
 
 /// How near to a limit is worth a second look, % of it.
@@ -81,9 +88,10 @@ MatrixBlock::Cell judgedCell(const QJsonObject& cell, const QString& unit) {
     if (verdict == "not evaluated") return {"–", "not evaluated", State::Open};
     if (verdict == "not applicable") return {"–", measured + "\nnot judged", State::Plain};
     const QString left = quantityText(margin, "%", 2);
-    if (verdict == "fail") return {"✘ " + left, measured, State::Broken};
-    if (verdict == "indeterminate") return {"◐ " + left, measured, State::Broken};
-    if (verdict == "attention") return {"▲ " + left, measured, State::Close};
+    const auto marked = [&](const char* key) { return verdictMark(QString(key)).shape + " " + left; };
+    if (verdict == "fail") return {marked("fail"), measured, State::Broken};
+    if (verdict == "indeterminate") return {marked("indeterminate"), measured, State::Close};
+    if (verdict == "attention") return {marked("attention"), measured, State::Close};
     return {left, measured, margin < kClose_pct ? State::Close : State::Plain};
 }
 
@@ -163,8 +171,8 @@ MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
     }
     if (judged) {
         matrix.legend =
-            "Each cell: the margin, (limit − value − U) / limit, and below it the value ± U (95\u202f%). ✘ not kept, "
-            "◐ indeterminate, ▲ above a figure that asks for attention; shaded: less than 20\u202f% left, hatched: not "
+            "Each cell: the margin, (limit − value − U) / limit, and below it the value ± U (95\u202f%). ✖ not kept, "
+            "? indeterminate, ▲ above a figure that asks for attention; shaded: less than 20\u202f% left, hatched: not "
             "evaluated. Rows with the smallest margin come first.";
     }
     return matrix;

@@ -48,7 +48,7 @@ protected:
         const QRectF box = QRectF(QPointF(x->coordToPixel(where_.left()), y->coordToPixel(where_.top())),
                                   QPointF(x->coordToPixel(where_.right()), y->coordToPixel(where_.bottom())))
                                .normalized();
-        painter->setPen(QPen(ink::kAxis, 0.8));
+        painter->setPen(QPen(ink::kHatch, 0.8));
         painter->setBrush(Qt::NoBrush);
         painter->drawRect(box);
         constexpr double kStep = 7;
@@ -164,7 +164,8 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
     auto* names = axes->axis(QCPAxis::atLeft);
     QStringList labels;
     for (const auto& row : rows) {
-        const QString label = row.source.isEmpty() ? row.name : row.name + " · " + limitSetTitle(row.source);
+        const QString label =
+            loadText(row.name) + (row.source.isEmpty() ? QString() : " · " + limitSetTitle(row.source));
         labels << shortened(label, textFont(10), 290);
     }
     names->setTicker(labelTicker(labels));
@@ -199,9 +200,7 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
         }
         const double fraction = std::abs(row.value) / row.limit;
         const bool over = row.over();
-        const QColor color = over && !row.warning ? ink::kFault
-                             : fraction >= 0.8    ? ink::kAmber
-                                                  : QColor(0x5b, 0x82, 0xa6);
+        const QColor color = over && !row.warning ? ink::kFault : fraction >= 0.8 ? ink::kAmber : ink::kBar;
         addRect(*sheet, axes, QRectF(0, i - 0.32, 100 * std::min(fraction, kReach), 0.64), color,
                 QPen(color.darker(125), 0.8));
         QString text = quantityText(row.value, row.unit, 3) + " of " + settingText(row.limit, row.unit);

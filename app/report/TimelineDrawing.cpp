@@ -133,8 +133,8 @@ std::unique_ptr<PlotSheet> drawTimeline(const TimelineFigure& figure, bool simul
                       false);
         }
         if (anyKnown(figure.p)) {
-            addSeries(upper, upperLegend, figure.t_s, 1, figure.p, QPen(QColor(0x00, 0x72, 0xb2), 1.2, Qt::DashLine),
-                      "pressure P", false);
+            addSeries(upper, upperLegend, figure.t_s, 1, figure.p, QPen(ink::kVoltage, 1.2, Qt::DashLine), "pressure P",
+                      false);
         }
         plots.push_back(upper);
     } else {
