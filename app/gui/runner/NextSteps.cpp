@@ -3,7 +3,7 @@
 #include <QPushButton>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/ResultKind.h"
 

@@ -14,7 +14,7 @@
 #include "app/gui/study/NextDayDialog.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/ResultKind.h"
