@@ -1,6 +1,7 @@
 // The object "analysis", judging what was measured, and predicting: what scripts can call, and what each function takes
 // and returns.
 #include "app/scripting/host/analysis/AnalysisObject.h"
+
 #include "core/analysis/load_safety/LoadSafety.h"
 #include "core/analysis/variation/Variation.h"
 #include "core/analysis/variation/VariationBench.h"

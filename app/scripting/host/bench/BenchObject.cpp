@@ -1,7 +1,8 @@
 // The object "bench", the bench: what scripts can call, and what each function takes and returns.
+#include "app/scripting/host/bench/BenchObject.h"
+
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/bench/BenchObject.h"
 
 namespace tacto {
 

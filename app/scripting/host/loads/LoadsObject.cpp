@@ -1,6 +1,7 @@
 // The object "loads", commands on known loads: what scripts can call, and what each function takes and returns.
-#include "app/scripting/engine/Arming.h"
 #include "app/scripting/host/loads/LoadsObject.h"
+
+#include "app/scripting/engine/Arming.h"
 
 namespace tacto {
 

@@ -1,6 +1,7 @@
 // The object "record", what a protocol leaves in the session file: what scripts can call, and what each function takes
 // and returns.
 #include "app/scripting/host/record/RecordObject.h"
+
 #include "core/calibration/CalibrationStore.h"
 
 namespace tacto {
