@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "core/devices/Registry.h"
 #include "core/devices/StatementKeys.h"
 #include "core/measure/InstrumentStatement.h"
 #include "drivers/simulated/SimulatedDriver.h"

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/bench/Bench.h"
+#include "core/devices/Registry.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 #include "core/session/SessionWriter.h"
