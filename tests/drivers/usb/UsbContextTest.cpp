@@ -41,7 +41,7 @@ TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt)
     {
         const UnprivilegedUser user(bed);
         const auto list = context->devices();
-        ASSERT_IN_TIME(list.size() == 1u);
+        ASSERT_EQ(list.size(), 1u);
         EXPECT_FALSE(list.front().permitted);
         EXPECT_EQ(list.front().serial, "P24-17");
         EXPECT_THAT(list.front().obstacle(), HasSubstr("./dev install-rules"));
@@ -69,8 +69,8 @@ TEST_F(UsbContext_, TellsOfPluggingInBothDirections) {
     auto waiting = std::async(std::launch::async, [&] { return context->waitForChange(empty, kLong); });
     device.plug();
     const auto plugged = waiting.get();
-    EXPECT_IN_TIME(plugged > empty);
-    ASSERT_IN_TIME(context->devices().size() == 1u);
+    ASSERT_IN_TIME(plugged > empty);
+    ASSERT_EQ(context->devices().size(), 1u);
     waiting = std::async(std::launch::async, [&] { return context->waitForChange(plugged, kLong); });
     device.unplug();
     EXPECT_IN_TIME(waiting.get() > plugged);
