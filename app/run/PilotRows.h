@@ -14,7 +14,7 @@
 
 namespace tacto {
 
-/// A session that was broken off goes on so long after its last answer.
+/// A session that was interrupted can go on so long after its last answer.
 inline constexpr std::chrono::hours kResumedWithin{2};
 
 struct PilotRows {

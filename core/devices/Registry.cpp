@@ -60,7 +60,7 @@ Result<DeviceSet> Registry::open(std::span<const DeviceUri> uris, const std::set
         if (!*stated) continue;
         if (hadScope || !devices.has(Role::Oscilloscope)) {
             return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\" is no oscilloscope; its address states how accurate one is", uri.text());
+                        "device \"{}\" is not an oscilloscope; its address states how accurate one is", uri.text());
         }
         devices.scopeStatement = **stated;
         std::ranges::copy_if(given, std::back_inserter(devices.scopeKeys),

@@ -124,7 +124,7 @@ LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
     setAccessibleName(tr("Limits on each load"));
     setToolTip(tr(
         "How much of each limit is used on each load, uncertainty included. ✔ inside, amber from 80 %; ▲ attention; "
-        "? indeterminate; ✖ not kept; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load."));
+        "? indeterminate; ✖ exceeded; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load."));
     verticalHeader()->hide();
     setEditTriggers(NoEditTriggers);
     setSelectionMode(NoSelection);

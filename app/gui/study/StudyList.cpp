@@ -43,7 +43,7 @@ QString stateWords(ParticipantState state) {
 QString stateWords(StudySessionState state) {
     switch (state) {
         case StudySessionState::Unfinished:
-            return QObject::tr("broken off, may go on");
+            return QObject::tr("interrupted, can continue");
         case StudySessionState::Complete:
             return QObject::tr("complete");
         case StudySessionState::Stopped:
