@@ -189,7 +189,7 @@ void BenchPulse::judge(const PulseFinding& finding, bool isCheck, PulseOutcome& 
         into.reasons.push_back(std::move(reason) + consequence);
     };
     if (finding.electrode == ElectrodeState::Open) {
-        return say("fail", fmt::format("open: the {} found no way for its current", what));
+        return say("fail", fmt::format("open: the {} found no path for its current", what));
     }
     if (finding.electrode == ElectrodeState::Short) {
         return say("fail", fmt::format("short: the {} found less than {}", what, ohmText(sciencemode::kTouching)));

@@ -1,6 +1,6 @@
 // BenchPulse.h - one pulse into a declared bench load, by the rules of every output: judged by the gate, permitted by
-// the interlock in two steps, after an impedance check pulse, and read back. What the check finds open, shorted or
-// another load than the declared one gets no pulse (H3).
+// the interlock in two steps, after an impedance check pulse, and read back. A load that the check finds open, shorted
+// or other than declared gets no pulse (H3).
 //
 // Thread-safety: stop() any thread; everything else one caller, which deliver() keeps for less than a second, or for
 // eight more where the unit must rest (UnitRecord.h).

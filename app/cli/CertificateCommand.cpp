@@ -123,7 +123,7 @@ int runCertificate(const QCommandLineParser& parser) {
     }
     if (words.size() != expected) {
         return usage(expected == 2 ? std::string("certificate withdraw: one NUMBER is expected")
-                                   : fmt::format("certificate {}: \"{}\" is too much; options are expected",
+                                   : fmt::format("certificate {}: \"{}\" is not an option; options are expected",
                                                  word.toStdString(), words.at(1).toStdString()));
     }
     if (word != "add") {

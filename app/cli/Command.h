@@ -13,7 +13,7 @@
 #include "app/cli/Say.h"
 #include "app/run/Shipped.h"
 #include "core/base/Result.h"
-#include "core/devices/Driver.h"
+#include "core/devices/Registry.h"
 
 namespace tacto::cli {
 

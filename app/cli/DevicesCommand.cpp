@@ -16,7 +16,8 @@ constexpr std::chrono::milliseconds kPollInterval(250);
 
 void declareDevices(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
-    parser.addOption({"watch", "Goes on until Ctrl+C: + what is plugged in, - what is unplugged."});
+    parser.addOption(
+        {"watch", "Runs until Ctrl+C: prints + for a device that is plugged in, - for one that is unplugged."});
 }
 
 TextTable devicesTable() { return TextTable({"", "", ""}); }

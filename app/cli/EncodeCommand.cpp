@@ -25,7 +25,7 @@ Result<Load> loadOption(const QCommandLineParser& parser) {
 
 int runEncode(const QCommandLineParser& parser) {
     if (!parser.positionalArguments().isEmpty()) {
-        return usage(fmt::format("encode takes options only, and \"{}\" is none",
+        return usage(fmt::format("encode takes options only, and \"{}\" is not one",
                                  parser.positionalArguments().front().toStdString()));
     }
     const auto roughness = numberOption(parser, "roughness");

@@ -1,4 +1,4 @@
-// PulseText.h - what came of a pulse into a bench load: for people, for programs, and as a capture.
+// PulseText.h - the outcome of a pulse into a bench load: for people, for programs, and as a capture.
 //
 // Thread-safety: pure functions, but print(), which writes to stdout.
 #pragma once

@@ -65,7 +65,7 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
     const auto place = std::filesystem::absolute(out);
     std::error_code error;
     if (notes && !std::filesystem::is_directory(place.parent_path(), error)) {
-        return couldNotRun(Error{ErrorCode::NotFound, fmt::format("{} is no folder that a report can be written to",
+        return couldNotRun(Error{ErrorCode::NotFound, fmt::format("{} is not a folder that a report can be written to",
                                                                   place.parent_path().string())});
     }
     auto study = openSealed(parser, folder, notes);

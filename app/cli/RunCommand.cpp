@@ -34,12 +34,13 @@ void declareRun(QCommandLineParser& parser) {
         {"reset-fault", "Resets the fault in which an earlier run left the stimulator, if its cause is gone."});
     parser.addOption({"realtime", "Runs on the real clock even where a virtual one could serve."});
     parser.addOption({"profile", "Profile to use instead of the shipped one.", "F"});
-    parser.addOption({"operator", "Who does the run, for its report.", "NAME"});
+    parser.addOption({"operator", "Who runs the protocol, for its report.", "NAME"});
     parser.addOption({"sample", "What is measured, by the laboratory's own id, for its report.", "ID"});
     parser.addOption({"reviewer", "Who checks it, for its report.", "NAME"});
     parser.addOption({"ambient", "Ambient conditions, for its report: \"22.5 °C, 45 % RH\".", "TEXT"});
     parser.addOption({"out", "Folder for the session, its reports and its captures.", "DIR"});
-    parser.addOption({"passphrase-file", "Whose first line opens the study, for sessions of one.", "F"});
+    parser.addOption(
+        {"passphrase-file", "File whose first line is the study's passphrase, for sessions of a study.", "F"});
     parser.addOption({"report", "Which report is written: none, html or pdf; both where left out.", "KIND"});
     parser.addOption({"json", "Prints one JSON value."});
 }

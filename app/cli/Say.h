@@ -1,5 +1,5 @@
-// Say.h - the one way in which the program prints: what it quotes from files, scripts and devices is made harmless to a
-// terminal first (hazard H10).
+// Say.h - how the program prints: text that comes from files, scripts and devices is made harmless to a terminal first
+// (hazard H10).
 //
 // The format is the program's own and printed as it is; of every text among the arguments, control characters are
 // spelled out (core/base/Printable.h), a newline too. lines() keeps newlines, for texts that have several lines.

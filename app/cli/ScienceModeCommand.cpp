@@ -135,7 +135,7 @@ int runScienceMode(const QCommandLineParser& parser) {
 const Command kScienceMode{"sciencemode",
                            "{identify | status | pulse --current MA --width US --gap US --load OHM [--yes-bench-load] "
                            "[--out FILE.csv]} [--device URI] [--json]",
-                           "A ScienceMode stimulator by hand: who it is, how it is, one pulse into a bench load",
+                           "A ScienceMode stimulator by hand: its identity, its state, one pulse into a bench load",
                            false,
                            declareScienceMode,
                            runScienceMode};

@@ -80,7 +80,7 @@ Result<void> canWrite(const std::filesystem::path& file) {
         return fail(ErrorCode::Io, "--out {} is a folder; a file's name is expected", file.string());
     }
     if (std::filesystem::is_directory(folder, error) && access(folder.c_str(), W_OK) == 0) return {};
-    return fail(ErrorCode::Io, "--out {}: {} is no folder that can be written to", file.string(), folder.string());
+    return fail(ErrorCode::Io, "--out {}: {} is not a folder that can be written to", file.string(), folder.string());
 }
 
 Result<DeviceSet> openDevice(const DeviceUri& uri, const Clock& clock) {
@@ -159,7 +159,7 @@ int pulse(const QCommandLineParser& parser) {
     if (!devices) return failWith(devices.error());
     auto* device = dynamic_cast<ScienceModeStimulator*>(devices->stimulator.get());
     if (device == nullptr) {
-        return couldNotRun(Error{ErrorCode::Device, uri->text() + " opened something else than a stimulator"});
+        return couldNotRun(Error{ErrorCode::Device, uri->text() + " opened something other than a stimulator"});
     }
     if (!device->traits().readsBack) {
         return usage(

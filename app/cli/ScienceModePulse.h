@@ -15,7 +15,7 @@ inline constexpr std::array<const char*, 6> kPulseOptions{"current", "width", "g
 
 void declarePulse(QCommandLineParser& parser);
 
-/// --device, or sciencemode:. Errors: InvalidArgument for what is no URI or names another kind of device.
+/// --device, or sciencemode:. Errors: InvalidArgument for what is not a URI or names another kind of device.
 [[nodiscard]] Result<DeviceUri> scienceModeUri(const QCommandLineParser& parser);
 
 /// The whole command; the value is its exit code.

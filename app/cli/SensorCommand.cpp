@@ -22,7 +22,7 @@ constexpr double kSecondsUsual = 2;
 
 void declareSensor(QCommandLineParser& parser) {
     parser.addOption(
-        {"seconds", "How long to listen, 0.5 to 3600 s: the longer, the surer the clock drift (2 s).", "S"});
+        {"seconds", "How long to listen, 0.5 to 3600 s; a longer time makes the clock drift more certain (2 s).", "S"});
     parser.addOption({"json", "Prints one JSON value."});
 }
 
@@ -116,7 +116,7 @@ void printText(const SensorBoard& board, const Listened& heard) {
                                   ? fmt::format("{:.6g}{}{}", row.value, *row.unit != '\0' ? " " : "", row.unit)
                                   : "not known yet"});
     }
-    if (report.board.faultyStreams != 0) counts.addLine("the board says that a sensor of it does not answer");
+    if (report.board.faultyStreams != 0) counts.addLine("the board reports that one of its sensors does not answer");
     say("\n");
     counts.print();
 }
@@ -136,7 +136,7 @@ int runSensor(const QCommandLineParser& parser) {
     const auto uri = DeviceUri::parse(given.size() == 2 ? given.at(1).toStdString() : std::string("sensor:"));
     if (!uri) return failWith(uri.error());
     if (uri->scheme != "sensor")
-        return usage(fmt::format("\"{}\" is no sensor board; sensor:, sensor:SERIAL or sensor:?tty=PATH is expected",
+        return usage(fmt::format("\"{}\" is not a sensor board; sensor:, sensor:SERIAL or sensor:?tty=PATH is expected",
                                  uri->text()));
     const SignalStop interrupts;
     const SteadyClock clock;
@@ -155,7 +155,7 @@ int runSensor(const QCommandLineParser& parser) {
 
 const Command kSensor{"sensor",
                       "status [URI] [--seconds S] [--json]",
-                      "A sensor board by hand: who it is, its settings and calibration, rates, clock drift and losses",
+                      "A sensor board by hand: its identity, settings, calibration, rates, clock drift and losses",
                       false,
                       declareSensor,
                       runSensor};

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Errors: InvalidArgument for a text that is no seed.
+/// Errors: InvalidArgument for a text that is not a seed.
 Result<std::uint64_t> seedGiven(const QCommandLineParser& parser) {
     bool isNumber = false;
     const auto seed = parser.value("virtual").toULongLong(&isNumber);

@@ -1,5 +1,5 @@
-// TerminalOperator.h - the person at a terminal as a protocol's operator: what --set answers is not asked; what is to
-// be confirmed is, by a typed word, where there is a terminal.
+// TerminalOperator.h - the person at a terminal as a protocol's operator: a question that --set answers is not asked; a
+// confirmation is a typed word, where there is a terminal.
 //
 // Thread-safety: ask() on the script's thread; cancel() any thread.
 #pragma once

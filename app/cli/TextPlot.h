@@ -1,5 +1,5 @@
-// TextPlot.h - a curve drawn with characters, for a terminal: axes, units, at most as wide as it is told. ASCII only,
-// so that a column is a byte wherever it is shown.
+// TextPlot.h - a curve drawn with characters, for a terminal: axes, units, at most as wide as the caller asks. ASCII
+// only, so that a column is a byte wherever it is shown.
 //
 // Thread-safety: pure functions.
 #pragma once

@@ -38,7 +38,7 @@
 //              "value": 2.1, "limit": 10,       same unit; value null = not evaluated (drawn hatched)
 //              "unit": "mA", "source": "paper", optional
 //              "within": true,                  optional: the judge's word; at the limit may be over it ("<")
-//              "warning": false,                optional: the limit calls for attention, breaking it is no fault
+//              "warning": false,                optional: the limit calls for attention, breaking it is not a fault
 //              "reason": "no electrode area"}]} optional, shown when not evaluated
 //
 //   {"type": "timeline",                        a live run over time

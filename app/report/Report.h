@@ -26,7 +26,7 @@ enum class ReportFormat { Pdf, Html };
 [[nodiscard]] Result<void> writeReport(const ReportModel& model, const QString& path,
                                        const FontCheck& installed = fontInstalled);
 
-/// The same for a content that is no session's (StudyReport.h).
+/// The same for a content that is not a session's (StudyReport.h).
 [[nodiscard]] Result<void> writeContent(const ReportContent& content, const QString& path,
                                         const FontCheck& installed = fontInstalled);
 

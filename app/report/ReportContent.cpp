@@ -180,7 +180,7 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
     }
 }
 
-/// What the gate computed is no measurement, and is never titled as one (science.md section 12).
+/// What the gate computed is not a measurement, and is never titled as one (science.md section 12).
 void addComputed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     const bool anyJudged = std::any_of(model.exposure.begin(), model.exposure.end(),
                                        [](const auto& row) { return !row.evaluated() || row.limit > 0; });

@@ -278,7 +278,7 @@ Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const 
     if (!reader.closed()) {
         // H9: a run that broke off proves nothing, whatever its last verdict was.
         if (model.verdict != ReportVerdict::Fail) model.verdict = ReportVerdict::Stopped;
-        model.reasons.prepend("The session was not closed: the run broke off, or is still going on.");
+        model.reasons.prepend("The session was not closed: the run was interrupted, or is still going on.");
     }
     return {};
 }

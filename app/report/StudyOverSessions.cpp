@@ -66,7 +66,7 @@ TableBlock valuesTable(const OverSessions& compared, const std::vector<AnalysedS
 TableBlock changesTable(const OverSessions& compared, bool massager) {
     TableBlock table;
     table.columns = {{"Session", true},
-                     {"Right, less that of the first (percentage points)", true},
+                     {"Right, minus that of the first (percentage points)", true},
                      {"Detection, ratio", true},
                      {"Too strong", true},
                      {"Highest of the range", true}};

@@ -205,7 +205,7 @@ void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const st
     blocks.emplace_back(std::move(table));
     for (const auto& pair : compared.pairs) {
         blocks.emplace_back(
-            ParagraphBlock{QString("%1 less %2: %3 percentage points (Newcombe).")
+            ParagraphBlock{QString("%1 minus %2: %3 percentage points (Newcombe).")
                                .arg(qtext(pair.a), qtext(pair.b), shareText(pair.difference).remove(" %"))});
     }
 }

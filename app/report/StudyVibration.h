@@ -1,4 +1,4 @@
-// StudyVibration.h - what a massager's motor did in a session, beside what it was told.
+// StudyVibration.h - what a massager's motor did in a session, beside what it was commanded to do.
 //
 // Thread-safety: pure functions.
 #pragma once

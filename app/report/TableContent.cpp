@@ -171,7 +171,7 @@ MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
     }
     if (judged) {
         matrix.legend =
-            "Each cell: the margin, (limit − value − U) / limit, and below it the value ± U (95\u202f%). ✖ not kept, "
+            "Each cell: the margin, (limit − value − U) / limit, and below it the value ± U (95\u202f%). ✖ exceeded, "
             "? indeterminate, ▲ above a figure that asks for attention; shaded: less than 20\u202f% left, hatched: not "
             "evaluated. Rows with the smallest margin come first.";
     }

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "core/devices/Driver.h"
+#include "core/devices/Registry.h"
 #include "core/devices/TransportPorts.h"
 
 namespace tacto {

@@ -8,7 +8,7 @@
 #include "app/run/Shipped.h"
 #include "core/bench/Profile.h"
 #include "core/calibration/CalibrationDate.h"
-#include "core/devices/Driver.h"
+#include "core/devices/DeviceSet.h"
 #include "core/study/Gates.h"
 
 namespace tacto {

@@ -7,7 +7,7 @@
 // Thread-safety: as Registry.
 #pragma once
 
-#include "core/devices/Driver.h"
+#include "core/devices/Registry.h"
 
 namespace tacto {
 

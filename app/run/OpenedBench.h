@@ -16,6 +16,7 @@
 #include "core/bench/Bench.h"
 #include "core/bench/BenchTap.h"
 #include "core/devices/DeviceUri.h"
+#include "core/devices/Registry.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {

@@ -15,7 +15,7 @@
 
 namespace tacto {
 
-/// A session that was broken off goes on so long after something was last presented or answered in it.
+/// A session that was interrupted can go on so long after something was last presented or answered in it.
 inline constexpr std::chrono::hours kResumedWithin{2};
 
 struct PilotRows {

@@ -210,7 +210,8 @@ std::string_view PilotRun::whatEnds() const { return inWindow_ ? "“End it as s
 Result<void> PilotRun::mayResume() const {
     const auto now = SystemTime::real().wall();
     if (earlier_.mayGoOn(now)) return {};
-    return fail(kGateRefused, "session {} of {} was broken off {:.1f} h ago; it can go on within 2 h, and ends with {}",
+    return fail(kGateRefused,
+                "session {} of {} was interrupted {:.1f} h ago; it can go on within 2 h, and ends with {}",
                 unfinished_->number, who_.code,
                 std::chrono::duration<double, std::ratio<3600>>(now - earlier_.answeredAt).count(), whatEnds());
 }
@@ -423,7 +424,7 @@ Result<void> PilotRun::noteSkin(const std::string& moment, int score) {
     const auto noted = study_->adverseEvents();
     if (!noted) return failure(noted);
     const bool known = std::ranges::any_of(*noted, [&](const auto& each) {
-        return each.first == session && each.second.what == event.what;  // before it was broken off and resumed
+        return each.first == session && each.second.what == event.what;  // before it was interrupted and resumed
     });
     return known ? Result<void>() : study_->adverseEvent(session, event);
 }

@@ -21,7 +21,7 @@ struct RunNotes {
 
 inline constexpr std::size_t kNoteLimit = 200;
 
-/// Errors: InvalidArgument for a text that is too long, is no UTF-8 or holds a control character.
+/// Errors: InvalidArgument for a text that is too long, is not UTF-8 or holds a control character.
 [[nodiscard]] Result<void> checkNotes(const RunNotes& notes);
 /// Writes them for the session's report; nothing where all are empty. Errors: as SessionWriter::reportItem().
 [[nodiscard]] Result<void> keepNotes(const RunNotes& notes, SessionWriter& session, Instant at);

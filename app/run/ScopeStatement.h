@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "core/devices/Driver.h"
+#include "core/devices/DeviceSet.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {

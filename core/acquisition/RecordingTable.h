@@ -22,7 +22,7 @@ struct TableLayout {
 /// `text` is the file's content, `name` what messages call it. Column names are trimmed, trailing commas and blank
 /// rows passed over, "nan" kept as NaN; a last row whose values are all empty is dropped.
 /// Errors: ParseError naming line and column: no header, a column that is missing or there twice, a second header
-/// line, a cell that is no number, a row cut short, fewer than 2 rows.
+/// line, a cell that is not a number, a row cut short, fewer than 2 rows.
 [[nodiscard]] Result<SampleBlock> readTable(std::string_view text, std::string_view name, const TableLayout& layout);
 
 }  // namespace tacto

@@ -1,6 +1,6 @@
-// Boxed.h - a value that most often is missing, kept elsewhere: a pointer's room where it is missing.
+// Boxed.h - an optional value that is usually missing: it takes the room of a pointer.
 //
-// As std::optional, which keeps room for the value everywhere. Copies copy the value.
+// As std::optional, which always keeps room for the value. Copies copy the value.
 //
 // Thread-safety: none; one owner.
 #pragma once

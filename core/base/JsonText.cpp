@@ -34,7 +34,7 @@ public:
         return refuse(fmt::format("the number {} is out of range", text));
     }
     bool string(std::string& value) { return add(std::move(value)); }
-    bool binary(json::binary_t&) { return refuse("binary data are no JSON"); }
+    bool binary(json::binary_t&) { return refuse("binary data are not JSON"); }
     bool start_object(std::size_t) { return open(json::object()); }
     bool start_array(std::size_t) { return open(json::array()); }
     bool end_object() { return close(); }
@@ -45,7 +45,7 @@ public:
         return true;
     }
     bool parse_error(std::size_t position, const std::string&, const json::exception& why) {
-        constexpr int kOutOfRange = 406;  // of the library: a number that is no double
+        constexpr int kOutOfRange = 406;  // of the library: a number that is not a double
         isSyntax_ = true;
         wrongAt_ = position;
         return refuse(why.id == kOutOfRange ? ": a number is out of range" : " is not JSON");

@@ -41,7 +41,7 @@ struct JsonLimits {
     return {ErrorCode::InvalidArgument, std::move(error.message)};
 }
 
-/// `where` begins the message: "lab.json: limits[2]". Errors: ParseError for what is no object.
+/// `where` begins the message: "lab.json: limits[2]". Errors: ParseError for what is not an object.
 [[nodiscard]] Result<void> expectObject(const nlohmann::json& value, std::string_view where);
 /// Whether `value` is an object that has no other keys than `known`.
 /// Errors: ParseError naming the first key that is not known, and those that are.

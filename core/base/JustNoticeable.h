@@ -1,4 +1,4 @@
-// JustNoticeable.h - the distance in which people feel differences (science.md section 10).
+// JustNoticeable.h - distances in just-noticeable differences (science.md section 10).
 //
 // Thread-safety: pure functions.
 #pragma once

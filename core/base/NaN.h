@@ -1,4 +1,4 @@
-// NaN.h - the number of what is not known.
+// NaN.h - the value of a number that is not known.
 //
 // Thread-safety: a constant.
 #pragma once

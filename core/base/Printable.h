@@ -12,7 +12,7 @@ namespace tacto {
 
 enum class Newlines { Escape, Keep };
 
-/// `text` with C0 and C1 control characters, DEL and bytes that are no UTF-8 written as "\x1b", and characters that
+/// `text` with C0 and C1 control characters, DEL and bytes that are not UTF-8 written as "\x1b", and characters that
 /// turn the reading direction or cannot be seen as "\u202e". Everything else stays as it is.
 [[nodiscard]] std::string printable(std::string_view text, Newlines newlines = Newlines::Escape);
 

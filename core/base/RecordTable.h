@@ -48,7 +48,7 @@ private:
         const OptionalAccess* optional;
 
         [[nodiscard]] void* in(void* record) const noexcept { return static_cast<std::byte*>(record) + offset; }
-        /// What is no std::optional keeps what it holds.
+        /// What is not a std::optional keeps what it holds.
         void clear(void* record) const;
         /// Null where the member is a std::optional that holds nothing.
         [[nodiscard]] const void* held(const void* record) const;

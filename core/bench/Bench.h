@@ -24,7 +24,7 @@
 #include "core/bench/Presentation.h"
 #include "core/bench/Profile.h"
 #include "core/bench/Telemetry.h"
-#include "core/devices/Driver.h"
+#include "core/devices/DeviceSet.h"
 #include "core/measure/Capture.h"
 #include "core/safety/Interlock.h"
 #include "core/safety/StopCounter.h"

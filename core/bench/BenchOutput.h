@@ -10,7 +10,7 @@
 
 #include "core/bench/MassagerSession.h"
 #include "core/bench/StimulatorSession.h"
-#include "core/devices/Driver.h"
+#include "core/devices/DeviceSet.h"
 
 namespace tacto {
 

@@ -1,4 +1,5 @@
-// BenchPerson.h - on which devices a person, human or virtual, may be, and what stands in for a calibration there.
+// BenchPerson.h - which devices a participant, human or virtual, may be stimulated with, and what replaces a
+// calibration there.
 //
 // Thread-safety: pure functions.
 #pragma once

@@ -1,5 +1,5 @@
-// CheckCapture.h - the look of an oscilloscope at the check pulse of a source that does not read back: what it shows of
-// the load confirms the arming, or ends it.
+// CheckCapture.h - an oscilloscope's capture of the check pulse, where the source does not read back: the load that it
+// shows confirms the arming or ends it.
 //
 // Thread-safety: one caller, the bench's.
 #pragma once

@@ -1,4 +1,4 @@
-// CommandPreview.h - what the gate would say of a command before a bench is open: the same in the window and in the
+// CommandPreview.h - how the gate would judge a command, before a bench is open: the same in the window and in the
 // terminal.
 //
 // The train goes to an ideal voltage source (any amplitude up to 500 V, any width, no gap of its own) into a declared

@@ -18,7 +18,7 @@ Instant durationOf(const PulseTrain& train) noexcept {
     return toInstant((train.pulses - 1) / train.rate.value()) + toInstant(train.pulseDuration());
 }
 
-/// An open electrode may read as infinite; NaN and negative numbers are no readings.
+/// An open electrode may read as infinite; NaN and negative numbers are not readings.
 bool isPlausible(const StimulatorStatus& status) noexcept {
     const auto fine = [](double value) { return value >= 0; };
     return (!status.amplitude || fine(*status.amplitude)) && (!status.impedance || fine(status.impedance->value())) &&

@@ -55,7 +55,7 @@ public:
     /// True once after beginDelivery() moved the interlock.
     [[nodiscard]] bool takeBegan() noexcept { return std::exchange(began_, false); }
 
-    // Has what is due judged and posts it into `shown`'s ring too. A stop in between posts nothing and is no error.
+    // Has what is due judged and posts it into `shown`'s ring too. A stop in between posts nothing and is not an error.
     // Errors: the refusal, as the planner's and the gate's.
     [[nodiscard]] Result<void> sendTrain(TrainPlanner& planner, Instant now, Telemetry& shown);
     [[nodiscard]] Result<void> sendBurst(TrainPlanner& planner, Instant now, const Telemetry& shown);

@@ -122,9 +122,9 @@ Result<void> ChainedLines::readLines(std::string_view text, const std::optional<
                         file_.string(), number, why);
         };
         auto line = parseJson(text.substr(0, length), "the line");
-        if (!line) return wrong(fmt::format("this is no {}: {}", what_, line.error().message));
+        if (!line) return wrong(fmt::format("this is not a {}: {}", what_, line.error().message));
         if (!line->is_object() || !line->contains("sha256") || !line->contains("previous")) {
-            return wrong("this is no " + what_);
+            return wrong("this is not a " + what_);
         }
         const nlohmann::json stated = (*line)["sha256"];
         line->erase("sha256");

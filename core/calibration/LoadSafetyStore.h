@@ -48,7 +48,7 @@ struct LoadSafetyCheck {
     std::string device;  ///< its name
     CalibrationDate made{};
     CheckVerdict verdict = CheckVerdict::Begun;
-    bool simulated = false;                 ///< any of the devices was no hardware
+    bool simulated = false;                 ///< any of the devices was simulated, replayed or emulated
     std::optional<SquareCentimetres> area;  ///< smallest electrode that was judged; nothing: none was stated
     TrainReach reach;
     std::vector<LimitSetHash> limits;

@@ -1,7 +1,6 @@
-// ForcedTrigger.h - what an oscilloscope may be able to do besides: take a record though nothing triggers it.
+// ForcedTrigger.h - an ability of some oscilloscopes: to take a record without a trigger.
 //
-// An ability of its own, not a part of Oscilloscope: an instrument or a driver without it is not asked, and says so by
-// not being one of these.
+// It is not a part of Oscilloscope: an instrument or a driver without the ability does not implement it.
 //
 // Thread-safety: as the oscilloscope's, its session thread.
 #pragma once

@@ -1,7 +1,7 @@
 // Reconnecting.h - a device that can be opened again, by its identity, after it was unplugged or failed: what an
 // explicit reset asks of it.
 //
-// A stimulator has no need of it: it looks for its device when its status is asked for. Nor has a device whose calls
+// A stimulator does not need it: it looks for its device when its status is asked for. Nor has a device whose calls
 // fail only as long as the cause lasts.
 //
 // Thread-safety: the device's session thread.

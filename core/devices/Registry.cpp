@@ -1,45 +1,11 @@
+#include "core/devices/Registry.h"
+
 #include <algorithm>
 #include <iterator>
 
-#include "core/devices/Driver.h"
 #include "core/devices/StatementKeys.h"
 
 namespace tacto {
-
-bool DeviceSet::has(Role role) const noexcept {
-    switch (role) {
-        case Role::Sensor:
-            return sensor != nullptr;
-        case Role::Stimulator:
-            return stimulator != nullptr;
-        case Role::Oscilloscope:
-            return oscilloscope != nullptr;
-        case Role::Massager:
-            return massager != nullptr;
-    }
-    return false;
-}
-
-Result<void> DeviceSet::checkFree(Role role, const DeviceUri& uri) const {
-    if (!has(role)) return {};
-    return uri.refuse(ErrorCode::InvalidArgument, "{} {} is open already, and a bench has one of each",
-                      role == Role::Oscilloscope ? "an" : "a", nameOf(role));
-}
-
-std::vector<DeviceIdentity> DeviceSet::identities() const {
-    std::vector<DeviceIdentity> found;
-    const Device* all[] = {sensor.get(), stimulator.get(), oscilloscope.get(), massager.get()};
-    for (const auto* device : all) {
-        if (device == nullptr) continue;
-        auto& identity = found.emplace_back(device->identity());
-        if (device != oscilloscope.get() || scopeKeys.empty()) continue;
-        auto address = DeviceUri::parse(identity.uri);
-        if (!address) continue;
-        address->parameters.insert(address->parameters.end(), scopeKeys.begin(), scopeKeys.end());
-        identity.uri = address->text();
-    }
-    return found;
-}
 
 Registry::Registry(std::vector<std::unique_ptr<Driver>> drivers) : drivers_(std::move(drivers)) {}
 
@@ -94,7 +60,7 @@ Result<DeviceSet> Registry::open(std::span<const DeviceUri> uris, const std::set
         if (!*stated) continue;
         if (hadScope || !devices.has(Role::Oscilloscope)) {
             return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\" is no oscilloscope; its address states how accurate one is", uri.text());
+                        "device \"{}\" is not an oscilloscope; its address states how accurate one is", uri.text());
         }
         devices.scopeStatement = **stated;
         std::ranges::copy_if(given, std::back_inserter(devices.scopeKeys),

@@ -1,5 +1,5 @@
-// StatesCalibration.h - a stimulator that knows its own calibration, because it is a computation: a simulated one. The
-// bench takes the word of no other.
+// StatesCalibration.h - a stimulator that knows its own calibration, because it is simulated. The bench believes no
+// other.
 //
 // Thread-safety: statedCalibration() is constant while the device is open.
 #pragma once

@@ -1,7 +1,7 @@
+#include "core/electrode/PulseResponse.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "core/electrode/LoadResponse.h"
 
 namespace tacto {
 

@@ -1,4 +1,4 @@
-// CalibrationLine.h - what a stimulator delivers for it is programmed to, and the other way round: a straight line.
+// CalibrationLine.h - a straight line from what a stimulator is programmed to deliver to what it delivers, and back.
 //
 // Within the calibrated range delivered = gain · programmed + offset. Outside it the ratio of the nearer end holds, so
 // that 0 stays 0 and nothing jumps. The unit is that of the quantity: V or mA for an amplitude, s for a time.

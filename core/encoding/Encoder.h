@@ -1,6 +1,6 @@
-// Encoder.h - from what the finger feels to what the electrodes are asked to say.
+// Encoder.h - from what the finger feels to the command of the next train.
 //
-// Formulas of science.md section 4. The encoder speaks volts (the paper's amplitude); a current source is given
+// Formulas of science.md section 4. The encoder works in volts (the paper's amplitude); a current source is given
 // A / |Z|, and nothing at all before |Z| was measured (hazard H4).
 //
 // Thread-safety: Encoder is immutable; the rest are pure functions. Success never allocates.
@@ -47,7 +47,7 @@ private:
 /// `amplitude` as it must be on a load of `now` so that what is held is what it would have been on `armed`: times
 /// (now / armed)^p, p = 0, 1 or 1/2 for voltage, charge and energy. Exact on loads that scale as a whole.
 /// Errors: NotArmed where an impedance is held against and not known; InvalidArgument when it is not finite and above
-/// 0; LimitExceeded when it has doubled or halved since the output was armed: that is no drift to be followed.
+/// 0; LimitExceeded when it has doubled or halved since the output was armed: that is more than a drift to follow.
 [[nodiscard]] Result<Volts> heldAmplitude(Hold hold, Volts amplitude, std::optional<Ohms> armed,
                                           std::optional<Ohms> now);
 

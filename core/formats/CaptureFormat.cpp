@@ -14,7 +14,7 @@ auto doesNotFit(std::string_view file) {
 }  // namespace
 
 Result<void> keepReading(const ReadWatch& watch, double fraction, std::string_view file) {
-    if (watch.stop.stop_requested()) return fail(ErrorCode::Stopped, "reading {} was given up on request", file);
+    if (watch.stop.stop_requested()) return fail(ErrorCode::Stopped, "reading {} was cancelled", file);
     if (watch.progress) watch.progress(fraction);
     return {};
 }

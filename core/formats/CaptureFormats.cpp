@@ -61,7 +61,7 @@ Result<const CaptureFormat*> CaptureFormats::formatOf(const std::filesystem::pat
         names.push_back(format->name());
     }
     if (!options.format.empty()) {
-        return fail(ErrorCode::InvalidArgument, "format '{}' is not known; {} are", options.format,
+        return fail(ErrorCode::InvalidArgument, "format '{}' is not known; known are {}", options.format,
                     fmt::join(ids, ", "));
     }
     const auto head = readHead(path);

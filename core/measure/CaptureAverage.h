@@ -8,7 +8,7 @@
 //
 // A sample that is missing in a capture counts in none; one that is clipped in any capture is clipped in the mean, for
 // its true value is not known. Captures of other settings (rate, length, place of the trigger, channels, ranges, the
-// programmed amplitude) are no repetition: the mean begins anew with them.
+// programmed amplitude) are not repetitions: the mean begins anew with them.
 //
 // Levels are in each channel's unit, a bare double because the unit is data.
 //

@@ -28,7 +28,7 @@ public:
     void add(const PhaseSpan& span);
     /// No phase follows. To be called once, after the last.
     [[nodiscard]] std::vector<PulseMeasurement> finish();
-    /// The longest phase that was no ringing.
+    /// The longest phase that was not ringing.
     [[nodiscard]] double widest_s() const noexcept { return widest_s_; }
 
 private:
@@ -47,7 +47,7 @@ private:
     double gapMax_s_;
     std::array<FoundPhase, 8> window_;  ///< of the last phases: five are looked at
     bool hasNewest_ = false;
-    std::size_t kept_ = 0;    ///< phases that are no ringing
+    std::size_t kept_ = 0;    ///< phases that are not ringing
     std::size_t paired_ = 0;  ///< of these, in pulses already
     double widest_s_ = 0;
     std::vector<PulseMeasurement> pulses_;

@@ -18,7 +18,7 @@ constexpr double kReliable = 12;  // times the noise, from the baseline to a sta
 constexpr double kSlack = 1.1;    // white noise falls by the root of the mean's length, real noise by less
 constexpr double kWhite = 1.4;    // times what averaging leaves of white noise
 constexpr std::size_t kLongestMean = 4096;
-constexpr double kShallowest = 0.02;   // of the leading phase: less beyond the other side is no second phase
+constexpr double kShallowest = 0.02;   // of the leading phase: less beyond the other side is not a second phase
 constexpr double kSecondReliable = 6;  // times the noise: that it follows a leading phase is known besides
 constexpr std::size_t kJudgedPulses = 1000;
 

@@ -1,4 +1,4 @@
-// Readings.h - of one quantity, from many pulses or trains. Private to core/measure.
+// Readings.h - the readings of one quantity, from many pulses or trains. Private to core/measure.
 //
 // Thread-safety: none; one owner.
 #pragma once

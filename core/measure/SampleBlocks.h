@@ -2,7 +2,7 @@
 // reading the silence between. Private to core/measure.
 //
 // One pass over the samples makes them; the levels of a signal, its pulses and its clipping then ask the blocks first.
-// A sample that is missing (NaN) or infinite is no extreme and beyond nothing.
+// A sample that is missing (NaN) or infinite is neither an extreme nor beyond anything.
 //
 // Thread-safety: immutable after construction. The samples stay the caller's and must outlive this.
 #pragma once
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] std::size_t nextBeyond(std::size_t from, float below, float above) const noexcept;
 
     /// False where no sample from `first` to before `end` is at or below `low`, or at or above `high`; a quick look, so
-    /// that true is no promise. An infinite sample is at every limit.
+    /// that true promises nothing. An infinite sample is at every limit.
     [[nodiscard]] bool mayReach(std::size_t first, std::size_t end, double low, double high) const noexcept;
 
 private:

@@ -66,7 +66,7 @@ private:
         const int side = up ? 1 : -1;
         if (side == side_) return;
         side_ = side;
-        if (!begun) return;  // where the record begins is no crossing
+        if (!begun) return;  // where the record begins is not a crossing
         if (!up) {
             down_ = crossed_;
             return;

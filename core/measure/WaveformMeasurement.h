@@ -13,7 +13,7 @@
 //   duty          share of these periods that the waveform is beyond the reference level
 //
 // Missing samples are left out of the first three; where one is missing between the first and the last crossing, there
-// is no frequency and no duty cycle. A record with a clipped sample has neither peak to peak, RMS nor mean.
+// is neither a frequency nor a duty cycle. A record with a clipped sample has neither peak to peak, RMS nor mean.
 //
 // Levels are in the channel's unit, a bare double because the unit is data.
 //

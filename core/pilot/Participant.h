@@ -1,5 +1,5 @@
-// Participant.h - the door through which a pilot session meets its two people: a window with a person before it, or a
-// virtual participant. The session does not know which.
+// Participant.h - the interface through which a pilot session reaches its two people: a window with a person before it,
+// or a virtual participant. The session does not know which.
 //
 // The session calls show() and ask() from its own thread (a script's). An implementation with a window hands them to
 // the window's thread and waits there; a virtual one answers at once from what was delivered.
@@ -31,13 +31,13 @@ struct FeltPresentation {
     std::string drawnFor;
 };
 
-/// What is in the way of a presentation, and is no fault.
+/// What is in the way of a presentation, and is not a fault.
 struct Hindrance {
     bool isBreak = false;  ///< the operator wants one; else what `why` says, half a sentence
     std::string why;
 };
 
-// Stops that are no press of STOP: the first begins with this, the others are these. After kOperatorPauses the session
+// Stops without a press of STOP: the first begins with this, the others are these. After kOperatorPauses the session
 // goes on once the break that is wanted is over.
 inline constexpr const char* kScreenGone = "the participant's screen";
 inline constexpr const char* kOperatorPauses = "operator (break now)";

@@ -274,7 +274,7 @@ Result<void> PilotCare::skin(const std::string& moment) {
         if (!said) return failure(said);
         const auto score = valueFor(kSkinScores, textOr(*said, "key"));
         if (!score)
-            return fail(ErrorCode::InvalidArgument, "{}: {} is no score; 0 to 4 is expected", what, dumpJson(*said));
+            return fail(ErrorCode::InvalidArgument, "{}: {} is not a score; 0 to 4 is expected", what, dumpJson(*said));
         worst = std::max(worst, *score);
     }
     if (const auto* judged = stage_.record().find(row::kGate, "skin " + moment)) {

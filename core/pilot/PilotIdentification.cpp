@@ -38,8 +38,8 @@ Result<std::vector<PlannedTrial>> plannedFrom(const nlohmann::json& trials, cons
         const auto name = textOr(each, "condition");
         const auto at = std::ranges::find(conditions, name, &Condition::name);
         if (at == conditions.end() && name != kCatchCondition)
-            return fail(ErrorCode::ParseError, "the stored plan names the condition \"{}\", which this study has not",
-                        name);
+            return fail(ErrorCode::ParseError,
+                        "the stored plan names the condition \"{}\", which this study does not have", name);
         if (at != conditions.end()) trial.condition = static_cast<std::size_t>(at - conditions.begin());
         out.push_back(trial);
     }

@@ -371,7 +371,7 @@ Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
         const auto asked = left > Seconds(0) ? people.ask(prompt) : Result<PilotAnswer>(none);
         if (asked && !asked->given)
             return fail(ErrorCode::Stopped,
-                        "the participant's screen was gone for {:.0f} min, so the session is broken off; it can go on "
+                        "the participant's screen was gone for {:.0f} min, so the session is interrupted; it can go on "
                         "within 2 h",
                         kScreenTakes.count() / 60);
         const auto begun = asked ? bench.begin(mark) : Result<void>(failure(asked));

@@ -80,8 +80,8 @@ public:
     [[nodiscard]] Result<void> recover(const std::string& during, const Error& why);
     /// Asks again after each stop, once the participant wants to go on.
     [[nodiscard]] Result<PilotAnswer> insist(const PilotPrompt& prompt);
-    /// Electrodes, or a massager, are not as they have to be, which is no fault: a row `gate`, and the operator seats
-    /// them again. Levels are reached again by a ramp from here on.
+    /// Electrodes, or a massager, are not as they have to be, which is not a fault: a row `gate`, and the operator
+    /// seats them again. Levels are reached again by a ramp from here on.
     [[nodiscard]] Result<void> seatAgain(const std::string& during, const std::string& why);
 
     /// Electrodes may be others than they were: measured before anything is armed again.

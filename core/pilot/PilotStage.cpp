@@ -145,8 +145,8 @@ Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body
     const double stored = numberOr(body, unit.c_str());
     if (!(std::abs(stored - trial.level) < 1e-6))
         return fail(ErrorCode::ParseError,
-                    "the record has {} at {} {}, and the script now asks for {}: it cannot be gone on with", trial.name,
-                    unit, stored, trial.level);
+                    "the record has {} at {} {}, and the script now asks for {}: the session cannot continue from it",
+                    trial.name, unit, stored, trial.level);
     const double interval_s = numberOr(body, "interval_s");
     if (body.contains("interval_s") && !(std::abs(interval_s - trial.presentation.interval.count()) < 1e-6))
         return fail(ErrorCode::ParseError,

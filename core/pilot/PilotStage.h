@@ -4,7 +4,7 @@
 // Nothing that has an answer in the record happens again. Output is armed by ready() and stays so until rest(), a
 // break, a stop, a fault, or until the participant's window is without the keys for long (PilotOutput.h).
 //
-// Errors of all calls: Stopped when the session ended or was broken off (end() says which); Io when a row cannot be
+// Errors of all calls: Stopped when the session ended or was interrupted (end() says which); Io when a row cannot be
 // written, which comes before any train; LimitExceeded and Device as the bench's.
 //
 // Thread-safety: one caller, the session's thread; the participant's `stop` comes from any thread.
@@ -26,7 +26,7 @@ namespace tacto {
 
 /// How a session stands when its script has ended.
 enum class PilotEnd {
-    Unfinished,  ///< broken off; may be resumed
+    Unfinished,  ///< interrupted; may be resumed
     Complete,
     Stopped,  ///< ended before its end, for good
 };

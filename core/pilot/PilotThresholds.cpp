@@ -102,7 +102,7 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     if (live && liveSeries_ != next.series) {
         if (auto armed = stage_.ready(); !armed) return armed;
         if (auto held = stage_.hold(); !held) return held;
-        // A series that was broken off goes on at the level that the ramp has reached again.
+        // A series that was interrupted goes on at the level that the ramp has reached again.
         const bool begins = liveSeries_ > 0 || limits.result().series.back().highest == 0;
         if (begins) {
             if (auto begun = stage_.bench().beginAscending(); !begun) return begun;

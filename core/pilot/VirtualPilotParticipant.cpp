@@ -93,7 +93,7 @@ std::string VirtualPilotParticipant::answerTo(const PilotPrompt& prompt) const {
     return {};
 }
 
-/// Among the conditions that were learned; one that never was is no answer.
+/// Among the conditions that were learned; one that never was is not an answer.
 std::string VirtualPilotParticipant::identified() const {
     std::vector<DeliveredCondition> known;
     std::vector<std::string> names;

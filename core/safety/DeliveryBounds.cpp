@@ -34,7 +34,7 @@ struct Level {
     PulseTrain delivered;
 };
 
-/// What is programmed is no upper bound of a level.
+/// What is programmed is not an upper bound of a level.
 constexpr gate::Condition<Level> kLevelConditions[] = {
     {gate::MoreThanProgrammed,
      [](auto& level) noexcept { return siAmplitude(level.delivered) > siAmplitude(level.programmed); }},

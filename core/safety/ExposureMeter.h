@@ -1,4 +1,4 @@
-// ExposureMeter.h - what the last seconds have already had: every approved train, summed over sliding windows.
+// ExposureMeter.h - the exposure of the last seconds: every approved train, summed over sliding windows.
 //
 // A train is booked when it is approved. It may be delivered at any moment until its approval expires, so it
 // counts from the one moment to the other, whole, in every window that it could touch: sums are never too small.

@@ -33,7 +33,7 @@ struct State {
     std::optional<Ohms> impedance;
     Instant impedanceAt{std::numeric_limits<Instant::rep>::min()};
     std::optional<Ohms> lastGood;    // since configure(), whatever came after it
-    bool impedanceRejected = false;  // the last reading was no number or out of range
+    bool impedanceRejected = false;  // the last reading was not a number or out of range
 
     std::map<std::string, AcceptedLevels> people;         // a participant who comes back keeps the accepted levels
     AcceptedLevels none;                                  // permits nothing

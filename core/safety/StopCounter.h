@@ -1,5 +1,5 @@
-// StopCounter.h - how often the operator has said stop (H2). A stop is never forgotten: there is no way to take one
-// back.
+// StopCounter.h - how often the operator has stopped the output (H2). A stop is never forgotten: there is no way to
+// take one back.
 //
 // Everything that starts output is asked for at a moment, by a click or a command, and is carried out later, on another
 // thread, perhaps after devices took seconds to open. The mark is taken at that moment; what is asked for is carried

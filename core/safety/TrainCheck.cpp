@@ -49,7 +49,7 @@ constexpr FindingRule kRulesWithoutStatus[] = {
 
 constexpr FindingRule kStatusRules[] = {
     {TrainGarbage, [](auto& t) noexcept { return !(sane(t.status.imbalance) && sane(t.status.imbalanceUncertainty)); },
-     TrainFinding::Garbage, "the stimulator reads back a charge imbalance that is no number or negative"},
+     TrainFinding::Garbage, "the stimulator reads back a charge imbalance that is negative or not a number"},
     {TrainOpen, [](auto& t) noexcept { return t.status.electrode == ElectrodeReading::Open; }, TrainFinding::Open,
      "the electrode is open: it lifted, or its lead is off"},
     {TrainShort, [](auto& t) noexcept { return t.status.electrode == ElectrodeReading::Short; }, TrainFinding::Short,

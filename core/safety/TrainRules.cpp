@@ -220,8 +220,8 @@ constexpr Rule<AskedTrain> kTimeRules[] = {
 constexpr Rule<ExposureMeter> kMeterRules[] = {
     {MeterFull, [](auto& meter) { return !meter.canBook(); },
      [](auto& meter) {
-         return fail(ErrorCode::LimitExceeded, "{} trains were approved in the last seconds; the meter holds no more",
-                     meter.size());
+         return fail(ErrorCode::LimitExceeded,
+                     "{} trains were approved in the last seconds; the exposure meter holds no more", meter.size());
      }},
 };
 }  // namespace

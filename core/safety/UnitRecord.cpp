@@ -84,7 +84,7 @@ tl::unexpected<Error> refusalOf(const LockedFile::Refused& refused, const std::f
                         holderOf(path));
         case LockedFile::Refusal::NotItsOwn:
             return fail(ErrorCode::Io,
-                        "the record of what this unit has delivered, {}, is no file of its own (a link, a pipe); "
+                        "the record of what this unit has delivered, {}, is not a file of its own (a link, a pipe); "
                         "remove it. Without a record the unit is not driven",
                         path.string());
         case LockedFile::Refusal::Failed:
@@ -159,7 +159,7 @@ void UnitRecord::takeOver() {
         next_ = last + 1;
         keep = file_.made() || (!bootId.empty() && textIn(before.content.boot) == bootId);
         if (!whole) {
-            why = "its record was torn, as when a program ends while it writes";
+            why = "its record is incomplete, as when a program ends while it writes";
         } else if (keep && newest > boot) {
             why = "its record is from a time that has not come";
         } else if (!claim_) {

@@ -39,7 +39,7 @@ Result<std::size_t> decrypt(const Secret& key, std::string_view boundTo, std::si
 Result<std::size_t> paddedSize(const Secret& key, std::size_t block, std::span<const std::byte> sealed) {
     if (key.size() != kKeyBytes) return fail(ErrorCode::InvalidArgument, "a key has {} bytes, not 32", key.size());
     if (sealed.size() < kNonceBytes + kTagBytes + block || (sealed.size() - kNonceBytes - kTagBytes) % block != 0)
-        return fail(ErrorCode::ParseError, "it does not open: {} bytes are no seal", sealed.size());
+        return fail(ErrorCode::ParseError, "it does not open: {} bytes are not a seal", sealed.size());
     return sealed.size() - kNonceBytes - kTagBytes;
 }
 
@@ -101,7 +101,7 @@ Result<std::vector<std::byte>> bytesOfBase64(std::string_view text) {
     const char* end = nullptr;
     if (sodium_base642bin(raw(out.data()), out.size(), text.data(), text.size(), nullptr, &size, &end, kBase64) != 0 ||
         end != text.data() + text.size())
-        return fail(ErrorCode::ParseError, "it does not open: it is no base64");
+        return fail(ErrorCode::ParseError, "it does not open: it is not base64");
     out.resize(size);
     return out;
 }

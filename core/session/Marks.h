@@ -1,7 +1,7 @@
 // Marks.h - what every result of a session must be read with: where it comes from, whether the stimulator and R are
 // calibrated, the flags of the recording, the known limit of R (science.md section 12).
 //
-// The bench writes them when it closes. A session without them, of an older program or broken off, says that they are
+// The bench writes them when it closes. A session without them, of an older program or interrupted, says that they are
 // not known: it never reads as one that has none (hazard H9).
 //
 // Thread-safety: pure functions.

@@ -122,10 +122,10 @@ Result<void> takesLabels(const std::filesystem::path& session, const SessionRead
     const auto name = session.filename().string();
     auto journal = session;
     if (!reader.closed() || std::filesystem::exists(journal += "-wal")) {
-        return fail(
-            ErrorCode::Unsupported,
-            "session {} has no end mark: it is being recorded, or was broken off. It is kept as it is, without changes",
-            name);
+        return fail(ErrorCode::Unsupported,
+                    "session {} has no end mark: it is being recorded, or was interrupted. It is kept as it is, "
+                    "without changes",
+                    name);
     }
     if (reader.sealed()) {
         return fail(

@@ -26,12 +26,12 @@ inline constexpr std::size_t kSessionNoteLimit = 1000;
 inline constexpr std::size_t kTagLimit = 40;
 inline constexpr std::size_t kMaxTags = 20;
 
-/// Errors: InvalidArgument naming what is too long, is no UTF-8 or holds a control character; a tag that is empty,
+/// Errors: InvalidArgument naming what is too long, is not UTF-8 or holds a control character; a tag that is empty,
 /// holds a comma or stands twice; too many of them.
 [[nodiscard]] Result<void> checkLabels(const SessionLabels& labels);
 
 /// Whether `session`, which `reader` reads, takes changes. Errors: Unsupported for one that has no end mark (it is
-/// being recorded, or was broken off); Io for a read-only one.
+/// being recorded, or was interrupted); Io for a read-only one.
 [[nodiscard]] Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader);
 
 /// Takes over into `onto` each field in which `edited` differs from `shown`. The list of tags is one field.

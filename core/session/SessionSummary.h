@@ -27,7 +27,7 @@ struct SessionSummary {
 [[nodiscard]] Result<SessionSummary> summarise(const std::filesystem::path& session);
 
 [[nodiscard]] std::string toJsonText(const SessionSummary& summary);
-/// Errors: ParseError for what is no summary.
+/// Errors: ParseError for what is not a summary.
 [[nodiscard]] Result<SessionSummary> summaryFrom(std::string_view json);
 
 }  // namespace tacto

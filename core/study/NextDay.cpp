@@ -68,10 +68,11 @@ Result<SideEffect> sideEffectFrom(std::string_view text) {
     };
     SideEffect effect{parts.empty() ? std::string() : std::string(parts[0]), score(1, 4), score(2, 5)};
     if (effect.severity > 0 && effect.relation > 0 && sideEffectFields().check(effect, RecordPlace{})) return effect;
-    return fail(ErrorCode::InvalidArgument,
-                "\"{}\" is no side effect; ITEM:SEVERITY:RELATION as redness:2:4 is expected, a severity from 1 to 4, "
-                "a relation from 1 to 5, and of the items {}",
-                text, sideEffectKeys());
+    return fail(
+        ErrorCode::InvalidArgument,
+        "\"{}\" is not a side effect; ITEM:SEVERITY:RELATION as redness:2:4 is expected, a severity from 1 to 4, "
+        "a relation from 1 to 5, and of the items {}",
+        text, sideEffectKeys());
 }
 
 nlohmann::json toJson(const NextDay& said) { return nextDayFields().write(said); }

@@ -65,7 +65,7 @@ Result<std::string> checkedCode(std::string_view text) {
     const auto refused = [&](std::string_view what) {
         return fail(
             ErrorCode::NotFound,
-            "\"{}\" is no participant's code: {}; a code as P-7K3D is expected, whose last character checks the "
+            "\"{}\" is not a participant's code: {}; a code as P-7K3D is expected, whose last character checks the "
             "others",
             text.substr(0, 40), what);
     };

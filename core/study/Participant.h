@@ -1,7 +1,7 @@
 // Participant.h - one person of a study, or one virtual participant. Never a name, a birth date or a hospital number.
 //
-// A code ends in a check character (ISO 7064 mod 37,36 over its letters and digits), so that a slip of the finger is no
-// other person.
+// A code ends in a check character (ISO 7064 mod 37,36 over its letters and digits), so that a mistyped code is not
+// another participant's.
 //
 // Thread-safety: values; newCode() draws from the system's random numbers.
 #pragma once
@@ -55,7 +55,7 @@ struct Participant {
 [[nodiscard]] Result<void> checkAbout(const Participant& participant);
 
 /// The code in its stored form: upper case, with its hyphens.
-/// Errors: NotFound for a text that is no code or whose check character is wrong, naming what is accepted.
+/// Errors: NotFound for a text that is not a code or whose check character is wrong, naming what is accepted.
 [[nodiscard]] Result<std::string> checkedCode(std::string_view text);
 /// A new code, "P-" and four characters, the last of which checks.
 [[nodiscard]] std::string newCode();

@@ -121,7 +121,7 @@ Result<Study> Study::open(const fs::path& folder, const Passphrase* passphrase, 
     if (!verified) return failure(verified);
     if (verified->status != SessionStatus::Intact) {
         return fail(ErrorCode::ParseError, "the ledger of the study in {} is damaged: {}", files.folder.string(),
-                    verified->problems.empty() ? "it is no ledger" : verified->problems.front());
+                    verified->problems.empty() ? "it is not a ledger" : verified->problems.front());
     }
     state->settings = *first;
     const bool rehearsal = first->kind == StudyKind::Rehearsal;

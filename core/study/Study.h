@@ -1,8 +1,8 @@
 // Study.h - a study: its folder (study.json, ledger.tacto, sessions/), its key file, its participants and sessions.
 //
-// Promise (hazards H8, H11): what returned a value is on disk. Without the key one reads no code, no answer and no
-// level: those are sealed under keys that lie elsewhere, in the user's key folder. A withdrawn participant's key is
-// destroyed; the ledger and the chains stay whole.
+// Promise (hazards H8, H11): what returned a value is on disk. Without the key no code, answer or level can be read:
+// those are sealed under keys that lie elsewhere, in the user's key folder. A withdrawn participant's key is destroyed;
+// the ledger and the chains stay whole.
 //
 // One program at a time changes a study; others may read it.
 //

@@ -29,7 +29,7 @@ std::string studyText(const StudySettings& settings) {
     auto json = studyFields().write(settings);
     json["version"] = kStudyVersion;
     if (settings.kind == StudyKind::Rehearsal)
-        json["note"] = "A rehearsal: its keys lie beside this file and are no secret.";
+        json["note"] = "A rehearsal: its keys lie beside this file and are not secret.";
     return dumpJson(json, 2) + "\n";
 }
 
@@ -55,7 +55,7 @@ Result<StudySettings> parseStudy(std::string_view text, const std::string& sourc
     if (auto object = expectObject(*json, source); !object) return failure(object);
     const auto version = valueOr(*json, "version");
     if (!version.is_number_unsigned())
-        return fail(ErrorCode::ParseError, "{} says no version; it is no study of Tactoscope's", source);
+        return fail(ErrorCode::ParseError, "{} states no version; it is not one of Tactoscope's studies", source);
     if (version.get<std::uint64_t>() > kStudyVersion) {
         return fail(ErrorCode::Unsupported,
                     "{} has version {}, made by a newer Tactoscope; this program reads up to {}", source,

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr int kKeyFileVersion = 1;
 constexpr const char* kKeyFileFormat = "tactoscope study keys";
-constexpr const char* kNoSecret = "The keys of a rehearsal with virtual participants: they are no secret.";
+constexpr const char* kNoSecret = "The keys of a rehearsal with virtual participants: they are not secret.";
 constexpr std::size_t kIdBytes = 16;
 constexpr std::size_t kCodeBytes = 32;
 constexpr std::size_t kEntryBytes = kIdBytes + kCodeBytes + kKeyBytes;
@@ -122,7 +122,7 @@ Result<StudyKeys> StudyKeys::open(const fs::path& file, const std::string& study
     const auto json = parseJson(*text, file.string());
     if (!json) return failure(json);
     if (textOr(*json, "format") != kKeyFileFormat)
-        return fail(ErrorCode::ParseError, "{} is no key file of a study", file.string());
+        return fail(ErrorCode::ParseError, "{} is not a key file of a study", file.string());
     if (countOr(*json, "version") != kKeyFileVersion) {
         return fail(ErrorCode::Unsupported,
                     "the key file {} has version {}, made by a newer Tactoscope; this program "

@@ -2,7 +2,7 @@
 //
 // They lie in one file outside the study's folder, sealed under a passphrase, mode 0600. What the passphrase opens is
 // binary, so that no key passes through a parser: 32 bytes of the study's key, then 80 bytes a participant (16 of the
-// id, 32 of the code, 32 of the key). A rehearsal's file has no passphrase and says that it is no secret.
+// id, 32 of the code, 32 of the key). A rehearsal's file has no passphrase and says that it is not secret.
 //
 // Every change writes a new file, which takes the old one's place; the old one's bytes are overwritten.
 //

@@ -27,8 +27,9 @@ public:
             return note.starts_with("The session ended without closing");  // a ledger never ends
         });
         if (report_.ledger.status != SessionStatus::Intact) {
-            problem(fmt::format("the ledger is damaged: {}",
-                                report_.ledger.problems.empty() ? "it is no ledger" : report_.ledger.problems.front()));
+            problem(fmt::format("the ledger is damaged: {}", report_.ledger.problems.empty()
+                                                                 ? "it is not a ledger"
+                                                                 : report_.ledger.problems.front()));
             return {};
         }
         const auto reader = SessionReader::open(files_.ledger());

@@ -1,5 +1,5 @@
-// BurstTimer.h - when a massager is to be written what: the burst, its repetitions, and the stop that ends it. Times
-// only: no bytes, no device, no clock of its own.
+// BurstTimer.h - what is to be written to a massager, and when: the burst, its repetitions, and the stop that ends it.
+// Times only: no bytes, no device, no clock of its own.
 //
 //   * A stop goes out at once, even just after another write; when that was too soon for the device, once more after
 //     the shortest write interval.

@@ -40,7 +40,7 @@ Result<Wanted> readUri(const DeviceUri& uri) {
         wanted.product = path.size() == 9 && path[4] == ':' ? hex16(path.substr(5)) : std::nullopt;
         if (!wanted.vendor || !wanted.product) {
             return uri.refuse(ErrorCode::InvalidArgument,
-                              "\"{}\" is no vendor and product; two times four hexadecimal digits are accepted, as "
+                              "\"{}\" is not a vendor and product; two times four hexadecimal digits are accepted, as "
                               "hid:054c:0ce6",
                               uri.path);
         }

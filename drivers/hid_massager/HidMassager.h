@@ -52,7 +52,7 @@ public:
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
     [[nodiscard]] const VibrationReports& reports() const noexcept { return reports_; }
     /// Returns when the device has the report. A burst takes the place of one that runs. One that forceOff() overtakes
-    /// is not sent, which is no error. Refuses an expired approval (Device).
+    /// is not sent, which is not an error. Refuses an expired approval (Device).
     [[nodiscard]] Result<void> vibrate(ApprovedBurst&& burst) override;
     /// The step of the field that takes the fewest values.
     [[nodiscard]] double step() const noexcept override;

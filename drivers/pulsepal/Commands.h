@@ -103,7 +103,7 @@ enum class Parameter : std::uint8_t {
     RestingVoltage = 17,
     TriggerMode = 128,  ///< its "channel" is a trigger input, 1 or 2
 };
-/// Bytes of its value: 1, 2 or 4; 0 for a number that is no parameter.
+/// Bytes of its value: 1, 2 or 4; 0 for a number that is not a parameter.
 [[nodiscard]] std::size_t sizeOf(Parameter parameter) noexcept;
 
 // One function per kind of value; each takes only the parameters of its kind, which are named in its type.

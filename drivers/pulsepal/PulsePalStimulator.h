@@ -49,7 +49,7 @@ public:
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
     [[nodiscard]] const SourceTraits& traits() const noexcept override { return traits_; }
     /// Refuses, besides what Stimulator says, what programTrain() refuses, an expired approval, and a train while
-    /// another is in progress. A train that forceOff() overtakes is not begun, or cut, which is no error.
+    /// another is in progress. A train that forceOff() overtakes is not begun, or cut, which is not an error.
     [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
     [[nodiscard]] Result<StimulatorStatus> status() override;
     [[nodiscard]] Result<void> keepAlive() override;  ///< there is no dead-man; Device while the device is lost

@@ -113,7 +113,7 @@ public:
         }
         std::error_code error;
         if (!fs::is_directory(uri.path, error)) {
-            return uri.refuse(ErrorCode::NotFound, "{} is no folder; one with captures ({}) was expected",
+            return uri.refuse(ErrorCode::NotFound, "{} is not a folder; one with captures ({}) was expected",
                               uri.path.empty() ? "\"\"" : uri.path, fmt::join(formats_->suffixes(), ", "));
         }
         std::vector<fs::path> files;

@@ -57,7 +57,7 @@ Result<std::size_t> Exchange::refill(Seconds left) {
 tl::unexpected<Error> Exchange::silence(std::uint64_t junkBefore) const {
     if (const auto junk = decoder_.junkBytes() - junkBefore; junk > 0) {
         return fail(ErrorCode::Device,
-                    "the stimulator answered {} with garbage: {} bytes that are no frame with a fitting length and CRC",
+                    "the stimulator answered {} with garbage: {} bytes without a frame of a fitting length and CRC",
                     nameOf(command_), junk);
     }
     return fail(ErrorCode::Timeout, "the stimulator did not answer {} in time", nameOf(command_));

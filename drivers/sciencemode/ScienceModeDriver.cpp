@@ -161,7 +161,7 @@ private:
 
 Result<Sighting> lookAt(const DeviceUri& uri, TransportPorts* ports, const Clock& clock) {
     if (uri.scheme != "sciencemode") {
-        return uri.refuse(ErrorCode::InvalidArgument, "this is no ScienceMode stimulator; sciencemode: is expected");
+        return uri.refuse(ErrorCode::InvalidArgument, "this is not a ScienceMode stimulator; sciencemode: is expected");
     }
     const auto wanted = readUri(uri);
     if (!wanted) return failure(wanted);

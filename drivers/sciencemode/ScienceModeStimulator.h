@@ -65,7 +65,7 @@ public:
     [[nodiscard]] const SourceTraits& traits() const noexcept override { return traits_; }
     /// Returns with the ack of the first pulse: 50 ms at most after the pulse's own end. Refuses, besides what
     /// Stimulator says, what planPulse() refuses, an expired approval, and a train while another is in progress. A
-    /// train that forceOff() overtakes is cut, which is no error; status() reports an electrode that is off.
+    /// train that forceOff() overtakes is cut, which is not an error; status() reports an electrode that is off.
     [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
     /// During a train, what its last pulse said; otherwise the device is asked. What ended a train early is the error
     /// of the status() after it, once. `imbalance` is a lower bound (see ReadBack.h) and mostly absent.

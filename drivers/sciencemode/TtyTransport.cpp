@@ -67,7 +67,7 @@ Result<std::unique_ptr<Transport>> TtyTransport::open(const std::string& path) {
     std::unique_ptr<TtyTransport> transport(new TtyTransport(terminal, path));
     termios settings{};
     if (tcgetattr(terminal, &settings) != 0) {
-        return fail(ErrorCode::Io, "{} is no terminal: {}", path, reason());
+        return fail(ErrorCode::Io, "{} is not a terminal: {}", path, reason());
     }
     cfmakeraw(&settings);
     settings.c_cflag |= CLOCAL | CREAD;

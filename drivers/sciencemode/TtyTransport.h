@@ -19,7 +19,7 @@ namespace tacto::sciencemode {
 
 class TtyTransport final : public Transport {
 public:
-    /// Errors: NotFound for a path that is not there; Io for one that may not be opened, is no terminal,
+    /// Errors: NotFound for a path that is not there; Io for one that may not be opened, is not a terminal,
     /// or is held by another program, which the message names.
     [[nodiscard]] static Result<std::unique_ptr<Transport>> open(const std::string& path);
     ~TtyTransport() override;

@@ -1,7 +1,7 @@
 // Messages.h - what a board says, from payloads to values (PROTOCOL.md, sections 3 to 5). Pure: no I/O, no state.
 //
-// Nothing here trusts the board: a payload of the wrong length, a field out of its range, a scale that is no number or
-// a unit that does not go with the kind of stream is refused with one sentence.
+// Nothing here trusts the board: a payload of the wrong length, a field out of its range, a scale that is not a number
+// or a unit that does not go with the kind of stream is refused with one sentence.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -99,7 +99,7 @@ struct Refusal {
 [[nodiscard]] Result<Refusal> readRefusal(const Frame& frame);
 /// The time at which DONE was said, if it answers `command`.
 [[nodiscard]] Result<std::uint64_t> readDone(const Frame& frame, Command command);
-/// Never allocates. Nothing for a payload that is no block.
+/// Never allocates. Nothing for a payload that is not a block.
 [[nodiscard]] std::optional<DataBlock> readBlock(const Frame& frame) noexcept;
 
 /// The payload of SET_CONFIGURATION after its token.

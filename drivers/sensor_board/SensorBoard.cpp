@@ -2,10 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/base/Words.h"
 
 namespace tacto {
 
 using namespace sensorboard;
+
+namespace {
+
+constexpr int kPings = 16;
+
+constexpr Word<StreamKind> kParts[] = {{"fingertip accelerometer", StreamKind::Acceleration},
+                                       {"fingertip force", StreamKind::Force},
+                                       {"taxel array", StreamKind::Taxels}};
+
+}  // namespace
 
 SensorBoard::SensorBoard(std::unique_ptr<Transport> transport, const Clock& clock)
     : link_(std::move(transport), clock), clock_(clock) {
@@ -122,6 +135,129 @@ void SensorBoard::publish() noexcept {
     current_.driftSpan_s = clock.span_s;
     current_.clockSteps = clock.steps;
     report_.write(current_);
+}
+
+using namespace sensorboard;
+
+Result<std::unique_ptr<SensorBoard>> SensorBoard::open(std::unique_ptr<Transport> transport,
+                                                       const SensorBoardSettings& settings, const Clock& clock) {
+    std::unique_ptr<SensorBoard> board(new SensorBoard(std::move(transport), clock));
+    auto ready = board->identify(settings);
+    if (ready) ready = board->measureDelay();
+    if (ready) {
+        // Until it is acknowledged it may have been heard all the same.
+        board->began_ = true;
+        ready = board->link_.order(Command::Start);
+    }
+    if (!ready) {
+        return fail(ready.error().code, "sensor board \"{}\": {}", settings.uri, ready.error().message);
+    }
+    board->link_.listen();
+    board->lastSound_ = clock.now();
+    board->soundFrames_ = board->link_.counts().frames;
+    board->bytesThen_ = board->link_.counts().bytes;
+    board->publish();
+    return board;
+}
+
+Result<void> SensorBoard::identify(const SensorBoardSettings& settings) {
+    const auto answer = link_.ask(Command::Hello, Reply::Identity);
+    if (!answer) return failure(answer);
+    const auto who = readIdentity(*answer);
+    if (!who) return fail(ErrorCode::Device, "{}", who.error().message);
+    if (kVersion < who->lowestVersion || kVersion > who->highestVersion) {
+        return fail(ErrorCode::Unsupported,
+                    "it speaks versions {} to {} of the sensor board protocol; version {} was expected",
+                    who->lowestVersion, who->highestVersion, static_cast<int>(kVersion));
+    }
+    if (!settings.serial.empty() && settings.serial != who->serial) {
+        return fail(ErrorCode::NotFound, "its serial number is \"{}\"; \"{}\" was expected", who->serial,
+                    settings.serial);
+    }
+    identity_ = {settings.uri, Role::Sensor,  who->name.empty() ? "sensor board" : who->name,
+                 who->serial,  who->firmware, who->serial.starts_with(kEmulatedSerial)};
+    // One that a program left running is stopped first: configurations are set in silence.
+    if (const auto stopped = link_.order(Command::Stop); !stopped) return stopped;
+    return configure(settings, who->streams);
+}
+
+Result<void> SensorBoard::configure(const SensorBoardSettings& settings, std::size_t streams) {
+    for (std::uint8_t i = 0; i < streams; ++i) {
+        const std::array<std::uint8_t, 1> which{i};
+        const auto answer = link_.ask(Command::GetConfiguration, Reply::Configuration, which);
+        if (!answer) return failure(answer);
+        auto now = readConfiguration(*answer);
+        if (!now) return fail(ErrorCode::Device, "{}", now.error().message);
+        if (now->stream != i) {
+            return fail(ErrorCode::Device, "it describes stream {} when asked for {}", now->stream, i);
+        }
+        if (!now->enabled) continue;
+        const auto same = [&](const StreamInfo& info) { return info.kind == now->kind; };
+        if (std::ranges::any_of(infos_, same)) {
+            return fail(ErrorCode::Device, "it has two {} streams enabled; one was expected", tacto::nameOf(now->kind));
+        }
+        const double rate = now->kind == StreamKind::Acceleration ? settings.accelerationRate_hz : settings.slowRate_hz;
+        if (rate != 0 && rate != now->rate_hz()) {
+            now = setRate(*now, rate);
+            if (!now) return failure(now);
+        }
+        const auto calibration = link_.ask(Command::GetCalibration, Reply::Calibration, which);
+        if (!calibration) return failure(calibration);
+        auto known = readCalibration(*calibration);
+        if (!known) return fail(ErrorCode::Device, "{}", known.error().message);
+        if (known->stream != i || known->uncertainty.size() != now->columns.size()) {
+            return fail(ErrorCode::Device,
+                        "it gives the calibration of {} columns of stream {}; {} of stream {} were "
+                        "expected",
+                        known->uncertainty.size(), known->stream, now->columns.size(), i);
+        }
+        trackOf_[i] = static_cast<int>(tracks_.size());
+        infos_.push_back({now->kind, now->unit, now->columns.size(), now->rate_hz(),
+                          std::string(wordFor(kParts, now->kind, "stream"))});
+        calibrations_.push_back(std::move(*known));
+        tracks_.emplace_back(std::move(*now));
+    }
+    if (infos_.empty()) {
+        return fail(ErrorCode::Unsupported, "none of its {} streams is enabled; at least one was expected", streams);
+    }
+    return {};
+}
+
+Result<StreamConfiguration> SensorBoard::setRate(StreamConfiguration now, double rate_hz) {
+    if (!(rate_hz >= 1 && rate_hz <= 1e6)) {
+        return fail(ErrorCode::InvalidArgument, "a rate of {} Hz for its {} stream; 1 Hz to 1 MHz was expected",
+                    rate_hz, tacto::nameOf(now.kind));
+    }
+    now.rate_mhz = static_cast<std::uint32_t>(std::llround(rate_hz * 1000));
+    const auto payload = configurationPayload(now);
+    const auto answer = link_.ask(Command::SetConfiguration, Reply::Configuration, payload);
+    if (!answer) {
+        return fail(answer.error().code, "its {} stream cannot have {} Hz: {}", tacto::nameOf(now.kind), rate_hz,
+                    answer.error().message);
+    }
+    auto set = readConfiguration(*answer);
+    if (!set) return fail(ErrorCode::Device, "{}", set.error().message);
+    if (set->stream != now.stream || set->rate_mhz != now.rate_mhz || set->columns.size() != now.columns.size()) {
+        return fail(ErrorCode::Device, "its {} stream was set to {} Hz and answers {} Hz", tacto::nameOf(now.kind),
+                    rate_hz, set->rate_hz());
+    }
+    return set;
+}
+
+Result<void> SensorBoard::measureDelay() {
+    current_.delayMost_s = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kPings; ++i) {
+        const auto answer = link_.ask(Command::GetStatus, Reply::Status);
+        if (!answer) return failure(answer);
+        const auto status = readStatus(*answer);
+        if (!status) return fail(ErrorCode::Device, "{}", status.error().message);
+        fit_.observe(status->time_us, link_.arrival());
+        // The board wrote it between question and answer (Cristian, Distributed Computing 3, 1989).
+        current_.delayMost_s = std::min(current_.delayMost_s, toSeconds(link_.arrival() - link_.sent()));
+        current_.board = *status;
+    }
+    fit_.settle();
+    return {};
 }
 
 }  // namespace tacto

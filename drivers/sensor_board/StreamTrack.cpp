@@ -32,7 +32,7 @@ bool StreamTrack::sound(const DataBlock& block) const noexcept {
     const auto bytes = block.count * configuration_.columns.size() * bytesOf(configuration_.format);
     if (block.samples.size() != bytes) return false;
     if (!(std::abs(block.interval_ns - nominal_ns_) <= kIntervalTolerance * nominal_ns_)) return false;
-    // A time near the end of 64 bits is no time since power-up: sums with it would wrap.
+    // A time near the end of 64 bits is not a time since power-up: sums with it would wrap.
     constexpr std::uint64_t kMaxTime = std::uint64_t{1} << 53U;
     if (block.time_us > kMaxTime) return false;
     if (!begun_) return true;

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "core/base/Units.h"
-#include "core/electrode/LoadResponse.h"
+#include "core/electrode/PulseResponse.h"
 #include "drivers/simulated/FaultSchedule.h"
 
 namespace tacto::sim {

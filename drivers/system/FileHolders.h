@@ -17,7 +17,7 @@ struct FileHolder {
 };
 
 /// Other processes that have `file` open, by process number. Processes of other users are seen by root only, and what
-/// is no character device, or not there, has no holders.
+/// is not a character device, or not there, has no holders.
 [[nodiscard]] std::vector<FileHolder> holdersOf(const std::filesystem::path& file);
 
 /// "tactoscope-cli (pid 123) and cat (pid 124)"; for none "this program itself or one that this

@@ -1,4 +1,4 @@
-// Along which curve should amplitude and interval follow R and P? Which of the two sets which is no question for an
+// Along which curve should amplitude and interval follow R and P? Which of the two sets which is not a question for an
 // oscilloscope: swapping them is a symmetry of the distances that are measured here, and people decide.
 //
 // The same trials in the same order under both assignments and the three curves, each judged on what the oscilloscope

@@ -1,5 +1,5 @@
 // Can this participant tell the four tactile conditions apart? Thresholds first, then training, then test blocks
-// without feedback. Each answer is on disk before the next presentation; a session that was broken off goes on with
+// without feedback. Each answer is on disk before the next presentation; an interrupted session goes on with
 // the first trial of its order that has no answer. A study with massagers has a massager in the stimulator's place:
 // strength for current, no electrodes.
 protocol({

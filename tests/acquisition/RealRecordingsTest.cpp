@@ -64,7 +64,8 @@ TEST(RealRecordings, HapmatIsGravitiesAtAHundredHertz) {
     ASSERT_TRUE(recording) << recording.error().message;
     const auto& stream = recording->streams.at(0);
     const auto& numpy = figuresOf("real_slides").at("stick");
-    EXPECT_EQ(stream.samples.samples(), numpy.at("samples").get<std::size_t>()) << "the blank last line is no sample";
+    EXPECT_EQ(stream.samples.samples(), numpy.at("samples").get<std::size_t>())
+        << "the blank last line is not a sample";
     EXPECT_NEAR(stream.info.rate_hz, numpy.at("rate_hz").get<double>(), 1e-9);
     EXPECT_DOUBLE_EQ(stream.samples.values[0], -0.000542 * 9.80665);
 }

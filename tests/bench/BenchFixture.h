@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/bench/Bench.h"
+#include "core/devices/Registry.h"
 #include "core/session/SessionWriter.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/support/Limits.h"

@@ -208,7 +208,7 @@ TEST(SeenLoad, WithoutAnyCurrentEndsDelivery) {
     ASSERT_EQ(rig.interlock.state(), InterlockState::Armed);
     rig.loop.noteLoad({Ohms(1100), true, rig.clock.now()});
     step();
-    EXPECT_EQ(rig.interlock.state(), InterlockState::Armed) << "so little current is no news of a load of 1 kohm";
+    EXPECT_EQ(rig.interlock.state(), InterlockState::Armed) << "so little current is not news of a load of 1 kohm";
     rig.loop.noteLoad({Ohms(5000), true, Instant(-1)});
     step();
     EXPECT_EQ(rig.interlock.state(), InterlockState::Armed) << "from before it was armed";

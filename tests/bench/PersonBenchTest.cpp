@@ -138,7 +138,7 @@ TEST_F(PersonBenchTest, WithoutAcceptanceTheNextLevelIsRefused) {
     EXPECT_EQ(refused.end, PresentationEnd::Refused) << "delivered is not accepted";
     EXPECT_THAT(refused.reason, HasSubstr("the ramp rule"));
     EXPECT_TRUE(refused.trains.empty());
-    EXPECT_EQ(state(), InterlockState::Delivering) << "a refusal is no fault";
+    EXPECT_EQ(state(), InterlockState::Delivering) << "a refusal is not a fault";
     ASSERT_FALSE(bench_->accept(Milliamps(2))) << "what was not delivered cannot be accepted";
     ASSERT_EQ(presentTest(1).end, PresentationEnd::Complete);
     ASSERT_TRUE(bench_->accept(Milliamps(1)));
@@ -152,7 +152,7 @@ TEST_F(PersonBenchTest, OnlyWhatWasPresentedLastIsAccepted) {
     openArmed();
     EXPECT_FALSE(bench_->accept(Milliamps(0.5))) << "nothing was presented";
     ASSERT_EQ(presentTest(0).end, PresentationEnd::Complete);
-    EXPECT_FALSE(bench_->accept(Milliamps(0))) << "an empty presentation is no level";
+    EXPECT_FALSE(bench_->accept(Milliamps(0))) << "an empty presentation is not a level";
     EXPECT_FALSE(bench_->accept(Milliamps(0.5)));
     ASSERT_EQ(presentTest(0.5).end, PresentationEnd::Complete);
     EXPECT_FALSE(bench_->accept(Milliamps(1))) << "permitted, and never felt";

@@ -104,7 +104,7 @@ TEST_F(CalibrationStoreFile, FindsALineThatWasChangedTakenOutOrMoved) {
     const auto third = text.find('\n', second) + 1;
     EXPECT_THAT(refusal(text.substr(0, second) + text.substr(third)), HasSubstr(":2: the line before"));
     EXPECT_THAT(refusal(text.substr(second)), HasSubstr(":1: the line before"));
-    EXPECT_THAT(refusal("{}\n"), HasSubstr(":1: this is no calibration"));
+    EXPECT_THAT(refusal("{}\n"), HasSubstr(":1: this is not a calibration"));
     EXPECT_THAT(refusal(text + "nonsense\n"), HasSubstr(":4:"));
 }
 

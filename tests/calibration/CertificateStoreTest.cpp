@@ -116,7 +116,7 @@ TEST_F(CertificateStoreFile, WhatWasChangedOrTakenOutIsFound) {
     changed.replace(changed.find("0.5"), 3, "0.1");
     EXPECT_THAT(why(changed), HasSubstr("certificates.jsonl:1: its digest"));
     EXPECT_THAT(why(sound.substr(sound.find('\n') + 1)), HasSubstr(":1: the line before it"));
-    EXPECT_THAT(why("{}\n"), HasSubstr("this is no certificate"));
+    EXPECT_THAT(why("{}\n"), HasSubstr("this is not a certificate"));
     EXPECT_THAT(why(sound.substr(0, sound.size() - 5)), HasSubstr("lines are missing"));
     std::ofstream(path.string() + ".end") << endOfFirst;
     EXPECT_EQ(why(sound.substr(0, sound.size() - 5)), "read");  // cut short by a crash, before its end was noted

@@ -61,7 +61,7 @@ TEST(CaptureFormatsCommands, ClippingIsWhatTheStatedRangeSays) {
         return json["channels"][0]["flagged"]["clipped"].get<int>();
     };
     const auto unstated = jsonOf(desk.run({"measure", path, "--json"}));
-    EXPECT_EQ(clippedOf(unstated), 0) << "the highest value of a record is no range";
+    EXPECT_EQ(clippedOf(unstated), 0) << "the highest value of a record is not a range";
     EXPECT_GT(unstated["channels"][0]["pulses"].get<int>(), 5);
     const auto at = jsonOf(desk.run({"measure", path, "--range", "CH1=-5:5", "--json"}));
     EXPECT_GT(clippedOf(at), 5);

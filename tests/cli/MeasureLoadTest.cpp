@@ -61,7 +61,7 @@ TEST(MeasureLoad, AVoltageAndACurrentGiveTheLoad) {
 TEST(MeasureLoad, AShuntMakesTheCurrent) {
     const Desk desk;
     const auto file = desk.write("shunt.csv", pulses("time_s,voltage_v,sense_v", 100));
-    EXPECT_TRUE(jsonOf(desk.run({"measure", file, "--json"}))["load"].is_null()) << "two voltages are no load";
+    EXPECT_TRUE(jsonOf(desk.run({"measure", file, "--json"}))["load"].is_null()) << "two voltages are not a load";
     const auto ran = desk.run({"measure", file, "--channel", "sense", "--shunt", "100", "--json"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     const auto value = jsonOf(ran);

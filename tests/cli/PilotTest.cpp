@@ -1,4 +1,4 @@
-// A rehearsal from plan to confusion matrix, and how a session is refused, broken off and gone on with.
+// A rehearsal from plan to confusion matrix, and how a session is refused, interrupted and continued.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -100,7 +100,7 @@ TEST_F(StudyExport, TheDayAfterIsNotedOnALaterDayAlone) {
     expectRefused(desk_.run(today), 4, {"on a later day"});
     auto wrong = today;
     wrong.insert(wrong.end(), {"--side-effect", "redness:2"});
-    expectRefused(desk_.run(wrong), 2, {"\"redness:2\" is no side effect", "redness:2:4"});
+    expectRefused(desk_.run(wrong), 2, {"\"redness:2\" is not a side effect", "redness:2:4"});
     wrong[5] = "7";
     expectRefused(desk_.run(wrong), 2, {"--erythema is \"7\"; a whole number from 0 to 4 is expected"});
     ASSERT_EQ(desk_.run({"report", study(), "--out", at("asked.html")}).code, 0);
@@ -123,7 +123,7 @@ TEST_F(StudyExport, AReportThatNamesPeopleIsNotedBeforeItIsWritten) {
     expectRefused(desk_.run({"report", study(), "--out", at("other.html"), "--noted"}), 2,
                   {"notes no study report in", "other.html"});
     EXPECT_FALSE(fs::exists(at("other.html"))) << "a claim is not a row";
-    expectRefused(desk_.run({"report", study(), "--out", at("nowhere/study.html")}), 3, {"is no folder"});
+    expectRefused(desk_.run({"report", study(), "--out", at("nowhere/study.html")}), 3, {"is not a folder"});
     EXPECT_EQ(head(), noted) << "nothing is noted that cannot be written";
     const auto code = run_.at("participant").at("code").get<std::string>();
     ASSERT_EQ(desk_.run({"report", study(), "--out", at("page.html"), "--participant", code}).code, 0);

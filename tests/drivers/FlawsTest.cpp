@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "core/devices/Registry.h"
 #include "core/devices/StatementKeys.h"
 #include "core/measure/InstrumentStatement.h"
 #include "drivers/simulated/SimulatedDriver.h"
@@ -95,7 +96,7 @@ TEST(StatementKeys, BelongToAnOscilloscope) {
     };
     const auto refused = open("sim:stimulator?gain_pct=1");
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("is no oscilloscope"), std::string::npos) << refused.error().message;
+    EXPECT_NE(refused.error().message.find("is not an oscilloscope"), std::string::npos) << refused.error().message;
     const auto scope = open("sim:oscilloscope?accuracy=unknown&gain_pct=1");
     ASSERT_TRUE(scope) << scope.error().message;
     EXPECT_DOUBLE_EQ(scope->scopeStatement.voltage.gain.value, 0.01);

@@ -265,7 +265,7 @@ TEST(ReplayedCaptures, RefusesFoldersWithoutCaptures) {
     const ScratchDir folder;
     const auto uri = "capture:" + folder.path().string();
     EXPECT_THAT(bench.open(*driver, uri).error().message, HasSubstr("holds no capture"));
-    EXPECT_THAT(bench.open(*driver, "capture:/no/such").error().message, HasSubstr("is no folder"));
+    EXPECT_THAT(bench.open(*driver, "capture:/no/such").error().message, HasSubstr("is not a folder"));
     folder.write("x.csv", "time_s,voltage_v\n0,zero\n");
     EXPECT_THAT(bench.open(*driver, uri).error().message, HasSubstr("x.csv"));
     EXPECT_THAT(bench.open(*driver, uri + "?a=1").error().message, HasSubstr("takes none"));

@@ -60,7 +60,7 @@ TEST(RealRoughness, FabricSlideHasTaxelsOnly) {
         expectNear(summary.v.mean, numpy.at("v_static"));
         EXPECT_EQ(summary.R.n, summary.v.n);
         EXPECT_EQ(summary.h.n, 0U);
-        EXPECT_EQ(summary.P.n, 0U) << "counts are no pressure";
+        EXPECT_EQ(summary.P.n, 0U) << "counts are not pressure";
         EXPECT_THAT(summary.flags,
                     ElementsAre("no spectral feature", "not force-normalised", "contact assumed", "sliding assumed",
                                 "baseline assumed", "uncalibrated R", "uncalibrated units"));

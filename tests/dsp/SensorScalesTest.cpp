@@ -51,7 +51,7 @@ TEST(SensorScales, GivePressureInPascalWhereTheReadingsAreCounts) {
     RecordProperty("hazard", "H7");
     const InCounts data;
     const auto [before, uncalibrated] = read(data, {}, "B-1");
-    EXPECT_TRUE(std::isnan(before)) << "counts are no pressure";
+    EXPECT_TRUE(std::isnan(before)) << "counts are not pressure";
     EXPECT_THAT(uncalibrated, Contains("uncalibrated units"));
     const auto [after, flags] = read(data, scaled("B-1"), "B-1");
     EXPECT_NEAR(after, 2 / 1e-4, 1e-6);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/electrode/LoadResponse.h"
+#include "core/electrode/PulseResponse.h"
 #include "tests/support/Figures.h"
 
 namespace tacto {

@@ -32,10 +32,10 @@ TEST(CaptureFormats, AnotherFormatCanBeNamedAndAnUnknownOneIsRefused) {
     EXPECT_EQ(wrong.error().code, ErrorCode::ParseError);
     const auto unknown = formats->read(path, {.format = "dat"});
     ASSERT_FALSE(unknown);
-    EXPECT_EQ(
-        unknown.error().message,
-        "format 'dat' is not known; wav, isf, csv-rigol, csv-siglent, csv-tektronix, csv-keysight, csv-picoscope, "
-        "csv-lecroy, csv-hantek, csv-owon, csv-gwinstek, csv-yokogawa, csv-micsig, csv-sigrok, csv are");
+    EXPECT_EQ(unknown.error().message,
+              "format 'dat' is not known; known are wav, isf, csv-rigol, csv-siglent, csv-tektronix, csv-keysight, "
+              "csv-picoscope, "
+              "csv-lecroy, csv-hantek, csv-owon, csv-gwinstek, csv-yokogawa, csv-micsig, csv-sigrok, csv");
 }
 
 TEST(CaptureFormats, SkippedRowsAreNotAskedWhoseTheyAre) {

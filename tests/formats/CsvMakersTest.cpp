@@ -328,7 +328,7 @@ TEST(CsvMakers, DigilentWaveForms) {
                "Time (s),Channel 1 (V),Channel 2 (V)\n-1e-06,0,0.01\n0,1,0.02\n1e-06,2,0.03\n");
 }
 
-// pastebin.com/et1AHHqB: a row for each change, which is no evenly sampled record.
+// pastebin.com/et1AHHqB: a row for each change, which is not an evenly sampled record.
 TEST(CsvMakers, SaleaeLogicChangesAreRefused) {
     EXPECT_THAT(saidOf("Time [s],Channel 0,Channel 1\n289.692741059,0,0\n289.693153750,1,0\n289.693153875,0,0\n"
                        "289.693166125,1,1\n"),

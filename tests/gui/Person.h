@@ -7,7 +7,7 @@
 #include <QWidget>
 #include <functional>
 
-#include "core/devices/Driver.h"
+#include "core/devices/Registry.h"
 
 namespace tacto::test {
 

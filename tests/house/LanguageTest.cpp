@@ -153,11 +153,30 @@ TEST(Language, SentencesAreFoundInSources) {
     EXPECT_EQ(jargonIn("The Gate refuses"), "Gate: The Gate refuses");
 }
 
-/// What a line says without its subject: "nobody" and the like, or a comment that begins as a fragment ("Of a pass").
+/// "is no file" in a line; empty where a comparison follows ("is no longer than") or "there" stands before.
+std::string misplacedNoIn(const std::string& line) {
+    static const std::set<std::string> rightful{"longer",   "more",    "less",   "later",  "earlier", "better", "worse",
+                                                "larger",   "smaller", "higher", "lower",  "faster",  "slower", "wider",
+                                                "narrower", "use",     "such",   "reason", "other"};
+    static const std::regex words(R"((?:(\w+)\W+)?\b((?:is|are|was|were|be|been) no (\w+)))", std::regex::icase);
+    for (std::sregex_iterator found(line.begin(), line.end(), words), end; found != end; ++found) {
+        const auto before = (*found)[1].str();
+        if (strcasecmp(before.c_str(), "there") == 0 || strcasecmp(before.c_str(), "must") == 0) continue;
+        if (!rightful.contains((*found)[3].str())) return (*found)[2].str();
+    }
+    return "";
+}
+
+/// What a line says without its subject or in words that are not used: "nobody" and the like, a comment that begins as
+/// a fragment ("Of a pass"), "is no file" for "is not a file".
 std::string riddleIn(const std::string& line) {
     const auto has = [&](const char* part) { return strcasestr(line.c_str(), part) != nullptr; };
-    if (!has("body") && !has("whoever") && !has("/ Of ")) return "";
-    static const std::regex words(R"(\b(nobody|somebody|anybody|whoever)\b)", std::regex::icase);
+    if (has("is no ") || has("are no ") || has("was no ") || has("were no ") || has("be no ") || has("been no ")) {
+        if (auto found = misplacedNoIn(line); !found.empty()) return found;
+    }
+    if (!has("body") && !has("whoever") && !has("/ Of ") && !has("broken off")) return "";
+    static const std::regex words(R"(\b(nobody|somebody|anybody|whoever|was broken off|is broken off)\b)",
+                                  std::regex::icase);
     static const std::regex fragment(R"(//[/!<]*\s+Of [a-z])");
     std::smatch found;
     return std::regex_search(line, found, words) || std::regex_search(line, found, fragment) ? found.str() : "";
@@ -165,10 +184,10 @@ std::string riddleIn(const std::string& line) {
 
 TEST(Language, NamesItsSubjects) {
     std::size_t lines = 0;
-    for (const char* top : {"app", "core", "drivers", "tests", "resources/protocols"}) {
+    for (const char* top : {"app", "core", "drivers", "tests", "resources/protocols", "resources/help"}) {
         for (const auto& entry : fs::recursive_directory_iterator(test::sourceDir() / top)) {
             const auto kind = entry.path().extension();
-            if (kind != ".cpp" && kind != ".h" && kind != ".js") continue;
+            if (kind != ".cpp" && kind != ".h" && kind != ".js" && kind != ".md") continue;
             if (entry.path().filename() == "LanguageTest.cpp") continue;
             std::ifstream in(entry.path(), std::ios::binary);
             std::size_t at = 0;
@@ -187,6 +206,11 @@ TEST(Language, RiddlesAreFound) {
     EXPECT_EQ(riddleIn("EXPECT_TRUE(x) << \"Whoever asks\";"), "Whoever");
     EXPECT_EQ(riddleIn("    /// Of a pass: what was found"), "/// Of a");
     EXPECT_EQ(riddleIn("/// The body of a request, of one kind"), "");
+    EXPECT_EQ(riddleIn("fail(\"{} is no folder\")"), "is no folder");
+    EXPECT_EQ(riddleIn("/// Ten bytes that are no frame."), "are no frame");
+    EXPECT_EQ(riddleIn("// Where there is no sensor, R is no longer known, and there\u2019s no file"), "");
+    EXPECT_EQ(riddleIn("// There is no sensor. That is no fault."), "is no fault");
+    EXPECT_EQ(riddleIn("a session that was broken off"), "was broken off");
 }
 
 }  // namespace

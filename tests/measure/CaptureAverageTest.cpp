@@ -52,7 +52,7 @@ TEST(CaptureAverage, IsAlignedAtTheTriggerToPartsOfASample) {
     average.setCaptures(8);
     std::shared_ptr<const Capture> mean;
     for (unsigned i = 1; i <= 8; ++i) mean = average.add(repeated(i, 0, 0.06e-6 * i));
-    EXPECT_EQ(average.count(), 8U) << "less than a sample is no other setting";
+    EXPECT_EQ(average.count(), 8U) << "a change of less than a sample is not another setting";
     const auto volts = measureChannel(*mean, 0);
     ASSERT_EQ(volts.measuredPulses, 1U);
     EXPECT_NEAR(volts.pulses[0].leading.onset_s - mean->trigger_s, 0, 0.03e-6);

@@ -185,7 +185,7 @@ TEST(MeasurementGrid, ADriftOfTheBaselineIsFollowedAndSaid) {
             EXPECT_LT(r.amplitude.sd, 0.006) << describe(point);
         }
     }
-    // An offset is no drift and no reason for a warning.
+    // An offset is neither a drift nor a reason for a warning.
     const GridPoint offset{.snr_db = 46, .offset = 1};
     EXPECT_EQ(measureGridPoint(offset, kSeeds).warned, 0);
 }

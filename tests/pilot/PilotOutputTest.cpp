@@ -80,7 +80,7 @@ TEST_F(PilotOutputTest, ALostScreenIsAPauseAfterWhichTheLevelsAreReachedAgainWhi
     };
     const auto answer = stage_->trial(rising(1.5));
     ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer->response, "nothing") << "it is no stop of the participant's";
+    EXPECT_EQ(answer->response, "nothing") << "it is not a stop of the participant's";
     EXPECT_EQ(record_->count(row::kPause), 1U);
     EXPECT_EQ(record_->count(row::kContinue), 1U);
     EXPECT_EQ(record_->count(row::kParticipantStop) + record_->count(row::kFault), 0U);

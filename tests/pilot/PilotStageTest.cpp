@@ -218,7 +218,7 @@ TEST_F(PilotStageFaultTest, TheyHoldAgainAndTheLevelsAreReachedAgainStepByStep) 
     passUntil(19);
     const auto answer = stage_->trial(rising(1.5));
     ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer->response, "nothing") << "a fault is no stop of the participant";
+    EXPECT_EQ(answer->response, "nothing") << "a fault is not a stop of the participant";
     EXPECT_EQ(record_->count(row::kFault), 1U);
     EXPECT_EQ(measured_, 1);
     EXPECT_THAT(answered(), ElementsAre("ascending 0.5", "ascending 1", "ramp 0 0.5", "ramp 0 1", "ascending 1.5"));

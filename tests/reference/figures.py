@@ -16,7 +16,7 @@ TOLERANCE = 1e-9
 
 
 class NoData(Exception):
-    """Recordings that are no part of the tree (../shared/data) are not here."""
+    """Recordings that are not part of the tree (../shared/data) are not here."""
 
 
 def shared(relative):

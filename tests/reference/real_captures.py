@@ -2,7 +2,7 @@
 
 The baseline is the mean of the lower state's samples within 3 standard deviations, a plateau the mean from 30 to 90 % of
 its pulse. Instants are found by a straight line between samples, at half of the pulse's own plateau.
-The records are in ../shared/data, which is no part of the tree.
+The records are in ../shared/data, which is not a part of the tree.
 """
 import numpy as np
 

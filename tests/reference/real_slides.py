@@ -1,6 +1,6 @@
 """Real slides by numpy and scipy, as science.md section 2 defines their features. tests/dsp and tests/acquisition read it.
 
-The recordings are in ../shared/data, which is no part of the tree.
+The recordings are in ../shared/data, which is not a part of the tree.
 """
 import numpy as np
 from scipy.signal import butter, sosfilt, sosfilt_zi

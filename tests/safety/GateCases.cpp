@@ -154,7 +154,7 @@ void addStateCases(std::vector<GateCase>& cases) {
     const auto add = [&cases](Check check, std::string name, std::function<bool()> holds) {
         cases.push_back({check, std::move(name), std::move(holds)});
     };
-    add(ImpedanceValue, "an impedance that is no number", [] {
+    add(ImpedanceValue, "an impedance that is not a number", [] {
         Rig rig(personSetup());
         return refuses(rig.gate.updateImpedance(Ohms(kNaN), rig.clock.now()), ErrorCode::InvalidArgument,
                        "not above 0");
@@ -464,7 +464,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         return refuses(gate.acceptIntensity(-0.1), ErrorCode::InvalidArgument, "accepted intensity") &&
                refuses(gate.acceptIntensity(kNaN), ErrorCode::InvalidArgument, "accepted intensity");
     });
-    withVibrated(IntensityDiscomfort, "an uncomfortable intensity that is no number", [](SafetyGate& gate) {
+    withVibrated(IntensityDiscomfort, "an uncomfortable intensity that is not a number", [](SafetyGate& gate) {
         return refuses(gate.reportUncomfortable(kNaN), ErrorCode::InvalidArgument, "uncomfortable intensity") &&
                refuses(gate.reportUncomfortable(-0.1), ErrorCode::InvalidArgument, "uncomfortable intensity");
     });

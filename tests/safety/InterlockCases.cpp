@@ -139,7 +139,7 @@ void addInterlockCases(std::vector<GateCase>& cases) {
         return judgeTrain(OutputMode::BenchLoad, {}, 1s, 1s + 50ms).finding == TrainFinding::Pending &&
                judgeTrain(OutputMode::BenchLoad, {}, 1s, 1s + 51ms).finding == TrainFinding::StatusMissing;
     });
-    add(TrainGarbage, "an imbalance that is no number", [] {
+    add(TrainGarbage, "an imbalance that is not a number", [] {
         return found([](auto&) {}) == TrainFinding::Ok &&
                found([](auto& s) { s.imbalance = -1; }) == TrainFinding::Garbage &&
                found([](auto& s) { s.imbalanceUncertainty = kNaN; }) == TrainFinding::Garbage;
@@ -230,7 +230,7 @@ void addInterlockCases(std::vector<GateCase>& cases) {
         train.pulses = 0;
         return refuses(rig.gate.accept(train), ErrorCode::InvalidArgument, "pulses");
     });
-    add(DiscomfortValue, "a discomfort level that is no number", [] {
+    add(DiscomfortValue, "a discomfort level that is not a number", [] {
         Rig rig(personSetup());
         return refuses(rig.gate.reportDiscomfort(Milliamps(kNaN)), ErrorCode::InvalidArgument, "not a finite") &&
                refuses(rig.gate.reportDiscomfort(Milliamps(-1)), ErrorCode::InvalidArgument, "not a finite");

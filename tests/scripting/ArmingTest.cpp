@@ -147,7 +147,7 @@ TEST_F(Arming, ABenchTakesNoConfirmationOfAnotherText) {
     auto& bench = rig_.bench();
     ArmRequest request{"1 kohm", true, true};
     auto armed = bench.arm(request);
-    ASSERT_FALSE(armed) << "two booleans are no confirmation";
+    ASSERT_FALSE(armed) << "two booleans are not a confirmation";
     EXPECT_THAT(armed.error().message, HasSubstr(kInto1k));
     request.confirmed = kInto2k;
     armed = bench.arm(request);

@@ -125,7 +125,7 @@ TEST_F(Known, AnotherOutputOrUnitOfTheSameStimulatorIsAnother) {
     EXPECT_EQ(calibratedOutput("S1", "sciencemode:S1?channel=2&connector=yellow&keep=1"),
               "S1 connector=yellow channel=2");
     EXPECT_EQ(calibratedOutput("SIM-1", "sim:stimulator?gain=0.97"), "SIM-1");
-    EXPECT_EQ(calibratedOutput("", "pulsepal:1-1.2?channel=2"), "") << "a socket is no serial number";
+    EXPECT_EQ(calibratedOutput("", "pulsepal:1-1.2?channel=2"), "") << "a socket is not a serial number";
 }
 
 TEST_F(Known, ADamagedStoreIsNoCalibration) {

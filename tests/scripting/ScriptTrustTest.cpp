@@ -280,7 +280,7 @@ TEST_F(ScriptTrust, AFileIsReadOnlyWhereTheOperatorGaveIt) {
     const auto pipe = folder_.path() / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     for (const std::string& path : {pipe.string(), std::string("/dev/zero"), folder_.path().string()}) {
-        EXPECT_THAT(run(read(path), {}, {{"file", path}}), HasSubstr("is no file that can be read")) << path;
+        EXPECT_THAT(run(read(path), {}, {{"file", path}}), HasSubstr("is not a file that can be read")) << path;
     }
 }
 

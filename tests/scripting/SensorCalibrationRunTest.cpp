@@ -113,7 +113,7 @@ TEST(SensorCalibrationRun, ATwinWithWrongScalesGivesTheRightPressureAfterwardsAn
     RecordProperty("hazard", "H7");
     RunBench rig(true, kWrongTwin, 1, true, kSensorBench);
     EXPECT_NEAR(pressureUnder2N(rig), 0.8 * 20'000, 100) << "what the force sensor says";
-    EXPECT_EQ(taxelsUnder208g(rig, {}).pressure_pa.n, 0U) << "counts are no pressure";
+    EXPECT_EQ(taxelsUnder208g(rig, {}).pressure_pa.n, 0U) << "counts are not pressure";
     const auto outcome = runProtocol(rig.shipped("sensor-calibration", with(kShort, kWeighed))).value();
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump();
@@ -243,7 +243,7 @@ TEST(SensorCalibrationRun, RefusesTypingErrorsBeforeAnythingMoves) {
         {{{"rough_rz_um", "5"}}, "Rz of P120 is 5 um"},
         {{{"more", "paper"}}, "more has \"paper\""},
         {{{"more", "paper 3 21; paper 4 21"}}, "surface paper is given twice"},
-        {{{"more", "paper x3"}}, "is no file that can be read"},
+        {{{"more", "paper x3"}}, "is not a file that can be read"},
         {{{"weights_g", "20; 20"}}, "two or more different weights"},
         {{{"weights_g", "20; heavy"}}, "heavy; a number above 0"}};
     for (const auto& [changes, message] : wrong) {

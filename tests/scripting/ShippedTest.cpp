@@ -76,7 +76,7 @@ TEST_F(Shipped, AnotherFileCannotTakeTheirPlace) {
     EXPECT_THAT(refusal(), HasSubstr("paper.json: it differs from the limit set paper"));
     std::filesystem::remove(folder_.path() / "limits/paper.json");
     folder_.write("limits/zz.json", with(resource("limits/paper.json"), "\"max\": 10", "\"max\": 141"));
-    EXPECT_THAT(refusal(), HasSubstr("cannot replace it")) << "another file name is no other id";
+    EXPECT_THAT(refusal(), HasSubstr("cannot replace it")) << "another file name is not another id";
 }
 
 TEST_F(Shipped, AFileOfLimitsIsNotReadBeyondWhatASetHas) {

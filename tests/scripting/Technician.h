@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/scripting/engine/Operator.h"
-#include "core/devices/Driver.h"
+#include "core/devices/DeviceSet.h"
 #include "tests/support/RealLookingStimulator.h"
 
 namespace tacto::test {

@@ -35,9 +35,10 @@ TEST(ParticipantCode, OneThatIsNoCodeIsRefusedInOneSentence) {
         ASSERT_FALSE(code) << text;
         EXPECT_EQ(code.error().code, ErrorCode::NotFound);
     }
-    EXPECT_EQ(checkedCode("P-7K3M").error().message,
-              "\"P-7K3M\" is no participant's code: its check character is wrong; a code as P-7K3D is expected, whose "
-              "last character checks the others");
+    EXPECT_EQ(
+        checkedCode("P-7K3M").error().message,
+        "\"P-7K3M\" is not a participant's code: its check character is wrong; a code as P-7K3D is expected, whose "
+        "last character checks the others");
 }
 
 TEST(ParticipantCode, NewOnesAreCodesAndDiffer) {

@@ -81,7 +81,7 @@ TEST_F(StudyFolder, TheKeyFileIsItsOwnersAloneAndSealed) {
     EXPECT_EQ(about.st_mode & 0777, 0600U);
     const auto text = textOf(keyFile());
     EXPECT_EQ(text.find(code), std::string::npos);
-    EXPECT_EQ(text.find("limit"), std::string::npos);  // the cost of a guess is no file's business
+    EXPECT_EQ(text.find("limit"), std::string::npos);  // the cost of a guess is not a file's business
 }
 
 TEST_F(StudyFolder, KeysInsideItAreRefused) {

@@ -509,7 +509,7 @@ TEST_F(Desk, ARehearsalNeedsNoPassphraseAndSaysSo) {
     ASSERT_TRUE(study) << study.error().message;
     EXPECT_TRUE(study->hasKey());
     EXPECT_EQ(study->find("virtual:3")->code, code);
-    EXPECT_NE(everythingBelow(folder()).find("no secret"), std::string::npos);
+    EXPECT_NE(everythingBelow(folder()).find("not secret"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(scratch.path() / "home"));
 }
 

@@ -191,7 +191,7 @@ private:
 };
 
 /// Whether anything failed that no standstill excuses. An ASSERT_IN_TIME ends its test from within a function that the
-/// test calls, too: what failed for want of it would be no deadline.
+/// test calls, too: what failed for want of it would not be a deadline.
 class Failures : public testing::EmptyTestEventListener {
 public:
     void OnTestPartResult(const testing::TestPartResult& part) override {

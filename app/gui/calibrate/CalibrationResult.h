@@ -7,7 +7,7 @@
 #include <QWidget>
 #include <nlohmann/json.hpp>
 
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 
 namespace tacto::gui {
 

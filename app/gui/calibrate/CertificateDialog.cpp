@@ -99,7 +99,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     enter_ = buttons->addButton(tr("&Enter certificate"), QDialogButtonBox::ActionRole);
     enter_->setObjectName("enterCertificate");
-    enter_->setToolTip(tr("Keeps the certificate. It is used when a bench is opened with this oscilloscope."));
+    enter_->setToolTip(tr("Saves the certificate. It is used when a bench is opened with this oscilloscope."));
     column->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(enter_, &QPushButton::clicked, this, &CertificateDialog::enter);

@@ -1,7 +1,7 @@
 // DayNotes.h - who works at this bench today, on which sample: asked once a day, written into every session that is
 // begun on that day, and shown where it can be changed.
 //
-// What was entered on another day counts no longer: the next person at the bench may be another, and so may the sample.
+// Notes of another day no longer count: the person and the sample may have changed.
 //
 // Thread-safety: the GUI thread.
 #pragma once

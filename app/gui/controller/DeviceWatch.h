@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/devices/Driver.h"
+#include "core/devices/Registry.h"
 
 namespace tacto::gui {
 

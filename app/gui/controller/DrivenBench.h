@@ -9,6 +9,7 @@
 
 #include "app/gui/controller/OpenBench.h"
 #include "app/run/OpenedBench.h"
+#include "core/devices/Registry.h"
 
 namespace tacto::gui {
 

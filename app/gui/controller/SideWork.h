@@ -1,5 +1,5 @@
-// SideWork.h - work that the window does not wait for: one piece after the other on a thread of its own, each with its
-// end told on the GUI thread.
+// SideWork.h - work that the window does not wait for: one piece after the other on a thread of its own; each reports
+// its end on the GUI thread.
 //
 // An owner that is the `context` of its work keeps it as a member: it is waited for before the owner is gone.
 //

@@ -1,7 +1,7 @@
 // DrivePanel.h - what drives the output: nothing, two sliders, or the fingertip.
 //
 // What is chosen here is what the bench does: the bench turns driving off with every stop, disarm and fault, and the
-// panel follows it. Nothing is ever asked of the bench but by a person's hand on a control.
+// panel follows it. Only a person's hand on a control asks anything of the bench.
 //
 // Thread-safety: the GUI thread.
 #pragma once

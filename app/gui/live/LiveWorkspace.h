@@ -29,7 +29,7 @@ public:
     /// Thirty to sixty times a second. Takes what came either way; draws when `visible`.
     void refresh(const Telemetry& telemetry, bool visible);
     /// A folder with recording.json, or such a file, replayed into the simulated stimulator. False, and
-    /// When it is no recording, refusedRecording() says why.
+    /// When it is not a recording, refusedRecording() says why.
     bool openRecording(const QString& path);
     /// Opens the encoding profile's editor; it is its own owner.
     void editProfile();

@@ -1,18 +1,21 @@
 #include "app/gui/live/ProfileEditor.h"
 
-#include <QFile>
-#include <cmath>
+#include <QHBoxLayout>
+#include <QScreen>
+#include <QVBoxLayout>
 
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/WholeFile.h"
+#include "app/run/Shipped.h"
 #include "core/base/JsonText.h"
-#include "core/base/Text.h"
 
 namespace tacto::gui {
 
 namespace {
 
+constexpr int kPollInterval_ms = 100;
 const std::string kSource = "profile";
 
 /// The core's sentence without the name of its source, which here is always the form.
@@ -24,19 +27,95 @@ QString refusalOf(const Error& error) {
 
 }  // namespace
 
+ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDialog(parent), controller_(controller) {
+    setWindowTitle(tr("Encoding profile"));
+    auto* layout = new QVBoxLayout(this);
+    layout->addWidget(
+        explanation(tr("How touch becomes pulse trains. The encoding changes while the output is disarmed; "
+                       "the limits always apply."),
+                    this));
+    auto* split = new QHBoxLayout;
+    auto* left = new QVBoxLayout;
+    auto* naming = new QHBoxLayout;
+    auto* nameLabel = new QLabel(tr("&Name"), this);
+    name_ = new QLineEdit(this);
+    name_->setToolTip(tr("Stands in reports and session files."));
+    nameLabel->setBuddy(name_);
+    connect(name_, &QLineEdit::textChanged, this, &ProfileEditor::judge);
+    naming->addWidget(nameLabel);
+    naming->addWidget(name_, 1);
+    left->addLayout(naming);
+    tabs_ = new ProfileTabs(this);
+    connect(tabs_, &ProfileTabs::edited, this, &ProfileEditor::judge);
+    left->addWidget(tabs_, 1);
+    split->addLayout(left);
+    auto* right = new QVBoxLayout;
+    preview_ = new ProfilePreview(this);
+    right->addWidget(preview_, 1);
+    facts_ = new QLabel(this);
+    facts_->setObjectName("profileFacts");
+    facts_->setWordWrap(true);
+    facts_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    facts_->setMinimumHeight(fontMetrics().height() * 4);
+    right->addWidget(facts_);
+    split->addLayout(right, 1);
+    layout->addLayout(split, 1);
+    says_ = new QLabel(this);
+    says_->setObjectName("profileTrouble");
+    says_->setWordWrap(true);
+    layout->addWidget(says_);
+    layout->addWidget(buildButtons());
+    fill(controller_.profile());
+    connect(&controller_, &BenchController::changed, this, [this] {
+        applying_ = false;
+        judge();
+    });
+    connect(&controller_, &BenchController::failed, this, [this](const QString& what) {
+        if (std::exchange(applying_, false)) say(tr("Not applied: %1").arg(what), true);
+    });
+    connect(&look_, &QTimer::timeout, this, [this] {
+        const auto telemetry = controller_.telemetry();
+        preview_->setPoint(telemetry.roughness, telemetry.pressure);
+        preview_->setImpedance(telemetry.impedance_ohm);
+        facts_->setText(preview_->facts());
+    });
+    look_.start(kPollInterval_ms);
+    tabs_->setFocus();
+    const auto room = screen()->availableSize() * 0.9;
+    resize(QSize(fontMetrics().averageCharWidth() * 135, fontMetrics().height() * 40).boundedTo(room));
+}
+
+QWidget* ProfileEditor::buildButtons() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    const auto button = [&](const QString& text, const QString& tip, auto slot) {
+        auto* made = new QPushButton(text, holder);
+        made->setToolTip(tip);
+        made->setAutoDefault(false);
+        connect(made, &QPushButton::clicked, this, slot);
+        row->addWidget(made);
+        return made;
+    };
+    button(tr("&Open…"), tr("A profile from a file (JSON) into this form."), &ProfileEditor::chooseFile);
+    save_ = button(tr("&Save…"), tr("This form into a file (JSON)."), &ProfileEditor::chooseTarget);
+    button(tr("S&hipped values"), tr("The values that come with the program, into this form."), [this] {
+        if (const auto shipped = shippedProfile())
+            fill(*shipped);
+        else
+            say(QString::fromStdString(shipped.error().message), true);
+    });
+    row->addStretch();
+    button(tr("&Close"), tr("Leaves the bench as it is."), &QDialog::reject);
+    apply_ = button(tr("&Apply"), tr("In force from the next train on."), &ProfileEditor::apply);
+    return holder;
+}
+
 void ProfileEditor::fill(const Profile& profile) {
     filling_ = true;
     document_ = toJson(profile);
     name_->setText(QString::fromStdString(profile.name));
-    for (auto& row : rows_) {
-        const auto& value = document_[row.field->section()][row.field->key];
-        if (row.box != nullptr)
-            row.box->setCurrentIndex(row.box->findData(QString::fromStdString(value.get<std::string>())));
-        else
-            row.line->setText(value.is_number()
-                                  ? QString::number(value.get<double>(), 'g', QLocale::FloatingPointShortest)
-                                  : QString());
-    }
+    tabs_->fill(document_);
     filling_ = false;
     judge();
 }
@@ -44,22 +123,7 @@ void ProfileEditor::fill(const Profile& profile) {
 ProfileEditor::Read ProfileEditor::read() const {
     auto document = document_;
     document["name"] = name_->text().trimmed().toStdString();
-    for (const auto& row : rows_) {
-        auto& value = document[row.field->section()][row.field->key];
-        if (row.box != nullptr) {
-            value = row.box->currentData().toString().toStdString();
-            continue;
-        }
-        const auto text = row.line->text().trimmed();
-        if (text.isEmpty() && row.field->stored->mayBeNull) {
-            value = nullptr;
-            continue;
-        }
-        const auto number = parseNumber(text.toStdString());
-        if (!number || !std::isfinite(*number))
-            return {{}, tr("\"%1\" is not a number; %2 is expected").arg(text, row.field->range()), row.field};
-        value = *number;
-    }
+    if (const auto refused = tabs_->read(document)) return {{}, refused->text, refused->field};
     auto profile = parseProfile(dumpJson(document), kSource);
     if (profile) return {std::move(*profile), {}, nullptr};
     const auto refusal = refusalOf(profile.error());
@@ -70,8 +134,7 @@ void ProfileEditor::judge() {
     if (filling_) return;
     const auto now = read();
     trouble_ = now.refusal;
-    mark(now);
-    enableWhatMatters();
+    tabs_->mark(now.where, now.refusal);
     save_->setEnabled(now.profile.has_value());
     if (!now.profile) {
         apply_->setEnabled(false);
@@ -82,33 +145,6 @@ void ProfileEditor::judge() {
     say(same ? tr("In force.") : tr("Changed, not applied yet."), false);
     preview_->show(now.profile->encoding, now.profile->loadLow);
     facts_->setText(preview_->facts());
-}
-
-void ProfileEditor::mark(const Read& now) {
-    for (auto& row : rows_) {
-        const bool wrong = now.where == row.field;
-        row.refusal->setText(wrong ? "⚠ " + now.refusal : QString());
-        row.refusal->setVisible(wrong);
-        auto amber = palette();
-        amber.setColor(QPalette::WindowText, colours().amberText);
-        row.refusal->setPalette(amber);
-    }
-    for (int tab = 0; tab < kProfileTabs; ++tab) {
-        const bool wrong = now.where != nullptr && now.where->tab == static_cast<ProfileTab>(tab);
-        tabs_->setTabText(tab, titleOf(static_cast<ProfileTab>(tab)) + (wrong ? " ⚠" : ""));
-    }
-}
-
-void ProfileEditor::enableWhatMatters() {
-    for (auto& row : rows_) {
-        if (row.field->form.needs == nullptr) continue;
-        const auto chosen = findChild<QComboBox*>(row.field->form.needs)->currentData().toString();
-        QString needed = row.field->form.needsValue;
-        const bool matters = needed.startsWith('!') ? chosen != needed.mid(1) : chosen == needed;
-        // One that is refused can always be mended.
-        row.line->setEnabled(matters || !row.refusal->text().isEmpty());
-        row.label->setEnabled(row.line->isEnabled());
-    }
 }
 
 void ProfileEditor::say(const QString& text, bool wrong) {

@@ -5,19 +5,17 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QComboBox>
 #include <QDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QTabWidget>
 #include <QTimer>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/gui/controller/BenchController.h"
-#include "app/gui/live/ProfileFields.h"
 #include "app/gui/live/ProfilePreview.h"
+#include "app/gui/live/ProfileTabs.h"
 
 namespace tacto::gui {
 
@@ -33,26 +31,15 @@ public:
     void saveFile(const QString& path);
 
 private:
-    struct Row {
-        const ProfileField* field = nullptr;
-        QLineEdit* line = nullptr;  ///< of a number
-        QComboBox* box = nullptr;   ///< of a choice
-        QLabel* label = nullptr;
-        QLabel* refusal = nullptr;
-    };
     struct Read {
         std::optional<Profile> profile;
         QString refusal;
         const ProfileField* where = nullptr;
     };
-    [[nodiscard]] QWidget* buildTab(ProfileTab tab);
-    [[nodiscard]] Row buildRow(const ProfileField& field, QWidget* page);
     [[nodiscard]] QWidget* buildButtons();
     void fill(const Profile& profile);
     [[nodiscard]] Read read() const;
     void judge();
-    void mark(const Read& read);
-    void enableWhatMatters();
     void say(const QString& text, bool wrong);
     void apply();
     void chooseFile();
@@ -61,8 +48,7 @@ private:
     BenchController& controller_;
     nlohmann::json document_;  ///< what the form began with; keeps what the form does not show
     QLineEdit* name_;
-    QTabWidget* tabs_;
-    std::vector<Row> rows_;
+    ProfileTabs* tabs_;
     QLabel* says_;
     QLabel* facts_;
     QPushButton* apply_ = nullptr;

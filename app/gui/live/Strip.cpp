@@ -138,7 +138,7 @@ void Strip::fit(std::span<RollingGraph* const> graphs, const QCPRange& shown) {
     if (!any) return;
     if (axis_.fromZero) all.expand(0);
     const double room = std::max({0.06 * all.size(), (axis_.least - all.size()) / 2, 1e-9});
-    const bool up = axis_.fromZero && all.lower > -0.05 * all.upper;  // noise about zero is no sign
+    const bool up = axis_.fromZero && all.lower > -0.05 * all.upper;  // noise about zero is not a sign
     all = up ? QCPRange(0, all.upper + room) : QCPRange(all.lower - room, all.upper + room);
     auto range = steadyRange(up ? QCPRange(0, values().range().upper) : values().range(), all);
     if (up) range.lower = -kUnderZero * range.upper;

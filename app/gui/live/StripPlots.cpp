@@ -204,7 +204,7 @@ void StripPlots::rememberView() {
     if (frozen_ && (views_.empty() || views_.back() != shownTime())) views_.push_back(shownTime());
 }
 
-/// A click that moved nothing is no view of its own.
+/// A click that moved nothing is not a view of its own.
 bool StripPlots::canUndo() const {
     return frozen_ && std::ranges::any_of(views_, [this](const QCPRange& view) { return view != shownTime(); });
 }

@@ -1,5 +1,5 @@
-// ExclusionChecklist.h - the questions of the exclusion checklist, each answered by yes or no. None is answered
-// beforehand.
+// ExclusionChecklist.h - the questions of the exclusion checklist, each answered by yes or no. No answer is
+// preselected.
 //
 // Thread-safety: the GUI thread.
 #pragma once

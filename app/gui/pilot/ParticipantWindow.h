@@ -91,7 +91,7 @@ private:
     AnswerKeys keys_;
     quint64 id_ = 0;
     bool asking_ = false;
-    bool shown_ = false;  ///< the question's targets are on the screen: a press before is no answer
+    bool shown_ = false;  ///< the question's targets are on the screen: a press before is not an answer
     bool stopped_ = false;
     bool break_ = false;
     bool painted_ = false;

@@ -24,7 +24,8 @@ class PilotResult final : public QWidget {
     Q_OBJECT
 public:
     explicit PilotResult(QWidget* parent = nullptr);
-    /// `folder`: of the study. `ofStudy`: it leads back there, where a session that was broken off is offered.
+    /// `folder`: of the study. `ofStudy`: it leads back there, where an interrupted session is offered for
+    /// continuation.
     void show(const FinishedRun& run, const QString& folder, bool ofStudy = false);
 
 signals:

@@ -30,7 +30,7 @@ struct PilotStart {
     std::vector<ExclusionAnswer> exclusions{};  ///< a person's
     std::string protocol = "pilot-identification";
     std::string method = "quest";    ///< of detection
-    std::string unfinished{};        ///< of a session that was broken off: "resume", "end"; empty: there is none
+    std::string unfinished{};        ///< of a session that was interrupted: "resume", "end"; empty: there is none
     std::uint64_t seed = 1;          ///< of plan and order, and in a rehearsal of the virtual participant
     std::string modality = "study";  ///< of a new rehearsal: "electrodes", "massager"; "study": as the study says
     std::optional<int> blocks{};     ///< of a rehearsal's test; nothing: the study's

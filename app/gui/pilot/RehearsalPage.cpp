@@ -33,7 +33,7 @@ std::optional<Modality> modalityIn(const QString& folder) {
     return study && study->isRehearsal() ? std::optional(study->settings().modality) : std::nullopt;
 }
 
-/// What was broken off of that virtual participant in the rehearsal there.
+/// What was interrupted of that virtual participant in the rehearsal there.
 std::optional<Unfinished> unfinishedIn(const QString& folder, const std::string& participant) {
     if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
     const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);

@@ -303,7 +303,7 @@ void SessionConduct::giveKeys() {
 void SessionConduct::pauseFor(const char* why) {
     if (!running_ || !start_.person) return;
     if (!desk_.stopBy(why)) controller_.stop(why);
-    desk_.setHolding(false);  // that it is let go now is no stop of theirs
+    desk_.setHolding(false);  // letting go now is not a stop by the participant
     if (window_) window_->noteStop();
 }
 

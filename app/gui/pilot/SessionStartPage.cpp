@@ -165,7 +165,7 @@ void SessionStartPage::judge() {
     const bool chosen = !offer_->asks() || !offer_->chosen().empty();
     const auto lacks = devices_->missing();
     begin_->setEnabled(whole && chosen && lacks.isEmpty());
-    begin_->setToolTip(!chosen            ? tr("First say what happens to the session that was broken off.")
+    begin_->setToolTip(!chosen            ? tr("First choose what happens to the interrupted session.")
                        : !lacks.isEmpty() ? lacks
                        : !whole           ? tr("%1 of %2 questions of the checklist are answered; each is needed.")
                                       .arg(open)

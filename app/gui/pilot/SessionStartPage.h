@@ -1,4 +1,4 @@
-// SessionStartPage.h - a session of a participant of a study before it begins: what was broken off, what is run, how
+// SessionStartPage.h - a session of a participant of a study before it begins: what was interrupted, what is run, how
 // both people sit, and the exclusion checklist. A virtual participant has none: it answers no to each.
 //
 // Thread-safety: the GUI thread.

@@ -35,7 +35,7 @@ Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Partici
 UnfinishedOffer::UnfinishedOffer(QWidget* parent)
     : QFrame(parent), says_(new QLabel(this)), goOn_(new QRadioButton(this)), end_(new QRadioButton(this)) {
     setObjectName("unfinishedOffer");
-    setAccessibleName(tr("A session was broken off"));
+    setAccessibleName(tr("A session was interrupted"));
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
@@ -77,7 +77,7 @@ void UnfinishedOffer::offer(const std::optional<Unfinished>& unfinished) {
     says_->setText(
         (offered_->complete
              ? tr("Session %1 is complete (%2, %3 answers), but the program was ended before the study knew.")
-             : tr("Session %1 was broken off %2, after %3 answers."))
+             : tr("Session %1 was interrupted %2, after %3 answers."))
             .arg(offered_->number)
             .arg(today ? tr("at %1").arg(offered_->brokenOff.toString("HH:mm"))
                        : tr("on %1").arg(offered_->brokenOff.toString("yyyy-MM-dd HH:mm")))

@@ -1,5 +1,5 @@
-// UnfinishedOffer.h - a session that was broken off, offered: go on with it, or end it and begin another. Neither is
-// chosen beforehand.
+// UnfinishedOffer.h - offers to go on with an interrupted session, or to end it and begin another. Neither is
+// preselected.
 //
 // Thread-safety: the GUI thread; unfinishedOf() is as Study.
 #pragma once

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "app/gui/runner/CaptureStrip.h"
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
@@ -124,7 +124,7 @@ LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
     setAccessibleName(tr("Limits on each load"));
     setToolTip(tr(
         "How much of each limit is used on each load, uncertainty included. ✔ inside, amber from 80 %; ▲ attention; "
-        "? indeterminate; ✖ not kept; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load."));
+        "? indeterminate; ✖ exceeded; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load."));
     verticalHeader()->hide();
     setEditTriggers(NoEditTriggers);
     setSelectionMode(NoSelection);

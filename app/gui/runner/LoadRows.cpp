@@ -2,7 +2,7 @@
 
 #include <QHeaderView>
 
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/TableContent.h"

@@ -3,7 +3,7 @@
 #include <QPushButton>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/ResultKind.h"
 
@@ -28,7 +28,7 @@ NextStepWords wordsOf(NextStep step) {
             return {QObject::tr("Calibrate again"), "run", QObject::tr("The full run, with the settings as they are.")};
         case NextStep::SafetyCheck:
             return {QObject::tr("Go to safety check"), "safety-check",
-                    QObject::tr("Does the output keep every limit on known loads?")};
+                    QObject::tr("Does the output stay within every limit on known loads?")};
         case NextStep::Live:
             return {QObject::tr("Go to Live"), "live", QObject::tr("Touch, and drive by hand.")};
         case NextStep::Sign:

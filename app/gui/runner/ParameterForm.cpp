@@ -264,7 +264,7 @@ void ParameterForm::setKnown(std::set<std::string> names) {
     judge();
 }
 
-/// 0 and nothing are no answer to what the verdict needs.
+/// Neither 0 nor an empty field answers what the verdict needs.
 bool ParameterForm::lacks(const Field& field) const {
     if (field.parameter.needed.empty() || known_.contains(field.parameter.name)) return false;
     const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());

@@ -171,7 +171,7 @@ Tables loadSafety() {
                        as(As::LimitSet, "Set by", "set"),
                        text("Reason", "reason")};
     };
-    return Tables{rows("Loads", "loads", loadColumns()), rows("What did not simply pass", "rows", judged(), "pass"),
+    return Tables{rows("Loads", "loads", loadColumns()), rows("Rows that did not pass", "rows", judged(), "pass"),
                   rows("Over all permitted loads, computed", "worst_case.rows", judged()),
                   rows("Outputs to disclose", "disclosed",
                        {text("Output", "output"), as(As::Load, "Load", "load"),

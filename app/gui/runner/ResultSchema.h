@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 
 namespace tacto::gui {
 

@@ -99,7 +99,7 @@ void RunPanel::buildWords() {
     setTone(*obstacle_, Tone::Warning);
     changeProfile_ =
         addButton(tr("Change profile…"), "changeProfile",
-                  tr("Opens the encoding profile: a smaller amplitude or a longer interval keeps the limit."));
+                  tr("Opens the encoding profile: a smaller amplitude or a longer interval stays within the limit."));
     connect(changeProfile_, &QPushButton::clicked, this, &RunPanel::profileChangeWanted);
     trouble_ = addWords("runTrouble");
     toLine_ = addButton(tr("Show the &line in the script"), "toLine", tr("Opens the script with that line marked."));
@@ -165,7 +165,7 @@ void RunPanel::setReady(bool ready, const QString& obstacle, bool byProfile) {
     if (!ready_) question_->hide();
     obstacle_->setText(obstacle.isEmpty() ? QString() : "⚠ " + obstacle);
     obstacle_->setVisible(!obstacle.isEmpty());
-    // A script's words are no markup.
+    // A script's words are not markup.
     run_->setToolTip(!obstacle.isEmpty()
                          ? (Qt::mightBeRichText(obstacle) ? obstacle.toHtmlEscaped() : obstacle)
                          : tr("Opens the devices, arms on the declared load and runs (F5). Esc stops. A bench that is "

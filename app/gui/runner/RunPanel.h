@@ -1,5 +1,5 @@
-// RunPanel.h - run; how far a run is and how long it still takes; what is in the way of one. Pause and STOP stand in
-// the safety bar alone.
+// RunPanel.h - the button that runs a protocol, the progress of the run with its time left, and what prevents a run.
+// Pause and STOP stand in the safety bar alone.
 //
 // Thread-safety: the GUI thread.
 #pragma once

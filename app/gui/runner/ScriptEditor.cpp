@@ -266,7 +266,7 @@ void ScriptEditor::saveAs(const QString& name) {
     static const QRegularExpression fitting("^[A-Za-z0-9_-]+$");
     if (!fitting.match(name).hasMatch())
         return message_->setText(
-            tr("⚠ \"%1\" is no name for a protocol: letters, digits, - and _ are expected.").arg(name));
+            tr("⚠ \"%1\" is not a name for a protocol: letters, digits, - and _ are expected.").arg(name));
     const auto path = QString::fromStdString((userProtocolsFolder() / (name.toStdString() + ".js")).string());
     if (QFileInfo::exists(path))
         return message_->setText(

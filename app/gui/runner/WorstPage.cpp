@@ -91,7 +91,7 @@ QString WorstPage::judge(const BenchController& controller, const Result<Protoco
         tr("The profile's strongest command, %1 every %2 into %3.")
             .arg(settingText(encoding.amplitudeMax.value(), "V"), settingText(encoding.intervalMin.count(), "s"),
                  isNumber && words.endsWith(" ohm") ? settingText(ohms, "ohm") : loadText(words));
-    says_->setText(worst->refused.isEmpty() ? tr("%1 Every limit that can be evaluated is kept.").arg(strongest)
+    says_->setText(worst->refused.isEmpty() ? tr("%1 Nothing exceeds a limit that can be evaluated.").arg(strongest)
                                             : tr("⚠ %1 %2").arg(strongest, worst->refused));
     // Without a load of its own the protocol is judged by its script, load by load.
     const bool judged = drives && settings->parameters.contains("load") && !worst->refused.isEmpty();

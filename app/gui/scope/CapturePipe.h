@@ -1,8 +1,8 @@
 // CapturePipe.h - from a capture to something that can be looked at, on a thread of its own: reading files, measuring,
 // averaging, judging by a mask, building pyramids. Nothing here makes the window wait.
 //
-// Work is done in order. A bench that triggers faster than captures can be measured loses some of them here and is told
-// so by skipped(); the session file is not this one's business.
+// Work is done in order. A bench that triggers faster than captures can be measured loses some of them here and reports
+// it by skipped(); the session file is not this one's business.
 //
 // Thread-safety: the GUI thread; results arrive there.
 #pragma once

@@ -270,7 +270,7 @@ void MeasurementSummary::sayImpedance() {
     impedance_->setToolTip(checked ? tr("From the stimulator's last impedance check: the capture does not give it.")
                            : std::isfinite(seen)
                                ? impedanceName_->toolTip()
-                               : tr("It takes a measured pulse on a voltage and on a current channel."));
+                               : tr("This needs a measured pulse on a voltage channel and on a current channel."));
 }
 
 void MeasurementSummary::changeEvent(QEvent* event) {

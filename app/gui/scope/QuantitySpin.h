@@ -11,7 +11,7 @@
 
 namespace tacto::gui {
 
-/// "1.5 ms" in s is 0.0015; a number alone is in `unit`. Nothing when it is no quantity of that unit.
+/// "1.5 ms" in s is 0.0015; a number alone is in `unit`. Nothing when it is not a quantity of that unit.
 [[nodiscard]] std::optional<double> parseQuantity(const QString& text, const QString& unit);
 
 class QuantitySpin final : public QDoubleSpinBox {

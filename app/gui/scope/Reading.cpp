@@ -94,7 +94,7 @@ ReadingName nameOf(Reading reading) {
                     ""};
         case Reading::PeakToPeak:
             return {"peak-to-peak", QObject::tr("Peak to peak"),
-                    QObject::tr("Largest less smallest sample of the record, noise included."), ""};
+                    QObject::tr("Largest minus smallest sample of the record, noise included."), ""};
         case Reading::Width:
             return {"width", QObject::tr("Width"), QObject::tr("Leading phase, from half height to half height."), "s"};
         case Reading::Gap:
@@ -202,7 +202,7 @@ QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t chann
         return QObject::tr("Energy is shown on the current channel.");
     if (isCharge(reading) && measured.unit != "A") return QObject::tr("Charge is read on the current channel.");
     if (isOfLoad(reading) && shown.loadCurrent != channel) {
-        return QObject::tr("It takes one channel in V and one in A: which of several belong together is not known.");
+        return QObject::tr("This needs one channel in V and one in A: which of several belong together is not known.");
     }
     if (reading == Reading::Frequency || reading == Reading::Duty) {
         return waveform.missing > 0 ? QObject::tr("Samples are missing: a period may hide in the gap.")
@@ -214,11 +214,12 @@ QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t chann
     }
     if (measured.pulses.empty()) return QObject::tr("No pulse differs from the baseline on this channel.");
     if (measured.measuredPulses == 0) {
-        return QObject::tr("The pulses are clipped, cut off or too coarse to be measured: the oscilloscope names it.");
+        return QObject::tr(
+            "The pulses are clipped, cut off or too coarse to be measured: the oscilloscope says which.");
     }
     if (reading == Reading::Interval) {
         return QObject::tr(
-            "It takes two trains: in one record, or in captures that follow one another. For a single "
+            "This needs two trains: in one record, or in captures that follow one another. For a single "
             "capture choose a longer record.");
     }
     if (isOfLoad(reading)) return QObject::tr("The voltage of the pulses is clipped, or samples of it are missing.");

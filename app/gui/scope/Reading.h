@@ -53,7 +53,7 @@ struct ReadingName {
 /// All of the channel's in one capture: one per measured pulse, per train for the interval, one of the waveform. Net
 /// charge and energy are the current channel's, where the capture has one voltage and one current.
 [[nodiscard]] std::vector<double> readingsOf(Reading reading, const ShownCapture& shown, std::size_t channel);
-/// "40.02 V", "0.05 %"; "–" for NaN, and for the charge of a channel that is no current.
+/// "40.02 V", "0.05 %"; "–" for NaN, and for the charge of a channel that is not a current.
 [[nodiscard]] QString readingText(Reading reading, double value, const QString& channelUnit, int digits = 4);
 /// Why there is none, in a sentence or two.
 [[nodiscard]] QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t channel);

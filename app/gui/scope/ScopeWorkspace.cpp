@@ -300,7 +300,7 @@ void ScopeWorkspace::take(const ShownPtr& shown) {
     if (!model_.shown() || model_.shown()->source != shown->source || !ours) table_->clear();
     status_->forget();
     model_.show(shown);
-    // At first the record is seen whole; the first train that comes of it is what one wants to see.
+    // At first the record is seen whole; then the first train in it is shown.
     if (ours && !shown->capture->untriggered && !std::exchange(framed_, true)) model_.frameFirstPulse();
     if (ours) controls_->mask().take(shown);
     if (shown->capture->untriggered)

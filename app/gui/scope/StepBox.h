@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 /// "20 V/div", with its value as data.
 void addStep(QComboBox& box, double perDivision, const QString& unit);
-/// Chooses the present scale. One that is no step of the ladder stands last, as long as it is the present one.
+/// Chooses the present scale. One that is not a step of the ladder stands last, as long as it is the present one.
 void showStep(QComboBox& box, double now, const QString& unit);
 
 }  // namespace tacto::gui

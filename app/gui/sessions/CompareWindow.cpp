@@ -24,7 +24,7 @@ double feature(const SessionTrial& trial, const char* key) {
 }
 
 QString differencesHtml(const QList<Difference>& all) {
-    if (all.isEmpty()) return "<p>" + CompareWindow::tr("The two say the same.") + "</p>";
+    if (all.isEmpty()) return "<p>" + CompareWindow::tr("The two sessions do not differ.") + "</p>";
     QString html;
     std::optional<Difference::About> part;
     for (const auto& [about, sentence] : all) {

@@ -7,7 +7,7 @@
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"

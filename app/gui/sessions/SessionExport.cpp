@@ -56,7 +56,7 @@ public:
 
 private:
     [[nodiscard]] Result<void> isThere() const {
-        return fail(ErrorCode::InvalidArgument, "{} is there already; a new folder is expected", target_.string());
+        return fail(ErrorCode::InvalidArgument, "{} exists already; a new folder is expected", target_.string());
     }
     fs::path target_, path_;
     QTemporaryDir holder_;  ///< removed with what is still in it

@@ -190,7 +190,7 @@ void SessionOverview::showFields() {
     showLabels(kept_);
     const bool fixed = !session_->fixed.isEmpty();
     const std::pair<QLineEdit*, QString> all[] = {
-        {operator_, tr("Who did it, for the report.")},
+        {operator_, tr("Who ran the session, for the report.")},
         {sample_, tr("Your own id of the sample that was measured.")},
         {tags_, tr("Words to find it by, with commas between them.")},
         {note_, tr("One line. The search covers it, and the report shows it.")}};

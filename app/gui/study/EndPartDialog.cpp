@@ -35,7 +35,7 @@ EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWi
                "study keeps only that a participant withdrew, when, after how many sessions, and adverse events.")
                 .arg(code),
             "withdrawWhat");
-        say(tr("This program does not reach copies of the key file, backups, and spare blocks of a solid-state disk: "
+        say(tr("This program cannot reach copies of the key file, backups, and spare blocks of a solid-state disk: "
                "they still open the data for anyone with the passphrase. Delete the copies by hand."),
             "withdrawCopies");
         say(exportsText(), "withdrawExports");

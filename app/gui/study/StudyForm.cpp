@@ -69,7 +69,7 @@ std::vector<StudyFormField> describedFields() {
          WORDS("As many as the approval allows. Those who left count too.")},
         {Group::Participants, "sessions_max", WORDS("Sessions of each at most"), WORDS("As the approval allows.")},
         {Group::Participants, "gap_min_h", WORDS("Between two sessions at least"),
-         WORDS("From one's first train to the beginning of the next.")},
+         WORDS("From the first train of one session to the start of the next.")},
         {Group::Participants, "session_max_min", WORDS("A session at most"), WORDS("As the approval allows.")},
 
         {Group::Site,

@@ -14,7 +14,7 @@
 #include "app/gui/study/NextDayDialog.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/ResultKind.h"
@@ -43,7 +43,7 @@ QString stateWords(ParticipantState state) {
 QString stateWords(StudySessionState state) {
     switch (state) {
         case StudySessionState::Unfinished:
-            return QObject::tr("broken off, may go on");
+            return QObject::tr("interrupted, can continue");
         case StudySessionState::Complete:
             return QObject::tr("complete");
         case StudySessionState::Stopped:

@@ -15,7 +15,7 @@
 
 namespace tacto::gui {
 
-/// As RecordTable shows them: {code, who, group, state, consent, sessions}; without those who withdrew.
+/// As RecordColumns.h shows them: {code, who, group, state, consent, sessions}; without those who withdrew.
 [[nodiscard]] nlohmann::json participantRows(const Study& study);
 /// {code, number, protocol, state, answered, begun}.
 [[nodiscard]] nlohmann::json sessionRows(const Study& study);

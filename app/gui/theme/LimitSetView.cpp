@@ -4,7 +4,7 @@
 #include <QHeaderView>
 #include <QVBoxLayout>
 
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -59,7 +59,7 @@ LimitSetView::LimitSetView(const std::vector<LimitSet>& sets, QWidget* parent)
     auto* row = new QHBoxLayout;
     chooser_->setObjectName("limitSet");
     chooser_->setAccessibleName(tr("Limit set"));
-    chooser_->setToolTip(tr("Which set is shown. All of them hold."));
+    chooser_->setToolTip(tr("Selects the set to show. All sets always apply."));
     for (const auto& set : sets_) chooser_->addItem(qtext(set.title), qtext(set.id));
     row->addWidget(chooser_);
     row->addStretch();

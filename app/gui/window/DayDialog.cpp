@@ -26,7 +26,7 @@ QString wordsOf(const RunNotes& notes) {
 DayDialog::DayDialog(DayNotes& day, QWidget* parent) : QDialog(parent) {
     setWindowTitle(tr("Operator and sample"));
     auto* layout = new QVBoxLayout(this);
-    layout->addWidget(heading(tr("Who works today, and on what?"), this));
+    layout->addWidget(heading(tr("Who is working today, and on what?"), this));
     layout->addWidget(
         explanation(tr("Asked once a day. It appears in every session and report of today; you can change "
                        "it at any time at the right of the menu bar."),

@@ -26,11 +26,13 @@ QString nextStep(std::optional<FaultCause> cause) {
         case FaultCause::StatusMissing:
             return FaultBanner::tr("Check the cable to the stimulator, then reset. You arm again afterwards.");
         case FaultCause::LoopSilent:
-            return FaultBanner::tr("Close what keeps this computer busy, then reset. You arm again afterwards.");
+            return FaultBanner::tr(
+                "Close the programs that keep this computer busy, then reset. You arm again afterwards.");
         case FaultCause::StaleSensor:
             return FaultBanner::tr("Check the fingertip sensor and its cable, then reset.");
         case FaultCause::LimitBroken:
-            return FaultBanner::tr("Run the safety check before you arm again: the stimulator gave more than it may.");
+            return FaultBanner::tr(
+                "Run the safety check before you arm again: the stimulator delivered more than it may.");
         case FaultCause::Internal:
             break;
     }

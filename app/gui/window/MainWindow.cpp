@@ -357,7 +357,7 @@ void MainWindow::openFile(const QString& path) {
         opened = scope_->openCaptureFile(path);
         if (opened) showScope();
     } else {
-        banner_->complain(tr("%1 is no recording (a folder or recording.json), session (*.tacto) or capture (%2)")
+        banner_->complain(tr("%1 is not a recording (a folder or recording.json), session (*.tacto) or capture (%2)")
                               .arg(path, ScopeFiles::captureGlobs()));
     }
     if (opened) rememberRecentFile(path);

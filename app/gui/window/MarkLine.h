@@ -1,7 +1,7 @@
 // MarkLine.h - a line for the word of a mark: the moment is that of the key that opened it, however long the typing
 // takes.
 //
-// It lies over the lower edge of the workspace, so that nothing moves, and is no dialog: all keys that stop do so in
+// It lies over the lower edge of the workspace, so that nothing moves, and is not a dialog: all keys that stop do so in
 // it, and Esc closes it too. Return marks; a line left empty marks without a word of its own.
 //
 // Thread-safety: the GUI thread.

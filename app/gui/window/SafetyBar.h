@@ -1,5 +1,5 @@
-// SafetyBar.h - always there, in every workspace: the interlock in word, shape and colour, what is connected, how far
-// the output is from its limits, and STOP.
+// SafetyBar.h - the bar that is visible in every workspace: the interlock in word, shape and colour, what is connected,
+// how far the output is from its limits, and STOP.
 //
 // Where there is little room the state's word gets smaller first, then bars and facts go; STOP and the buttons stay.
 //

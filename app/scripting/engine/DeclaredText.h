@@ -22,7 +22,7 @@ inline constexpr std::size_t kMaxDeclaredText = 2000;
                                         std::size_t most);
 
 /// The text that `object` has under `key`; empty where it has none. Errors: InvalidArgument naming `where` and `key`
-/// when it is no text, is longer than `most`, or is missing or empty and `required`.
+/// when it is not text, is longer than `most`, or is missing or empty and `required`.
 [[nodiscard]] Result<std::string> declaredText(const nlohmann::json& object, std::string_view where, const char* key,
                                                bool required, std::size_t most = kMaxDeclaredText);
 

@@ -29,10 +29,10 @@ struct HostParameter {
     /// than those that are listed; "from.roughness" for a member of another argument.
     std::string_view name;
     ValueType type = ValueType::Any;
-    std::string_view unit = {};                ///< "s", "ohm"; empty for a number without one and for what is no number
-    std::string_view about = {};               ///< what it is
-    AcceptedNumbers numbers = {};              ///< Number and Whole
-    ValueType items = ValueType::Any;          ///< type of a list's elements
+    std::string_view unit = {};        ///< "s", "ohm"; empty for a number without one and for what is not a number
+    std::string_view about = {};       ///< what it is
+    AcceptedNumbers numbers = {};      ///< Number and Whole
+    ValueType items = ValueType::Any;  ///< type of a list's elements
     std::vector<std::string_view> words = {};  ///< the texts that are accepted; empty for any
     bool mayBeLeftOut = false;
     bool mayBeEmpty = false;          ///< a text

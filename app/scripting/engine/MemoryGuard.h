@@ -1,5 +1,5 @@
-// MemoryGuard.h - watches how much memory the program takes while a script runs: a script that wants all of it would
-// otherwise end in the kernel's killing the program (hazard H10).
+// MemoryGuard.h - watches how much memory the program takes while a script runs: otherwise the kernel would kill the
+// program when a script takes all of it (hazard H10).
 //
 // Thread-safety: constructed and destroyed by one thread; `onExceeded` is called once, from the guard's own thread.
 #pragma once

@@ -68,7 +68,7 @@ Result<nlohmann::json> PresetOperator::ask(const OperatorQuestion& question) {
         case OperatorQuestion::Kind::Enter:
             return enter(question, answer->second);
     }
-    return fail(ErrorCode::InvalidArgument, "\"{}\" is no kind of question", question.name);
+    return fail(ErrorCode::InvalidArgument, "\"{}\" is not a kind of question", question.name);
 }
 
 }  // namespace tacto

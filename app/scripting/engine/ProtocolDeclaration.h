@@ -73,7 +73,7 @@ struct ProtocolSettings {
 /// questions are not compared: a script does not declare those.
 [[nodiscard]] std::string differenceOf(const ProtocolDeclaration& before, const ProtocolDeclaration& now);
 
-/// Defaults overridden by `settings`; keys that are no parameter answer the script's questions.
+/// Defaults overridden by `settings`; keys that are not parameters answer the script's questions.
 /// Errors: as parseSetting(); InvalidArgument for an unknown key, listing the known ones.
 [[nodiscard]] Result<ProtocolSettings> applySettings(const ProtocolDeclaration& declaration,
                                                      const std::map<std::string, std::string>& settings);

@@ -119,7 +119,7 @@ Result<fs::path> drawingFile(std::string_view name) {
     for (fs::directory_iterator entry(*resources / "drawings", failed), end; !failed && entry != end;
          entry.increment(failed))
         if (entry->path().extension() == ".svg") known.insert(entry->path().stem().string());
-    // Looked up, never joined: a script's word is no path.
+    // Looked up, never joined: a script's word is not a path.
     if (const auto found = known.find(std::string(name)); found != known.end())
         return *resources / "drawings" / (*found + ".svg");
     return fail(ErrorCode::InvalidArgument, "there is no drawing \"{}\"; there are: {}", name, fmt::join(known, ", "));

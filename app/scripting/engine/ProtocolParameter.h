@@ -30,7 +30,7 @@ struct ProtocolParameter {
     std::vector<std::pair<std::string, std::string>> choices;  ///< Choice: key and its explanation, as written
     nlohmann::json value;                                      ///< the default, within the range
     bool reference = false;  ///< of the known reference that is read first: `step: "reference"`
-    /// What is not known without it; 0 or nothing is no answer then, and a window asks for it first. May be empty.
+    /// What is not known without it; 0 or nothing is not an answer then, and a window asks for it first. May be empty.
     std::string needed;
     [[nodiscard]] bool operator==(const ProtocolParameter&) const = default;
 };

@@ -1,5 +1,5 @@
 // RunReadings.h - the readings and calibrations that the program itself made during one run. A script refers to them by
-// number; what it says about them besides does not count (hazard H1: a script asks, it never vouches).
+// number; nothing else that it says about them counts (hazard H1: a script asks, it never vouches).
 //
 // Thread-safety: none; as ScriptSession, which holds it.
 #pragma once

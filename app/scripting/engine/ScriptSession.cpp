@@ -158,7 +158,8 @@ CapturedCommand ScriptSession::commandOf(const Capture& capture) const {
 Result<const ScriptSession::Held*> ScriptSession::find(const nlohmann::json& handle) const {
     const auto id = handle.is_object() ? handle.value("capture", nlohmann::json()) : handle;
     if (!id.is_number_integer()) {
-        return fail(ErrorCode::InvalidArgument, "{} is no capture; pass what bench.capture() returned", shown(handle));
+        return fail(ErrorCode::InvalidArgument, "{} is not a capture; pass what bench.capture() returned",
+                    shown(handle));
     }
     const auto same = [&](const Held& held) { return held.id == id.get<std::int64_t>(); };
     const auto at = std::find_if(captures_.begin(), captures_.end(), same);

@@ -59,7 +59,7 @@ public:
 
     /// Keeps captures and returns their handles, objects for the script.
     [[nodiscard]] nlohmann::json hold(std::vector<Capture> captures);
-    /// The captures behind a list of handles. Errors: InvalidArgument for what is no handle or is held no longer.
+    /// The captures behind a list of handles. Errors: InvalidArgument for what is not a handle or is held no longer.
     [[nodiscard]] Result<std::vector<const Capture*>> held(const nlohmann::json& handles) const;
     /// What was commanded when each of them was taken. Errors: as held().
     [[nodiscard]] Result<std::vector<CapturedCommand>> commandsOf(const nlohmann::json& handles) const;

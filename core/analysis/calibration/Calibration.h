@@ -63,7 +63,7 @@ struct Calibration {
     double gain = 0;
     double offset = 0;
     /// Standard errors of the two, from the repeatability (from the residuals where nothing was repeated): a departure
-    /// from the line that repeats is no scatter. NaN when there is nothing to tell from.
+    /// from the line that repeats is not scatter. NaN when there is nothing to tell from.
     double gainStandardError = std::numeric_limits<double>::quiet_NaN();
     double offsetStandardError = std::numeric_limits<double>::quiet_NaN();
     double degreesOfFreedom = 0;  ///< of both
@@ -82,7 +82,7 @@ struct Calibration {
 };
 
 struct CalibrationOptions {
-    /// Commands that lie within this share of the largest are one level at their mean, and what they differ by is no
+    /// Commands that lie within this share of the largest are one level at their mean, and their differences are not
     /// scatter: a source whose current follows a measured load is programmed to a slightly different one each time.
     double sameLevel = 1e-9;  ///< the same number, printed and read back
     double resolution = 0;    ///< one step of the instrument, in the readings' unit; 0 = not known

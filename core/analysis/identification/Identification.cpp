@@ -77,7 +77,7 @@ Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std:
     return {};
 }
 
-/// Right answers stand on the diagonal; `names` are offered beside what is no name.
+/// Right answers stand on the diagonal; `names` are offered beside what is not a name.
 ConfusionFigures figuresOf(const Counts& counts, std::size_t names) {
     ConfusionFigures out;
     std::vector<std::vector<double>> table;

@@ -18,7 +18,7 @@ struct ParticipantTrials {
 
 /// Trials from columns `stimulus` (or `condition`, or `trial_type`, as the BIDS export names it) and `response`, by
 /// `participant` where that column is there, and with `trial`, `block`, `phase`, `attempt` and `response_time` (or
-/// `rt_s`). Comma, semicolon or tab. "not_sure" is read as "not-sure"; an empty response or n/a is no answer. A row
+/// `rt_s`). Comma, semicolon or tab. "not_sure" is read as "not-sure"; an empty response or n/a is not an answer. A row
 /// without a phase is a test trial.
 /// Errors: NotFound, Io; ParseError naming file, line and what was expected.
 [[nodiscard]] Result<std::vector<ParticipantTrials>> readIdentificationTrials(const std::filesystem::path& path);

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-/// An onset may jitter against the window's edge; a hundredth of a train is no further train.
+/// An onset may jitter against the window's edge; a hundredth of a train is not a further train.
 constexpr double kWindowEdge = 0.01;
 /// For a straight line that is followed from there to the end: the noise of its value over that of the mean, and the
 /// share of the way that a bend may be worth.
@@ -121,7 +121,7 @@ void LoadFigures::addVoltage(LoadReading& out) const {
     v_.addLevel(rows, 1);
     addEnd(rows, trains_, trains_.front().endSamples, 1);
     addAmplitude(out, out.amplitude_v, &TrainFigures::plateau_v, rows, expected_.drive == Drive::Voltage);
-    // The train with the most counts: what the trains differ by is no doubt about it.
+    // The train with the most counts: the difference between trains is not part of its uncertainty.
     const double highest = largestOf(trains_, &TrainFigures::plateau_v);
     for (auto& row : rows) row.sensitivity *= highest / v;
     out.highest_v = figure(highest, std::move(rows));

@@ -72,7 +72,7 @@ struct RefusedStep {
     bool refused = false;    ///< what the program then did
     std::string predicted;   ///< the figure, as "RMS current over 5 s 11.3 mA at 100 ohm, limit 10 mA"
     std::string reason;      ///< the refusal's own sentence
-    std::string what{};      ///< what was asked for, where it is no command
+    std::string what{};      ///< what was asked for, where it is not a command
 };
 
 /// A command that the device cannot give on this load, by its step or its range: named, and no more.

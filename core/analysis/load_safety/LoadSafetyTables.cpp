@@ -85,7 +85,7 @@ Reading extrapolate(const LoadSafetyInput& input, const std::vector<Place>& plac
         }
         return most;
     };
-    // A train more or less that jitters over a window's edge is no further train (as in LoadReading).
+    // A train more or less that jitters over a window's edge is not a further train (as in LoadReading).
     const auto beyondTheEdge = [&](double shorter) {
         constexpr double kLongestWindow_s = 5, kEdge = 0.01;
         return shorter * kLongestWindow_s / input.interval_s > kEdge ? shorter : 0;

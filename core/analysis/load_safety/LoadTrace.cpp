@@ -73,7 +73,7 @@ TraceSums sumsOf(const LoadTrace& trace) {
         last = x;
     }
     const double seconds = static_cast<double>(trace.size() - trace.quiet) * trace.dt;
-    sums.squares = std::max(0.0, sums.squares - trace.noise * trace.noise * seconds);  // noise squared is no signal
+    sums.squares = std::max(0.0, sums.squares - trace.noise * trace.noise * seconds);  // noise squared is not a signal
     sums.magnitude = std::max(0.0, sums.magnitude - 0.8 * trace.noise * seconds);  // mean |noise| is 0.8 of its s.d.
     return sums;
 }

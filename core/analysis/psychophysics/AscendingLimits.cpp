@@ -85,7 +85,7 @@ std::optional<AscendingPresentation> AscendingLimits::next() const {
 Result<void> AscendingLimits::answer(StrengthWord word) {
     if (std::ranges::find(kStrengthWords, word, &Word<StrengthWord>::value) == std::end(kStrengthWords)) {
         return fail(ErrorCode::InvalidArgument,
-                    "answer number {} is no word; nothing, weak, strong or too-strong is "
+                    "answer number {} is not a word; nothing, weak, strong or too-strong is "
                     "accepted",
                     static_cast<int>(word));
     }

@@ -72,7 +72,7 @@ public:
 
     /// What is to be presented now: the same until it is answered; nothing when done().
     [[nodiscard]] std::optional<AscendingPresentation> next() const;
-    /// Errors: InvalidArgument for a value that is no word, or when nothing is asked for; nothing has changed then.
+    /// Errors: InvalidArgument for a value that is not a word, or when nothing is asked for; nothing has changed then.
     [[nodiscard]] Result<void> answer(StrengthWord word);
     /// The presentation was refused by `by`: the series ends at its ceiling. Without effect when done().
     void refused(LevelLimit by);

@@ -44,7 +44,7 @@ public:
     [[nodiscard]] DriftStep step() const noexcept { return step_; }
     /// Nothing unless step() is Trial.
     [[nodiscard]] std::optional<TwoIntervalTrial> next() const;
-    /// Errors: InvalidArgument for a value that is no interval, or when no trial is asked for.
+    /// Errors: InvalidArgument for a value that is not an interval, or when no trial is asked for.
     [[nodiscard]] Result<void> answer(TrialInterval said);
     /// The rest is over. Errors: InvalidArgument when none was asked for.
     [[nodiscard]] Result<void> rested();

@@ -56,7 +56,7 @@ public:
 
     /// The same until it is answered; nothing when done().
     [[nodiscard]] std::optional<TwoIntervalTrial> next() const;
-    /// Errors: InvalidArgument for a value that is no interval, or when done(); nothing has changed then.
+    /// Errors: InvalidArgument for a value that is not an interval, or when done(); nothing has changed then.
     [[nodiscard]] Result<void> answer(TrialInterval said);
     [[nodiscard]] bool done() const noexcept;
     /// The estimate from the answers so far; without any, from the prior.

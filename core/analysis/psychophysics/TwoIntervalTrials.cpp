@@ -13,7 +13,7 @@ Result<TrialInterval> trialIntervalFrom(std::string_view text) {
 
 Result<void> validate(TrialInterval interval) {
     if (interval == TrialInterval::First || interval == TrialInterval::Second) return {};
-    return fail(ErrorCode::InvalidArgument, "answer number {} is no interval; first or second is accepted",
+    return fail(ErrorCode::InvalidArgument, "answer number {} is not an interval; first or second is accepted",
                 static_cast<int>(interval));
 }
 

@@ -1,4 +1,4 @@
-// VirtualObserver.h - the answers of a participant who does not exist, one question at a time (pilot.md section 8).
+// VirtualObserver.h - the answers of a virtual participant, one question at a time (pilot.md section 8).
 //
 // What is felt is signal detection, as in VariationObserver.h: the level in just-noticeable differences plus normal
 // noise, "none" below detection, the nearest of the conditions learned above it, lapses any name, "not sure" never.

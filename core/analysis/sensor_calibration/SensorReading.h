@@ -1,4 +1,4 @@
-// SensorReading.h - what a fingertip said while it rested, slid or carried a weight: samples in, features out.
+// SensorReading.h - what a fingertip measured while it rested, slid or carried a weight: samples in, features out.
 //
 // The same chain reads them as the live bench (core/dsp), so a scale that is measured here means the same there.
 //

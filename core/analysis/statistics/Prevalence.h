@@ -1,4 +1,4 @@
-// Prevalence.h - what k of n people above chance say of everybody: the Bayesian prevalence (Ince et al. 2021,
+// Prevalence.h - what k of n people above chance say about everybody: the Bayesian prevalence (Ince et al. 2021,
 // doi:10.7554/eLife.62461).
 //
 // With an even prior, and a test that lets 5 % through who cannot do it, θ = 0.05 + 0.95·γ is Beta(k + 1, n - k + 1)

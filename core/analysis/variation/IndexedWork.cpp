@@ -98,7 +98,7 @@ Result<std::size_t> runIndexed(const IndexedWork& wanted, std::stop_token stop) 
             lock.lock();
         }
     }
-    if (crew.broken) return fail(ErrorCode::Unsupported, "the prediction broke off: {}", crew.reason);
+    if (crew.broken) return fail(ErrorCode::Unsupported, "the prediction failed: {}", crew.reason);
     return crew.done.load();
 }
 

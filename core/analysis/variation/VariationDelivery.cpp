@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/Words.h"
-#include "core/electrode/LoadResponse.h"
+#include "core/electrode/PulseResponse.h"
 #include "core/safety/SourceTrain.h"
 #include "core/safety/TrainExposure.h"
 

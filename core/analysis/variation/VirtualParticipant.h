@@ -1,4 +1,4 @@
-// VirtualParticipant.h - people who do not exist, drawn from stated distributions: skin, thresholds, discrimination.
+// VirtualParticipant.h - virtual people, drawn from stated distributions: skin, thresholds, discrimination.
 //
 // Everything drawn is log-normal, given by its median and its geometric standard deviation (1.5: two thirds of all
 // people lie between median / 1.5 and median · 1.5), except lapses, which are uniform. What comes out is a prediction,

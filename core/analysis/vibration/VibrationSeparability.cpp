@@ -13,7 +13,7 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kNotMeasured =
-    "Not measured: no accelerometer was read on the motor. What it did is not known, only what it was told.";
+    "Not measured: no accelerometer was read on the motor. What it did is not known, only what it was commanded to do.";
 
 const RecordFields<BurstFigures>& burstFields() {
     static const auto fields = [] {

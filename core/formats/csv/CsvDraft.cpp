@@ -136,7 +136,7 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
         }
     }
     draft.layout.names = std::move(names);
-    // The number of a row is no signal, unless the user asks for it.
+    // The number of a row is not a signal, unless the user asks for it.
     if (draft.layout.times == RowTimes::Column && draft.layout.timeColumn > 0 && options.columns.empty() &&
         !draft.columns.empty() && draft.columns.front().number == 1 &&
         isIndexColumn(columnNamed(draft.layout.names.front()))) {
@@ -187,7 +187,7 @@ Result<CsvLayout> finished(CsvDraft draft, const ReadOptions& options, std::stri
                         "{}:{}: the unit of column '{}' is unknown; s, V or A with m, u, n or k were expected", file,
                         layout.headerLine, name);
         }
-        // A second column of times is no signal; it was the seconds that mattered.
+        // A second column of times is not a signal; it was the seconds that mattered.
         if (channel.unit == "s") {
             layout.warnings.push_back(
                 fmt::format("{}:{}: column '{}' is a time and was left out", file, layout.headerLine, name));

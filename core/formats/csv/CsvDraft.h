@@ -33,7 +33,7 @@ struct CsvDraft {
                                          std::string_view file);
 };
 
-/// Names in one line, units in the next; the first column is time. Empty fields at the end are no columns.
+/// Names in one line, units in the next; the first column is time. Empty fields at the end are not columns.
 [[nodiscard]] CsvDraft twoLineDraft(const CsvLine& names, const CsvLine& units, std::size_t width);
 
 /// The layout of a plain table. Errors: ParseError where no line names a time column and channels, and no option helps.

@@ -34,8 +34,8 @@ private:
 /// A field that is empty or says nan is a missing sample: dropped (with a warning) at the end of the record, NaN in its
 /// middle, where pulses that touch it are not measured.
 /// Errors: NotFound; Io, also where the samples do not fit into memory; ParseError naming file, line and what was
-/// expected: a field that is no number, a row of the wrong length, no time column, an unknown unit, time that does not
-/// rise in even steps (± half a step), fewer than two rows; InvalidArgument for options that do not fit; Stopped.
+/// expected: a field that is not a number, a row of the wrong length, no time column, an unknown unit, time that does
+/// not rise in even steps (± half a step), fewer than two rows; InvalidArgument for options that do not fit; Stopped.
 [[nodiscard]] Result<CaptureReading> readCapture(const std::filesystem::path& path, const ReadOptions& options = {},
                                                  const ReadWatch& watch = {});
 

@@ -28,7 +28,7 @@ public:
     CsvRows(const CsvLayout& layout, char separator, char point, TextBlocks& blocks);
 
     /// The next rows; none at the end. Looks at `watch` once in every block.
-    /// Errors: Io, Stopped; ParseError for a field that is no number, a row too short or too long.
+    /// Errors: Io, Stopped; ParseError for a field that is not a number, a row too short or too long.
     [[nodiscard]] Result<const RowBatch*> next(const ReadWatch& watch);
 
     /// Bytes of text per row so far, for an estimate of what is to come; 0 before the first.
@@ -47,7 +47,7 @@ private:
     };
     /// Takes rows from text_ until the batch is full or the block is used up.
     [[nodiscard]] Result<void> takeRows();
-    /// Reads the row at `text` into batch row `row`; the start of the next line, or null when it is no plain row.
+    /// Reads the row at `text` into batch row `row`; the start of the next line, or null when it is not a plain row.
     [[nodiscard]] const char* takePlainRow(const char* text, const char* end, std::size_t row);
     [[nodiscard]] Result<void> takeFields(std::string_view line, std::size_t row);
     /// The values that wait, into the batch.

@@ -1,5 +1,5 @@
-// CsvTimes.h - rate and start of a table from its stamps, its header or the options, in that order of trust reversed:
-// what the user says, then what the header states and the stamps do not contradict, then the stamps.
+// CsvTimes.h - rate and start of a table: what the options say, else what the header states and the stamps do not
+// contradict, else what the stamps say.
 //
 // The stamps of a long table are not kept: how far any of them is from an even step is, within bounds. Where those do
 // not tell that the steps are even, the stamps are asked for once more, and kept.

@@ -19,7 +19,7 @@ Result<void> readPath(const DeviceUri& uri, ScopeUri& into) {
         const std::string part = uri.path.substr(from + 1, to == std::string::npos ? to : to - from - 1);
         const std::size_t equals = part.find('=');
         if (equals == std::string::npos || equals == 0 || equals + 1 == part.size()) {
-            return uri.refuse(ErrorCode::InvalidArgument, "\"{}\" is no option; key=value was expected", part);
+            return uri.refuse(ErrorCode::InvalidArgument, "\"{}\" is not an option; key=value was expected", part);
         }
         into.options.emplace_back(part.substr(0, equals), part.substr(equals + 1));
         from = to;

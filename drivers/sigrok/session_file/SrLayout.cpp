@@ -66,7 +66,7 @@ bool isFrequency(std::string_view text) {
 /// The entries of a .sr archive, as its directory states them.
 class Archive {
 public:
-    /// Errors: ParseError for what is no archive, or has entries that are neither stored nor deflated or claim more
+    /// Errors: ParseError for what is not an archive, or has entries that are neither stored nor deflated or claim more
     /// than deflate can give, so that a forged size cannot take memory.
     static Result<Archive> open(const ByteFile& file) {
         int error = 0;

@@ -19,7 +19,7 @@ struct SigrokThread::State {
     bool ended = false;     // guarded by mutex
 
     void loop() {
-        // libsigrok writes to an instrument that may have hung up without asking that it be no signal.
+        // libsigrok writes to an instrument that may have hung up without suppressing SIGPIPE.
         sigset_t broken;
         sigemptyset(&broken);
         sigaddset(&broken, SIGPIPE);

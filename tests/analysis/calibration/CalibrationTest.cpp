@@ -53,7 +53,7 @@ TEST(Calibration, FindsWhatATwinWithoutScatterIsMadeOf) {
 }
 
 TEST(Calibration, PoolsWithinLevelAndDirection) {
-    // s of 1, 2, 3 is 1; of 10, 14 is √8: pooled √((2·1 + 1·8)/3). The step between up and down is no scatter.
+    // s of 1, 2, 3 is 1; of 10, 14 is √8: pooled √((2·1 + 1·8)/3). The step between up and down is not scatter.
     const auto found = fitCalibration(std::vector<CalibrationReading>{{10, 1, SweepDirection::Up},
                                                                       {10, 2, SweepDirection::Up},
                                                                       {10, 3, SweepDirection::Up},

@@ -13,7 +13,7 @@ LoadReading read(const LoadTruth& truth, int trains = 2) {
     return readLoad(loadCaptures(truth, trains), ExpectedTrain{1, 100}).value();
 }
 
-/// Within its own expanded uncertainty, and that uncertainty is no excuse for anything.
+/// Within its own expanded uncertainty, and that uncertainty is not an excuse for anything.
 void expectTruth(const Reading& reading, double truth, double worst, const char* what) {
     ASSERT_TRUE(reading.measured()) << what;
     EXPECT_NEAR(reading.value, truth, std::max(reading.expanded, 1e-12)) << what;

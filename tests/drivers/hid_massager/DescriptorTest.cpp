@@ -207,7 +207,7 @@ TEST(Haptics, ADeviceThatOnlyClicksOrSendsTooLittleIsRefused) {
     ASSERT_FALSE(clicks);
     EXPECT_EQ(clicks.error().code, ErrorCode::Unsupported);
     EXPECT_THAT(clicks.error().message, testing::AllOf(HasSubstr("1003"), HasSubstr("1004")));
-    // Stop, none, a pen's ink and a play of more than a second are no bursts, whatever their durations.
+    // Stop, none, a pen's ink and a play of more than a second are not bursts, whatever their durations.
     for (const std::uint8_t waveform : Bytes{0x01, 0x02, 0x0B}) {
         EXPECT_FALSE(hid::hapticReports(*controls, Bytes{2, waveform, 0x10, 0x02, 0x10, 50, 0, 50, 0}))
             << int{waveform};

@@ -46,7 +46,7 @@ protected:
 
 TEST_F(HidDriverTest, ADualSenseIsListedAndOpenedAndGetsItsOwnReport) {
     const auto pad = plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
-    plug(0x046D, 0xC077, "", outputDescriptor(1, 8), 0x00010002);  // a mouse is no massager
+    plug(0x046D, 0xC077, "", outputDescriptor(1, 8), 0x00010002);  // a mouse is not a massager
     const auto list = driver()->list();
     ASSERT_EQ(list.size(), 1u);
     EXPECT_EQ(list[0].uri, "hid:054c:0ce6?serial=A1");

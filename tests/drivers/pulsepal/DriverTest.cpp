@@ -47,7 +47,7 @@ TEST_F(PulsePalDriverTest, ListsAndOpensByUri) {
         const auto opened = open(identity.uri + "?channel=2");
         ASSERT_TRUE(opened) << opened.error().message;
         EXPECT_EQ(devices.stimulator->identity().uri, identity.uri + "?channel=2");
-        // The socket is no serial number: a calibration would count for whatever is plugged in there (H4).
+        // The socket is not a serial number: a calibration would count for whatever is plugged in there (H4).
         EXPECT_EQ(devices.stimulator->identity().serial, identity.serial);
     }
     EXPECT_FALSE(makePulsePalDriver(ports)->runsOnVirtualClock());

@@ -254,7 +254,7 @@ TEST(ScienceModeDeliver, AHostThatSleptGivesTheTrainUp) {
     EXPECT_EQ(bench.line->pulses(), before);
     const auto told = bench.stimulator->status();
     ASSERT_FALSE(told.has_value());
-    EXPECT_THAT(told.error().message, HasSubstr("given up"));
+    EXPECT_THAT(told.error().message, HasSubstr("abandoned"));
     EXPECT_TRUE(bench.stimulator->status().has_value()) << "it is told once";
 }
 

@@ -80,7 +80,7 @@ TEST(ScienceModeStop, IsRepeatedAfterAWriteThatWasInFlight) {
         // The stop overtakes the pulse that is already being handed over.
         if (++writes == 1) bench.stimulator->forceOff();
     });
-    EXPECT_TRUE(bench.stimulator->deliver(bench.approved(5, 10)).has_value()) << "a stop is no error";
+    EXPECT_TRUE(bench.stimulator->deliver(bench.approved(5, 10)).has_value()) << "a stop is not an error";
     const auto commands = commandsOf(bench.line->written());
     const auto pulse = std::ranges::find(commands, Command::ChannelConfig);
     ASSERT_NE(pulse, commands.end());
@@ -214,7 +214,7 @@ TEST_F(ScienceModeThreads, TheDriversOwnThreadSendsTheRestOfATrain) {
             EXPECT_EQ(pulses.size() - before, 20U);
             return;
         }
-        ASSERT_IN_TIME(status.error().message.find("given up") != std::string::npos) << status.error().message;
+        ASSERT_IN_TIME(status.error().message.find("abandoned") != std::string::npos) << status.error().message;
     }
     ASSERT_IN_TIME(!"one of 20 trains");
 }

@@ -66,7 +66,7 @@ TEST(RecordPlan, KnowsTheMemoryOfTheSeriesLibsigrokDrives) {
 
 TEST(RecordPlan, TakesTheShortestScreenWhoseRateIsAMultiple) {
     const auto abilities = ds2072a();
-    // 2 ms at 1 MHz: 200 us/div would sample at 2.5 MHz, which is no multiple.
+    // 2 ms at 1 MHz: 200 us/div would sample at 2.5 MHz, which is not a multiple.
     const auto plan = planRecord(planSettings(1e6, 2000), abilities, wiring(abilities));
     ASSERT_TRUE(plan.has_value()) << plan.error().message;
     EXPECT_DOUBLE_EQ(plan->timebase.value(), 500e-6);

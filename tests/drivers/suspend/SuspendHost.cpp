@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "core/bench/Bench.h"
+#include "core/devices/Registry.h"
 #include "drivers/pulsepal/PulsePalDriver.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"

@@ -41,7 +41,7 @@ TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt)
     {
         const UnprivilegedUser user(bed);
         const auto list = context->devices();
-        ASSERT_IN_TIME(list.size() == 1u);
+        ASSERT_EQ(list.size(), 1u);
         EXPECT_FALSE(list.front().permitted);
         EXPECT_EQ(list.front().serial, "P24-17");
         EXPECT_THAT(list.front().obstacle(), HasSubstr("./dev install-rules"));
@@ -68,7 +68,7 @@ TEST_F(UsbContext_, TellsOfPluggingInBothDirections) {
     EXPECT_TRUE(context->devices().empty());
     device.plug();
     ASSERT_IN_TIME(comes([&] { return context->generation() > empty; }));
-    ASSERT_IN_TIME(context->devices().size() == 1u);
+    ASSERT_EQ(context->devices().size(), 1u);
     const auto plugged = context->generation();
     device.unplug();
     ASSERT_IN_TIME(comes([&] { return context->generation() > plugged; }));

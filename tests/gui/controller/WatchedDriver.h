@@ -9,7 +9,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/devices/Driver.h"
+#include "core/devices/Registry.h"
 #include "drivers/simulated/SimulatedDriver.h"
 
 namespace tacto::test {

@@ -146,7 +146,7 @@ TEST_F(Plots, TheSpectrumIsBrightAtTheTone) {
         const double tone = spectrum.densityAt_db(t, 250);
         EXPECT_GT(tone, -30) << t;
         EXPECT_LT(spectrum.densityAt_db(t, 600), tone - 40) << t;
-        EXPECT_LT(spectrum.densityAt_db(t, 16), tone - 40) << "gravity is no vibration";
+        EXPECT_LT(spectrum.densityAt_db(t, 16), tone - 40) << "gravity is not vibration";
     }
     EXPECT_TRUE(std::isnan(spectrum.densityAt_db(9, 250)));
 }

@@ -1,4 +1,4 @@
-// What stands before a session of a study: a checklist without defaults, and what was broken off.
+// What stands before a session of a study: a checklist without defaults, and what was interrupted.
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
@@ -108,7 +108,7 @@ TEST_F(SessionStart, ASessionThatWasBrokenOffIsOfferedWithItsTimeAndAnswers) {
     const auto at = QDateTime::currentDateTime().addSecs(-600);
     offer->offer(gui::Unfinished{2, "pilot-thresholds", 27, at, true});
     const auto says = page.findChild<QLabel*>("unfinishedSays")->text().toStdString();
-    EXPECT_THAT(says, HasSubstr("Session 2 was broken off"));
+    EXPECT_THAT(says, HasSubstr("Session 2 was interrupted"));
     EXPECT_THAT(says, HasSubstr(at.toString("HH:mm").toStdString()));
     EXPECT_THAT(says, HasSubstr("after 27 answers"));
     EXPECT_FALSE(begin().isEnabled()) << "neither is chosen beforehand";

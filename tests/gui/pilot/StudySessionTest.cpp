@@ -149,10 +149,10 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
     ASSERT_NO_FATAL_FAILURE(seeList());
-    EXPECT_EQ(cell(0, 5), "broken off, may go on");
+    EXPECT_EQ(cell(0, 5), "interrupted, can continue");
     ASSERT_NO_FATAL_FAILURE(start());
     const auto says = page().findChild<QLabel*>("unfinishedSays")->text().toStdString();
-    EXPECT_THAT(says, HasSubstr("Session 1 was broken off at "));
+    EXPECT_THAT(says, HasSubstr("Session 1 was interrupted at "));
     EXPECT_FALSE(page().findChild<QPushButton*>("beginSession")->isEnabled());
     page().findChild<QRadioButton*>("goOnWithIt")->click();
     begin();
@@ -239,7 +239,7 @@ TEST_F(StudyInTheWindow, ASessionThatWasBrokenOffGoesOnWithNoOtherMassager) {
         20'000));
     click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
     ASSERT_NO_FATAL_FAILURE(seeList());
-    ASSERT_EQ(cell(0, 5), "broken off, may go on");
+    ASSERT_EQ(cell(0, 5), "interrupted, can continue");
     const auto files = filesIn(place() / "sessions");
 
     ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M2")));

@@ -216,7 +216,7 @@ TEST_F(Workspace, ShowsTheWorstCaseOfTheDeclaredLoad) {
     ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     ASSERT_IN_TIME(
         comesTrue([this] { return says("worstCase").contains("1 kΩ") || says("worstCase").contains("1\u202fkΩ"); }));
-    EXPECT_THAT(says("worstCase").toStdString(), HasSubstr("Every limit that can be evaluated is kept"));
+    EXPECT_THAT(says("worstCase").toStdString(), HasSubstr("Nothing exceeds a limit that can be evaluated"));
     type("load", "10");
     ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("will be refused"); }))
         << says("worstCase").toStdString();

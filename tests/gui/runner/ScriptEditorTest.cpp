@@ -46,7 +46,7 @@ TEST_F(Editor, WritesANewProtocolFromTheTemplateAndOffersItToRun) {
     name.selectAll();
     QTest::keyClicks(&name, "no/good");
     click(in<QPushButton>("Save as"));
-    EXPECT_THAT(message().toStdString(), HasSubstr("no name for a protocol"));
+    EXPECT_THAT(message().toStdString(), HasSubstr("not a name for a protocol"));
     name.selectAll();
     QTest::keyClicks(&name, "bend");
     QTest::keyClick(&name, Qt::Key_Return);

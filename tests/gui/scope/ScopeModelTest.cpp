@@ -153,7 +153,7 @@ TEST_F(Model, PersistenceRollAndReferences) {
     model.setActiveLane(key);
     EXPECT_TRUE(model.storeReference().isEmpty()) << "a reference is not stored again";
     model.removeReference(volts);
-    EXPECT_NE(model.lane(volts), nullptr) << "a channel is no reference";
+    EXPECT_NE(model.lane(volts), nullptr) << "a channel is not a reference";
     model.removeReference(key);
     EXPECT_EQ(model.lane(key), nullptr);
     EXPECT_EQ(model.activeLane(), volts) << "some lane is always worked with";

@@ -284,7 +284,7 @@ TEST_F(Scope, AnAverageIsMarkedAndBeginsAnewWithTheCommand) {
     shot(scope, "workspace-averaged");
     const auto before = averaged();
     controller.drive(DriveSource::Manual, 1, 0.2);
-    ASSERT_IN_TIME(comes([&] { return averaged() < before; })) << "another command is no repetition";
+    ASSERT_IN_TIME(comes([&] { return averaged() < before; })) << "another command is not a repetition";
     click(*find<QToolButton>(scope, "Average"));
     ASSERT_IN_TIME(comes([&] { return averaged() == 0; }));
     EXPECT_TRUE(scope.screen().overlay().notes.isEmpty());

@@ -146,7 +146,7 @@ TEST_F(Recorded, ACancelledExportLeavesNothing) {
 TEST_F(Recorded, AnExportWritesOverNothing) {
     const auto error = gui::exportCsv(session, folder.path(), port());
     ASSERT_FALSE(error);
-    EXPECT_THAT(error.error().message, HasSubstr("is there already"));
+    EXPECT_THAT(error.error().message, HasSubstr("exists already"));
 }
 
 TEST_F(Recorded, ReplaysAsARecording) {

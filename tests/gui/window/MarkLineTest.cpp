@@ -82,7 +82,7 @@ TEST_F(Marks, AreOfTheMomentOfTheKeyAndStandEverywhere) {
     ASSERT_TRUE(report);
     EXPECT_TRUE(std::ranges::any_of(report->events, [](const auto& event) { return event.text == "table bumped"; }));
     for (const auto& mark : report->marks)
-        EXPECT_FALSE(mark.contains("table bumped")) << "it is no reservation about the results";
+        EXPECT_FALSE(mark.contains("table bumped")) << "it is not a reservation about the results";
 }
 
 TEST_F(Marks, EveryStopWorksWhileTheWordIsTyped) {
@@ -100,7 +100,7 @@ TEST_F(Marks, EveryStopWorksWhileTheWordIsTyped) {
         ASSERT_NO_FATAL_FAILURE(begin());
         QTest::keyClicks(&word(), "the lead came off");  // a blank types here
         ASSERT_EQ(word().text(), "the lead came off") << name;
-        ASSERT_EQ(state(), InterlockState::Delivering) << name << ": typing is no stop";
+        ASSERT_EQ(state(), InterlockState::Delivering) << name << ": typing is not a stop";
         hand();
         EXPECT_EQ(state(), InterlockState::Disarmed) << name << ": before the event returned";
         if (word().isVisible()) QTest::keyClick(&word(), Qt::Key_Return);
@@ -197,7 +197,7 @@ TEST_F(Marks, OperatorAndSampleOfTheDayStandInEverySessionAndAreShown) {
     shot(window, "day-in-the-menu-bar");
     for (const auto* edit : window.findChildren<QLineEdit*>("sample")) EXPECT_EQ(edit->text(), "S-014");
     window.askForDay(true);
-    EXPECT_EQ(find<QLabel>(window, "Who works today, and on what?"), nullptr) << "asked once a day";
+    EXPECT_EQ(find<QLabel>(window, "Who is working today, and on what?"), nullptr) << "asked once a day";
     ASSERT_NO_FATAL_FAILURE(comeBack());
     ASSERT_NO_FATAL_FAILURE(open());
     const auto session = window.controller().open()->session;

@@ -1,4 +1,4 @@
-// AnalysisObject.h - the functions of the object "analysis"; AnalysisTable.cpp says what each takes and returns.
+// AnalysisObject.h - the functions of the object "analysis"; AnalysisObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

@@ -1,4 +1,4 @@
-// BenchObject.h - the functions of the object "bench"; BenchTable.cpp says what each takes and returns.
+// BenchObject.h - the functions of the object "bench"; BenchObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

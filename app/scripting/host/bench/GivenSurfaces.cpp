@@ -21,7 +21,7 @@ struct GivenSurface {
     std::string source = "typed in";
 };
 
-/// Errors: InvalidArgument for a path that the operator did not give, or that is no file.
+/// Errors: InvalidArgument for a path that the operator did not give, or that is not a file.
 Result<ProfilometerReading> readChosen(ScriptSession& session, const std::string& path) {
     // The same answer whether there is such a file or not: a script cannot look around (hazard H10).
     if (!session.isOperatorsText(path)) {
@@ -32,7 +32,7 @@ Result<ProfilometerReading> readChosen(ScriptSession& session, const std::string
     }
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) {
-        return fail(ErrorCode::InvalidArgument, "bench.profilometer: {} is no file that can be read", shown(path));
+        return fail(ErrorCode::InvalidArgument, "bench.profilometer: {} is not a file that can be read", shown(path));
     }
     return readProfilometer(path);
 }

@@ -26,7 +26,7 @@ bool canTell(Bench& bench) {
 }
 
 constexpr std::string_view kNoReadBack =
-    "this stimulator does not read back, so nothing but the operator can find the load changed";
+    "this stimulator does not read back, so only the operator can notice that the load changed";
 
 /// Changes the load without ending the output first: itself on a simulated bench, else by the operator's hands.
 Result<void> change(ScriptSession& session, const std::string& to, const std::string& request) {

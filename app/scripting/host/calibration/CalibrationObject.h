@@ -1,4 +1,4 @@
-// CalibrationObject.h - the functions of the object "calibration"; CalibrationTable.cpp says what each takes and
+// CalibrationObject.h - the functions of the object "calibration"; CalibrationObject.cpp says what each takes and
 // returns.
 //
 // Thread-safety: calls come from the script's thread.

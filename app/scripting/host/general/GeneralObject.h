@@ -1,4 +1,4 @@
-// GeneralObject.h - the functions that belong to no object; GeneralTable.cpp says what each takes and returns.
+// GeneralObject.h - the functions that belong to no object; GeneralObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

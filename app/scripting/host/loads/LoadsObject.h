@@ -1,4 +1,4 @@
-// LoadsObject.h - the functions of the object "loads"; LoadsTable.cpp says what each takes and returns.
+// LoadsObject.h - the functions of the object "loads"; LoadsObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

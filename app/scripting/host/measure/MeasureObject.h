@@ -1,4 +1,4 @@
-// MeasureObject.h - the functions of the object "measure"; MeasureTable.cpp says what each takes and returns.
+// MeasureObject.h - the functions of the object "measure"; MeasureObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

@@ -1,4 +1,4 @@
-// OperatorObject.h - the functions of the object "operator"; OperatorTable.cpp says what each takes and returns.
+// OperatorObject.h - the functions of the object "operator"; OperatorObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

@@ -1,4 +1,4 @@
-// PilotObject.h - the functions of the object "pilot"; PilotTable.cpp says what each takes and returns.
+// PilotObject.h - the functions of the object "pilot"; PilotObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

@@ -1,4 +1,4 @@
-// PlotObject.h - the functions of the object "plot"; PlotTable.cpp says what each takes and returns.
+// PlotObject.h - the functions of the object "plot"; PlotObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

@@ -1,4 +1,4 @@
-// RandomObject.h - the functions of the object "random"; RandomTable.cpp says what each takes and returns.
+// RandomObject.h - the functions of the object "random"; RandomObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

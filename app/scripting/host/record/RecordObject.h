@@ -1,4 +1,4 @@
-// RecordObject.h - the functions of the object "record"; RecordTable.cpp says what each takes and returns.
+// RecordObject.h - the functions of the object "record"; RecordObject.cpp says what each takes and returns.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

@@ -1,4 +1,5 @@
 #include "app/scripting/engine/HostFunction.h"
+
 #include "app/scripting/engine/ScriptRun.h"
 
 namespace tacto {

@@ -1,7 +1,7 @@
 // Columns of a table of records: units, prefixes, words for what is missing.
 #include <gmock/gmock.h>
 
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/report/TableContent.h"
 
 namespace tacto::test {
@@ -14,7 +14,7 @@ using gui::RecordColumn;
 using As = RecordColumn::As;
 using Json = nlohmann::json;
 
-TEST(RecordTable, PutsTheUnitIntoTheHeaderWithAPrefixThatSuitsAllRows) {
+TEST(RecordColumns, PutsTheUnitIntoTheHeaderWithAPrefixThatSuitsAllRows) {
     const Json rows = {{{"width_s", 100.2e-6}, {"u", 0.4e-6}}, {{"width_s", 400e-6}, {"u", 0.4e-6}}};
     const auto text = columnText({"Width", "width_s", As::Number, "s", "u"}, rows);
     EXPECT_EQ(text.header, "Width\n(µs)");
@@ -22,7 +22,7 @@ TEST(RecordTable, PutsTheUnitIntoTheHeaderWithAPrefixThatSuitsAllRows) {
     EXPECT_TRUE(text.right);
 }
 
-TEST(RecordTable, GivesNumbersThatAreFarApartAPrefixEach) {
+TEST(RecordColumns, GivesNumbersThatAreFarApartAPrefixEach) {
     const Json rows = {{{"ohm", 100}}, {{"ohm", 1e6}}};
     const auto text = columnText({"Load", "ohm", As::Number, "ohm"}, rows);
     EXPECT_EQ(text.header, "Load");
@@ -30,7 +30,7 @@ TEST(RecordTable, GivesNumbersThatAreFarApartAPrefixEach) {
     EXPECT_THAT(text.cells[1].toStdString(), HasSubstr("MΩ"));
 }
 
-TEST(RecordTable, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
+TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
     RecordProperty("hazard", "H9");
     const Json rows = {{{"v", {{"mean", 40.12}, {"sd", 0.46}}},
                         {"share", {{"value", 0.99}, {"low", 0.946}, {"high", 0.998}}},

@@ -1,6 +1,7 @@
 // The object "record", what a protocol leaves in the session file: what scripts can call, and what each function takes
 // and returns.
 #include "app/scripting/host/record/RecordObject.h"
+
 #include "core/calibration/CalibrationStore.h"
 
 namespace tacto {
@@ -44,12 +45,12 @@ std::vector<HostFunction> recordFunctions() {
                         number("tolerance", "%", "how far the reading may lie from the load, its uncertainty included")
                             .range(0, 100),
                         number("of the load", "%", "the load's own tolerance").range(0, 100).otherwise(0)},
-         .text = "Judges whether a known load reads as what it is, and records that: instruments that cannot tell it "
-                 "can judge nothing else.",
+         .text = "Judges whether a known load reads as what it is, and records that: instruments that misread it can "
+                 "judge nothing else.",
          .returns =
              "{ load_ohm, measured_ohm, expanded_ohm, deviation_pct, expanded_uncertainty_pct, allowed_pct, passed, "
              "reason }: passed when |deviation| + U is allowed; reason is a sentence where it did not pass, else null. "
-             "What could not be measured, or has no uncertainty that anyone states, has not passed.",
+             "What could not be measured, or has no stated uncertainty, has not passed.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::record::reference},
         {.name = "calibration",

@@ -1,6 +1,6 @@
-// RecordTable.h - records as a table by a list of columns: what each column is called, which member it shows, in which
-// unit. Columns stand in the order of the list, the unit in the header with a prefix that suits all rows, a value with
-// its uncertainty after GUM, a verdict as shape and word. No key of a record is ever shown.
+// RecordColumns.h - records as a table by a list of columns: what each column is called, which member it shows, in
+// which unit. Columns stand in the order of the list, the unit in the header with a prefix that suits all rows, a value
+// with its uncertainty after GUM, a verdict as shape and word. No key of a record is ever shown.
 //
 // Thread-safety: the GUI thread; the texts are pure functions.
 #pragma once

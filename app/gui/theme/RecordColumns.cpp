@@ -1,4 +1,4 @@
-#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/RecordColumns.h"
 
 #include <QHeaderView>
 #include <cmath>

@@ -1,6 +1,7 @@
 // The object "analysis", judging what was measured, and predicting: what scripts can call, and what each function takes
 // and returns.
 #include "app/scripting/host/analysis/AnalysisObject.h"
+
 #include "core/analysis/load_safety/LoadSafety.h"
 #include "core/analysis/variation/Variation.h"
 #include "core/analysis/variation/VariationBench.h"
@@ -35,8 +36,8 @@ std::vector<HostFunction> analysisFunctions() {
               number("tolerances.resistor_pct", "%", "of the resistor where no multimeter read it")
                   .range(0.01, 50)
                   .otherwise(tolerances.resistor_pct)},
-         .text = "Judges whether a load is what it should be, by its first command: nothing else is asked of one that "
-                 "is not.",
+         .text =
+             "Judges by its first command whether a load is what it should be: one that is not gets no other command.",
          .returns = "\"\" when it is, else why not.",
          .errors = "Throws for a load that cannot be read.",
          .call = host::analysis::loadValue},
@@ -67,7 +68,7 @@ std::vector<HostFunction> analysisFunctions() {
                   .optional()},
          .text = "Judges everything measured against every limit set with its guard band.",
          .returns = "{ kind, verdict, reasons, loads, rows, matrix, disclosed, described, worst_case }: what is "
-                    "missing reads \"not evaluated\", and then the verdict is no pass. matrix is { loads, lines }, "
+                    "missing reads \"not evaluated\", and then the verdict is not a pass. matrix is { loads, lines }, "
                     "every limit once with a cell per load and the margin left, the smallest first.",
          .errors = "Throws for a load that cannot be read.",
          .call = host::analysis::loadSafety},
@@ -132,8 +133,7 @@ std::vector<HostFunction> analysisFunctions() {
              {list("readings", "objects with commanded (the reference), measured and direction (up, down)"),
               text("options.name", "of the sensor, for messages").otherwise("the sensor"),
               number("options.tolerance_pct", "%", "half-width that all references share").range(0, 50).otherwise(0)},
-         .text =
-             "A straight line through readings against references, turned round: reference = scale · reading + offset.",
+         .text = "A straight line through readings against references, inverted: reference = scale · reading + offset.",
          .returns =
              "{ scale, scale_expanded_uncertainty, offset, offset_expanded_uncertainty, gain, offset_reading, "
              "residual_max_pct_fs, repeatability_pct_fs, hysteresis_pct_fs, levels, readings, warnings }: U for 95 %.",
@@ -166,8 +166,8 @@ std::vector<HostFunction> analysisFunctions() {
                  "correlation of R against Ra where five or more surfaces have one.",
          .returns = "{ surfaces, d_prime: { h, v, R, all }, spearman, accepted, verdict, reasons, warnings, roughness: "
                     "section of a profile }.",
-         .errors = "Throws for fewer than three slides of a reference, or a rough one whose Ra is not above the smooth "
-                   "one's.",
+         .errors = "Throws for fewer than three slides of a reference, or a rough one whose Ra is not above that of "
+                   "the smooth one.",
          .call = host::analysis::sensorCalibration},
         {.name = "transitions",
          .parameters =
@@ -232,7 +232,7 @@ std::vector<HostFunction> analysisFunctions() {
               text("options.source", "current: A / |Z|; voltage: as on the bench, refused for people")
                   .oneOf({"current", "voltage"})
                   .otherwise("current"),
-              text("options.guess", "what is said when nothing is felt")
+              text("options.guess", "what is answered when nothing is felt")
                   .oneOf({nameOf(GuessBehaviour::None), nameOf(GuessBehaviour::Uniform)})
                   .otherwise(nameOf(predicted.guess)),
               number("options.width", "", "wanted width of the 95 % interval of accuracy")
@@ -280,7 +280,7 @@ std::vector<HostFunction> analysisFunctions() {
               number("options.skin_spread", "", "geometric standard deviation between people, 1 for none")
                   .range(1, 10)
                   .optional("1.5, and for C 1.3,"),
-              number("options.threshold_spread", "", "the same of the three thresholds")
+              number("options.threshold_spread", "", "of the three thresholds, likewise")
                   .range(1, 10)
                   .otherwise(people.detection_ma.spread),
               number("options.weber_spread", "", "the same of the Weber fractions")
@@ -309,7 +309,7 @@ std::vector<HostFunction> analysisFunctions() {
                     "are 5 and 95 % of the participants. A condition counts where it is presented, felt and not too "
                     "strong; served are those for whom every one counts, and accuracy, confusion and pilots are "
                     "theirs. people holds the first 1000, a list per column.",
-         .errors = "Throws for an option that makes no sense, and when the run is stopped; what was predicted until "
+         .errors = "Throws for an option out of its range, and when the run is stopped; what was predicted until "
                    "then is kept as partial.",
          .call = host::analysis::variation},
         {.name = "uncertainBench",

@@ -1,16 +1,13 @@
-// Reading .sr files.
+#include "drivers/sigrok/session_file/SrReader.h"
+
 #include <algorithm>
 #include <limits>
 #include <zlib.h>
 
-#include "core/formats/ChannelOptions.h"
 #include "drivers/sigrok/driver/ConfigValues.h"
-#include "drivers/sigrok/session_file/SigrokFormat.h"
-#include "drivers/sigrok/session_file/SrLayout.h"
 
-namespace tacto {
+namespace tacto::sigrok_driver {
 
-namespace sigrok_driver {
 namespace {
 
 /// A main context of this thread for as long as a session runs: see SigrokThread.cpp.
@@ -67,9 +64,9 @@ private:
     uLong crc_ = 0;
 };
 
-class SrReader {
+class SampleReader {
 public:
-    SrReader(const SrLayout& layout, const ReadWatch& watch, std::string file)
+    SampleReader(const SrLayout& layout, const ReadWatch& watch, std::string file)
         : layout_(layout), watch_(watch), file_(std::move(file)), logicCheck_(layout.logic) {
         for (const auto& pieces : layout.analog) analogChecks_.emplace_back(pieces);
     }
@@ -212,7 +209,7 @@ private:
     std::optional<Error> error_;
 };
 
-/// Channels of unequal length are those of an acquisition that was broken off.
+/// Channels of unequal length are those of an interrupted acquisition.
 void evenOut(CaptureReading& reading, const std::string& file) {
     auto& channels = reading.capture.channels;
     const auto size = [](const CaptureChannel& one) { return one.samples.size(); };
@@ -227,48 +224,14 @@ void evenOut(CaptureReading& reading, const std::string& file) {
 }
 
 }  // namespace
-}  // namespace sigrok_driver
 
-bool SigrokFormat::recognises(const std::filesystem::path& path, std::string_view head) const {
-    if (!head.starts_with("PK\3\4") || head.size() < 37) return false;
-    // Every .sr begins with an entry called "version".
-    return path.extension() == ".sr" || head.substr(30, 7) == "version";
-}
-
-Result<CaptureReading> SigrokFormat::read(const std::filesystem::path& path, const ReadOptions& options,
-                                          const ReadWatch& watch) const {
-    const auto layout = sigrok_driver::readSrLayout(path);
-    if (!layout) return failure(layout);
-    if (!layout->samplerateIsSensible && !options.rate) {
-        return fail(ErrorCode::ParseError,
-                    "{}: its sampling rate is '{}'; a frequency above 0 was expected, as in 1 MHz, or --sample-rate",
-                    path.string(), layout->samplerate.substr(0, 40));
-    }
-    auto capture = sigrok_driver::SrReader(*layout, watch, path.string()).read();
+Result<CaptureReading> readSr(const SrLayout& layout, const ReadWatch& watch, const std::string& file) {
+    auto capture = SampleReader(layout, watch, file).read();
     if (!capture) return failure(capture);
     CaptureReading reading;
     reading.capture = std::move(*capture);
-    sigrok_driver::evenOut(reading, path.string());
-    if (options.rate) {
-        const auto rate = rateFrom(options);
-        if (!rate) return failure(rate);
-        reading.capture.rate_hz = *rate;
-    }
-    if (!(reading.capture.rate_hz > 0)) {
-        return fail(ErrorCode::ParseError, "{}: it states no sampling rate; --sample-rate can give one", path.string());
-    }
-    if (reading.capture.samples() < 2) {
-        return fail(ErrorCode::ParseError, "{}: {} sample(s) per channel; at least 2 were expected", path.string(),
-                    reading.capture.samples());
-    }
-    std::vector<ChannelPlan> plans;
-    for (const auto& channel : reading.capture.channels) {
-        plans.push_back({channel.name, plans.size() + 1, channel.unit, 1, ""});
-    }
-    if (auto applied = applyChannelOptions(reading.capture, std::move(plans), options, path.string()); !applied) {
-        return failure(applied);
-    }
+    evenOut(reading, file);
     return reading;
 }
 
-}  // namespace tacto
+}  // namespace tacto::sigrok_driver

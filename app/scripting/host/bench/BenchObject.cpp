@@ -1,7 +1,8 @@
 // The object "bench", the bench: what scripts can call, and what each function takes and returns.
+#include "app/scripting/host/bench/BenchObject.h"
+
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/bench/BenchObject.h"
 
 namespace tacto {
 
@@ -81,9 +82,9 @@ std::vector<HostFunction> benchFunctions() {
               text("options.material", "surface").optional("glass below R 0.5, else P60,"),
               number("options.speed_mm_s", "mm/s", "sliding speed").range(0, 1000).otherwise(50),
               number("options.force_n", "N", "normal force").range(0, 50).optional("0.15 below P 0.5, else 6,"),
-              number("options.tolerance", "", "settled: R and P moved no more in 0.5 s").range(0, 1).otherwise(0.02),
+              number("options.tolerance", "", "settled: R and P did not change in 0.5 s").range(0, 1).otherwise(0.02),
               number("options.limit_s", "s", "longest wait for that").range(0.5, 600).otherwise(5)},
-         .text = "Brings the bench into a condition. On a rig that cannot present surfaces the operator is asked to "
+         .text = "Sets the bench to a condition. On a rig that cannot present surfaces the operator is asked to "
                  "(question surface-MATERIAL).",
          .returns = "{ settled, roughness, pressure }: settled is false when R or P still moved at the limit.",
          .errors = "Throws for an unknown surface, without an answer, or when the run is stopped.",
@@ -172,8 +173,8 @@ std::vector<HostFunction> benchFunctions() {
          .parameters = {object("command", "from bench.predict()"),
                         number("command.roughness", "", "R").range(0, 1).otherwise(0),
                         number("command.pressure", "", "P").range(0, 1).otherwise(0)},
-         .text =
-             "Asks for one train of this command while armed, and ends the drive again. A refusal is no error here.",
+         .text = "Asks for one train of this command while armed, and ends the drive again. A refusal is not an error "
+                 "here.",
          .returns = "{ refused, delivered, reason }",
          .errors = "Throws when the run is stopped or a device fails.",
          .call = host::bench::attempt},
@@ -206,7 +207,7 @@ std::vector<HostFunction> benchFunctions() {
          .call = host::bench::storedCalibration},
         {.name = "useCalibration",
          .parameters = {flag("use", "false: the commands are programmed as they are; true: as at the start")},
-         .text = "Leaves the stored calibration aside for the rest of the run, as a new one must, or takes it up "
+         .text = "Ignores the stored calibration for the rest of the run, as a new calibration must, or applies it "
                  "again. The output must be disarmed.",
          .errors = "Throws while armed.",
          .call = host::bench::useCalibration},
@@ -215,7 +216,8 @@ std::vector<HostFunction> benchFunctions() {
                                "of the reference source, as its certificate or a calibrated multimeter says")
                             .range(1e-3, 500),
                         number("uncertainty", "%", "of it, k = 2").range(1e-6, 10),
-                        number("tolerance", "%", "how far the reading may lie from it, its uncertainty included")
+                        number("tolerance", "%",
+                               "how far the reading may lie from the reference, its uncertainty included")
                             .range(1e-3, 50)},
          .text = "Reads a voltage of known size and its zero on the oscilloscope's voltage channel, with the output "
                  "disarmed: a gain error that voltage and current share does not show in a known load. The operator "
@@ -291,8 +293,8 @@ std::vector<HostFunction> benchFunctions() {
          .errors = "Throws for a text that cannot be read, one weight alone, or one that comes twice.",
          .call = host::bench::weights},
         {.name = "profilometer",
-         .parameters = {text("path",
-                             "of a CSV that a profilometer exported: a parameter that the operator gave, or entered")},
+         .parameters = {text(
+             "path", "path of a CSV that a profilometer exported: a parameter that the operator gave, or entered")},
          .text = "Finds Ra and Rz in it, by name and unit.",
          .returns = "{ ra_um, rz_um, ra_values, rz_values }: means over that many values; rz_um is null where it is "
                     "not stated.",

@@ -1,7 +1,8 @@
 // The object "calibration", the steps of a stimulator's and of a fingertip's calibration: what scripts can call, and
 // what each function takes and returns.
-#include "app/scripting/engine/Arming.h"
 #include "app/scripting/host/calibration/CalibrationObject.h"
+
+#include "app/scripting/engine/Arming.h"
 
 namespace tacto {
 

@@ -1,6 +1,7 @@
 // The object "loads", commands on known loads: what scripts can call, and what each function takes and returns.
-#include "app/scripting/engine/Arming.h"
 #include "app/scripting/host/loads/LoadsObject.h"
+
+#include "app/scripting/engine/Arming.h"
 
 namespace tacto {
 
@@ -53,7 +54,7 @@ std::vector<HostFunction> loadsFunctions() {
                         whole("trains", "to be read; more are delivered, one of them to reach the level").range(1, 20)},
          .text = "Gives a command on the load that is armed. What the limits forbid is asked for once and must be "
                  "refused; else the trains are captured and read, the end of a phase in a current range of its own "
-                 "where a charging spike is far above it. A refusal is no error here. The drive is off afterwards.",
+                 "where a charging spike is far above it. A refusal is not an error here. The drive is off afterwards.",
          .returns =
              "{ list, entry }: the list of a load of analysis.loadSafety() that the entry belongs to, \"steps\", "
              "\"refusals\" or, where the device cannot give the command, \"undriven\". A step is { condition, "

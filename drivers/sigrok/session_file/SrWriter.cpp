@@ -1,18 +1,15 @@
-// Writing .sr files.
+#include "drivers/sigrok/session_file/SrWriter.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <system_error>
 
-#include "core/measure/CaptureFile.h"
 #include "drivers/sigrok/driver/ConfigValues.h"
-#include "drivers/sigrok/session_file/SigrokFormat.h"
 
-namespace tacto {
+namespace tacto::sigrok_driver {
 
 namespace {
-
-namespace driver = sigrok_driver;
 
 constexpr std::size_t kMaxSamples = 500'000'000;  // libsigrok counts the bytes of a packet in an int
 
@@ -36,7 +33,7 @@ std::vector<unsigned char> packed(const std::vector<const CaptureChannel*>& chan
     return bytes;
 }
 
-void writeSession(const driver::SigrokLibrary& library, const std::string& file, const Capture& capture) {
+void writeSession(const SigrokLibrary& library, const std::string& file, const Capture& capture) {
     const auto& context = library.context();
     const auto device = context->create_user_device("Tactoscope", "capture", TACTOSCOPE_VERSION);
     std::vector<const CaptureChannel*> logic, analog;
@@ -53,7 +50,7 @@ void writeSession(const driver::SigrokLibrary& library, const std::string& file,
     }
     const auto output = context->output_formats().at("srzip")->create_output(file, device);
     const auto rate = static_cast<std::uint64_t>(std::llround(capture.rate_hz));
-    (void)output->receive(context->create_meta_packet({{sigrok::ConfigKey::SAMPLERATE, driver::valueOf(rate)}}));
+    (void)output->receive(context->create_meta_packet({{sigrok::ConfigKey::SAMPLERATE, valueOf(rate)}}));
     if (!logic.empty()) {
         const std::size_t unit = (logic.size() + 7) / 8;
         auto bytes = packed(logic, unit);
@@ -70,8 +67,7 @@ void writeSession(const driver::SigrokLibrary& library, const std::string& file,
 
 }  // namespace
 
-Result<void> SigrokFormat::write(const std::filesystem::path& path, const Capture& capture) const {
-    if (auto writable = checkWritable(capture); !writable) return writable;
+Result<void> writeSr(const std::filesystem::path& path, const Capture& capture) {
     const double rate = std::round(capture.rate_hz);
     if (!(rate >= 1 && rate <= 1e15) || std::abs(rate / capture.rate_hz - 1) > 1e-6) {
         return fail(ErrorCode::InvalidArgument, "{}: a .sr holds whole rates from 1 Hz; the capture has {} Hz",
@@ -81,13 +77,12 @@ Result<void> SigrokFormat::write(const std::filesystem::path& path, const Captur
         return fail(ErrorCode::InvalidArgument, "{}: a .sr is written with at most {} samples; the capture has {}",
                     path.string(), kMaxSamples, capture.samples());
     }
-    const auto library = driver::SigrokLibrary::get();
+    const auto library = SigrokLibrary::get();
     if (!library) return failure(library);
     const auto calls = (*library)->calls();
     if (!calls) return failure(calls);
     const std::string part = path.string() + ".part";
-    const auto written =
-        driver::guarded(path.string() + " cannot be written", [&] { writeSession(**library, part, capture); });
+    const auto written = guarded(path.string() + " cannot be written", [&] { writeSession(**library, part, capture); });
     std::error_code error;
     if (written) std::filesystem::rename(part, path, error);
     if (written && !error) return {};
@@ -98,4 +93,4 @@ Result<void> SigrokFormat::write(const std::filesystem::path& path, const Captur
         written ? fmt::format("{} cannot be written: {}", path.string(), error.message()) : written.error().message);
 }
 
-}  // namespace tacto
+}  // namespace tacto::sigrok_driver
