@@ -36,6 +36,8 @@ public:
     [[nodiscard]] QString stopWords() const;
     /// Pause and Resume of the safety bar: a break at once, and its end.
     void pauseSession(bool pause) { pause ? session_->breakNow() : session_->wantBreak(false); }
+    /// Without the path of the session.
+    void showPlotOnly(bool only);
     /// A stop by the participant's keys; false where no session of a person runs.
     bool stopAsParticipant(const char* by) { return session_->stopAsParticipant(by); }
     /// Null while no session runs.
@@ -51,12 +53,14 @@ private:
     void connectSession();
     void connectResult();
     void showPage(Page page);
+    void showPath(Page page);
     void prepareStart(const QString& code);
     void beginRehearsal(bool goOn);
     void beginOfStudy();
     void sayWhereItBegan(const QString& why);
 
     OpenStudy study_;
+    bool plotOnly_ = false;
     bool ofStudy_ = false;  ///< the session that runs, or ran last
     SessionPath* path_;
     QStackedWidget* pages_;
