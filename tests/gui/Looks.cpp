@@ -202,4 +202,25 @@ std::string faultsOf(const QWidget& in) {
     return all.join('\n').toStdString();
 }
 
+std::string widgetName(const QWidget& widget) {
+    return (QString(widget.metaObject()->className()) + " " + widget.objectName() + " \"" + widget.accessibleName() +
+            "\"")
+        .toStdString();
+}
+
+std::string stepsBack(const std::vector<const QWidget*>& order) {
+    std::string back;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        const auto place = [](const QWidget* of) { return QRect(of->mapToGlobal(QPoint(0, 0)), of->size()); };
+        const auto from = place(order[i - 1]);
+        const auto to = place(order[i]);
+        const bool sameColumn = from.left() < to.right() && to.left() < from.right();
+        const bool sameRow = from.top() < to.center().y() && to.center().y() < from.bottom();
+        const bool up = sameColumn && to.bottom() <= from.top();
+        const bool left = sameRow && to.right() <= from.left();
+        if (up || left) back += widgetName(*order[i - 1]) + " -> " + widgetName(*order[i]) + "\n";
+    }
+    return back;
+}
+
 }  // namespace tacto::test

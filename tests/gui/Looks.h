@@ -1,4 +1,5 @@
-// Looks.h - what can be judged of how a window looks: contrast, text that is cut, widgets that overlap.
+// Looks.h - what can be judged of how a window looks: contrast, text that is cut, widgets that overlap, an order
+// of Tab against that of reading.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -7,6 +8,8 @@
 #include <QImage>
 #include <QStringList>
 #include <QWidget>
+#include <string>
+#include <vector>
 
 namespace tacto::test {
 
@@ -24,5 +27,10 @@ namespace tacto::test {
 [[nodiscard]] QStringList overlaps(const QWidget& in);
 /// All three, a line each; empty where the widget looks right.
 [[nodiscard]] std::string faultsOf(const QWidget& in);
+
+/// "QPushButton armButton "Arm"": its class, its name, and its name for those who do not see it.
+[[nodiscard]] std::string widgetName(const QWidget& widget);
+/// Steps of Tab against the direction of reading, a line each: up within a column, or back within a row.
+[[nodiscard]] std::string stepsBack(const std::vector<const QWidget*>& order);
 
 }  // namespace tacto::test

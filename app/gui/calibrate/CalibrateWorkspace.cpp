@@ -1,5 +1,6 @@
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 
+#include <QTabBar>
 #include <QVBoxLayout>
 
 #include "app/gui/calibrate/CalibrationCard.h"
@@ -44,6 +45,12 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     tabs_->addTab(stored_, tr("S&tored calibrations"));
     tabs_->setTabToolTip(2, tr("The state of the calibration today, and everything stored before"));
     column->addWidget(tabs_, 1);
+    for (int page = 0; page < tabs_->count(); ++page) {
+        auto* key = new QShortcut(QKeySequence::mnemonic(tabs_->tabText(page)), this);
+        key->setEnabled(false);  // the tab bar has its own
+        connect(key, &QShortcut::activated, this, [this, page] { tabs_->setCurrentIndex(page); });
+        tabKeys_.push_back(key);
+    }
     for (auto* runner : runners())
         connect(runner, &ProtocolWorkspace::attentionWanted, this, [this, runner] { tabs_->setCurrentWidget(runner); });
     connect(card_, &CalibrationCard::calibrateWanted, this, [this] { prepare("full"); });
@@ -68,6 +75,11 @@ void CalibrateWorkspace::prepare(const QString& mode) {
     tabs_->setCurrentWidget(runner_);
     runner_->set("mode", mode);
     runner_->goTo(kSettings);
+}
+
+void CalibrateWorkspace::showPlotOnly(bool only) {
+    tabs_->tabBar()->setVisible(!only);
+    for (auto* key : tabKeys_) key->setEnabled(only);
 }
 
 void CalibrateWorkspace::showReady() {

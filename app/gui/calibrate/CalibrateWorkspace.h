@@ -4,9 +4,11 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QShortcut>
 #include <QTabWidget>
 #include <QWidget>
 #include <array>
+#include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
 
@@ -23,6 +25,8 @@ public:
     [[nodiscard]] ProtocolWorkspace& runner() noexcept { return *runner_; }
     /// The stimulator's and the sensor's.
     [[nodiscard]] std::array<ProtocolWorkspace*, 2> runners() const noexcept { return {runner_, sensor_}; }
+    /// Without the row of tabs; their keys work.
+    void showPlotOnly(bool only);
 
 private:
     void prepare(const QString& mode);
@@ -34,7 +38,8 @@ private:
     ProtocolWorkspace* runner_;
     ProtocolWorkspace* sensor_;
     CalibrationHistory* history_;
-    QWidget* stored_;  ///< its page, with the card above
+    std::vector<QShortcut*> tabKeys_;  // while the row of tabs is hidden
+    QWidget* stored_;                  ///< its page, with the card above
 };
 
 }  // namespace tacto::gui

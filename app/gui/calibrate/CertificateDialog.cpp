@@ -7,6 +7,8 @@
 #include <QHeaderView>
 #include <QVBoxLayout>
 
+#include "app/gui/theme/DayField.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Text.h"
@@ -27,6 +29,7 @@ enum CertificateColumn {
     kCertificateColumns = kFirstU + 4
 };
 
+constexpr int kWide = 960;
 constexpr int kIndexRole = Qt::UserRole;
 constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
 
@@ -53,7 +56,10 @@ QString figureTitle(const CertificateFigure& figure) {
 CertificateDialog::CertificateDialog(BenchController& controller, QWidget* parent) : QDialog(parent) {
     setObjectName("certificateDialog");
     setWindowTitle(tr("Oscilloscope certificates"));
-    auto* column = new QVBoxLayout(this);
+    auto* page = new ScrollingPage(this);
+    auto* all = new QWidget(page->viewport());
+    auto* column = new QVBoxLayout(all);
+    column->setContentsMargins(0, 0, 0, 0);
     column->addWidget(heading(tr("Calibration certificates of oscilloscopes"), this));
     column->addWidget(
         explanation(tr("The expanded uncertainties U (k = 2) of a certificate are used for captures of the "
@@ -90,17 +96,20 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     row->addStretch(1);
     row->addWidget(withdraw_);
     column->addLayout(row);
-    buildForm();
+    column->addWidget(buildForm());
+    page->hold(all);
+    auto* frame = new QVBoxLayout(this);
+    frame->addWidget(page, 1);
     says_ = new QLabel(this);
     says_->setObjectName("certificateSays");
     says_->setWordWrap(true);
     says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    column->addWidget(says_);
+    frame->addWidget(says_);  // in sight, as the button that it speaks of
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     enter_ = buttons->addButton(tr("&Enter certificate"), QDialogButtonBox::ActionRole);
     enter_->setObjectName("enterCertificate");
     enter_->setToolTip(tr("Saves the certificate. It is used when a bench is opened with this oscilloscope."));
-    column->addWidget(buttons);
+    frame->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(enter_, &QPushButton::clicked, this, &CertificateDialog::enter);
     connect(withdraw_, &QPushButton::clicked, this, &CertificateDialog::withdraw);
@@ -117,7 +126,8 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     }
     list();
     judge();
-    resize(1000, 520);
+    // As high as all of it, where the screen is: below that the page scrolls.
+    resize(scaledPx(kWide), sizeHint().height() - page->sizeHint().height() + all->sizeHint().height());
 }
 
 void CertificateDialog::changeEvent(QEvent* event) {
@@ -125,21 +135,31 @@ void CertificateDialog::changeEvent(QEvent* event) {
     if (event->type() == QEvent::PaletteChange && enter_ != nullptr) list();  // greyed in the new theme's grey
 }
 
-void CertificateDialog::buildForm() {
-    auto* form = new QGridLayout;
+QWidget* CertificateDialog::buildForm() {
+    auto* holder = new QWidget(this);
+    auto* form = new QGridLayout(holder);
+    form->setContentsMargins(0, 0, 0, 0);
     int place = 0;
-    const auto field = [&](const QString& title, const QString& name, const QString& tip) {
-        auto* edit = new QLineEdit(this);
-        edit->setObjectName(name);
-        edit->setAccessibleName(title);
-        edit->setToolTip(tip);
-        auto* label = new QLabel(title, this);
-        label->setBuddy(edit);
+    const auto add = [&](const QString& title, QLineEdit& edit, QWidget& whole, const QString& tip) {
+        edit.setAccessibleName(title);
+        edit.setToolTip(tip);
+        auto* label = new QLabel(title, holder);
+        label->setBuddy(&edit);
         form->addWidget(label, place / 2, 2 * (place % 2));
-        form->addWidget(edit, place / 2, 2 * (place % 2) + 1);
+        form->addWidget(&whole, place / 2, 2 * (place % 2) + 1);
         ++place;
-        connect(edit, &QLineEdit::textChanged, this, &CertificateDialog::judge);
+        connect(&edit, &QLineEdit::textChanged, this, &CertificateDialog::judge);
+    };
+    const auto field = [&](const QString& title, const QString& name, const QString& tip) {
+        auto* edit = new QLineEdit(holder);
+        edit->setObjectName(name);
+        add(title, *edit, *edit, tip);
         return edit;
+    };
+    const auto day = [&](const QString& title, const QString& name, const QString& tip) {
+        auto* whole = new DayField(name, tr("2026-11-21"), holder);
+        add(title, whole->line(), *whole, tip);
+        return &whole->line();
     };
     const std::array tips{tr("Maker and model."), tr("As the instrument reports it. It tells two of a model apart."),
                           tr("As on the certificate."), tr("Who issued it.")};
@@ -147,9 +167,8 @@ void CertificateDialog::buildForm() {
         const auto& text = kCertificateTexts[i];
         texts_[i] = field(titled(qtext(text.title)), qtext(text.key), tips[i]);
     }
-    date_ = field(tr("Date"), "date", tr("Calibration date, for example 2026-11-21."));
-    due_ = field(tr("Due"), "due", tr("The last day on which it is used, for example 2027-11-20."));
-    for (auto* day : {date_, due_}) day->setPlaceholderText("2026-11-21");
+    date_ = day(tr("Date"), "date", tr("Calibration date, for example 2026-11-21."));
+    due_ = day(tr("Due"), "due", tr("The last day on which it is used, for example 2027-11-20."));
     for (std::size_t i = 0; i < figures_.size(); ++i) {
         const auto& figure = kCertificateFigures[i];
         figures_[i] =
@@ -157,7 +176,7 @@ void CertificateDialog::buildForm() {
                   tr("Expanded uncertainty with k = 2, above 0 to %1 %2.").arg(figure.most).arg(qtext(figure.unit)));
         if (!figure.required) figures_[i]->setPlaceholderText(tr("not stated"));
     }
-    static_cast<QVBoxLayout*>(layout())->addLayout(form);
+    return holder;
 }
 
 Result<Certificate> CertificateDialog::written() const {

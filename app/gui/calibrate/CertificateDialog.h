@@ -30,7 +30,7 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
-    void buildForm();
+    [[nodiscard]] QWidget* buildForm();
     /// As written in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<Certificate> written() const;
     void judge();

@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
+#include "app/gui/theme/DayField.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Text.h"
@@ -96,13 +97,16 @@ QWidget* InstrumentDialog::buildForm() {
     kind_->setObjectName("presetKind");
     for (const auto& [word, kind] : kInstrumentKinds) kind_->addItem(kindTitle(kind), int(kind));
     form_->addRow(tr("&Kind"), kind_);
+    const auto addRow = [&](const QString& title, QLineEdit& edit, QWidget& whole, const QString& tip) {
+        edit.setToolTip(tip);
+        edit.setAccessibleName(QString(title).remove('&'));
+        form_->addRow(title, &whole);
+        connect(&edit, &QLineEdit::textChanged, this, &InstrumentDialog::judge);
+    };
     const auto field = [&](const QString& title, const char* name, const QString& tip) {
         auto* edit = new QLineEdit(holder);
         edit->setObjectName(name);
-        edit->setToolTip(tip);
-        edit->setAccessibleName(QString(title).remove('&'));
-        form_->addRow(title, edit);
-        connect(edit, &QLineEdit::textChanged, this, &InstrumentDialog::judge);
+        addRow(title, *edit, *edit, tip);
         return edit;
     };
     name_ =
@@ -114,9 +118,10 @@ QWidget* InstrumentDialog::buildForm() {
     accuracy_ = field(tr("A&ccuracy (± %)"), "presetAccuracy",
                       tr("Gain of an oscilloscope, tolerance of a shunt or probe, 0 to 50 %. Empty: not known."));
     timeBase_ = field(tr("&Time base (± ppm)"), "presetTimeBase", tr("0 to 100000 ppm. Empty: not known."));
-    due_ = field(tr("Certificate &due"), "presetDue",
-                 tr("The last day on which its figures hold, as 2027-03-01. Empty: figures of the data sheet."));
-    due_->setPlaceholderText(tr("data sheet"));
+    auto* due = new DayField("presetDue", tr("data sheet"), holder);
+    due_ = &due->line();
+    addRow(tr("Certificate &due"), *due_, *due,
+           tr("The last day on which its figures hold, as 2027-03-01. Empty: figures of the data sheet."));
     for (auto* edit : {accuracy_, timeBase_}) edit->setPlaceholderText(tr("not known"));
     trouble_ = new QLabel(holder);
     trouble_->setObjectName("presetTrouble");

@@ -12,10 +12,11 @@ namespace tacto::gui {
 // A socket is looked at that often; plugging in is not a thing of milliseconds.
 constexpr std::chrono::milliseconds kWatchInterval(1000);
 
-BenchController::BenchController(MakeRegistry makeRegistry, QObject* parent)
+BenchController::BenchController(MakeRegistry makeRegistry, QObject* parent, std::function<QDate()> today)
     : QObject(parent),
       makeRegistry_(std::move(makeRegistry)),
       watch_(makeRegistry_, kWatchInterval),
+      day_(nullptr, std::move(today)),
       thread_([this] { return serveLive(); }, [this] { closeOnThread(); }) {
     qRegisterMetaType<std::shared_ptr<const Capture>>();
     qRegisterMetaType<std::shared_ptr<const FinishedRun>>();
@@ -50,6 +51,7 @@ bool BenchController::markMoment(Instant at, const QString& word) {
 }
 
 void BenchController::openLive(const LiveOrder& order) {
+    if (day_.asksFirst()) return;
     profile_ = order.profile;
     speed_ = order.speed;
     auto noted = order;

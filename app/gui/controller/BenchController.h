@@ -74,7 +74,8 @@ class BenchController final : public QObject {
     Q_OBJECT
 public:
     using MakeRegistry = std::function<Registry()>;
-    explicit BenchController(MakeRegistry makeRegistry, QObject* parent = nullptr);
+    /// `today` as of DayNotes.
+    explicit BenchController(MakeRegistry makeRegistry, QObject* parent = nullptr, std::function<QDate()> today = {});
     ~BenchController() override;  ///< outputs off, bench closed, thread joined
 
     [[nodiscard]] Activity activity() const noexcept { return activity_; }
@@ -97,6 +98,7 @@ public:
     /// Errors: as Registry::allVirtual().
     [[nodiscard]] Result<bool> allVirtual(const std::vector<DeviceUri>& uris) const;
 
+    /// Not on a new day before its notes were asked for: DayNotes::asksFirst().
     void openLive(const LiveOrder& order);
     void close();
     /// What the operator is shown and confirms before this load is armed: `request.confirmed`. Empty without a bench.

@@ -38,7 +38,7 @@ void store(const char* group, const RunNotes& notes) {
 }  // namespace
 
 DayNotes::DayNotes(QObject* parent, std::function<QDate()> today)
-    : QObject(parent), today_(today ? std::move(today) : [] { return QDate::currentDate(); }) {}
+    : QObject(parent), today_(today ? std::move(today) : [] { return QDate::currentDate(); }), began_(today_()) {}
 
 bool DayNotes::isToday(const char* group) const { return QSettings().value(keyOf(group, "date")).toDate() == today_(); }
 
@@ -53,6 +53,12 @@ void DayNotes::set(const RunNotes& notes) {
 }
 
 bool DayNotes::asked() const { return isToday(kDay); }
+
+bool DayNotes::asksFirst() {
+    if (asked() || today_() == began_) return false;
+    emit wanted();
+    return true;
+}
 
 void DayNotes::noteAsked() {
     if (isToday(kDay)) return;

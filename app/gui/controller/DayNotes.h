@@ -27,6 +27,10 @@ public:
     /// Whether the question was answered or put off today.
     [[nodiscard]] bool asked() const;
     void noteAsked();
+    /// For what puts the day's notes into a session, before it begins. True where the program has been open since
+    /// another day and today was not asked: wanted() asks, and what was ordered is not begun. It is ordered again after
+    /// the answer.
+    [[nodiscard]] bool asksFirst();
     /// As entered on the last day before, to be offered. Empty where nothing is known.
     [[nodiscard]] RunNotes before() const;
     /// "A. Weber · sample S-014"; empty where neither was entered.
@@ -34,11 +38,13 @@ public:
 
 signals:
     void changed();
+    void wanted();  ///< the question, by asksFirst()
 
 private:
     [[nodiscard]] bool isToday(const char* group) const;
     void beginDay();
     const std::function<QDate()> today_;
+    const QDate began_;  // of the program: the question of that day is asked at the start
 };
 
 }  // namespace tacto::gui

@@ -105,7 +105,7 @@ void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry) {
     faulted_ = faulted;
 }
 
-void LiveHistory::addMark(LiveMark mark) {
+void LiveHistory::addMark(PlotMark mark) {
     if (marks_.size() == kMaxMarks) marks_.erase(marks_.begin());
     marks_.push_back(std::move(mark));
 }

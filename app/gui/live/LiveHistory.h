@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "app/gui/theme/MarkLines.h"
 #include "core/base/Stream.h"
 #include "core/bench/BenchTap.h"
 #include "core/bench/Telemetry.h"
@@ -84,12 +85,6 @@ private:
     std::size_t count_ = 0;
 };
 
-/// A moment that the operator marked.
-struct LiveMark {
-    double t_s = 0;
-    std::string word;
-};
-
 class LiveHistory {
 public:
     static constexpr double kKept_s = 60;
@@ -114,8 +109,8 @@ public:
     /// Impedance checks included.
     [[nodiscard]] const TrainRing& trains() const noexcept { return trains_; }
     /// The operator's marks, in the order in which they were made.
-    [[nodiscard]] const std::vector<LiveMark>& marks() const noexcept { return marks_; }
-    void addMark(LiveMark mark);
+    [[nodiscard]] const std::vector<PlotMark>& marks() const noexcept { return marks_; }
+    void addMark(PlotMark mark);
     /// Time of the bench at the last take().
     [[nodiscard]] double now_s() const noexcept { return now_s_; }
     /// When the last fault came, and why; nothing without one since begin().
@@ -133,7 +128,7 @@ private:
     Series frames_;
     Series commands_;
     TrainRing trains_;
-    std::vector<LiveMark> marks_;  // kMaxMarks at most
+    std::vector<PlotMark> marks_;  // kMaxMarks at most
     double now_s_ = 0;
     std::uint64_t missed_ = 0;
     std::optional<Fault> fault_;

@@ -99,12 +99,18 @@ QWidget* LiveWorkspace::buildBench() {
     auto* bench = new QWidget(stack_);
     auto* layout = new QVBoxLayout(bench);
     layout->setContentsMargins(6, 6, 6, 6);
+    staleLine_ = new ElidedLabel(bench);
+    staleLine_->setObjectName("staleLine");
+    setTone(*staleLine_, Tone::Warning);
+    staleLine_->hide();
+    layout->addWidget(staleLine_);
     auto* split = new QSplitter(Qt::Horizontal, bench);
     split->setChildrenCollapsible(false);
     strips_ = new StripPlots(history_, split);
     strips_->setMinimumWidth(fontMetrics().averageCharWidth() * 40);
     split->addWidget(strips_);
-    split->addWidget(buildSide());
+    side_ = buildSide();
+    split->addWidget(side_);
     split->setStretchFactor(0, 1);
     split->setStretchFactor(1, 0);
     layout->addWidget(split, 1);
@@ -258,8 +264,17 @@ void LiveWorkspace::showSide(const Telemetry& telemetry) {
                 .arg(health.text));
     }
     setTone(*health_, health.stale ? Tone::Warning : Tone::Quiet);
+    staleLine_->setVisible(plotOnly_ && health.stale);
+    if (health.stale) staleLine_->setText(tr("⚠ %1").arg(health.text));
     command_->show(telemetry, health.stale);
     showTaxels(health.stale);
+}
+
+void LiveWorkspace::showPlotOnly(bool only) {
+    plotOnly_ = only;
+    side_->setVisible(!only);
+    sinceSide_.invalidate();  // says at the next picture whether the samples are old
+    if (!only) staleLine_->hide();
 }
 
 void LiveWorkspace::showTaxels(bool stale) {

@@ -35,6 +35,8 @@ public:
     void editProfile();
     /// The row of tools above the plots; a page of tabs may take it into its own row.
     [[nodiscard]] QWidget* tools() { return tools_; }
+    /// The strips alone; a line above them says when the sensor's samples are old.
+    void showPlotOnly(bool only);
     [[nodiscard]] const LiveHistory& history() const { return history_; }
     [[nodiscard]] const StripPlots& plots() const { return *strips_; }
 
@@ -74,6 +76,9 @@ private:
     QPushButton* freeze_ = nullptr;
     QWidget* tools_ = nullptr;
     ElidedLabel* health_ = nullptr;
+    ElidedLabel* staleLine_ = nullptr;  // where the tools with health_ are hidden
+    QWidget* side_ = nullptr;
+    bool plotOnly_ = false;
     QElapsedTimer sinceReading_, sincePlane_, sinceSide_;
     std::vector<float> newest_;  // reused
 };

@@ -252,7 +252,10 @@ void StripPlots::shareTime(const QCPRange& time) {
     for (const auto index : {kAcceleration, kForce, kTaxels})
         strips_[index].hatch(shown().samples(streamOf(index)), shown().now_s());
     trains_->draw(shown(), time);
-    marks_.draw(shown().marks(), time);
+    std::vector<QCPAxisRect*> rects;
+    for (const auto& strip : strips_)
+        if (strip.present()) rects.push_back(&strip.axes());
+    marks_.draw(shown().marks(), rects);
     for (auto& strip : strips_) strip.thinTicks();
     markFault(time);
     sharing_ = false;

@@ -13,11 +13,11 @@
 #include <qcustomplot.h>
 
 #include "app/gui/live/LiveHistory.h"
-#include "app/gui/live/MarkLines.h"
 #include "app/gui/live/RollingGraph.h"
 #include "app/gui/live/Spectrogram.h"
 #include "app/gui/live/Strip.h"
 #include "app/gui/live/TrainGraphs.h"
+#include "app/gui/theme/MarkLines.h"
 
 namespace tacto::gui {
 
@@ -84,7 +84,7 @@ private:
     RollingGraph* pressure_ = nullptr;
     std::unique_ptr<Spectrogram> spectrogram_;
     std::unique_ptr<TrainGraphs> trains_;
-    MarkLines marks_{*this, strips_};
+    MarkLines marks_{*this};
     QCPItemText* fault_ = nullptr;  // its cause; owned by the plot
 };
 

@@ -127,11 +127,20 @@ void PilotWorkspace::showPage(Page page) {
         path_->clear();
         path_->setTitle(tr("Pilot sessions"), tr("Can a person tell the four conditions apart?"));
     }
-    for (auto* left : {static_cast<QWidget*>(path_), static_cast<QWidget*>(pathEdge_)})
-        left->setVisible(page == kSession || page == kResult);
+    showPath(page);
     for (auto* right : {static_cast<QWidget*>(side_), static_cast<QWidget*>(sideEdge_)})
         right->setVisible(page == kSession);
     pages_->setCurrentIndex(page);
+}
+
+void PilotWorkspace::showPath(Page page) {
+    for (auto* left : {static_cast<QWidget*>(path_), static_cast<QWidget*>(pathEdge_)})
+        left->setVisible(!plotOnly_ && (page == kSession || page == kResult));
+}
+
+void PilotWorkspace::showPlotOnly(bool only) {
+    plotOnly_ = only;
+    showPath(Page(pages_->currentIndex()));
 }
 
 void PilotWorkspace::prepareStart(const QString& code) {

@@ -37,6 +37,8 @@ public:
     /// Pause and Resume of the safety bar: a break at once, and its end.
     void pauseSession(bool pause) { pause ? session_->breakNow() : session_->wantBreak(false); }
     [[nodiscard]] bool sessionPaused() const { return session_->breakWanted(); }
+    /// Without the path of the session.
+    void showPlotOnly(bool only);
     /// A stop by the participant's keys; false where no session of a person runs.
     bool stopAsParticipant(const char* by) { return session_->stopAsParticipant(by); }
     /// Null while no session runs.
@@ -52,12 +54,14 @@ private:
     void connectSession();
     void connectResult();
     void showPage(Page page);
+    void showPath(Page page);
     void prepareStart(const QString& code);
     void beginRehearsal(bool goOn);
     void beginOfStudy();
     void sayWhereItBegan(const QString& why);
 
     OpenStudy study_;
+    bool plotOnly_ = false;
     bool ofStudy_ = false;  ///< the session that runs, or ran last
     SessionPath* path_;
     QStackedWidget* pages_;

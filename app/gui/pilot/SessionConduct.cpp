@@ -100,6 +100,7 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     if (running_) return tr("A session is running. Wait for its end or stop it (Esc).");
     if (controller_.activity() != Activity::Closed && controller_.activity() != Activity::Live)
         return tr("Another protocol is running. Wait for its end or stop it (Esc).");
+    if (controller_.day().asksFirst()) return tr("A new day: enter operator and sample, then start again.");
     mark_ = controller_.mark();
     start_ = start;
     auto made = order();

@@ -1,18 +1,13 @@
 #include "app/gui/runner/ParameterForm.h"
 
-#include <QCalendarWidget>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDate>
-#include <QHBoxLayout>
 #include <QLineEdit>
-#include <QMenu>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <QWidgetAction>
 
+#include "app/gui/theme/DayField.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/JsonText.h"
 
@@ -91,60 +86,20 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
 }
 
 void ParameterForm::addLine(Field& field) {
-    auto* line = new QLineEdit(plain(field.parameter.value), this);
+    QLineEdit* line = nullptr;
+    if (field.parameter.type == ParameterType::Date) {
+        auto* day = new DayField(QString::fromStdString(field.parameter.name), tr("not stated"), this);
+        field.whole = day;
+        line = &day->line();
+    } else {
+        line = new QLineEdit(this);
+    }
+    line->setText(plain(field.parameter.value));
     connect(line, &QLineEdit::textChanged, this, &ParameterForm::judge);
     field.text = [line] { return line->text(); };
     field.write = [line](const QString& text) { line->setText(text); };
     field.editor = line;
-    if (field.parameter.type == ParameterType::Date) addCalendar(field);
     if (field.parameter.type == ParameterType::File) addFileChooser(field);
-}
-
-namespace {
-
-/// The line with a button that fills it.
-QWidget* withButton(QWidget* line, QToolButton* button, QWidget* parent) {
-    auto* holder = new QWidget(parent);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(4);
-    row->addWidget(line, 1);
-    button->setFocusPolicy(Qt::StrongFocus);
-    row->addWidget(button);
-    return holder;
-}
-
-}  // namespace
-
-void ParameterForm::addCalendar(Field& field) {
-    auto* line = static_cast<QLineEdit*>(field.editor);
-    line->setPlaceholderText(tr("not stated"));
-    line->setClearButtonEnabled(true);
-    auto* button = new QToolButton(this);
-    button->setProperty("role", "opens");
-    button->setIcon(icon("chevron-down"));
-    button->setObjectName("calendar-" + QString::fromStdString(field.parameter.name));
-    button->setAccessibleName(tr("Choose the day"));
-    button->setToolTip(tr("Chooses the day in a calendar."));
-    button->setPopupMode(QToolButton::InstantPopup);
-    auto* menu = new QMenu(button);
-    auto* calendar = new QCalendarWidget(menu);
-    calendar->setVerticalHeaderFormat(QCalendarWidget::NoVerticalHeader);
-    auto* action = new QWidgetAction(menu);
-    action->setDefaultWidget(calendar);
-    menu->addAction(action);
-    button->setMenu(menu);
-    connect(menu, &QMenu::aboutToShow, calendar, [line, calendar] {
-        const auto day = QDate::fromString(line->text().trimmed(), Qt::ISODate);
-        calendar->setSelectedDate(day.isValid() ? day : QDate::currentDate());
-    });
-    const auto take = [line, menu](QDate day) {
-        line->setText(day.toString(Qt::ISODate));
-        menu->close();
-    };
-    connect(calendar, &QCalendarWidget::clicked, line, take);
-    connect(calendar, &QCalendarWidget::activated, line, take);
-    field.whole = withButton(line, button, this);
 }
 
 void ParameterForm::addFileChooser(Field& field) {
@@ -162,7 +117,8 @@ void ParameterForm::addFileChooser(Field& field) {
         question.title = title;
         askForFile(*this, question, [line](const QString& path) { line->setText(path); });
     });
-    field.whole = withButton(line, button, this);
+    field.whole = new QWidget(this);
+    placeInLine(*field.whole, *line, *button);
 }
 
 void ParameterForm::show(const ProtocolDeclaration& declaration) {

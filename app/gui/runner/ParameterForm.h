@@ -55,7 +55,6 @@ private:
     };
     [[nodiscard]] Field makeField(const ProtocolParameter& parameter);
     void addLine(Field& field);
-    void addCalendar(Field& field);
     void addFileChooser(Field& field);
     void addRow(Field& field);
     [[nodiscard]] bool lacks(const Field& field) const;

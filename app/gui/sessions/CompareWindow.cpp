@@ -90,6 +90,8 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     column->addWidget(streams_, 1);
     tabs->addTab(page, tr("&Streams"));
     const bool simulated = sessions_[0]->about.simulated || sessions_[1]->about.simulated;
+    marks_ = std::make_unique<MarkLines>(*streams_);
+    connect(streams_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &CompareWindow::drawMarks);
     for (const auto* plot : {plane_, streams_}) addWatermark(*plot->axisRect())->setVisible(simulated);
     const auto found = differencesOf(*sessions_[0], *sessions_[1]);
     auto* said = new QTextBrowser(tabs);
@@ -217,8 +219,20 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, std::siz
     fitLegend(*streams_);
     streams_->xAxis->setLabel(tr("time from the first sample (s)"));
     streams_->yAxis->setLabel(label);
+    begins_s_ = {a.t_s.front(), b.t_s.front()};
     streams_->rescaleAxes();
+    drawMarks();
     streams_->replot();
+}
+
+/// Of both sessions, each from the first sample of its stream, as the traces are.
+void CompareWindow::drawMarks() {
+    std::vector<PlotMark> marks;
+    for (std::size_t s = 0; s < 2 && streams_->graphCount() > 0; ++s) {
+        for (const auto& [at_s, word] : operatorMarks(*sessions_[s]))
+            marks.push_back({at_s - begins_s_[s], (s == 0 ? tr("first: ") : tr("second: ")).toStdString() + word});
+    }
+    marks_->draw(marks, {streams_->axisRect()});
 }
 
 }  // namespace tacto::gui

@@ -6,10 +6,13 @@
 
 #include <QComboBox>
 #include <QDialog>
+#include <array>
+#include <memory>
 #include <qcustomplot.h>
 
 #include "app/gui/sessions/Background.h"
 #include "app/gui/sessions/ReadSession.h"
+#include "app/gui/theme/MarkLines.h"
 
 namespace tacto::gui {
 
@@ -17,15 +20,20 @@ class CompareWindow final : public QDialog {
     Q_OBJECT
 public:
     CompareWindow(std::shared_ptr<const ReadSession> first, std::shared_ptr<const ReadSession> second, QWidget* parent);
+    /// The operator's marks of both over the stream that is drawn.
+    [[nodiscard]] const MarkLines& marks() const { return *marks_; }
 
 private:
     void drawTrials();
     void drawStream();
+    void drawMarks();
     void overlay(const SampleBlock& a, const SampleBlock& b, std::size_t columns, const QString& label);
     std::shared_ptr<const ReadSession> sessions_[2];
     QCustomPlot* plane_;
     QCustomPlot* streams_;
     QComboBox* stream_;
+    std::array<double, 2> begins_s_{};  // of the streams that are drawn, each on its own time base
+    std::unique_ptr<MarkLines> marks_;
     Background background_;
 };
 

@@ -107,4 +107,11 @@ Result<ReadSession> readSession(const std::filesystem::path& path) {
     return session;
 }
 
+std::vector<PlotMark> operatorMarks(const ReadSession& session) {
+    std::vector<PlotMark> marks;
+    for (const auto& event : session.events)
+        if (event.name == kOperatorMarkEvent) marks.push_back({toSeconds(event.at), textOr(event.body, "text")});
+    return marks;
+}
+
 }  // namespace tacto::gui

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/gui/theme/MarkLines.h"
 #include "app/report/Figure.h"
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
@@ -51,5 +52,7 @@ struct ReadSession {
 };
 /// Errors: as SessionReader.
 [[nodiscard]] Result<ReadSession> readSession(const std::filesystem::path& path);
+/// The operator's marks on the session's time base, in its order.
+[[nodiscard]] std::vector<PlotMark> operatorMarks(const ReadSession& session);
 
 }  // namespace tacto::gui

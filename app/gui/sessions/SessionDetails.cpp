@@ -69,6 +69,9 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     putLegendAbove(*plot_);
     watermark_ = addWatermark(*plot_->axisRect());
     watermark_->setVisible(false);
+    marks_ = std::make_unique<MarkLines>(*plot_);
+    // Dragged and zoomed: a mark's word goes with its moment.
+    connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SessionDetails::drawMarks);
     colour();
     split->addWidget(streams_);
     split->addWidget(plot_);
@@ -94,9 +97,14 @@ void SessionDetails::say(const QString& why) {
     overview_->say(why);
     about_->setHtml("<p>" + why.toHtmlEscaped() + "</p>");
     for (auto* table : {trials_, streams_, captures_}) table->setRowCount(0);
-    plot_->clearGraphs();
-    plot_->replot();
+    clearStream();
     setCurrentIndex(0);
+}
+
+void SessionDetails::clearStream() {
+    plot_->clearGraphs();
+    drawMarks();
+    plot_->replot();
 }
 
 QString SessionDetails::aboutHtml() const {
@@ -189,8 +197,7 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
           {tr("Samples"), "samples", As::Number},
           {tr("Channels"), "channels", As::Number}},
          streams);
-    plot_->clearGraphs();
-    plot_->replot();
+    clearStream();
     fill(*captures_,
          {{tr("Capture"), "number", As::Number},
           {tr("Trial"), "trial", As::Number},
@@ -228,13 +235,20 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
                                ? qtext(info.stream.name)
                                : QString("%1 (%2)").arg(qtext(info.stream.name), qtext(info.stream.unit)));
     plot_->rescaleAxes();
+    drawMarks();
     colour();
     fitLegend(*plot_);
     plot_->replot();
 }
 
+void SessionDetails::drawMarks() {
+    const bool drawn = session_ && plot_->graphCount() > 0;
+    marks_->draw(drawn ? operatorMarks(*session_) : std::vector<PlotMark>{}, {plot_->axisRect()});
+}
+
 void SessionDetails::colour() {
     stylePlot(*plot_);
+    marks_->colour();
     const QColor of[] = {colours().voltage, colours().current, colours().third, colours().amber};
     for (int i = 0; i < plot_->graphCount(); ++i) plot_->graph(i)->setPen(QPen(of[i % 4]));
 }

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] std::optional<std::int64_t> chosenCapture() const;
     /// Draws the samples of a stream, read beside the window.
     void showStream(const SessionStreamInfo& info, const SampleBlock& samples);
+    /// The operator's marks over the stream that is drawn.
+    [[nodiscard]] const MarkLines& marks() const { return *marks_; }
 
 signals:
     void captureActivated(qint64 seq);
@@ -39,6 +41,8 @@ protected:
 
 private:
     [[nodiscard]] QString aboutHtml() const;
+    void clearStream();
+    void drawMarks();
     void colour();
     std::shared_ptr<const ReadSession> session_;
     const ShippedLimits& limits_;
@@ -48,6 +52,7 @@ private:
     QTableWidget* streams_;
     QCustomPlot* plot_;
     QCPItemText* watermark_ = nullptr;
+    std::unique_ptr<MarkLines> marks_;
     QTableWidget* captures_;
 };
 

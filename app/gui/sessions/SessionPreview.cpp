@@ -75,6 +75,7 @@ SessionPreview::SessionPreview(QWidget* parent)
     plane_->setMinimumHeight(fontMetrics().height() * kMinLines);
     sheet_ = new SheetView(stack_);
     course_ = new QCustomPlot(stack_);
+    course_->setObjectName("course");
     course_->setAccessibleName(tr("What was felt and delivered"));
     course_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
     course_->axisRect()->setRangeZoom(Qt::Horizontal);
@@ -83,6 +84,9 @@ SessionPreview::SessionPreview(QWidget* parent)
     putLegendAbove(*course_);
     addPlotMenu(*course_, "session");
     watermark_ = addWatermark(*course_->axisRect());
+    marks_ = std::make_unique<MarkLines>(*course_);
+    // Dragged and zoomed: a mark's word goes with its moment.
+    connect(course_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SessionPreview::drawMarks);
     for (auto* page : std::initializer_list<QWidget*>{nothing_, plane_, sheet_, course_}) stack_->addWidget(page);
     clear();
 }
@@ -124,8 +128,6 @@ void SessionPreview::show(const ReadSession& session) {
 void SessionPreview::drawCourse(const ReadSession& session) {
     const auto& course = session.course;
     course_->clearGraphs();
-    for (auto* mark : marks_) course_->removeItem(mark);
-    marks_.clear();
     watermark_->setVisible(session.about.simulated);
     course_->xAxis->setLabel(tr("time (s)"));
     const bool felt = !course.frame_s.empty();
@@ -142,21 +144,18 @@ void SessionPreview::drawCourse(const ReadSession& session) {
         amplitudes->setLabel(tr("amplitude (%1)").arg(course.unit));
     }
     course_->yAxis2->setVisible(felt && delivered);
-    for (const auto& event : session.events) {
-        if (event.name != kOperatorMarkEvent) continue;
-        auto* line = new QCPItemStraightLine(course_);
-        line->point1->setCoords(toSeconds(event.at), 0);
-        line->point2->setCoords(toSeconds(event.at), 1);
-        marks_.push_back(line);
-    }
     course_->legend->setVisible(course_->graphCount() > 1);
     course_->rescaleAxes();
     if (felt) course_->yAxis->setRange(-0.05, 1.05);
     if (delivered) amplitudes->setRange(0, std::max(1.0, amplitudes->range().upper * 1.15));
     const double end = std::max(toSeconds(session.length), 1e-3);
     course_->xAxis->setRange(0, end);
+    marked_ = operatorMarks(session);
+    drawMarks();
     colour();
 }
+
+void SessionPreview::drawMarks() { marks_->draw(marked_, {course_->axisRect()}); }
 
 void SessionPreview::colour() {
     stylePlot(*course_);
@@ -171,7 +170,7 @@ void SessionPreview::colour() {
                       : i == 0 ? QPen(conditionInTheme("rough-high").color)
                                : QPen(conditionInTheme("smooth-high").color, 1, Qt::DashLine));
     }
-    for (auto* mark : marks_) mark->setPen(QPen(c.text, 1, Qt::DashLine));
+    marks_->colour();
     course_->replot(QCustomPlot::rpQueuedReplot);
 }
 

@@ -10,6 +10,7 @@
 #include <qcustomplot.h>
 
 #include "app/gui/sessions/ReadSession.h"
+#include "app/gui/theme/MarkLines.h"
 #include "app/report/PlotSheet.h"
 
 namespace tacto::gui {
@@ -39,12 +40,15 @@ public:
     void clear();
     /// "Trials in the plane", a figure's caption, ...; empty while nothing is shown.
     [[nodiscard]] QString title() const { return title_->text(); }
+    /// The operator's marks over time, as they are drawn now.
+    [[nodiscard]] const MarkLines& marks() const { return *marks_; }
 
 protected:
     void changeEvent(QEvent* event) override;
 
 private:
     void drawCourse(const ReadSession& session);
+    void drawMarks();
     void colour();
     QLabel* title_;
     QStackedWidget* stack_;
@@ -53,7 +57,8 @@ private:
     SheetView* sheet_;
     QCustomPlot* course_;
     QCPItemText* watermark_ = nullptr;
-    std::vector<QCPItemStraightLine*> marks_;
+    std::vector<PlotMark> marked_;
+    std::unique_ptr<MarkLines> marks_;
 };
 
 }  // namespace tacto::gui

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 using As = RecordColumn::As;
 
-constexpr double kOnePrefix = 1000;  // numbers further apart than this have a prefix each
+constexpr double kOnePrefix = 1e4;  // numbers further apart than this have a prefix each
 constexpr int kHeaderPad = 10;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
 const QString kNone = QStringLiteral("–");

@@ -3,9 +3,11 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QShortcut>
 #include <QStackedWidget>
 #include <QTabBar>
 #include <QWidget>
+#include <vector>
 
 namespace tacto::gui {
 
@@ -17,8 +19,8 @@ public:
     [[nodiscard]] QWidget* room() const { return pages_; }
     /// Takes both; `tools` may be null.
     void addTab(QWidget* page, const QString& title, QWidget* tools = nullptr);
-    /// The row of tabs and tools.
-    void setHeadVisible(bool visible) { head_->setVisible(visible); }
+    /// The row of tabs and tools. The tabs' keys work without it.
+    void setHeadVisible(bool visible);
     void setCurrentIndex(int index) { bar_->setCurrentIndex(index); }
     [[nodiscard]] int currentIndex() const { return bar_->currentIndex(); }
 
@@ -30,6 +32,7 @@ private:
     QTabBar* bar_;
     QStackedWidget* tools_;
     QStackedWidget* pages_;
+    std::vector<QShortcut*> keys_;  // of the tabs, while their row is hidden
 };
 
 }  // namespace tacto::gui

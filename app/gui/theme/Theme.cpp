@@ -200,7 +200,8 @@ protected:
 
 QCPItemText* addWatermark(QCPAxisRect& axes) {
     auto* plot = axes.parentPlot();
-    if (plot->layer("watermark") == nullptr) plot->addLayer("watermark", plot->layer("grid"), QCustomPlot::limAbove);
+    // In front of the data, where they are dense too; it is too faint to cover any.
+    if (plot->layer("watermark") == nullptr) plot->addLayer("watermark", plot->layer("main"), QCustomPlot::limAbove);
     auto* item = new Watermark(plot);
     item->setObjectName("watermark");
     item->setLayer("watermark");

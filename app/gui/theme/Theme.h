@@ -69,7 +69,8 @@ constexpr double kDisplayText = 28 / 10.5;
 void styleAxis(QCPAxis& axis);
 void stylePlot(QCustomPlot& plot);
 
-/// "SIMULATED" across an axis rect, behind the data. Returns the item, to be hidden where nothing is simulated.
+/// "SIMULATED" across an axis rect, in front of the data and too faint to cover any. Returns the item, to be hidden
+/// where nothing is simulated.
 QCPItemText* addWatermark(QCPAxisRect& axes);
 
 /// "just now", "2 s ago", "3 min ago"; "–" for NaN.

@@ -77,7 +77,8 @@ enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, k
 
 }  // namespace
 
-MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages) : controller_(std::move(makeRegistry)) {
+MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, std::function<QDate()> today)
+    : controller_(std::move(makeRegistry), nullptr, std::move(today)) {
     setWindowTitle(tr("Tactoscope"));
     setAcceptDrops(true);
     setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // animated, they stop where another move cuts in
@@ -135,6 +136,10 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages) 
     auto* day = new DayButton(controller_.day(), menuBar());
     connect(day, &QToolButton::clicked, this, [this] { askForDay(false); });
     menuBar()->setCornerWidget(day, Qt::TopRightCorner);
+    connect(&controller_.day(), &DayNotes::wanted, this, [this] {
+        askForDay(true);
+        line_->say(tr("A new day: enter operator and sample, then start again."));
+    });
     tour_ = new WelcomeTour(*this);
     arming_ = new ArmQuestion(controller_, *this);
     connect(arming_, &ArmQuestion::refused, banner_, &NoticeBanner::complain);
@@ -279,6 +284,7 @@ void MainWindow::focusWorkspace() {
         if (!page->isAncestorOf(next) || takesText || !next->isVisible() || !next->isEnabled()) continue;
         if ((next->focusPolicy() & Qt::TabFocus) != 0) return next->setFocus(Qt::ShortcutFocusReason);
     }
+    pages_->currentWidget()->setFocus(Qt::ShortcutFocusReason);  // nothing but text: the page itself
 }
 
 void MainWindow::showPlotOnly(bool only) {
@@ -287,6 +293,9 @@ void MainWindow::showPlotOnly(bool only) {
     statusBar()->setVisible(!only);
     menuBar()->setVisible(!only);
     for (auto* page : findChildren<TabbedPage*>()) page->setHeadVisible(!only);
+    calibrate_->showPlotOnly(only);
+    pilot_->showPlotOnly(only);
+    live_->showPlotOnly(only);
     for (auto* runner : runners()) runner->showPlotOnly(only);
     docks_->setHidden(DockColumn::Hidden::PlotOnly, only);
     // What had the keys may be hidden: Space must stop.

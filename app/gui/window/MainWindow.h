@@ -45,7 +45,9 @@ class MainWindow final : public QMainWindow {
 public:
     /// When all workspaces but Live are made: they take as long as all the rest of the start.
     enum class Pages { AtOnce, AfterTheFirstPicture };
-    explicit MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages = Pages::AtOnce);
+    /// `today` as of DayNotes.
+    explicit MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages = Pages::AtOnce,
+                        std::function<QDate()> today = {});
     ~MainWindow() override;
 
     [[nodiscard]] SafetyBar& safetyBar() { return *safety_; }

@@ -3,29 +3,16 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QTemporaryDir>
 #include <chrono>
 #include <filesystem>
 #include <gtest/gtest.h>
 
 #include "core/calibration/CalibrationStore.h"
+#include "tests/gui/OwnDataHome.h"
 #include "tests/gui/Person.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
-
-/// $XDG_DATA_HOME is a folder of its own while it lives.
-class OwnDataHome {
-public:
-    OwnDataHome() : before_(qgetenv("XDG_DATA_HOME")) { qputenv("XDG_DATA_HOME", folder_.path().toUtf8()); }
-    ~OwnDataHome() { qputenv("XDG_DATA_HOME", before_); }
-    OwnDataHome(const OwnDataHome&) = delete;
-    OwnDataHome& operator=(const OwnDataHome&) = delete;
-
-private:
-    const QByteArray before_;
-    const QTemporaryDir folder_;
-};
 
 inline CalibrationDate daysFromNow(int days) {
     return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()) + std::chrono::days(days);

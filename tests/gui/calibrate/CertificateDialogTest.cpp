@@ -1,13 +1,21 @@
 // The certificates of oscilloscopes in the window: entered, refused in place, expired ones shown as such, withdrawn.
+#include <QAbstractItemView>
+#include <QCalendarWidget>
 #include <QLineEdit>
+#include <QMenu>
+#include <QScrollBar>
 #include <QTableWidget>
 #include <QTest>
+#include <QTimer>
+#include <QToolButton>
 #include <gmock/gmock.h>
 
 #include "app/gui/calibrate/CertificateDialog.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -61,6 +69,73 @@ TEST_F(CertificateWindow, EntersWhatIsComplete) {
     ASSERT_EQ(table().rowCount(), 1);
     EXPECT_THAT(table().item(0, 0)->text().toStdString(), HasSubstr("in use"));
     EXPECT_FALSE(enter().isEnabled());  // the next one has another number
+}
+
+TEST_F(CertificateWindow, TakesItsDaysFromACalendar) {
+    showDialog();
+    writeAll("4711", -10, 355);
+    for (const auto* field : {"date", "due"}) {
+        auto* button = dialog->findChild<QToolButton*>(QString("calendar-%1").arg(field));
+        ASSERT_NE(button, nullptr) << field;
+        emit button->menu()->aboutToShow();
+        auto* calendar = button->menu()->findChild<QCalendarWidget*>();
+        ASSERT_NE(calendar, nullptr);
+        auto* line = dialog->findChild<QLineEdit*>(field);
+        EXPECT_EQ(calendar->selectedDate(), QDate::fromString(line->text(), Qt::ISODate))
+            << "begins at what stands there";
+        emit calendar->clicked(calendar->selectedDate().addDays(-1));
+    }
+    ASSERT_TRUE(enter().isEnabled()) << says();
+    click(enter());
+    EXPECT_EQ(kept().all().at(0).certificate.date, daysFromNow(-11));
+    EXPECT_EQ(kept().all().at(0).certificate.due, daysFromNow(354));
+}
+
+TEST_F(CertificateWindow, AltDownInADayOpensItsCalendarAndReturnTakesTheDay) {
+    showDialog();
+    writeAll("4711", -10, 355);
+    auto* due = dialog->findChild<QLineEdit*>("due");
+    due->setFocus();
+    QTest::keyClick(due, Qt::Key_Down, Qt::AltModifier);
+    auto* menu = dialog->findChild<QToolButton*>("calendar-due")->menu();
+    QTimer::singleShot(500, menu, [menu] {
+        EXPECT_TRUE(menu->isVisible());
+        auto* view = menu->findChild<QAbstractItemView*>();
+        QTest::keyClick(view, Qt::Key_Right);
+        QTest::keyClick(view, Qt::Key_Return);
+    });
+    EXPECT_IN_TIME(comesTrue([&] { return due->text() == QString::fromStdString(dateText(daysFromNow(356))); }))
+        << due->text().toStdString();
+    EXPECT_FALSE(menu->isVisible());
+}
+
+TEST_F(CertificateWindow, FitsASmallScreenWithLargeTextByScrolling) {
+    auto store = kept();
+    ASSERT_TRUE(store.add(
+        {"Rigol DS1054Z", "DS1ZA1", "K-2026-18", "DAkkS Lab", daysFromNow(-10), daysFromNow(355), 0.5, 2.0, 0.1, 1.0},
+        daysFromNow(0)));
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        showDialog();
+        writeAll("K-2026-19", -1, 364);
+        dialog->resize(QSize(1270, percent == 200 ? 500 : 580).boundedTo(dialog->size()));  // below the safety bar
+        QTest::qWait(50);
+        EXPECT_LE(dialog->width(), 1270) << percent;
+        EXPECT_LE(dialog->height(), percent == 200 ? 500 : 580) << percent;
+        auto* page = dialog->findChild<gui::ScrollingPage*>();
+        EXPECT_EQ(page->horizontalScrollBar()->maximum(), 0) << percent << ": from top to bottom only";
+        shot(*dialog, QString("certificates-1280-%1").arg(percent));
+        for (auto* edit : dialog->findChildren<QLineEdit*>()) {
+            if (edit->window() != dialog.get()) continue;  // a calendar's own
+            edit->setFocus(Qt::TabFocusReason);
+            page->ensureWidgetVisible(edit);
+            EXPECT_EQ(edit->visibleRegion().boundingRect().size(), edit->size()) << edit->objectName().toStdString();
+        }
+        EXPECT_EQ(faultsOf(*dialog), "") << percent;
+        EXPECT_TRUE(enter().isVisible() &&
+                    dialog->rect().contains(enter().mapTo(dialog.get(), enter().rect().center())));
+    }
+    gui::applyTextSize(100);
 }
 
 TEST_F(CertificateWindow, RefusesInPlace) {

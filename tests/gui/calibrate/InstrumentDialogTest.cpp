@@ -1,6 +1,9 @@
 // Instruments by name: saved once, chosen in place; an expired one says so and is not used.
+#include <QCalendarWidget>
 #include <QLineEdit>
+#include <QMenu>
 #include <QTest>
+#include <QToolButton>
 #include <gmock/gmock.h>
 
 #include "app/gui/calibrate/InstrumentDialog.h"
@@ -58,6 +61,21 @@ TEST_F(InstrumentWindow, SavesOnceAndChoosesInPlace) {
     the<QComboBox>("oscilloscope").setCurrentIndex(1);
     click(the<QPushButton>("useInstruments"));
     EXPECT_EQ(used, "sigrok:rigol-ds:conn=x?gain_pct=2");
+}
+
+TEST_F(InstrumentWindow, TakesTheDayOfItsCertificateFromACalendar) {
+    showDialog();
+    the<QComboBox>("presetKind").setCurrentIndex(1);
+    write("presetName", "R50");
+    write("presetOhms", "50");
+    auto* menu = the<QToolButton>("calendar-presetDue").menu();
+    emit menu->aboutToShow();
+    emit menu->findChild<QCalendarWidget*>()->clicked(QDate::currentDate().addDays(30));
+    EXPECT_EQ(the<QLineEdit>("presetDue").text(), QDate::currentDate().addDays(30).toString(Qt::ISODate));
+    click(the<QPushButton>("savePreset"));
+    const auto all = InstrumentPresets::open(instrumentFile()).value().all();
+    ASSERT_EQ(all.size(), 1U) << says("presetTrouble");
+    EXPECT_EQ(dateText(*all[0].due), QDate::currentDate().addDays(30).toString(Qt::ISODate).toStdString());
 }
 
 TEST_F(InstrumentWindow, AnExpiredOneSaysSoAndIsNotUsed) {

@@ -186,5 +186,33 @@ TEST_F(SessionStart, LooksRightInBothThemesAndSizes) {
     }
 }
 
+TEST_F(SessionStart, TabGoesThroughItInTheOrderOfReading) {
+    prepare({});
+    answer("-no");
+    page.activateWindow();
+    ASSERT_IN_TIME(comesTrue([this] { return page.isActiveWindow(); }));
+    std::vector<const QWidget*> order;
+    for (auto* at = static_cast<QWidget*>(&begin()); order.empty() || at != &begin();
+         at = QApplication::focusWidget()) {
+        ASSERT_NE(at, nullptr);
+        ASSERT_LT(order.size(), 100U) << "Tab does not come round";
+        at->setFocus(Qt::TabFocusReason);
+        order.push_back(at);
+        QTest::keyClick(at, Qt::Key_Tab);
+    }
+    // From the top: Tab came round at the last control.
+    const auto top =
+        std::ranges::min_element(order, {}, [](const QWidget* at) { return at->mapToGlobal(QPoint()).y(); });
+    std::ranges::rotate(order, top);
+    EXPECT_EQ(stepsBack(order), "");
+    for (const auto* control : page.findChildren<QWidget*>()) {
+        const bool works = qobject_cast<const QAbstractButton*>(control) || qobject_cast<const QComboBox*>(control);
+        if (!works || !control->isVisible() || !control->isEnabled() || (control->focusPolicy() & Qt::TabFocus) == 0 ||
+            (qobject_cast<const QRadioButton*>(control) && !qobject_cast<const QRadioButton*>(control)->isChecked()))
+            continue;
+        EXPECT_TRUE(std::ranges::find(order, control) != order.end()) << widgetName(*control);
+    }
+}
+
 }  // namespace
 }  // namespace tacto::test

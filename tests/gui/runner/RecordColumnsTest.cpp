@@ -23,11 +23,19 @@ TEST(RecordColumns, PutsTheUnitIntoTheHeaderWithAPrefixThatSuitsAllRows) {
 }
 
 TEST(RecordColumns, GivesNumbersThatAreFarApartAPrefixEach) {
-    const Json rows = {{{"ohm", 100}}, {{"ohm", 1e6}}};
+    const Json rows = {{{"ohm", 100}}, {{"ohm", 1.1e6}}};
     const auto text = columnText({"Load", "ohm", As::Number, "ohm"}, rows);
     EXPECT_EQ(text.header, "Load");
     EXPECT_THAT(text.cells[0].toStdString(), HasSubstr("Ω"));
     EXPECT_THAT(text.cells[1].toStdString(), HasSubstr("MΩ"));
+}
+
+TEST(RecordColumns, HasOnePrefixInAColumnUpToAFactorOfTenThousand) {
+    const Json rows = {{{"v", 40.12}}, {{"v", 0.0125}}, {{"v", 0.3}}};
+    const auto text = columnText({"Level", "v", As::Number, "V"}, rows);
+    EXPECT_EQ(text.header, "Level\n(V)");
+    for (const auto& cell : text.cells) EXPECT_FALSE(cell.contains("V")) << cell.toStdString();
+    EXPECT_EQ(text.cells[1], "0.0125");
 }
 
 TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {

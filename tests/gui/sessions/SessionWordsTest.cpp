@@ -118,10 +118,19 @@ TEST_F(Words, APreviewIsTheMainPlot) {
     gui::ReadSession live;
     live.course = {{0, 1, 2}, {0.1, 0.2, 0.3}, {0.5, 0.5, 0.5}, {0.5, 1.5}, {10, 20}, "V"};
     live.length = toInstant(2.0);
+    live.events.push_back({1, toInstant(0.7), kOperatorMarkEvent, {{"text", "table bumped"}}});
+    live.events.push_back({2, toInstant(0.8), "refused", {{"text", "no mark"}}});
+    live.events.push_back({3, toInstant(1.2), kOperatorMarkEvent, {{"text", "lead off"}}});
     preview.QWidget::show();
     preview.show(live);
     EXPECT_EQ(preview.title(), "What was felt, and the trains that were delivered");
+    EXPECT_EQ(preview.marks().words(), (QStringList{"table bumped", "lead off"}));
     shot(preview, "preview-live");
+    preview.findChild<QCustomPlot*>("course")->xAxis->setRange(1, 2);
+    EXPECT_EQ(preview.marks().words(), QStringList{"lead off"}) << "of the time that is shown";
+    live.events.clear();
+    preview.show(live);
+    EXPECT_EQ(preview.marks().words(), QStringList());
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ protected:
         for (const auto& made : made_) std::filesystem::remove(made);
     }
     /// The session of a simulated bench that ran for so long.
-    std::filesystem::path record(const std::vector<const char*>& uris, int seconds) {
+    std::filesystem::path record(const std::vector<const char*>& uris, int seconds, const QString& mark = {}) {
         gui::LiveOrder order;
         for (const auto* uri : uris) order.uris.push_back(*DeviceUri::parse(uri));
         order.profile = controller.profile();
@@ -52,6 +52,9 @@ protected:
         EXPECT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Live; }));
         made_.push_back(controller.open()->session);
         EXPECT_IN_TIME(comesTrue([&] { return controller.telemetry().at > std::chrono::seconds(seconds); }));
+        if (!mark.isEmpty()) {
+            EXPECT_TRUE(controller.markMoment(controller.telemetry().at, mark));
+        }
         controller.close();
         EXPECT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Closed; }));
         return made_.back();
@@ -217,7 +220,7 @@ TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
 }
 
 TEST_F(Recorded, TwoAreComparedOverEachOther) {
-    (void)record({"sim:stimulator?gain=1.05", "sim:"}, 3);
+    (void)record({"sim:stimulator?gain=1.05", "sim:"}, 3, "lead off");
     gui::SessionsWorkspace workspace(controller);
     workspace.resize(1200, 700);
     workspace.show();
@@ -251,11 +254,15 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
     };
     EXPECT_IN_TIME(comesTrue(drawn)) << "a stream of both, over each other";
     for (const auto* plot : both->findChildren<QCustomPlot*>()) EXPECT_TRUE(saysSimulated(*plot));
+    EXPECT_IN_TIME(comesTrue([&] { return both->marks().words().size() == 1; }));
+    EXPECT_THAT(both->marks().words().join(" ").toStdString(), testing::EndsWith(": lead off"))
+        << "and of which of both";
     both->close();
 }
 
 TEST_F(Recorded, AStreamOfASimulatedSessionSaysSoAndNamesItsTraces) {
     RecordProperty("hazard", "H9");
+    session = record({"sim:"}, 2, "table bumped");
     gui::SessionsWorkspace workspace(controller);
     workspace.resize(1200, 700);
     workspace.show();
@@ -270,6 +277,7 @@ TEST_F(Recorded, AStreamOfASimulatedSessionSaysSoAndNamesItsTraces) {
         ASSERT_IN_TIME(comesTrue([&] { return plot->graphCount() > 0; }));
         EXPECT_TRUE(saysSimulated(*plot));
         EXPECT_EQ(plot->legend->visible(), plot->graphCount() > 1);
+        EXPECT_EQ(details->marks().words(), QStringList{"table bumped"}) << "row " << row;
     }
     shot(workspace, "sessions-stream");
 }

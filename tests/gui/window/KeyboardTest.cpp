@@ -15,6 +15,7 @@
 #include <set>
 
 #include "app/gui/runner/ProtocolWorkspace.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 
@@ -22,12 +23,6 @@ namespace tacto::test {
 namespace {
 
 constexpr int kWorkspaces = 7;
-
-std::string nameOf(const QWidget& widget) {
-    return (QString(widget.metaObject()->className()) + " " + widget.objectName() + " \"" + widget.accessibleName() +
-            "\"")
-        .toStdString();
-}
 
 /// What a person works: buttons and fields that Tab should reach by themselves. Of radio buttons the group is reached;
 /// a box's own field has its focus.
@@ -59,15 +54,15 @@ protected:
         for (int i = 0; i < kMostPresses; ++i) {
             auto* at = QApplication::focusWidget();
             if (at == nullptr) {
-                ADD_FAILURE() << "Tab leads nowhere from " << (before != nullptr ? nameOf(*before) : "the start");
+                ADD_FAILURE() << "Tab leads nowhere from " << (before != nullptr ? widgetName(*before) : "the start");
                 return reached;
             }
             const bool amongLinks = at == before && qobject_cast<QTextBrowser*>(at) != nullptr;
             if (!amongLinks && !reached.insert(at).second) {
-                EXPECT_EQ(at, &first) << "Tab does not leave " << nameOf(*at);
+                EXPECT_EQ(at, &first) << "Tab does not leave " << widgetName(*at);
                 return reached;
             }
-            EXPECT_TRUE(at->isVisible() && at->isEnabled()) << nameOf(*at);
+            EXPECT_TRUE(at->isVisible() && at->isEnabled()) << widgetName(*at);
             if (!amongLinks) look(*at);
             before = at;
             QTest::keyClick(at, Qt::Key_Tab);
@@ -76,7 +71,7 @@ protected:
         return reached;
     }
     static void expectAllReached(const QWidget& in, const std::set<const QWidget*>& reached) {
-        for (const auto* control : controlsOf(in)) EXPECT_TRUE(reached.contains(control)) << nameOf(*control);
+        for (const auto* control : controlsOf(in)) EXPECT_TRUE(reached.contains(control)) << widgetName(*control);
     }
     /// QTest takes a dialog for active where its parent is.
     static void activate(QWidget& top) {
@@ -114,22 +109,6 @@ TEST_F(Keyboard, TabReachesEveryControlOfEveryWorkspaceAndComesRound) {
         show(workspace);
         expectAllReached(window, tabFrom(stopButton()));
     }
-}
-
-/// Steps of Tab against the direction of reading: up within a column, or back within a row.
-std::string stepsBack(const std::vector<const QWidget*>& order) {
-    std::string back;
-    for (std::size_t i = 1; i < order.size(); ++i) {
-        const auto place = [](const QWidget* of) { return QRect(of->mapToGlobal(QPoint(0, 0)), of->size()); };
-        const auto from = place(order[i - 1]);
-        const auto to = place(order[i]);
-        const bool sameColumn = from.left() < to.right() && to.left() < from.right();
-        const bool sameRow = from.top() < to.center().y() && to.center().y() < from.bottom();
-        const bool up = sameColumn && to.bottom() <= from.top();
-        const bool left = sameRow && to.right() <= from.left();
-        if (up || left) back += nameOf(*order[i - 1]) + " -> " + nameOf(*order[i]) + "\n";
-    }
-    return back;
 }
 
 TEST_F(Keyboard, TabGoesThroughEachWorkspaceInTheOrderOfReading) {
@@ -227,7 +206,7 @@ TEST_F(Keyboard, TheFocusIsSeen) {
         const auto controls = controlsOf(window);
         tabFrom(stopButton(), [&](QWidget& at) {
             if (before != nullptr) {
-                EXPECT_NE(window.grab(around(*before)).toImage(), focused) << nameOf(*before);
+                EXPECT_NE(window.grab(around(*before)).toImage(), focused) << widgetName(*before);
                 ++seen;
             }
             before = nullptr;
@@ -275,7 +254,7 @@ TEST_F(Keyboard, F1ExplainsWhateverHasTheFocus) {
             key(Qt::Key_F1);
             const auto shown = pictureOf();
             QWhatsThis::showText(window.mapToGlobal(QPoint(50, 50)), words, at);
-            EXPECT_EQ(shown, pictureOf()) << nameOf(*at) << " should say \"" << words.toStdString() << '"';
+            EXPECT_EQ(shown, pictureOf()) << widgetName(*at) << " should say \"" << words.toStdString() << '"';
             ++explained;
         }
     }
@@ -292,7 +271,7 @@ TEST_F(Keyboard, WhateverTabReachesSaysWhatItIs) {
             const QWidget* says = &at;
             while (says != nullptr && says->toolTip().isEmpty() && says->whatsThis().isEmpty())
                 says = says->parentWidget();
-            EXPECT_NE(says, nullptr) << nameOf(at) << ": F1 says that nothing has the focus";
+            EXPECT_NE(says, nullptr) << widgetName(at) << ": F1 says that nothing has the focus";
         });
     }
 }

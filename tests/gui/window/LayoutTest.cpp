@@ -6,6 +6,7 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTabWidget>
 #include <QToolBar>
 #include <QToolButton>
 #include <gmock/gmock.h>
@@ -18,6 +19,7 @@
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/DockColumn.h"
 #include "app/gui/window/FoldingDock.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 
@@ -30,6 +32,10 @@ class Layout : public Window {
 protected:
     ~Layout() override { QSettings().clear(); }
     gui::FoldingDock& dock(const char* name) { return *window.findChild<gui::FoldingDock*>(name); }
+    /// The workspace that is shown.
+    [[nodiscard]] QWidget& page() {
+        return *window.findChild<QWidget*>("centre")->findChild<QStackedWidget*>()->currentWidget();
+    }
     QToolBar& bar(const char* name) { return *window.findChild<QToolBar*>(name); }
     /// The plot's share of the whole window, with what is written around the plot.
     double shareOf(const QWidget& plot) const {
@@ -69,13 +75,14 @@ TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     EXPECT_TRUE(stop->isVisible());
     EXPECT_TRUE(window.findChild<QLabel*>("interlockState")->isVisible());
     key(Qt::Key_3, Qt::ControlModifier);
-    auto* check = window.findChild<QStackedWidget*>()->currentWidget();
-    EXPECT_IN_TIME(comesTrue([&] { return check->isVisible(); })) << "the menus' keys work without their bar";
-    const auto* path = check->findChild<QWidget*>("path");
-    const auto* obstacle = check->findChild<QWidget*>("runObstacle");
-    ASSERT_NE(path, nullptr);
-    EXPECT_IN_TIME(comesTrue([&] { return path->isVisible() == !obstacle->isHidden(); }))
-        << "a path only for what is in the way of the run";
+    const auto* path = page().findChild<QWidget*>("path");
+    EXPECT_IN_TIME(comesTrue([&] { return path->isVisible(); })) << "it says what is in the way of the run";
+    EXPECT_TRUE(page().findChild<QWidget*>("runObstacle")->isVisible());
+    key(Qt::Key_4, Qt::ControlModifier);
+    const auto* run = page().findChild<QPushButton*>("runButton");
+    const auto* free = page().findChild<QWidget*>("path");
+    ASSERT_IN_TIME(comesTrue([&] { return run->isEnabled(); }));
+    EXPECT_IN_TIME(comesTrue([&] { return !free->isVisible(); })) << "nothing is in the way";
     window.showWorkspace(5);
     EXPECT_FALSE(bar("dockStrip").isVisible()) << "also in another workspace";
     key(Qt::Key_F11);
@@ -84,7 +91,97 @@ TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     EXPECT_TRUE(window.menuBar()->isVisible());
     window.showWorkspace(2);
     EXPECT_TRUE(path->isVisible());
+    window.showWorkspace(3);
+    EXPECT_TRUE(free->isVisible());
     window.showWorkspace(0);  // the next window begins where this one was
+}
+
+TEST_F(Layout, F11HidesTheTabsAndTheirKeysStay) {
+    open();
+    key(Qt::Key_F11);
+    auto& live = *window.findChild<gui::TabbedPage*>("livePage");
+    key(Qt::Key_O, Qt::AltModifier);
+    EXPECT_EQ(live.currentIndex(), 1);
+    EXPECT_TRUE(window.findChild<gui::ScopeScreen*>()->isVisible());
+    key(Qt::Key_T, Qt::AltModifier);
+    EXPECT_EQ(live.currentIndex(), 0);
+    EXPECT_FALSE(window.findChild<QWidget*>("commandWords")->isVisible()) << "the strips alone";
+    window.showWorkspace(1);
+    auto& calibrate = *window.findChild<QTabWidget*>("calibratePages");
+    EXPECT_FALSE(calibrate.tabBar()->isVisible());
+    key(Qt::Key_N, Qt::AltModifier);
+    EXPECT_EQ(calibrate.currentIndex(), 1);
+    QTest::qWait(50);
+    EXPECT_EQ(calibrate.currentWidget()->mapTo(&calibrate, QPoint(0, 0)).y(), 0) << "its page has the room";
+    key(Qt::Key_G, Qt::AltModifier);
+    EXPECT_EQ(calibrate.currentIndex(), 0);
+    shot(window, "plot-only-calibrate");
+    key(Qt::Key_F11);
+    EXPECT_TRUE(calibrate.tabBar()->isVisible());
+    key(Qt::Key_T, Qt::AltModifier);
+    EXPECT_EQ(calibrate.currentIndex(), 2) << "by the tab bar's own keys again";
+    key(Qt::Key_G, Qt::AltModifier);
+    window.showWorkspace(0);
+    EXPECT_TRUE(window.findChild<QWidget*>("commandWords")->isVisible());
+    key(Qt::Key_O, Qt::AltModifier);
+    EXPECT_EQ(live.currentIndex(), 1);
+    key(Qt::Key_T, Qt::AltModifier);
+}
+
+TEST_F(Layout, WithThePlotAloneOldSamplesAreStillSaid) {
+    RecordProperty("hazard", "H7");
+    gui::LiveOrder order;
+    order.uris.push_back(*DeviceUri::parse("sim:finger?fault=unplug@2s"));
+    order.uris.push_back(*DeviceUri::parse("sim:"));
+    order.profile = window.controller().profile();
+    window.controller().openLive(order);
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
+    key(Qt::Key_F11);
+    const auto* line = window.findChild<QLabel*>("staleLine");
+    EXPECT_FALSE(line->isVisible()) << "fresh samples need no line";
+    ASSERT_IN_TIME(comesTrue([&] { return line->isVisible(); }));
+    EXPECT_THAT(line->text().toStdString(), HasSubstr("Old: the newest sample is"));
+    EXPECT_EQ(line->visibleRegion().boundingRect().size(), line->size());
+    shot(window, "plot-only-stale");
+    key(Qt::Key_F11);
+    EXPECT_FALSE(line->isVisible()) << "the tools say it";
+    EXPECT_TRUE(window.findChild<QLabel*>("sensorHealth")->isVisible());
+}
+
+TEST_F(Layout, WithThePlotAloneASessionOfAPilotHasNoPath) {
+    window.showWorkspace(4);
+    auto* begin = window.findChild<QPushButton*>("beginRehearsal");
+    ASSERT_IN_TIME(comesTrue([&] { return begin->isVisible() && begin->isEnabled(); }));
+    click(*begin);
+    const auto* path = page().findChild<QWidget*>("path");
+    ASSERT_IN_TIME(comesTrue([&] { return path->isVisible(); }));
+    key(Qt::Key_F11);
+    EXPECT_FALSE(path->isVisible());
+    shot(window, "plot-only-pilot");
+    EXPECT_TRUE(window.findChild<QPushButton*>("stopButton")->isVisible());
+    window.controller().stop("the test");
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }, 60'000));
+    QTest::qWait(100);
+    EXPECT_FALSE(path->isVisible()) << "nor has its result";
+    key(Qt::Key_F11);
+    EXPECT_TRUE(path->isVisible());
+    window.showWorkspace(0);
+}
+
+TEST_F(Layout, AClickInTheRailGivesTheKeysToTheWorkspace) {
+    RecordProperty("hazard", "H2");
+    for (const bool opened : {false, true}) {
+        if (opened) open();
+        for (auto* button : bar("workspaces").findChildren<QToolButton*>("workspaceButton")) {
+            const auto name = button->accessibleName().toStdString();
+            window.findChild<QPushButton*>("stopButton")->setFocus();
+            click(*button);
+            const auto* at = QApplication::focusWidget();
+            ASSERT_NE(at, nullptr) << name;
+            EXPECT_TRUE(page().isAncestorOf(at) || at == &page()) << name << ": " << widgetName(*at);
+            EXPECT_FALSE(qobject_cast<const QLineEdit*>(at) || qobject_cast<const QAbstractSpinBox*>(at)) << name;
+        }
+    }
 }
 
 TEST_F(Layout, WhatABlindSessionHidesNoKeyAndNoMenuBringsBack) {

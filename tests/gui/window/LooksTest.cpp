@@ -18,6 +18,7 @@
 #include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/LimitBar.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/OwnDataHome.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
@@ -131,7 +132,10 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
     EXPECT_IN_TIME(state() == InterlockState::Delivering);
 }
 
-TEST_F(Window, NothingIsRedButStop) {
+/// Its list of sessions is empty: the word of one that ended in a fault is red by right.
+class WindowWithoutSessions : private OwnDataHome, public Window {};
+
+TEST_F(WindowWithoutSessions, NothingIsRedButStop) {
     open();
     arm();
     deliver();

@@ -206,6 +206,92 @@ TEST_F(Marks, OperatorAndSampleOfTheDayStandInEverySessionAndAreShown) {
     EXPECT_EQ(labels.sample, "S-014");
 }
 
+class ANewDay : public testing::Test {
+protected:
+    ANewDay() {
+        window.resize(1440, 900);
+        window.show();
+        day().set({.operatorName = "A. Weber", .sample = "S-014", .reviewer = {}, .ambient = {}});
+    }
+    ~ANewDay() override {
+        window.close();
+        QSettings().clear();
+    }
+    [[nodiscard]] gui::DayNotes& day() { return window.controller().day(); }
+    [[nodiscard]] gui::Activity activity() { return window.controller().activity(); }
+    void passMidnight() { today = today.addDays(1); }
+    [[nodiscard]] gui::DayDialog* question() {
+        for (auto* dialog : window.findChildren<gui::DayDialog*>())
+            if (dialog->isVisible()) return dialog;
+        return nullptr;
+    }
+    void open() {
+        window.openSimulatedBench();
+        ASSERT_IN_TIME(comesTrue([this] { return activity() == gui::Activity::Live; }));
+    }
+    [[nodiscard]] QPushButton& run() { return *find<QPushButton>(window, "runButton"); }
+
+    QDate today{2026, 11, 23};
+    gui::MainWindow window{simulatedRegistry, gui::MainWindow::Pages::AtOnce, [this] { return today; }};
+};
+
+TEST_F(ANewDay, IsAskedForBeforeABenchIsOpenedAndNotWhileOneIsOpen) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    const auto first = window.controller().open()->session;
+    passMidnight();
+    QTest::qWait(200);
+    EXPECT_EQ(question(), nullptr) << "the bench that is open goes on";
+    window.controller().close();
+    ASSERT_IN_TIME(comesTrue([this] { return activity() == gui::Activity::Closed; }));
+    EXPECT_EQ(SessionReader::open(first)->labels().value().operatorName, "A. Weber");
+
+    window.openSimulatedBench();
+    ASSERT_NE(question(), nullptr) << "asked before the session begins";
+    QTest::qWait(200);
+    EXPECT_EQ(activity(), gui::Activity::Closed) << "and nothing is recorded without the answer";
+    QTest::keyClicks(question()->findChild<QLineEdit*>("operator"), "B. Ott");
+    click(*find<QPushButton>(*question(), "Done"));
+    ASSERT_NO_FATAL_FAILURE(open());
+    EXPECT_EQ(question(), nullptr);
+    EXPECT_EQ(SessionReader::open(window.controller().open()->session)->labels().value().operatorName, "B. Ott");
+}
+
+TEST_F(ANewDay, IsAskedForBeforeAProtocolRunsAndNeverDuringTheRun) {
+    window.showWorkspace(3);
+    ASSERT_IN_TIME(comesTrue([this] { return run().isEnabled(); }));
+    passMidnight();
+    click(run());
+    ASSERT_NE(question(), nullptr);
+    QTest::qWait(200);
+    EXPECT_EQ(activity(), gui::Activity::Closed);
+    question()->close();  // put off for today
+    click(run());
+    ASSERT_IN_TIME(comesTrue([this] { return activity() == gui::Activity::Running; }));
+    passMidnight();
+    ASSERT_IN_TIME(comesTrue([this] { return activity() == gui::Activity::Closed; }, 60'000));
+    EXPECT_EQ(question(), nullptr);
+    click(run());
+    EXPECT_NE(question(), nullptr) << "the next one asks";
+}
+
+TEST(DayNotes, AreAskedForOnTheFirstDayAtTheStartAlone) {
+    QDate today(2026, 11, 23);
+    gui::DayNotes day(nullptr, [&] { return today; });
+    int asked = 0;
+    QObject::connect(&day, &gui::DayNotes::wanted, [&] { ++asked; });
+    EXPECT_FALSE(day.asksFirst()) << "the question of the start was passed over";
+    today = today.addDays(1);
+    EXPECT_TRUE(day.asksFirst());
+    EXPECT_EQ(asked, 1);
+    day.noteAsked();
+    EXPECT_FALSE(day.asksFirst()) << "put off";
+    today = today.addDays(1);
+    day.set({.operatorName = "A. Weber", .sample = {}, .reviewer = {}, .ambient = {}});
+    EXPECT_FALSE(day.asksFirst());
+    EXPECT_EQ(asked, 1);
+    QSettings().clear();
+}
+
 TEST(DayNotes, OfAnotherDayCountNoLongerAndAreOffered) {
     QDate today(2026, 11, 23);
     gui::DayNotes day(nullptr, [&] { return today; });

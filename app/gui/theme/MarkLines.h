@@ -1,0 +1,41 @@
+// MarkLines.h - the operator's marks in plots over time: a dashed line at its moment through each of the axis rects,
+// the word at the top of the first.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <qcustomplot.h>
+#include <string>
+#include <vector>
+
+namespace tacto::gui {
+
+/// A moment that the operator marked, on the plot's time axis.
+struct PlotMark {
+    double t_s = 0;
+    std::string word;
+};
+
+class MarkLines {
+public:
+    /// What is made here is the plot's.
+    explicit MarkLines(QCustomPlot& plot) : plot_(plot) {}
+    /// Those of `marks` that lie in the time that `rects` show.
+    void draw(const std::vector<PlotMark>& marks, const std::vector<QCPAxisRect*>& rects);
+    /// In the current theme.
+    void colour();
+    /// The words that are drawn now.
+    [[nodiscard]] QStringList words() const;
+
+private:
+    struct Drawn {
+        std::vector<QCPItemStraightLine*> lines;  ///< one for each axis rect
+        QCPItemText* word = nullptr;
+    };
+    void make(Drawn& drawn, std::size_t lines);
+    void colour(const Drawn& drawn) const;
+    QCustomPlot& plot_;
+    std::vector<Drawn> drawn_;  // kept for the next marks
+};
+
+}  // namespace tacto::gui
