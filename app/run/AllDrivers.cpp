@@ -2,6 +2,7 @@
 
 #include "app/run/CaptureFormatsList.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
+#include "drivers/hid_input/HidInput.h"
 #include "drivers/hid_massager/HidDriver.h"
 #include "drivers/pulsepal/PulsePalDriver.h"
 #include "drivers/replay/ReplayDrivers.h"
@@ -37,6 +38,8 @@ std::function<Registry()> allDrivers() {
 }
 
 std::shared_ptr<TransportPorts> scienceModePorts() { return makeUsbPorts(makeUsbProvider(), {kScienceMode}, {}); }
+
+std::shared_ptr<const ButtonDevices> buttonDevices() { return hid::systemHidInput(); }
 
 std::shared_ptr<SensorBoardPorts> sensorBoardPorts() {
     return makeUsbSensorBoards(makeUsbProvider(), sciencemode::TtyTransport::open);

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "core/devices/ButtonDevice.h"
 #include "core/devices/Registry.h"
 #include "core/devices/TransportPorts.h"
 
@@ -17,6 +18,9 @@ class SensorBoardPorts;
 
 /// The sockets that may hold a ScienceMode stimulator, for looking at one without opening it as a device.
 [[nodiscard]] std::shared_ptr<TransportPorts> scienceModePorts();
+
+/// Game pads and foot switches.
+[[nodiscard]] std::shared_ptr<const ButtonDevices> buttonDevices();
 
 /// Where sensor boards may be, for looking at one without a bench.
 [[nodiscard]] std::shared_ptr<SensorBoardPorts> sensorBoardPorts();

@@ -337,7 +337,9 @@ Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
 Result<void> PilotOutput::interrupted(const std::string& during, const Error& why) {
     if (aborted_) return noteAbort(during);
     if (paused_.exchange(false)) {
-        auto kept = stage_.record().write(row::kPause, during, {{"why", "the operator wants a break now"}});
+        const auto wanted = stage_.participant().hindrance();
+        auto kept = stage_.record().write(
+            row::kPause, during, {{"why", wanted && wanted->isBreak ? wanted->why : "the operator wants a break now"}});
         if (!kept || (stoppedBy_.load() == nullptr && !screenGone_)) return kept;
     }
     const bool gone = screenGone_.exchange(false) || !stage_.participant().hasScreen();

@@ -72,6 +72,13 @@ void OperatorAsk::close() {
     body_ = nullptr;
 }
 
+void OperatorAsk::press(int choice) {
+    if (body_ == nullptr) return;
+    const auto choices = body_->findChildren<ConfirmButton*>();
+    if (choice < 1 || choice > choices.size() || !choices[choice - 1]->listens()) return;
+    choices[choice - 1]->click();
+}
+
 void OperatorAsk::give(PilotAnswer answer) {
     const auto id = id_;
     close();

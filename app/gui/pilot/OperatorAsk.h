@@ -20,6 +20,8 @@ public:
     void ask(const PilotPrompt& prompt, quint64 id);
     void close();
     [[nodiscard]] bool open() const { return body_ != nullptr; }
+    /// A button of the operator's pad: presses the choice of this number, from 1, as a click does.
+    void press(int choice);
 
 signals:
     void answered(quint64 id, const tacto::PilotAnswer& answer);

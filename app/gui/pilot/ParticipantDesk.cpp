@@ -104,7 +104,7 @@ void ParticipantDesk::cancel() noexcept {
 std::optional<Hindrance> ParticipantDesk::hindrance() const {
     const std::scoped_lock lock(mutex_);
     if (cancelled_) return {};  // the next question says so
-    if (break_) return Hindrance{true, "the operator wants a break"};
+    if (break_) return Hindrance{true, breakWhy_};
     if (!obstacle_.isEmpty()) return Hindrance{false, obstacle_.toStdString()};
     return {};
 }
@@ -122,9 +122,10 @@ void ParticipantDesk::setObstacle(const QString& why) {
     emit obstacleChanged(why);
 }
 
-void ParticipantDesk::setBreak(bool wanted) {
+void ParticipantDesk::setBreak(bool wanted, const std::string& why) {
     const std::scoped_lock lock(mutex_);
     break_ = wanted;
+    breakWhy_ = why;
 }
 
 bool ParticipantDesk::breakWanted() const {

@@ -42,8 +42,9 @@ public:
 
     /// What is in the way of a presentation, half a sentence; empty: nothing.
     void setObstacle(const QString& why);
-    /// The operator wants a break: no presentation starts until they want it no more, and the output is off.
-    void setBreak(bool wanted);
+    /// The operator wants a break: no presentation starts until they want it no more, and the output is off. `why` is
+    /// what the record says of it.
+    void setBreak(bool wanted, const std::string& why = "the operator wants a break now");
     [[nodiscard]] bool breakWanted() const;
     /// The screen is gone: a question that waits for it ends with Device, and so does the next.
     void setScreenThere(bool there);
@@ -82,6 +83,7 @@ private:
     std::vector<EarlyPress> early_;
     QString obstacle_;
     bool break_ = false;
+    std::string breakWhy_;
     bool cancelled_ = false;
     bool stopped_ = false;  ///< by a person; ends one question
     bool there_ = true;

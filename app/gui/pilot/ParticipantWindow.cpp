@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kTick_ms = 100;
 constexpr int kHoldKey = Qt::Key_H, kHoldKeyLeft = Qt::Key_G;
+constexpr int kFirstButton = 0x4000'0000;           // above each Qt::Key
 constexpr std::chrono::milliseconds kRepeats{150};  // X does not mark every press of a held key as repeated
 constexpr const char* kDone = "done";               // the target that ends Several
 constexpr const char* kStopsAs = "stopsAs";         // StopKeys looks for it
@@ -242,6 +243,57 @@ void ParticipantWindow::noteEarly(std::optional<int> target) {
     desk_.noteEarly(known ? prompt_.targets[std::size_t(*target)].key : std::string());
 }
 
+/// Whether a press is one for the question: neither early nor held from before.
+bool ParticipantWindow::takesPress(int code, SteadyTime at, bool repeated, std::optional<int> would) {
+    const auto before = pressed_.find(code);
+    const bool held = repeated || (before != pressed_.end() && at - before->second < kRepeats);
+    if (before != pressed_.end() && held) before->second = at;
+    if (!asking_) {
+        if (!held && feels()) noteEarly(would);
+        pressed_[code] = at;
+        return false;
+    }
+    if (held) return false;
+    pressed_.erase(code);
+    return true;
+}
+
+/// Nothing where buttons do not reach all targets: those that they do not reach would be chosen less.
+std::optional<int> ParticipantWindow::targetOfAnswer(int answer) const {
+    if (prompt_.kind == PromptKind::Scale || prompt_.kind == PromptKind::Several || prompt_.kind == PromptKind::Hold)
+        return std::nullopt;
+    const int count = targetCount(prompt_);
+    return answer >= 1 && answer <= count && count <= buttonAnswers_ ? std::optional(answer - 1) : std::nullopt;
+}
+
+void ParticipantWindow::moveButton(int code, const ButtonUse& use, bool down, SteadyTime at) {
+    const int key = kFirstButton + code;
+    if (!down) {
+        if (heldKey_ == key) letGo();
+        return;
+    }
+    switch (use.does) {
+        case ButtonUse::Does::Nothing:
+            return;
+        case ButtonUse::Does::Stop:
+            stop_("participant (button)");
+            return noteStop();
+        case ButtonUse::Does::Hold:
+            if (face_->hold().isHidden()) return;
+            heldKey_ = key;
+            return pressHold();
+        case ButtonUse::Does::Answer:
+            break;
+    }
+    const auto target = targetOfAnswer(use.answer);
+    if (takesPress(key, at, false, target) && target) choose(*target, at);
+}
+
+void ParticipantWindow::setInputGone(const QString& why) {
+    inputGone_ = why;
+    judge();
+}
+
 void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
     const int key = event->key();
     const auto at = timeOf(*event);
@@ -251,17 +303,7 @@ void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
         return pressHold();
     }
     if (key == Qt::Key_F2 && face_->hasStrip() && !event->isAutoRepeat()) return openStrip(!stripOpen());
-    const auto before = pressed_.find(key);
-    const bool held = event->isAutoRepeat() || (before != pressed_.end() && at - before->second < kRepeats);
-    if (before != pressed_.end() && held) before->second = at;
-    if (!asking_) {
-        const auto would = AnswerKeys(set_, prompt_).targetOf(key);
-        if (!held && feels()) noteEarly(would);
-        pressed_[key] = at;
-        return;
-    }
-    if (held) return;
-    pressed_.erase(key);
+    if (!takesPress(key, at, event->isAutoRepeat(), AnswerKeys(set_, prompt_).targetOf(key))) return;
     if (prompt_.kind == PromptKind::Several && (key == Qt::Key_Return || key == Qt::Key_Enter)) {
         PilotAnswer answer;
         for (std::size_t i = 0; i < prompt_.targets.size(); ++i) {
@@ -299,7 +341,9 @@ void ParticipantWindow::paintEvent(QPaintEvent* event) {
 void ParticipantWindow::judge() {
     QString why;
     const int least = pixelsOf(kTarget_mm, *this);
-    if (!isVisible())
+    if (!inputGone_.isEmpty())
+        why = inputGone_;
+    else if (!isVisible())
         why = tr("the participant's window is not shown");
     else if (stripOpen())
         why = tr("the operator's strip is open on the participant's screen: F2 closes it");
@@ -326,7 +370,8 @@ void ParticipantWindow::closeEvent(QCloseEvent* event) {
 void ParticipantWindow::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     if (event->type() != QEvent::ActivationChange) return;
-    if (!isActiveWindow() && heldKey_ != 0) letGo();  // its release would go to another window
+    if (!isActiveWindow() && heldKey_ != 0 && heldKey_ < kFirstButton)
+        letGo();  // its release would go to another window
     if (!isActiveWindow()) pressed_.clear();
     judge();
 }

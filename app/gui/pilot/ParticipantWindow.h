@@ -4,7 +4,8 @@
 // It is given nothing that depends on a condition but the names of familiarisation and feedback: its pixels are the
 // same for every condition in every phase, and when they change is the session's. Keys count here only, so what the
 // operator types in a window of their own answers nothing. A press before the targets is reported and no answer; a key
-// that is still held from before is none either. Without the keys, or while the operator's strip lies over it, the
+// that is still held from before is none either. Buttons of a pad that is theirs go through the same door, whichever
+// window has the keys. Without the keys, or while the operator's strip lies over it, the
 // desk learns what is in the way, and no presentation starts.
 //
 // Thread-safety: the GUI thread.
@@ -17,6 +18,7 @@
 #include <map>
 
 #include "app/gui/pilot/AnswerKeys.h"
+#include "app/gui/pilot/ButtonUse.h"
 #include "app/gui/pilot/ParticipantDesk.h"
 
 namespace tacto::gui {
@@ -31,6 +33,12 @@ public:
     ParticipantWindow(ParticipantDesk& desk, std::function<void(const char* by)> stop, QWidget* parent = nullptr);
 
     void setKeys(KeySet set) { set_ = set; }
+    /// A button of theirs went down or came up; `code` is the same for the same button. A question is answered by
+    /// buttons only where they reach each of its targets: see setButtonAnswers().
+    void moveButton(int code, const ButtonUse& use, bool down, SteadyTime at);
+    void setButtonAnswers(int reached) { buttonAnswers_ = reached; }
+    /// Half a sentence: a device of either person is unplugged, so no presentation starts; empty: all are there.
+    void setInputGone(const QString& why);
     /// At the right above: "rehearsal · simulated".
     void setNote(const QString& note);
     /// Full screen there, on top, with the keys.
@@ -74,6 +82,8 @@ private:
     void showState();
     [[nodiscard]] int holdKey() const;
     void choose(int target, SteadyTime at);
+    [[nodiscard]] bool takesPress(int code, SteadyTime at, bool repeated, std::optional<int> would);
+    [[nodiscard]] std::optional<int> targetOfAnswer(int answer) const;
     void give(PilotAnswer answer, SteadyTime at);
     void pressHold();
     void letGo();
@@ -95,9 +105,12 @@ private:
     bool stopped_ = false;
     bool break_ = false;
     bool painted_ = false;
-    int heldKey_ = 0;
-    std::map<int, SteadyTime> pressed_;  ///< keys that went down while no target was there, and their last press
-    QElapsedTimer since_;                // the targets were shown
+    int heldKey_ = 0;  ///< or button
+    int buttonAnswers_ = 0;
+    QString inputGone_;
+    std::map<int, SteadyTime>
+        pressed_;          ///< keys and buttons that went down while no target was there, and their last press
+    QElapsedTimer since_;  // the targets were shown
     QTimer ticking_;
 
     ParticipantFace* face_;

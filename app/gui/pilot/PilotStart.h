@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/gui/pilot/AnswerKeys.h"
+#include "app/gui/pilot/ButtonUse.h"
 #include "core/devices/DeviceUri.h"
 #include "core/seal/Secret.h"
 #include "core/study/Gates.h"
@@ -36,6 +37,8 @@ struct PilotStart {
     std::optional<int> blocks{};     ///< of a rehearsal's test; nothing: the study's
     bool blind = true;
     KeySet keys = KeySet::Figures;
+    std::vector<SeatedDevice> inputs{};              ///< game pads and foot switches, each assigned to one person
+    std::shared_ptr<const ButtonDevices> buttons{};  ///< opens them; null where there are none
 
     [[nodiscard]] bool simulated() const {
         return std::ranges::all_of(devices, [](const DeviceUri& uri) { return uri.scheme == "sim"; });

@@ -67,6 +67,11 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
 
 PilotWorkspace::~PilotWorkspace() = default;
 
+void PilotWorkspace::setButtonDevices(const std::shared_ptr<const ButtonDevices>& devices) {
+    rehearsal_->setButtonDevices(devices);
+    start_->setButtonDevices(devices);
+}
+
 QWidget* PilotWorkspace::buildHome() {
     home_ = new TabbedPage(pages_);
     rehearsal_ = new RehearsalPage(home_->room());

@@ -150,7 +150,6 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     begin_->setObjectName("beginRehearsal");
     begin_->setIcon(icon("run", Ink::Primary));
     begin_->setAutoDefault(false);
-    begin_->setToolTip(tr("Opens both windows. Nothing is delivered before the checklist is answered."));
     makePrimary(*begin_);
     connect(begin_, &QPushButton::clicked, this, &RehearsalPage::beginWanted);
     foot->addWidget(begin_, 0, Qt::AlignLeft);
@@ -160,6 +159,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     connect(who_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
     connect(protocol_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
     connect(offer_, &UnfinishedOffer::changed, this, &RehearsalPage::judge);
+    connect(&seats_->inputs(), &InputRows::changed, this, &RehearsalPage::judge);
     judge();
 }
 
@@ -196,7 +196,10 @@ void RehearsalPage::judge() {
     for (auto* field : {protocol_, method_}) field->setEnabled(!goesOn);
     blocks_->setEnabled(!goesOn && tests);
     const bool chosen = !offer_->asks() || !offer_->chosen().empty();
-    begin_->setEnabled(chosen && !folder_->text().trimmed().isEmpty());
+    const auto lacks = who_->currentData().toBool() ? seats_->inputs().missing() : QString();
+    begin_->setEnabled(chosen && lacks.isEmpty() && !folder_->text().trimmed().isEmpty());
+    begin_->setToolTip(
+        !lacks.isEmpty() ? lacks : tr("Opens both windows. Nothing is delivered before the checklist is answered."));
     begin_->setText(goesOn ? tr("Go on with the rehearsal") : tr("Begin rehearsal"));
 }
 

@@ -25,6 +25,9 @@ public:
     explicit RehearsalPage(QWidget* parent = nullptr);
     [[nodiscard]] PilotStart rehearsal() const;
     [[nodiscard]] ScreenChoice& screens() const { return seats_->screens(); }
+    void setButtonDevices(std::shared_ptr<const ButtonDevices> devices) {
+        seats_->inputs().setDevices(std::move(devices));
+    }
     /// A sentence in the way; empty for none.
     void say(const QString& what);
     /// Looks again whether there is something to go on with.

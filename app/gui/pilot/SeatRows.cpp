@@ -9,6 +9,7 @@ SeatRows::SeatRows(QFormLayout& form, QWidget& parent)
     : form_(form),
       screen_(new ScreenChoice(&parent)),
       keys_(new QComboBox(&parent)),
+      inputs_(new InputRows(&parent)),
       blind_(new QCheckBox(QObject::tr("Blind: conditions and answers are hidden"), &parent)),
       about_(new QLabel(&parent)) {
     form.addRow(QObject::tr("Their screen"), screen_);
@@ -18,6 +19,7 @@ SeatRows::SeatRows(QFormLayout& form, QWidget& parent)
     keys_->addItem(QObject::tr("right hand: U I, J K, M and comma"), int(KeySet::RightHand));
     keys_->setToolTip(QObject::tr("Touch and mouse work with each of them."));
     form.addRow(QObject::tr("Their keys"), keys_);
+    form.addRow(QObject::tr("Game pads, pedals"), inputs_);
     blind_->setObjectName("blind");
     setBlind(false);
     blind_->setChecked(true);
@@ -30,6 +32,8 @@ SeatRows::SeatRows(QFormLayout& form, QWidget& parent)
 void SeatRows::writeTo(PilotStart& start) const {
     start.keys = KeySet(keys_->currentData().toInt());
     start.blind = blind_->isChecked();
+    start.inputs = inputs_->seats();
+    start.buttons = inputs_->devices();
 }
 
 void SeatRows::setBlind(bool study) {
@@ -43,6 +47,7 @@ void SeatRows::setBlind(bool study) {
 void SeatRows::showFor(bool person) {
     form_.setRowVisible(screen_, person);
     form_.setRowVisible(keys_, person);
+    form_.setRowVisible(inputs_, person);
     about_->setText(!person ? QObject::tr("The virtual participant answers every question of both people; you watch.")
                     : ScreenChoice::isOnly()
                         ? QObject::tr("There is one screen: the participant’s window covers it. F2 opens your strip on "

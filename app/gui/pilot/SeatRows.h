@@ -1,5 +1,5 @@
-// SeatRows.h - rows of a form: how the two people of a session sit. The participant's screen and keys, what the
-// operator sees.
+// SeatRows.h - rows of a form: how the two people of a session sit. The participant's screen and keys, the game pads
+// and foot switches of both, what the operator sees.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -9,6 +9,7 @@
 #include <QFormLayout>
 #include <QLabel>
 
+#include "app/gui/pilot/InputRows.h"
 #include "app/gui/pilot/PilotStart.h"
 
 namespace tacto::gui {
@@ -20,8 +21,9 @@ public:
     /// The rows are added to `form`, and belong to `parent`.
     SeatRows(QFormLayout& form, QWidget& parent);
     [[nodiscard]] ScreenChoice& screens() const { return *screen_; }
+    [[nodiscard]] InputRows& inputs() const { return *inputs_; }
     void writeTo(PilotStart& start) const;
-    /// Screen and keys are a person's.
+    /// Screen, keys and buttons are a person's.
     void showFor(bool person);
     /// A blind study's sessions are blind: that is part of its approval.
     void setBlind(bool study);
@@ -34,6 +36,7 @@ private:
     QFormLayout& form_;
     ScreenChoice* screen_;
     QComboBox* keys_;
+    InputRows* inputs_;
     QCheckBox* blind_;
     QLabel* about_;
 };

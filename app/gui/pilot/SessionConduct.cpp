@@ -30,6 +30,7 @@ bool isStillHeld(std::string_view by) { return by.ends_with(kStillHeld); }
 SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent)
     : QObject(parent), controller_(controller), page_(page) {
     connectPage();
+    connectInputs();
     connect(&desk_, &ParticipantDesk::screenChanged, this, &SessionConduct::show);
     connect(&desk_, &ParticipantDesk::asked, this, &SessionConduct::ask);
     connect(&desk_, &ParticipantDesk::closed, this, [this](quint64 id) {
@@ -57,6 +58,29 @@ void SessionConduct::connectPage() {
     });
     connect(&page_.notes(), &SessionNotes::noted, this, &SessionConduct::keep);
     connect(&page_.notes(), &SessionNotes::typingEnded, this, &SessionConduct::giveKeys);
+}
+
+void SessionConduct::connectInputs() {
+    connect(&inputs_, &SessionInputs::participantMoved, this,
+            [this](int code, const ButtonUse& use, bool down, SteadyTime at) {
+                if (window_) window_->moveButton(code, use, down, at);
+            });
+    connect(&inputs_, &SessionInputs::operatorPressed, this, [this](const ButtonUse& use) {
+        if (use.does == ButtonUse::Does::Stop) controller_.stop("operator (button)");
+        if (use.does != ButtonUse::Does::Answer) return;
+        const bool atStrip = strip_ != nullptr && strip_->question().open();
+        (atStrip ? strip_->question() : page_.question()).press(use.answer);
+    });
+    connect(&inputs_, &SessionInputs::lost, this, [this] {
+        if (window_) window_->setInputGone(inputs_.gone());
+        if (confirming_) return;  // nothing is on, and no presentation starts
+        wantBreak(true);
+        desk_.setBreak(true, inputs_.gone().toStdString());
+        pauseFor(kOperatorPauses);
+    });
+    connect(&inputs_, &SessionInputs::back, this, [this] {
+        if (window_) window_->setInputGone(inputs_.gone());
+    });
 }
 
 void SessionConduct::connectStrip() {
@@ -106,6 +130,9 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     auto made = order();
     if (!made) return sentence(made.error());
     order_ = std::move(*made);
+    if (start.person) {
+        if (const auto trouble = inputs_.begin(start.buttons, start.inputs); !trouble.isEmpty()) return trouble;
+    }
     if (screens_ != nullptr) screens_->disconnect(this);
     screens_ = &screens;
     connect(screens_, &ScreenChoice::lost, this, &SessionConduct::screenLost);
@@ -134,6 +161,7 @@ void SessionConduct::openWindow() {
     desk_.setScreenThere(true);
     window_ = std::make_unique<ParticipantWindow>(desk_, [this](const char* by) { stopAsParticipant(by); });
     window_->setKeys(start_.keys);
+    window_->setButtonAnswers(inputs_.participantAnswers());
     QStringList notes;
     if (start_.rehearsal) notes << tr("rehearsal");
     if (start_.simulated()) notes << tr("simulated");
@@ -330,6 +358,7 @@ void SessionConduct::seatTheirWindow() {
 void SessionConduct::leaveSeats() {
     running_ = false;
     desk_.leave();
+    inputs_.end();
     strip_ = nullptr;
     if (!window_) return;
     window_->hide();

@@ -4,6 +4,7 @@
 // The participant's window is a window of its own, full screen on the screen that was chosen; where there is one screen
 // only, the operator's page is a strip in it, behind F2. A screen that goes, or a
 // participant's window that is closed, switches the output off and pauses the session until the window is seated again.
+// A game pad or foot switch that is unplugged switches the output off and begins a break of the operator's.
 // An abort switches the output off and then asks the operator for the reason.
 //
 // Thread-safety: the GUI thread.
@@ -19,6 +20,7 @@
 #include "app/gui/pilot/InputTime.h"
 #include "app/gui/pilot/ParticipantDesk.h"
 #include "app/gui/pilot/PilotStart.h"
+#include "app/gui/pilot/SessionInputs.h"
 
 namespace tacto::gui {
 
@@ -72,6 +74,7 @@ signals:
 private:
     [[nodiscard]] Result<RunOrder> order() const;
     void connectPage();
+    void connectInputs();
     void openWindow();
     void connectStrip();
     void confirmCode();
@@ -94,6 +97,7 @@ private:
     BenchController& controller_;
     OperatorPage& page_;
     ParticipantDesk desk_;
+    SessionInputs inputs_;
     std::unique_ptr<ParticipantWindow> window_;
     OperatorStrip* strip_ = nullptr;  ///< the window's, while it is there
     ScreenChoice* screens_ = nullptr;

@@ -114,6 +114,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     connect(checklist_, &ExclusionChecklist::changed, this, &SessionStartPage::judge);
     connect(devices_, &DeviceRows::changed, this, &SessionStartPage::judge);
     connect(offer_, &UnfinishedOffer::changed, this, &SessionStartPage::judge);
+    connect(&seats_->inputs(), &InputRows::changed, this, &SessionStartPage::judge);
 }
 
 void SessionStartPage::prepare(const Study& study, const Participant& participant) {
@@ -163,7 +164,8 @@ void SessionStartPage::judge() {
     const auto open = checklist_->answers().size();
     const bool whole = virtual_ || checklist_->whole();
     const bool chosen = !offer_->asks() || !offer_->chosen().empty();
-    const auto lacks = devices_->missing();
+    auto lacks = devices_->missing();
+    if (lacks.isEmpty() && !virtual_) lacks = seats_->inputs().missing();
     begin_->setEnabled(whole && chosen && lacks.isEmpty());
     begin_->setToolTip(!chosen            ? tr("First choose what happens to the interrupted session.")
                        : !lacks.isEmpty() ? lacks

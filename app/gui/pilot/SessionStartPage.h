@@ -31,6 +31,9 @@ public:
     /// All but the study's folder and passphrase.
     [[nodiscard]] PilotStart start() const;
     [[nodiscard]] ScreenChoice& screens() const { return seats_->screens(); }
+    void setButtonDevices(std::shared_ptr<const ButtonDevices> devices) {
+        seats_->inputs().setDevices(std::move(devices));
+    }
     /// A sentence in the way; empty for none.
     void say(const QString& what);
 

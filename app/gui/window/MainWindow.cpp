@@ -45,6 +45,7 @@
 #include "app/gui/window/WelcomeTour.h"
 #include "app/gui/window/WindowPlace.h"
 #include "app/gui/window/WorkspaceRail.h"
+#include "app/run/AllDrivers.h"
 #include "app/run/CaptureFormatsList.h"
 #include "core/devices/Driver.h"
 
@@ -180,6 +181,7 @@ void MainWindow::buildOthers() {
     safetyCheck_ = addPage<ProtocolWorkspace>(*pages_, controller_, "load-safety");
     separability_ = addPage<ProtocolWorkspace>(*pages_, controller_, "separability");
     pilot_ = addPage<PilotWorkspace>(*pages_, controller_);
+    pilot_->setButtonDevices(buttonDevices());
     connect(pilot_, &PilotWorkspace::attentionWanted, this, [this] { showWorkspace(kPilot); });
     connect(pilot_, &PilotWorkspace::runningChanged, this, &MainWindow::noteBlind);
     sessions_ = addPage<SessionsWorkspace>(*pages_, controller_);

@@ -16,6 +16,7 @@
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/pilot/PluggedButtons.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
@@ -204,6 +205,64 @@ TEST_F(RehearsalInTheWindow, PauseFromTheMenuIsTheSessionsOwnBreak) {
     const auto events = study->events(study->sessions()[0]).value();
     EXPECT_EQ(std::ranges::count(events, std::string(row::kPause), &SessionRow::name), 1);
     EXPECT_EQ(std::ranges::count(events, std::string(row::kParticipantStop), &SessionRow::name), 0);
+}
+
+TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABreak) {
+    RecordProperty("hazard", "H2");
+    const auto plugged = std::make_shared<PluggedButtons>();
+    plugged->set({PluggedButtons::pad("pad"), PluggedButtons::pad("pedal", 1)});
+    pilot = window.findChild<gui::PilotWorkspace*>();
+    pilot->findChild<QComboBox*>("whoAnswers")->setCurrentIndex(1);
+    pilot->setButtonDevices(plugged);
+    const auto assign = [&](const char* name, int to) {
+        const auto box = [&] { return pilot->findChild<QComboBox*>(QString("inputOf ") + name); };
+        ASSERT_IN_TIME(comesTrue([&] { return box() != nullptr; }));
+        box()->setCurrentIndex(to);
+        emit box()->activated(to);
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    };
+    ASSERT_NO_FATAL_FAILURE(assign("pad", 1));
+    ASSERT_NO_FATAL_FAILURE(assign("pedal", 2));
+    begin(true);
+    auto* theirs = pilot->participantWindow();
+    ASSERT_NE(theirs, nullptr);
+    const auto tests = [&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; };
+    ASSERT_IN_TIME(comesTrue(tests, 20'000));
+
+    plugged->plug("pad", false);  // a STOP that is gone is no STOP that was pressed
+    ASSERT_IN_TIME(comesTrue([&] { return !theirs->asking(); }));
+    EXPECT_EQ(window.controller().telemetry().state, InterlockState::Disarmed);
+    const auto* obstacle = pilot->findChild<QLabel*>("presentationObstacle");
+    ASSERT_IN_TIME(comesTrue([&] { return obstacle->text().contains("the participant's pad is unplugged"); }));
+    plugged->plug("pad", true);
+    pilot->pauseSession(false);
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
+    EXPECT_EQ(theirs->title().indexOf("being tested"), -1) << "their own go on comes first";
+    plugged->press("pad", 1);
+    plugged->press("pad", 1, false);
+    ASSERT_IN_TIME(comesTrue(tests, 20'000));
+
+    QTest::qWait(150);
+    plugged->press("pad", 6);  // and now it is tested
+    const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
+    ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
+    QTest::qWait(150);
+    plugged->press("pedal", 1);  // and the operator's
+    ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000));
+    ASSERT_TRUE(pilot->running()) << headline();
+    QTest::qWait(150);
+    window.controller().stop("operator (STOP)");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+    EXPECT_EQ(plugged->open("pad") + plugged->open("pedal"), 0U);
+
+    const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
+    ASSERT_TRUE(study) << study.error().message;
+    const auto events = study->events(study->sessions()[0]).value();
+    const auto pause = std::ranges::find(events, row::kPause, &SessionRow::name);
+    ASSERT_NE(pause, events.end());
+    EXPECT_EQ(pause->body["why"], "the participant's pad is unplugged");
+    EXPECT_EQ(std::ranges::count(events, std::string(row::kParticipantStop), &SessionRow::name), 0);
+    EXPECT_EQ(std::ranges::count(events, std::string(row::kStopTest), &SessionRow::name), 2) << "each at the first try";
 }
 
 TEST_F(RehearsalInTheWindow, ClosingTheParticipantsWindowPausesAndStopsNothingForGood) {

@@ -1,0 +1,30 @@
+#include "app/gui/pilot/ButtonUse.h"
+
+#include <algorithm>
+
+namespace tacto::gui {
+
+std::vector<ButtonUse> usualUses(std::size_t buttons) {
+    using enum ButtonUse::Does;
+    constexpr ButtonUse kStop{Stop, 0}, kHold{Hold, 0};
+    const auto answer = [](int number) { return ButtonUse{Answer, number}; };
+    if (buttons == 1) return {kStop};
+    if (buttons == 2) return {kHold, kStop};
+    std::vector<ButtonUse> uses;
+    if (buttons <= 5) {
+        for (int i = 1; i < int(buttons); ++i) uses.push_back(answer(i));
+        uses.push_back(kStop);
+        return uses;
+    }
+    uses = {answer(1), answer(2), answer(3), answer(4), kStop, kStop, kHold, kHold, answer(5), answer(6)};
+    uses.resize(buttons);
+    return uses;
+}
+
+int SeatedDevice::answers() const {
+    int reached = 0;
+    while (std::ranges::find(uses, ButtonUse{ButtonUse::Does::Answer, reached + 1}) != uses.end()) ++reached;
+    return reached;
+}
+
+}  // namespace tacto::gui

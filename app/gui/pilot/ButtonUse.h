@@ -1,0 +1,37 @@
+// ButtonUse.h - what a button of a game pad or a foot switch does for the person whom the device is assigned to.
+//
+// Thread-safety: values and pure functions.
+#pragma once
+
+#include <vector>
+
+#include "core/devices/ButtonDevice.h"
+#include "core/pilot/Prompt.h"
+
+namespace tacto::gui {
+
+struct ButtonUse {
+    enum class Does { Nothing, Stop, Hold, Answer };
+    Does does = Does::Nothing;
+    int answer = 0;  ///< of Answer: the target's number on the screen, from 1
+
+    bool operator==(const ButtonUse&) const = default;
+};
+
+inline constexpr int kMostAnswers = 6;  ///< of a question that buttons answer
+
+/// Of a device with so many buttons, until the operator says otherwise: one pedal is STOP, of two the first holds, of
+/// up to five the last is STOP, and of more the fifth and the sixth are, the shoulder buttons of a game pad; the two
+/// after them hold.
+[[nodiscard]] std::vector<ButtonUse> usualUses(std::size_t buttons);
+
+/// A device and its person for one session.
+struct SeatedDevice {
+    ButtonDeviceInfo device;
+    PromptTo whose = PromptTo::Participant;  ///< Participant or Operator
+    std::vector<ButtonUse> uses;             ///< of each button
+    /// Answers 1 to n are all on the device.
+    [[nodiscard]] int answers() const;
+};
+
+}  // namespace tacto::gui

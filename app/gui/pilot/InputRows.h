@@ -1,0 +1,69 @@
+// InputRows.h - rows of a form: the game pads and foot switches that are plugged in, whom each is assigned to, and what
+// each of its buttons does. A button that is pressed lights up, so the operator sees that it works and which it is.
+//
+// While they are shown the devices are looked for and opened, but never those of a session that runs.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QComboBox>
+#include <QLabel>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <QWidget>
+#include <map>
+#include <vector>
+
+#include "app/gui/controller/SideWork.h"
+#include "app/gui/pilot/ButtonUse.h"
+#include "app/gui/pilot/OpenButtons.h"
+
+namespace tacto::gui {
+
+class InputRows final : public QWidget {
+    Q_OBJECT
+public:
+    explicit InputRows(QWidget* parent = nullptr);
+    /// Null: there are none.
+    void setDevices(std::shared_ptr<const ButtonDevices> devices);
+    [[nodiscard]] const std::shared_ptr<const ButtonDevices>& devices() const { return open_.devices(); }
+    /// Those that are assigned to a person and do something.
+    [[nodiscard]] std::vector<SeatedDevice> seats() const;
+    /// Why a session cannot begin with these, a sentence; empty where it can.
+    [[nodiscard]] QString missing() const;
+
+signals:
+    void changed();
+
+protected:
+    void showEvent(QShowEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
+
+private:
+    struct Row {
+        SeatedDevice seat;
+        bool assigned = false;
+        bool there = true;
+        QString trouble;  ///< why it cannot be opened
+        QWidget* widget = nullptr;
+        std::vector<QLabel*> lamps{};
+    };
+    void look();
+    void list(const std::vector<ButtonDeviceInfo>& found);
+    void tryOpen(Row& row);
+    void build();
+    [[nodiscard]] QWidget* build(Row& row);
+    void buildButtons(Row& row, QVBoxLayout& column);
+    void light(const std::string& identity, std::size_t button, bool down);
+    [[nodiscard]] Row* find(const std::string& identity);
+
+    OpenButtons open_;
+    SideWork looker_;
+    QTimer looking_;
+    bool looks_ = false;  ///< looker_ is at it
+    std::vector<Row> rows_;
+    QLabel* none_;
+    QVBoxLayout* column_;
+};
+
+}  // namespace tacto::gui

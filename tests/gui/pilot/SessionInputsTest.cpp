@@ -1,0 +1,337 @@
+// Game pads and foot switches in a session: each press is its person's, by the door of the keys, and STOP comes in
+// time.
+#include <QComboBox>
+#include <gmock/gmock.h>
+
+#include "app/gui/pilot/InputRows.h"
+#include "app/gui/pilot/SessionInputs.h"
+#include "app/gui/theme/Theme.h"
+#include "drivers/hid_input/HidInput.h"
+#include "tests/drivers/hid_input/PadDescriptors.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/pilot/PluggedButtons.h"
+#include "tests/gui/pilot/SeatedPeople.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using enum gui::ButtonUse::Does;
+
+gui::SeatedDevice seated(const std::string& name, PromptTo whose, std::size_t buttons = 12) {
+    return {PluggedButtons::pad(name, buttons), whose, gui::usualUses(buttons)};
+}
+
+TEST(ButtonUse, EachDeviceHasAStopAndAPadTwo) {
+    RecordProperty("hazard", "H2");
+    for (std::size_t buttons = 1; buttons <= 20; ++buttons) {
+        const auto uses = gui::usualUses(buttons);
+        ASSERT_EQ(uses.size(), buttons);
+        const auto stops = std::ranges::count(uses, Stop, &gui::ButtonUse::does);
+        EXPECT_EQ(stops, buttons < 6 ? 1 : 2) << buttons;
+    }
+    EXPECT_EQ(seated("pad", PromptTo::Participant, 12).answers(), 6);
+    EXPECT_EQ(seated("pad", PromptTo::Participant, 8).answers(), 4);
+    EXPECT_EQ(seated("pedals", PromptTo::Participant, 3).answers(), 2);
+    EXPECT_EQ(seated("pedal", PromptTo::Participant, 1).answers(), 0);
+}
+
+class SeatedWithPad : public Seated {
+protected:
+    void begin(const std::vector<gui::SeatedDevice>& seats) {
+        plugged->set({PluggedButtons::pad("theirs"), PluggedButtons::pad("spare"), PluggedButtons::pad("operators")});
+        ASSERT_EQ(inputs.begin(plugged, seats), QString());
+        window.setButtonAnswers(inputs.participantAnswers());
+        QObject::connect(&inputs, &gui::SessionInputs::participantMoved, &window, &gui::ParticipantWindow::moveButton);
+        QObject::connect(&inputs, &gui::SessionInputs::operatorPressed, &window,
+                         [this](const gui::ButtonUse& use) { operators.push_back(use); });
+    }
+    void click(const char* name, std::size_t button) {
+        plugged->press(name, button, true);
+        plugged->press(name, button, false);
+        QTest::qWait(20);
+    }
+    std::shared_ptr<PluggedButtons> plugged = std::make_shared<PluggedButtons>();
+    gui::SessionInputs inputs;
+    std::vector<gui::ButtonUse> operators;
+};
+
+TEST_F(SeatedWithPad, EachAnswerIsAButton) {
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
+    const std::vector<std::string> places{"smooth-high", "rough-high", "smooth-low", "rough-low", "none", "not-sure"};
+    const std::vector<std::size_t> buttons{1, 2, 3, 4, 9, 10};
+    for (std::size_t i = 0; i < buttons.size(); ++i) {
+        desk.show(testScreen(ScreenState::Feel));
+        ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+        click("theirs", buttons[i]);
+        const auto said = answered();
+        ASSERT_TRUE(said);
+        EXPECT_THAT(said->keys, ElementsAre(places[i]));
+    }
+}
+
+TEST_F(SeatedWithPad, BeforeTheTargetsItIsEarlyAndHeldFromBeforeItIsNoAnswer) {
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    click("theirs", 10);
+    ASSERT_TRUE(answered());
+    desk.show(testScreen(ScreenState::Feel));
+    QCoreApplication::processEvents();
+    plugged->press("theirs", 3);  // and stays down
+    QTest::qWait(20);
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    QTest::qWait(300);
+    EXPECT_FALSE(isAnswered()) << "held: it counts once, and that was early";
+    const auto early = desk.takeEarly();
+    ASSERT_EQ(early.size(), 1U);
+    EXPECT_EQ(early[0].key, "smooth-low");
+    plugged->press("theirs", 3, false);
+    click("theirs", 3);
+    const auto said = answered();
+    ASSERT_TRUE(said);
+    EXPECT_THAT(said->keys, ElementsAre("smooth-low"));
+}
+
+TEST_F(SeatedWithPad, AQuestionWithMoreTargetsThanButtonsIsNotAnsweredByThem) {
+    RecordProperty("hazard", "H9");
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant, 8)}));  // four answers
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    click("theirs", 1);
+    QTest::qWait(50);
+    EXPECT_FALSE(isAnswered()) << "\"nothing\" and \"not sure\" would be chosen less";
+    key(Qt::Key_1);
+    ASSERT_TRUE(answered());
+    ASSERT_NO_FATAL_FAILURE(ask(scalePrompt("pain", "How painful was it?", 0, 3)));
+    click("theirs", 1);
+    EXPECT_FALSE(isAnswered()) << "answer 1 is no 0";
+    key(Qt::Key_2);
+    ASSERT_TRUE(answered());
+}
+
+TEST_F(SeatedWithPad, OnlyTheAssignedOneAnswersAndNoOtherIsOpen) {
+    RecordProperty("hazard", "H12");
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant), seated("operators", PromptTo::Operator)}));
+    EXPECT_EQ(plugged->open("theirs"), 1U);
+    EXPECT_EQ(plugged->open("spare"), 0U);
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    click("spare", 1);
+    click("spare", 5);
+    click("operators", 1);
+    click("operators", 5);
+    EXPECT_FALSE(isAnswered());
+    EXPECT_THAT(stops, IsEmpty()) << "the operator's STOP is told apart from theirs";
+    EXPECT_THAT(operators, ElementsAre(gui::ButtonUse{Answer, 1}, gui::ButtonUse{Stop, 0}));
+    key(Qt::Key_1);
+    ASSERT_TRUE(answered());
+    inputs.end();
+    EXPECT_EQ(plugged->open("theirs"), 0U);
+}
+
+TEST_F(SeatedWithPad, EitherOfTwoButtonsStopsAndAHeldOneOnce) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
+    for (const std::size_t button : {5U, 6U}) {
+        stops.clear();
+        desk.show(testScreen(ScreenState::Feel));
+        QCoreApplication::processEvents();
+        plugged->press("theirs", button);
+        ASSERT_IN_TIME(comesTrue([this] { return !stops.empty(); }));
+        QTest::qWait(300);
+        EXPECT_THAT(stops, ElementsAre("participant (button)"));
+        plugged->press("theirs", button, false);
+        QTest::qWait(20);
+        EXPECT_EQ(stops.size(), 1U);
+    }
+}
+
+TEST_F(SeatedWithPad, LettingGoOfTheButtonThatIsHeldIsAStop) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
+    ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+    click("theirs", 1);
+    EXPECT_FALSE(desk.holding()) << "an answer holds nothing";
+    plugged->press("theirs", 7);
+    const auto said = answered();
+    ASSERT_TRUE(said);
+    EXPECT_THAT(said->keys, ElementsAre("held"));
+    EXPECT_TRUE(desk.holding());
+    QWidget other;
+    other.show();
+    other.activateWindow();
+    QTest::qWait(50);
+    EXPECT_TRUE(desk.holding()) << "a button is theirs whichever window has the keys";
+    EXPECT_THAT(stops, IsEmpty());
+    plugged->press("theirs", 7, false);
+    ASSERT_IN_TIME(comesTrue([this] { return !stops.empty(); }));
+    EXPECT_THAT(stops, ElementsAre("participant let go"));
+    EXPECT_FALSE(desk.holding());
+}
+
+TEST_F(SeatedWithPad, OneThatIsUnpluggedIsNamedAndNoPresentationStartsUntilItIsBack) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant), seated("operators", PromptTo::Operator)}));
+    QStringList told;
+    QObject::connect(&inputs, &gui::SessionInputs::lost, &window, [&] {
+        told << inputs.gone();
+        window.setInputGone(inputs.gone());
+    });
+    QObject::connect(&inputs, &gui::SessionInputs::back, &window, [&] { window.setInputGone(inputs.gone()); });
+    plugged->plug("theirs", false);
+    plugged->plug("theirs", false);
+    plugged->plug("operators", false);
+    ASSERT_IN_TIME(comesTrue([&] { return told.size() == 2; }));
+    EXPECT_EQ(told.at(0), "the participant's theirs is unplugged");
+    EXPECT_EQ(told.at(1), "the participant's theirs is unplugged, and the operator's operators is unplugged");
+    ASSERT_TRUE(desk.hindrance().has_value());
+    EXPECT_FALSE(desk.hindrance()->isBreak);
+    EXPECT_EQ(desk.hindrance()->why, told.at(1).toStdString());
+    plugged->plug("theirs", true);
+    plugged->plug("operators", true);
+    EXPECT_IN_TIME(comesTrue([&] { return !desk.hindrance().has_value(); }));
+}
+
+TEST_F(SeatedWithPad, OneThatCannotBeOpenedIsASentenceAndNoneStaysOpen) {
+    auto blocked = PluggedButtons::pad("blocked");
+    blocked.obstacle = "Another program has it.";
+    plugged->set({PluggedButtons::pad("theirs"), blocked});
+    EXPECT_EQ(inputs.begin(plugged, {seated("theirs", PromptTo::Participant), seated("blocked", PromptTo::Operator)}),
+              "Another program has it.");
+    EXPECT_EQ(plugged->open("theirs"), 0U);
+}
+
+/// From the report of a real one's driver to the session's stop.
+TEST_F(SeatedWithPad, FromTheReportOfAPadToTheStopItTakesLessThan10Milliseconds) {
+    RecordProperty("hazard", "H2");
+    const SteadyClock clock;
+    auto backend = std::make_shared<FakeHidBackend>();
+    const hid::HidDeviceInfo info{0x046D, 0xC216, "", "Pad", "/dev/hidraw0", 0x10004, true};
+    backend->plugged.push_back(std::make_shared<FakeHidDevice>(clock, info, padDescriptor()));
+    const auto devices = hid::makeHidInput(backend);
+    const auto list = devices->list();
+    ASSERT_EQ(list.size(), 1U);
+    ASSERT_EQ(inputs.begin(devices, {{list[0], PromptTo::Participant, gui::usualUses(12)}}), QString());
+    QObject::connect(&inputs, &gui::SessionInputs::participantMoved, &window, &gui::ParticipantWindow::moveButton);
+    std::vector<double> took_ms;
+    for (int i = 0; i < 20; ++i) {
+        stops.clear();
+        desk.show(testScreen(ScreenState::Feel));
+        QTest::qWait(10);
+        const auto pressed = std::chrono::steady_clock::now();
+        backend->plugged[0]->send(padReport({6}));
+        ASSERT_IN_TIME(comesTrue([this] { return !stops.empty(); }));
+        took_ms.push_back(std::chrono::duration<double, std::milli>(stoppedAt - pressed).count());
+        backend->plugged[0]->send(padReport({}));
+        QTest::qWait(10);
+    }
+    std::ranges::sort(took_ms);
+    RecordProperty("median_ms", std::to_string(took_ms[10]));
+    EXPECT_IN_TIME(took_ms.back() <= 10) << took_ms.back() << " ms";
+}
+
+class Inputs : public testing::Test {
+protected:
+    ~Inputs() override {
+        gui::applyTextSize(100);
+        gui::applyTheme(gui::Theme::Light);
+    }
+    void show(std::vector<ButtonDeviceInfo> devices) {
+        plugged->set(std::move(devices));
+        rows.setDevices(plugged);
+        rows.resize(560, 400);
+        rows.show();
+        ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&rows));
+    }
+    [[nodiscard]] QComboBox* box(const QString& name) { return rows.findChild<QComboBox*>(name); }
+    /// As a person does it.
+    static void choose(QComboBox& box, int index) {
+        box.setCurrentIndex(index);
+        emit box.activated(index);
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    }
+    std::shared_ptr<PluggedButtons> plugged = std::make_shared<PluggedButtons>();
+    gui::InputRows rows;
+};
+
+TEST_F(Inputs, OneIsAssignedToOnePersonAndItsButtonsToWhatTheyDo) {
+    RecordProperty("hazard", "H12");
+    ASSERT_NO_FATAL_FAILURE(show({PluggedButtons::pad("pad"), PluggedButtons::pad("pedal", 1)}));
+    ASSERT_IN_TIME(comesTrue([this] { return box("inputOf pad") != nullptr; }));
+    EXPECT_TRUE(rows.seats().empty()) << "none is assigned beforehand";
+    choose(*box("inputOf pad"), 1);
+    ASSERT_EQ(rows.seats().size(), 1U);
+    EXPECT_EQ(rows.seats()[0].whose, PromptTo::Participant);
+    EXPECT_EQ(rows.seats()[0].uses, gui::usualUses(12));
+    choose(*box("use 12"), 1);
+    EXPECT_EQ(rows.seats()[0].uses[11].does, Stop);
+    choose(*box("inputOf pedal"), 2);
+    ASSERT_EQ(rows.seats().size(), 2U);
+    EXPECT_EQ(rows.seats()[1].whose, PromptTo::Operator);
+    EXPECT_EQ(rows.seats()[0].uses[11].does, Stop) << "and keeps what was chosen";
+    EXPECT_EQ(rows.missing(), QString());
+    choose(*box("inputOf pedal"), 0);
+    EXPECT_EQ(rows.seats().size(), 1U);
+}
+
+TEST_F(Inputs, APressedButtonLightsUpUntilItIsLetGo) {
+    ASSERT_NO_FATAL_FAILURE(show({PluggedButtons::pad("pad")}));
+    ASSERT_IN_TIME(comesTrue([this] { return plugged->open("pad") == 1; }));
+    const auto hint = [this] { return rows.findChild<QLabel*>("pressIt")->text(); };
+    plugged->press("pad", 3);
+    EXPECT_IN_TIME(comesTrue([&] { return hint() == "● button 3 is down"; }));
+    plugged->press("pad", 3, false);
+    EXPECT_IN_TIME(comesTrue([&] { return hint().startsWith("Press"); }));
+    choose(*box("inputOf pad"), 1);
+    const auto lamp = [this] { return rows.findChild<QLabel*>("lamp 5")->text(); };
+    EXPECT_EQ(lamp(), "○ 5");
+    plugged->press("pad", 5);
+    EXPECT_IN_TIME(comesTrue([&] { return lamp() == "● 5"; }));
+    rows.hide();
+    EXPECT_EQ(plugged->open("pad"), 0U) << "a session's devices are its own";
+}
+
+TEST_F(Inputs, OneThatIsGoneOrIdleIsInTheWayAndOneThatCannotBeUsedSaysWhy) {
+    auto blocked = PluggedButtons::pad("blocked", 0);
+    blocked.obstacle = "HID device 046d:0002 at /dev/hidraw1 cannot answer: it has 2 other inputs and no button.";
+    ASSERT_NO_FATAL_FAILURE(show({PluggedButtons::pad("pad", 1), blocked}));
+    ASSERT_IN_TIME(comesTrue([this] { return box("inputOf blocked") != nullptr; }));
+    EXPECT_FALSE(box("inputOf blocked")->isEnabled());
+    EXPECT_EQ(rows.missing(), QString()) << "it is not used";
+    choose(*box("inputOf pad"), 1);
+    choose(*box("use 1"), 0);
+    EXPECT_EQ(rows.missing(), "No button of pad does anything. Choose STOP or an answer for one.");
+    choose(*box("use 1"), 1);
+    plugged->set({blocked});
+    plugged->plug("pad", false);
+    EXPECT_IN_TIME(comesTrue([&] { return rows.missing() == "pad is unplugged. Plug it in, or choose “not used”."; }));
+    plugged->set({PluggedButtons::pad("pad", 1), blocked});
+    EXPECT_IN_TIME(comesTrue([&] { return rows.missing().isEmpty(); }));
+    ASSERT_EQ(rows.seats().size(), 1U);
+    EXPECT_EQ(rows.seats()[0].uses[0].does, Stop) << "it keeps its person and its uses";
+}
+
+TEST_F(Inputs, LooksRightInBothThemesAndSizes) {
+    auto blocked = PluggedButtons::pad("Dual Action", 0);
+    blocked.obstacle =
+        "2 devices are 046d:c216 and nothing tells them apart when one is plugged in again; one of them is accepted.";
+    ASSERT_NO_FATAL_FAILURE(
+        show({PluggedButtons::pad("Logitech Logitech Dual Action"), PluggedButtons::pad("VEC USB Footpedal", 3),
+              blocked, PluggedButtons::pad("8BitDo SN30 Pro")}));
+    ASSERT_IN_TIME(comesTrue([this] { return box("inputOf VEC USB Footpedal") != nullptr; }));
+    choose(*box("inputOf Logitech Logitech Dual Action"), 1);
+    choose(*box("inputOf VEC USB Footpedal"), 2);
+    plugged->press("Logitech Logitech Dual Action", 6);
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+            gui::applyTheme(theme);
+            rows.resize(percent == 100 ? QSize(480, 560) : QSize(900, 1100));
+            QTest::qWait(60);
+            shot(rows, QString("inputs-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
+            EXPECT_EQ(faultsOf(rows), "") << percent;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tacto::test
