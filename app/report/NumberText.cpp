@@ -156,7 +156,7 @@ std::optional<ColumnFormat> columnFormat(const std::vector<double>& values, cons
     if (split.base.isEmpty() && (most >= 1e7 || most < 1e-3)) return std::nullopt;
     const int exponent = decimalExponent(most, 4);
     const int prefix = split.base.isEmpty() ? 0 : prefixOf(exponent).exponent;
-    // The smallest keeps two digits at the least; the largest has four.
+    // The smallest keeps at least two digits; the largest has four.
     const int decimals = std::max(3 - (exponent - prefix), 1 - (decimalExponent(least, 2) - prefix));
     return ColumnFormat{prefix, std::clamp(decimals, 0, 6)};
 }

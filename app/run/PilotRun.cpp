@@ -326,7 +326,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
 
 Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, const DeviceSet& devices) {
     request_.devicesSimulated = std::ranges::all_of(devices.identities(), &DeviceIdentity::simulated);
-    if (toEnd_) {  // Not before every gate lets another begin: until then it can be gone on with
+    if (toEnd_) {  // Not before every gate lets another begin: until then it can be continued
         if (auto may = study_->mayBegin(request_); !may) return failure(may);
         if (auto ended = study_->endSession(toEnd_->id, StudySessionState::Stopped, ""); !ended) return failure(ended);
         remarks_.push_back(fmt::format("Session {} of {} was ended as stopped.", toEnd_->number, who_.code));
@@ -391,7 +391,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     return made;
 }
 
-/// A session whose bench could not be opened is none that may go on. One that is gone on with stays as it was.
+/// A session whose bench could not be opened is not one that may go on. A continued session stays as it was.
 void PilotRun::cancelBooked() {
     if (!begun_ || unfinished_) return;
     static_cast<void>(study_->cancelSession(begun_->session.id));

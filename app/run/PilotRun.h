@@ -1,4 +1,4 @@
-// PilotRun.h - a run of a pilot protocol: the study it belongs to, the session that is begun or gone on with, and the
+// PilotRun.h - a run of a pilot protocol: the study it belongs to, the session that is begun or continued, and the
 // protocol's run on a bench for that participant. Command line and window run sessions through this.
 //
 // Every gate is asked before anything is made or presented (core/study/Gates.h, MachineGate.h, core/pilot/PilotCare.h).
@@ -76,7 +76,7 @@ private:
     Participant who_;
     bool inWindow_ = false;
     std::optional<StudySession> toEnd_;       // To be ended once another may begin
-    std::optional<StudySession> unfinished_;  // That is gone on with
+    std::optional<StudySession> unfinished_;  // The one that is continued
     std::optional<BegunSession> begun_;
     SessionRequest request_;
     PilotRows earlier_;

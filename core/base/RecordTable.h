@@ -26,7 +26,7 @@ public:
     using Rule = std::function<Result<void>(const void* record)>;
 
     /// A field whose member stands `offset` bytes into the record. What is returned may be changed until the next field
-    /// is added. `optional`: for a member that is one; must live for ever.
+    /// is added. `optional`: for a member that is one; must live forever.
     FieldInfo& add(std::string_view key, std::size_t offset, AnyKind kind, const OptionalAccess* optional = nullptr);
     void note(std::string_view key, const AcceptedText& accepted);
     void rule(Rule holds) { rules_.push_back(std::move(holds)); }

@@ -160,9 +160,9 @@ public:
     /// at this level; NotArmed outside person mode; LimitExceeded as SafetyGate::accept(); Io.
     [[nodiscard]] Result<void> accept(const StimulusLevel& level);
     /// The participant called this level too strong: from now on nothing exceeds it, also when the bench is armed
-    /// again. Told to the gate before it is recorded as `level-too-strong`; also after a stop. Errors: InvalidArgument
-    /// unless finite and ≥ 0, and an intensity at most 1; Unsupported for a level that the output does not take;
-    /// NotArmed outside person mode; Io, when it holds all the same.
+    /// again. Passed to the gate before it is recorded as `level-too-strong`; also after a stop. Errors:
+    /// InvalidArgument unless finite and ≥ 0, and an intensity at most 1; Unsupported for a level that the output does
+    /// not take; NotArmed outside person mode; Io, when it holds all the same.
     [[nodiscard]] Result<void> reportDiscomfort(const StimulusLevel& level);
     /// A series of ascending limits: its ceiling is its own last accepted level plus one step. Errors: NotArmed outside
     /// person mode.

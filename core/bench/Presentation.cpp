@@ -66,7 +66,7 @@ std::string_view nameOf(PresentationEnd end) noexcept { return wordFor(kPresenta
 
 Presentation testPresentation(StimulusLevel level, Seconds interval, Seconds window) {
     Presentation made{.level = level, .interval = interval, .duration = window + Presentation::kTail};
-    // One beyond the most: validate() then says so, and a wrong interval does not run on for ever.
+    // One beyond the most: validate() then says so, and a wrong interval does not run on forever.
     for (std::size_t k = 0; k <= Presentation::kMaxTrains; ++k) {
         const Seconds onset = static_cast<double>(k) * interval;
         if (!(onset <= window * (1 + kRounding))) break;

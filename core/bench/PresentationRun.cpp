@@ -89,7 +89,7 @@ Result<PlannedStimulus> PresentationRun::plan(TrainPlanner& planner, SafetyGate&
 PresentationRun::Due PresentationRun::beforeBegin(const Sight& sight) noexcept {
     const Instant begin = std::max(what_->notBefore, sight.now + ControlLoop::kPeriod);
     const Instant first = begin + what_->onsets.front();
-    // Not by the first onset, which may come later than a check takes: `begin` would recede for ever.
+    // Not by the first onset, which may come later than a check takes: `begin` would recede forever.
     if (sight.now < begin - kCheckAhead) return Due::Nothing;
     if (sight.readingUntil && *sight.readingUntil < first) return Due::Check;
     began_ = begin;

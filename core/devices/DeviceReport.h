@@ -11,7 +11,7 @@
 
 namespace tacto {
 
-/// The texts live for ever: literals.
+/// The texts live forever: literals.
 struct ReportRow {
     const char* key = "";   ///< in sessions and JSON, with its unit: "drift_ppm"
     const char* name = "";  ///< for people: "clock drift"

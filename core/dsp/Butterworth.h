@@ -29,7 +29,7 @@ public:
     /// `axes` 1..3.
     AxesBandpass(double low_hz, double high_hz, double rate_hz, std::size_t axes) noexcept;
 
-    /// Starts anew at the steady state of `sample` (one value per axis), so that an offset makes no transient.
+    /// Starts over at the steady state of `sample` (one value per axis), so that an offset makes no transient.
     void restart(const double* sample) noexcept;
 
     /// `interleaved` holds `count` samples of all axes; axis i goes to out[i][0..count).

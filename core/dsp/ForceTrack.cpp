@@ -45,7 +45,7 @@ void ForceTrack::push(double t_s, double force_n) noexcept {
     if (contact_ && firstContact_ == kInfinity_s) firstContact_ = t_s;
     const double row[2] = {force_n, contact_ ? 1.0 : 0.0};
     samples_.push(t_s, row);
-    // What was dropped for want of room has no place for a cursor.
+    // What was dropped for lack of room has no place for a cursor.
     normaliseCursor_ = std::max(normaliseCursor_, samples_.begin());
     readCursor_ = std::max(readCursor_, samples_.begin());
 }

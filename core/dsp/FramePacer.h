@@ -1,5 +1,5 @@
 // FramePacer.h - when frames are due where no acceleration paces them: every 16 ms, or with every sample of a
-// slower stream. A gap starts the count anew behind it.
+// slower stream. A gap restarts the count behind it.
 //
 // Thread-safety: none; one owner. Never allocates.
 #pragma once

@@ -123,7 +123,7 @@ double RoughnessChain::State::firstContact_s() const noexcept {
 double RoughnessChain::State::forceKnown_s() const noexcept {
     if (!force || finished) return kInfinity_s;
     const double start = streamBegin_s();
-    // Before its first sample, and in a long silence, force is not waited for for ever.
+    // Before its first sample, and in a long silence, force is not waited for forever.
     const double spoken = std::max(force->newest_s(), start);
     if (horizon_s() > spoken + ForceTrack::kLongestBridge_s + kSkew_s) return kInfinity_s;
     return force->newest_s();

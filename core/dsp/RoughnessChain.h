@@ -19,7 +19,7 @@
 // another unit are left aside and flagged, and R is then uncalibrated too.
 //
 // What is not finite, repeated or stepped back in time is not used; a gap or a NaN in acceleration starts the
-// filter and the windows anew behind it. All of it is counted and shows among the flags.
+// filter and the windows again behind it. All of it is counted and shows among the flags.
 //
 // Thread-safety: none; one owner. feed() does not allocate, given room in `frames`.
 #pragma once

@@ -1,6 +1,6 @@
 // SampleHistory.h - the last few seconds of a stream, in one piece of memory.
 //
-// Samples keep their number for ever; those released, and the oldest when there is no more room, are gone.
+// Samples keep their number forever; those released, and the oldest when there is no more room, are gone.
 //
 // Thread-safety: none; one owner. Never allocates after construction.
 #pragma once

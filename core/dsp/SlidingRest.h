@@ -39,7 +39,7 @@ public:
     void clear() noexcept;
     void preset(double meanSquare) noexcept;
     [[nodiscard]] bool decided() const noexcept { return decided_ || !hasAcceleration_; }
-    /// True when a contact frame was taken to slide for want of a rest level.
+    /// True when a contact frame was taken to slide for lack of a rest level.
     [[nodiscard]] bool assumed() const noexcept { return assumed_; }
     /// NaN while unknown or assumed.
     [[nodiscard]] double meanSquare() const noexcept { return level_; }

@@ -7,7 +7,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kSmallestShare = 0.01;  // with less, times would shrink to nothing and windows last for ever
+constexpr double kSmallestShare = 0.01;  // with less, times would shrink to nothing and windows last forever
 
 }  // namespace
 

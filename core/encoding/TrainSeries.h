@@ -4,7 +4,7 @@
 // step (StepResponse). A train is limited against the train before it as it was delivered: a train that came later than
 // its interval, because the finger pressed when more than the new interval had already passed, was felt at the interval
 // that passed. A silence of more than twice the longest interval ends the series (choice): nothing is left to compare
-// the next train with, and it begins anew at what is wanted. Limits are the profile's, 0 = none.
+// the next train with, and it starts over at what is wanted. Limits are the profile's, 0 = none.
 //
 // Thread-safety: none; its owner's thread. Never allocates.
 #pragma once

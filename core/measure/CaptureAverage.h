@@ -8,7 +8,7 @@
 //
 // A sample that is missing in a capture counts in none; one that is clipped in any capture is clipped in the mean, for
 // its true value is not known. Captures of other settings (rate, length, place of the trigger, channels, ranges, the
-// programmed amplitude) are not repetitions: the mean begins anew with them.
+// programmed amplitude) are not repetitions: the mean starts over with them.
 //
 // Levels are in each channel's unit, a bare double because the unit is data.
 //
@@ -25,7 +25,7 @@ namespace tacto {
 
 class CaptureAverage {
 public:
-    /// 1: nothing is averaged. Another number begins anew.
+    /// 1: nothing is averaged. Another number restarts the mean.
     void setCaptures(std::size_t captures);
     [[nodiscard]] std::size_t captures() const noexcept { return wanted_; }
     /// How many the present mean is of, at most captures().

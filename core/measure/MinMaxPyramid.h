@@ -36,7 +36,7 @@ public:
     static constexpr std::size_t kFan = 8;     ///< blocks in one of the next level
 
     /// `record` is all samples so far: those seen before, unchanged, and any number of new ones. It must stay where it
-    /// is until the next extend(), clear() or the end of this. A shorter record than before begins anew.
+    /// is until the next extend(), clear() or the end of this. A shorter record than before starts over.
     void extend(std::span<const float> record);
     void clear() noexcept;
 

@@ -8,7 +8,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kMinRatio = 0.01;  // as CalibrationLine: with less, a window would last for ever
+constexpr double kMinRatio = 0.01;  // as CalibrationLine: with less, a window would last forever
 
 /// What widens the bounds beyond what is programmed.
 struct Widening {

@@ -226,7 +226,7 @@ ResidualVoltages UnitRecord::replay(ExposureMeter& meter) const noexcept {
 }
 
 void UnitRecord::book(const BookedTrain& booked, const ResidualVoltages& left) noexcept {
-    // Taken anew each time: the clock stands still while the computer sleeps.
+    // Taken again each time: the clock stands still while the computer sleeps.
     const Instant offset = time_.sinceBoot() - clock_.now();
     Train train;
     train.sequence = next_;

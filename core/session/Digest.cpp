@@ -44,7 +44,7 @@ Digest bulkDigest(std::span<const std::span<const std::byte>> parts) {
 std::uint32_t crc32(std::span<const std::span<const std::byte>> parts) {
     uLong crc = ::crc32(0, nullptr, 0);
     for (const auto part : parts) {
-        if (part.empty()) continue;  // zlib takes a null pointer for "start anew"
+        if (part.empty()) continue;  // zlib takes a null pointer for "start from the beginning"
         crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(part.data()), part.size());
     }
     return static_cast<std::uint32_t>(crc);

@@ -75,7 +75,7 @@ Result<Database> openTable(const fs::path& file) {
     return database;
 }
 
-/// The index, made anew where it is damaged. Nothing where there can be none.
+/// The index, rebuilt where it is damaged. Nothing where there can be none.
 std::optional<Database> openIndex(const fs::path& file) {
     std::error_code ignored;
     fs::create_directories(file.parent_path(), ignored);

@@ -1,8 +1,8 @@
 // SessionIndex.h - summaries of sessions that were read before, so that thousands are listed at once.
 //
 // A cache and nothing else. A summary counts as long as its session has the size and the time of change that it had
-// when it was read, journal included; a row that was altered is read anew; an index that is missing, damaged or of
-// another version is made anew, and without one every session is read. What a session says is asked of the session:
+// when it was read, journal included; a row that was altered is read again; an index that is missing, damaged or of
+// another version is rebuilt, and without one every session is read. What a session says is asked of the session:
 // read() corrects the index.
 //
 // Thread-safety: any thread, several programs; each call opens the index for itself.

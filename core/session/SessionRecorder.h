@@ -29,7 +29,7 @@ namespace tacto {
 
 class SessionWriter;
 
-/// A named value of a command or event. `key` must live for ever: a string literal.
+/// A named value of a command or event. `key` must live forever: a string literal.
 struct RecordField {
     const char* key;
     double value;  ///< NaN is written as null
@@ -55,10 +55,10 @@ public:
     void samples(int stream, std::size_t columns, const SampleBlock& block) noexcept;
     /// One sample with its columns: a frame of the roughness chain, a line of telemetry.
     void frame(int stream, double t_s, std::span<const double> values) noexcept;
-    /// `name` must live for ever. Written with the samples.
+    /// `name` must live forever. Written with the samples.
     void command(Instant at, const char* name, std::initializer_list<RecordField> fields,
                  std::string_view text = {}) noexcept;
-    /// `kind` must live for ever. On its own thread the recorder commits it at once; wait for that with drain().
+    /// `kind` must live forever. On its own thread the recorder commits it at once; wait for that with drain().
     void event(Instant at, const char* kind, std::initializer_list<RecordField> fields,
                std::string_view text = {}) noexcept;
     void event(Instant at, const char* kind, std::span<const RecordField> fields, std::string_view text) noexcept;

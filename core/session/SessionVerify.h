@@ -1,6 +1,6 @@
 // SessionVerify.h - is this session file what was recorded? (hazard H8, `tactoscope-cli verify`)
 //
-// Looks at every page, row, checksum and hash. An altered row breaks the chain; a file whose chain was computed anew
+// Looks at every page, row, checksum and hash. An altered row breaks the chain; a file whose chain was recomputed
 // is consistent in itself and is found by its head, which differs from the one printed in the report.
 //
 // Thread-safety: pure function of the file, which it never changes.

@@ -60,7 +60,7 @@ Result<WalFindings> scanWal(const std::filesystem::path& wal) {
     bool commitWaits = false;  // a commit behind the bad frame counts once a further transaction follows it
     while (file.read(frame.data(), static_cast<std::streamsize>(frame.size()))) {
         const bool current = std::equal(frame.begin() + 8, frame.begin() + 16, header.begin() + 16);
-        if (!current) {  // left over from before the journal was last started anew, or altered
+        if (!current) {  // left over from before the journal was last restarted, or altered
             readable = false;
             continue;
         }

@@ -252,7 +252,7 @@ void HidMassager::run() {
         if (quitting_) continue;
         const Instant now = clock_.now();
         const Instant beatAt = keepBeating(now);
-        const auto due = timer_.next();  // anew: something may have been asked since serve()
+        const auto due = timer_.next();  // again: something may have been asked since serve()
         if (writing_ || due.what == HidWrite::Nothing) {
             changed_.wait(lock);
         } else if (const Instant next = std::min(due.at, beatAt); next > now) {

@@ -82,7 +82,7 @@ Result<std::span<const std::uint8_t>> Exchange::receive(Seconds allowed) {
             ++stray_;
         }
         const Instant now = clock_.now();
-        // A device that never pauses is not listened to for ever, whatever the clock says.
+        // A device that never pauses is not listened to forever, whatever the clock says.
         if (now >= deadline || taken > kMaxGarbage) return silence(junkBefore);
         const auto got = refill(Seconds(deadline - now));
         if (got) {

@@ -21,7 +21,7 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 std::string reason() { return std::strerror(errno); }
 
 SteadyTime deadlineOf(Seconds timeout) {
-    // A timeout that is not a number, or negative, does not wait; an hour is for ever.
+    // A timeout that is not a number, or negative, does not wait; an hour is forever.
     const double s = timeout.count() > 0 ? std::min(timeout.count(), 3600.0) : 0;
     return std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(Seconds(s));
 }

@@ -101,7 +101,7 @@ Result<Frame> BoardLink::ask(Command command, Reply answer, std::span<const std:
         return fail(ErrorCode::Timeout, "it does not answer {} within {} s", nameOf(command), kAttempt.count());
     if (sound == 0) {
         return fail(ErrorCode::Device,
-                    "it answers {} with garbage: {} bytes without a sound frame of the sensor board protocol",
+                    "it answers {} with garbage: {} bytes without a valid frame of the sensor board protocol",
                     nameOf(command), bytes);
     }
     return fail(ErrorCode::Timeout, "it sends {} frames but no answer to {} within {} s", sound, nameOf(command),

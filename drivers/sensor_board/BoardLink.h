@@ -36,7 +36,7 @@ public:
     BoardLink& operator=(const BoardLink&) = delete;
 
     /// Sends a command and waits for its answer, which is valid until the next call. Other frames are passed over.
-    /// Errors: Timeout where nothing sound came; Device where only noise did, the board refused, or the line failed.
+    /// Errors: Timeout where no valid frame came; Device where only noise did, the board refused, or the line failed.
     [[nodiscard]] Result<Frame> ask(Command command, Reply answer, std::span<const std::uint8_t> payload = {});
 
     /// The same for a command that is answered by DONE. Errors: as ask(); Device for one that names another command.

@@ -63,7 +63,7 @@ Result<void> SensorBoard::takeFrames(std::span<SampleBlock> blocks) {
                 ++current_.foreign;
             }
         }
-        // A board can send faster than the line it names, but not make this loop last for ever.
+        // A board can send faster than the line it names, but not make this loop last forever.
         if (link_.counts().bytes - begin >= kMaxRead) return {};
         const auto came = link_.fill(Seconds(0));
         if (!came) return failure(came);
@@ -87,7 +87,8 @@ Result<void> SensorBoard::takeBlock(const Frame& frame, std::span<SampleBlock> b
             return {};
         case StreamTrack::Verdict::Late:
             if (track.lateInARow() < kMaxLate) return {};
-            return fail(ErrorCode::Device, "it began again: {} blocks of its {} stream in a row count from anew",
+            return fail(ErrorCode::Device,
+                        "it began again: {} blocks of its {} stream in a row count from the start again",
                         track.lateInARow(), tacto::nameOf(track.configuration().kind));
         case StreamTrack::Verdict::Unsound:
             return {};
@@ -120,7 +121,7 @@ Result<void> SensorBoard::judgeNoise() {
     }
     const auto noise = line.bytes - bytesThen_;
     if (noise < kGarbageBytes || now - lastSound_ < toInstant(kGarbageTime)) return {};
-    return fail(ErrorCode::Device, "it sends garbage: {} bytes without a sound frame in {:.2g} s", noise,
+    return fail(ErrorCode::Device, "it sends garbage: {} bytes without a valid frame in {:.2g} s", noise,
                 toSeconds(now - lastSound_));
 }
 

@@ -6,8 +6,8 @@
 // so that the moment of arrival is known; read() takes what has arrived and never waits. Samples carry the board's own
 // time stamps, mapped to the session's clock (ClockFit.h); what is lost is counted and stays a gap in them.
 //
-// Errors of read() are lasting: after one the board must be opened anew. They are: the line failed (unplugged);
-// kGarbageBytes of noise and no sound frame for kGarbageTime; a board that began again, whose clock jumped by more than
+// Errors of read() are lasting: after one the board must be opened again. They are: the line failed (unplugged);
+// kGarbageBytes of noise and no valid frame for kGarbageTime; a board that began again, whose clock jumped by more than
 // kMaxJump ahead, or runs wrong by more than kMaxDrift.
 //
 // Thread-safety: as TactileSensor; report() from any thread.
@@ -31,7 +31,7 @@ struct SensorBoardReport {
     sensorboard::LineCounts line;
     sensorboard::BoardStatus board;  ///< the last STATUS
     std::uint64_t dropped = 0;       ///< bytes that the host did not read in time, about
-    std::uint64_t foreign = 0;       ///< sound frames of another version, of no known stream, or not well formed
+    std::uint64_t foreign = 0;       ///< valid frames of another version, of no known stream, or not well formed
     bool driftKnown = false;
     double drift_ppm = 0;  ///< how much faster than the session's clock the board's runs
     double driftUncertainty_ppm = 0;
@@ -101,7 +101,7 @@ private:
     std::vector<sensorboard::StreamCalibration> calibrations_;
     std::array<int, sensorboard::kMaxStreams> trackOf_{};  // by the board's number; -1: not one of ours
     sensorboard::ClockFit fit_;
-    Instant lastSound_{0};           // when a sound frame last came
+    Instant lastSound_{0};           // when a valid frame last came
     std::uint64_t soundFrames_ = 0;  // by then
     std::uint64_t bytesThen_ = 0;    // by then
     bool began_ = false;             // START was acknowledged

@@ -69,7 +69,7 @@ struct LineCounts {
 /// right; finds the first whole frame after junk that ended with a delimiter.
 class FrameDecoder {
 public:
-    /// The next sound frame of `bytes`, from which it and all before it are taken; nothing when they are used up.
+    /// The next valid frame of `bytes`, from which it and all before it are taken; nothing when they are used up.
     /// `while (const auto frame = decoder.take(bytes)) ...`
     [[nodiscard]] std::optional<Frame> take(std::span<const std::uint8_t>& bytes) noexcept;
     [[nodiscard]] const LineCounts& counts() const noexcept { return counts_; }

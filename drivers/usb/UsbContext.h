@@ -33,7 +33,7 @@ public:
     UsbContext(const UsbContext&) = delete;
     UsbContext& operator=(const UsbContext&) = delete;
 
-    /// All that is plugged in, in order of socket, also what may not be opened. Permission is looked up anew by each
+    /// All that is plugged in, in order of socket, also what may not be opened. Permission is looked up again by each
     /// call: it can change without plugging.
     [[nodiscard]] std::vector<UsbDeviceInfo> devices() const;
 

@@ -5,7 +5,7 @@
 // circuit, a loose contact and a silent control loop must end the output by themselves.
 protocol({
   title: "Resistor-load safety check",
-  purpose: "Does the stimulator keep every limit on known loads, and does it stop when it must?",
+  purpose: "Does the stimulator stay within every limit on known loads, and does it stop when it must?",
   kind: "load-safety",
   needs: ["stimulator", "oscilloscope"],
   view: "loads",

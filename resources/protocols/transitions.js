@@ -184,7 +184,7 @@ function passed(p, changes) {
     const least = Math.min.apply(null, beyond.map((group) => group.fastest_complete_s.min));
     out.push(beyond.length + " of " + ending.length + " kinds of change cannot be complete " + within +
       " in steps of at most 2 differences (" + least.toFixed(1) +
-      " s at the least); they were, after " + Math.max.apply(null,
+      " s at least); they were, after " + Math.max.apply(null,
         beyond.map((group) => group.complete_s.max)).toFixed(1) +
       " s at most, with the fewest trains that such steps take, which is what is judged there (choice)");
   }

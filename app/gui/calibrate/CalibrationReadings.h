@@ -37,7 +37,7 @@ struct CalibrationReadings {
     std::vector<ToleranceUse> used;            ///< levels that were judged; empty before the result
     QString verdict;                           ///< "pass", ...; empty before the result
 
-    /// Fits anew.
+    /// Fits again.
     void judge();
     /// The level nearest to its tolerance, or furthest beyond it. Null before the result.
     [[nodiscard]] const ToleranceUse* nearest() const;

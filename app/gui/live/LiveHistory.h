@@ -28,7 +28,7 @@ class Series {
 public:
     Series(std::size_t channels, std::size_t capacity);
     /// A stamp that is not later than the newest is left out (two values cannot stand at one time); one more than a
-    /// second before it is another clock, and begins anew.
+    /// second before it is another clock, and starts over.
     void push(double t_s, std::span<const float> values);
     void clear() noexcept { count_ = head_ = 0; }
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }

@@ -133,7 +133,7 @@ void ProfileTabs::enableWhatMatters() {
         const auto chosen = findChild<QComboBox*>(row.field->form.needs)->currentData().toString();
         QString needed = row.field->form.needsValue;
         const bool matters = needed.startsWith('!') ? chosen != needed.mid(1) : chosen == needed;
-        // One that is refused can always be mended.
+        // A refused field can always be corrected.
         row.line->setEnabled(matters || !row.refusal->text().isEmpty());
         row.label->setEnabled(row.line->isEnabled());
     }

@@ -151,7 +151,7 @@ void ProtocolWorkspace::choose(const QString& nameOrPath) {
 
 void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<ProtocolDeclaration>& declaration) {
     if (source.name != source_.name || running_) return;
-    // The form is made anew: who was in it shall be in it again, or no key reaches the workspace.
+    // The form is rebuilt: a field that had the focus gets it again, or no key reaches the workspace.
     const bool wasInForm = pages_->form().isAncestorOf(QApplication::focusWidget());
     last_.reset();
     pages_->sign().clear();
@@ -291,7 +291,7 @@ bool ProtocolWorkspace::anotherRuns() const {
 void ProtocolWorkspace::runNow() {
     if (running_ || !asked_) return;
     if (anotherRuns()) return panel_->say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
-    // The first of the two steps is void after a stop, and does not wait for ever.
+    // The first of the two steps is void after a stop, and does not wait forever.
     if (controller_.stoppedSince(askedAt_) || askedSince_.nsecsElapsed() > Interlock::kConfirmWithin.count())
         return panel_->say(tr("The question was answered after a stop or after 30 s. Press Run again."));
     running_ = true;

@@ -114,7 +114,7 @@ void TrialPlane::resizeEvent(QResizeEvent* event) {
     const int wrap = width() < fontMetrics().averageCharWidth() * kOneRowChars ? 2 : 0;
     if (legend->wrap() != wrap) {
         legend->setWrap(wrap);
-        // A grid keeps its cells where they were: put them in anew.
+        // A grid keeps its cells where they were: put them in again.
         for (int i = 0; i < plottableCount(); ++i) plottable(i)->removeFromLegend();
         for (int i = 0; i < plottableCount(); ++i) plottable(i)->addToLegend();
         fitLegend(*this);

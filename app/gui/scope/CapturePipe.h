@@ -25,11 +25,11 @@ public:
     explicit CapturePipe(QObject* parent = nullptr);
     ~CapturePipe() override;  ///< waits for the work at hand
 
-    /// How many of the bench's captures are averaged from now on; 1: none. Another number begins anew.
+    /// How many of the bench's captures are averaged from now on; 1: none. Another number restarts the mean.
     void setAverage(std::size_t captures);
     /// Judges the bench's captures from now on; null: none is.
     void setMask(std::shared_ptr<const CaptureMask> mask) { mask_ = std::move(mask); }
-    /// What comes next does not follow on what came last: the oscilloscope was set anew.
+    /// What comes next does not follow on what came last: the oscilloscope was set again.
     void breakOff() { gap_ = true; }
     /// Another bench or another load: nothing of the one before goes into a mean, and its captures that are on their
     /// way do not come.

@@ -57,7 +57,7 @@ public:
         [[nodiscard]] const RunningStatistics& of(Reading r) const { return readings[static_cast<std::size_t>(r)]; }
     };
 
-    /// Channels that come or go begin anew.
+    /// Statistics of channels that come or go restart.
     void add(const ShownCapture& shown);
     /// What comes next does not follow on what came last: no interval runs across.
     void breakOff();

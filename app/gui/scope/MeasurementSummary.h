@@ -88,7 +88,7 @@ private:
 
     QLabel* head_;
     QVBoxLayout* column_;
-    QWidget* rows_ = nullptr;  // made anew when channels, choice or fold change
+    QWidget* rows_ = nullptr;  // rebuilt when channels, choice or fold change
     QGridLayout* grid_ = nullptr;
     std::vector<Figure> figures_;
     std::vector<QLabel*> quiet_;

@@ -1,5 +1,5 @@
 // MeasurementTable.h - the chosen readings as rows, and for each channel its last value with the statistics over the
-// captures seen; a button that begins anew, one that chooses, and in words what could not be measured and why.
+// captures seen; a button that starts over, one that chooses, and in words what could not be measured and why.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] QStringList asLines() const;
 
 signals:
-    /// The user begins anew: what is averaged does too.
+    /// The user restarted the statistics: the average restarts too.
     void resetClicked();
 
 protected:

@@ -53,7 +53,7 @@ public:
     [[nodiscard]] QString statusText(const ShownCapture* shown, std::uint64_t skipped) const;
 
 signals:
-    /// The oscilloscope was set anew: what it takes from now on does not follow on what it took.
+    /// The oscilloscope was set again: what it takes from now on does not follow on what it took.
     void requested();
     /// The oscilloscope failed; why, and what that means for the output.
     void stopped(const QString& problem);

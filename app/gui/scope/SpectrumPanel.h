@@ -68,7 +68,7 @@ public:
     void restore(const QSettings& settings);
 
 signals:
-    /// Another lane or window: what is shown is to be calculated anew.
+    /// Another lane or window: what is shown is to be calculated again.
     void chosen();
 
 protected:

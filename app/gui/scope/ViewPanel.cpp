@@ -47,7 +47,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
     average_->setAccessibleName(tr("Average"));
     average_->setToolTip(
         tr("The mean of so many captures, aligned at the trigger: noise goes, what repeats stays. It "
-           "begins anew when a setting or the commanded amplitude changes."));
+           "starts over when a setting or the commanded amplitude changes."));
     average_->addItem(tr("none"), 1);
     for (const int n : kAverages) average_->addItem(tr("%1 captures").arg(n), n);
     power_->setToolTip(tr("Voltage times current, sample by sample, in watts."));

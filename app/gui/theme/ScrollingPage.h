@@ -13,7 +13,7 @@ class ScrollingPage final : public QScrollArea {
 public:
     explicit ScrollingPage(QWidget* parent);
     /// Takes the page. One that was made with viewport() as its parent stays where it is; any other moves here, and
-    /// each widget in it takes its style anew.
+    /// each widget in it takes its style again.
     void hold(QWidget* page);
     /// None of the page's: one that stands within another scrolls by itself.
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }

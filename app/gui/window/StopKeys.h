@@ -1,5 +1,5 @@
 // StopKeys.h - Esc, Pause and Space stop the output from wherever the focus is, dialogs included; Space types where
-// text is typed, and Return presses the focused button in its stead (hazard H6).
+// text is typed, and Return presses the focused button instead (hazard H6).
 //
 // Installed on the application: it sees each key before any widget does. Qt would keep the keys and clicks of a window
 // behind a modal dialog from the application as well, so StopKeys takes the modality from every window before it is

@@ -10,7 +10,7 @@
 
 namespace tacto {
 
-/// |Z|, net charge and imbalance of `out`, read anew: in `fine`, and in `captures` only while `fine` clips; not
+/// |Z|, net charge and imbalance of `out`, read again: in `fine`, and in `captures` only while `fine` clips; not
 /// measured where a record of the two cannot be read. `figures` are those of `captures`, whose charge and width `out`
 /// has.
 void addFineRange(LoadReading& out, const LoadFigures& figures, std::span<const Capture> captures,

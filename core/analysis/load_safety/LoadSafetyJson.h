@@ -26,7 +26,7 @@ namespace tacto {
 ///  "undriven": [{"command_v", "interval_s", "reason"}], "not_applicable", "problem"}; all but the name may be left
 ///  out. Errors: as loadStepFrom(); as parseLoad().
 [[nodiscard]] Result<LoadRecord> loadRecordFrom(const nlohmann::json& json);
-/// {"reference_v", "deviation_pct", "expanded_uncertainty_pct", "allowed_pct"}, judged anew.
+/// {"reference_v", "deviation_pct", "expanded_uncertainty_pct", "allowed_pct"}, judged again.
 [[nodiscard]] Result<SafetyRow> absoluteRowFrom(const nlohmann::json& json);
 /// {"name", "evaluated", "tripped", "after_s", "reason"}
 [[nodiscard]] Result<TripTrial> tripTrialFrom(const nlohmann::json& json);

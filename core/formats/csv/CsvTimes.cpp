@@ -222,7 +222,7 @@ Result<void> CsvTimes::setTimes(CaptureReading& reading, const std::string& file
         const double doubt = steps.least / (stamps_.back() - stamps_.front());
         if (hasStated && std::abs(*layout_.interval_s / step_s - 1) <= 2 * doubt) step_s = *layout_.interval_s;
         reading.warnings.push_back(
-            fmt::format("{}: time stamps move by {:.6g} s at the least, but samples are {:.6g} s apart; {}", file,
+            fmt::format("{}: time stamps move by at least {:.6g} s, but samples are {:.6g} s apart; {}", file,
                         steps.least * unit_s, step_s,
                         hasStated && step_s == *layout_.interval_s
                             ? std::string("the header's interval was taken")

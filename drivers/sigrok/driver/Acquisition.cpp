@@ -70,7 +70,7 @@ Result<std::optional<RawRecord>> Acquisition::takeFrame(const RecordPlan& plan, 
         auto& into = channel == wiring.voltage ? raw.voltage : raw.current;
         const std::size_t most = plan.record > 0 ? plan.record : kMaxRecordSamples;
         if (into.size() + samples.size() > most) {
-            // Said at once: with what is too much libsigrok may wait for ever for an answer that it has taken already.
+            // Said at once: with what is too much libsigrok may wait forever for an answer that it has taken already.
             const auto why = fmt::format("the instrument gave more than the {} samples that a record holds", most);
             queue.fail({ErrorCode::Device, why});
             throw std::length_error(why);

@@ -237,7 +237,7 @@ void TcpRelay::carry() noexcept {
         if (waiting[2].revents != 0) {
             heard_ = SteadyTime::now().time_since_epoch().count();
             if (downstream_ < 0 || !pass(upstream_, downstream_)) {
-                // Between two conversations an instrument may well hang up; the next one connects anew.
+                // Between two conversations an instrument may well hang up; the next one connects again.
                 if (downstream_ >= 0) setFault(ErrorCode::Device, "has hung up");
                 hangUp();
             }

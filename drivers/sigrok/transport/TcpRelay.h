@@ -1,6 +1,6 @@
 // TcpRelay.h - stands between libsigrok and an instrument on the network.
 //
-// libsigrok connects without a time limit and reads with a recv() that waits for ever, so an instrument that is
+// libsigrok connects without a time limit and reads with a recv() that waits forever, so an instrument that is
 // switched off, or falls silent in mid-answer, would hold its thread until the program ends. The relay makes the
 // connection itself, within a time, and libsigrok talks to the relay on loopback: what both say passes unchanged; cut()
 // ends a read that nothing else would end. It also acknowledges each command at once, without which every command

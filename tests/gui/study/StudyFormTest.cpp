@@ -100,7 +100,7 @@ TEST_F(StudyInThePage, ANewStudyIsMade) {
     ASSERT_NE(asks, nullptr);
     auto* go = asks->findChild<QPushButton*>("usePassphrase");
     QTest::keyClicks(asks->findChild<QLineEdit*>("passphrase"), kWords);
-    EXPECT_FALSE(go->isEnabled()) << "a slip of the finger would seal it for ever";
+    EXPECT_FALSE(go->isEnabled()) << "a slip would seal it forever";
     QTest::keyClicks(asks->findChild<QLineEdit*>("passphraseAgain"), "correct horse 4712");
     EXPECT_FALSE(go->isEnabled());
     QTest::keyClick(asks->findChild<QLineEdit*>("passphraseAgain"), Qt::Key_Backspace);

@@ -81,7 +81,7 @@ std::vector<HostFunction> calibrationFunctions() {
          .parameters = withLevels({quantity()}),
          .text =
              "Sets straight curves over the ranges, so that R sets the amplitude and P the interval level by level, "
-             "and arms for levels of these two. Each level of width and gap arms anew, as they are part of the "
+             "and arms for levels of these two. Each level of width and gap arms again, as they are part of the "
              "profile.",
          .errors = "As bench.arm().",
          .asks = kConfirmArming,
