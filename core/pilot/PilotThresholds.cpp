@@ -29,6 +29,9 @@ Seconds trainLength(const Bench& bench, LevelUnit unit) {
     return train.pulses > 1 && train.rate.value() > 0 ? Seconds(train.pulses / train.rate.value()) : Seconds(0.001);
 }
 
+Estimate estimateOf(const QuestPlusResult& found) { return found.estimate; }
+Estimate estimateOf(const StaircaseResult& found) { return {found.estimate, kNaN, kNaN}; }
+
 }  // namespace
 
 std::string_view nameOf(DetectionMethod method) noexcept { return wordFor<DetectionMethod>(kMethods, method); }
@@ -150,7 +153,8 @@ Result<void> PilotThresholds::detection(DetectionMethod method) {
     auto below = belowTooStrong();
     if (!below) return failure(below);
     detectionGrid_ = *below;
-    auto done = method == DetectionMethod::Quest ? withQuest() : withStaircase();
+    auto done = method == DetectionMethod::Quest ? measureBy<QuestPlus>(QuestPlusSettings{})
+                                                 : measureBy<Staircase>(StaircaseSettings{});
     if (!done) return done;
     const auto kept = stage_.record().once(row::kEstimate, "detection", [this]() -> Result<nlohmann::json> {
         return nlohmann::json{{"estimate", estimateJson(estimate_)}, {"trials", trials_.size()}};
@@ -178,35 +182,18 @@ Result<TrialInterval> PilotThresholds::twoIntervals(const std::string& name, con
     return trialIntervalFrom(answer->response);
 }
 
-Result<void> PilotThresholds::withQuest() {
-    QuestPlusSettings settings;
+template <class Procedure, class Settings>
+Result<void> PilotThresholds::measureBy(Settings settings) {
     settings.felt = ascending_.felt;
-    auto quest = QuestPlus::create(*detectionGrid_, settings, stage_.settings().seed);
-    if (!quest) return failure(quest);
-    while (const auto next = quest->next()) {
+    auto procedure = Procedure::create(*detectionGrid_, settings, stage_.settings().seed);
+    if (!procedure) return failure(procedure);
+    while (const auto next = procedure->next()) {
         const auto said = twoIntervals(fmt::format("detection {}", next->number), *next, "detection");
         if (!said) return failure(said);
-        if (auto taken = quest->answer(*said); !taken) return taken;
+        if (auto taken = procedure->answer(*said); !taken) return taken;
     }
-    auto result = quest->result();
-    estimate_ = result.estimate;
-    shares_ = result.intervals;
-    trials_ = std::move(result.trials);
-    return {};
-}
-
-Result<void> PilotThresholds::withStaircase() {
-    StaircaseSettings settings;
-    settings.felt = ascending_.felt;
-    auto staircase = Staircase::create(*detectionGrid_, settings, stage_.settings().seed);
-    if (!staircase) return failure(staircase);
-    while (const auto next = staircase->next()) {
-        const auto said = twoIntervals(fmt::format("detection {}", next->number), *next, "detection");
-        if (!said) return failure(said);
-        if (auto taken = staircase->answer(*said); !taken) return taken;
-    }
-    auto result = staircase->result();
-    estimate_ = {result.estimate, kNaN, kNaN};
+    auto result = procedure->result();
+    estimate_ = estimateOf(result);
     shares_ = result.intervals;
     trials_ = std::move(result.trials);
     return {};

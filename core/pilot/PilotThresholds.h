@@ -49,8 +49,8 @@ private:
     [[nodiscard]] Result<LevelGrid> ascendingGrid();
     [[nodiscard]] Result<void> present(AscendingLimits& limits, const AscendingPresentation& next);
     [[nodiscard]] Result<LevelGrid> belowTooStrong() const;
-    [[nodiscard]] Result<void> withQuest();
-    [[nodiscard]] Result<void> withStaircase();
+    template <class Procedure, class Settings>
+    [[nodiscard]] Result<void> measureBy(Settings settings);
     [[nodiscard]] nlohmann::json describe(const PersonalRangeResult& found) const;
 
     PilotStage& stage_;

@@ -215,14 +215,9 @@ private:
         stream.nextSample = head->firstSample + head->samples;
         report_.samples += head->samples;
 
-        row.reset();
-        row.bind(1, entry.seq);
-        auto there = row.step();
+        const auto there = bulkOf(entry, name, row);
         if (!there) return failure(there);
-        if (!*there) {
-            problem("the samples of {} are missing", name);
-            return {};
-        }
+        if (!*there) return {};
         if (row.integer(0) != head->stream || row.integer(1) != head->index ||
             row.isNull(2) != head->line.has_value()) {
             problem("{} is filed under stream {}, chunk {}", name, row.integer(0), row.integer(1));
@@ -237,6 +232,15 @@ private:
         return {};
     }
 
+    /// Moves `row` to the samples of an entry. False, and a problem, where they are missing.
+    [[nodiscard]] Result<bool> bulkOf(const Entry& entry, std::string_view name, Statement& row) {
+        row.reset();
+        row.bind(1, entry.seq);
+        auto there = row.step();
+        if (there && !*there) problem("the samples of {} are missing", name);
+        return there;
+    }
+
     /// How many samples it holds is sealed too.
     [[nodiscard]] Result<void> checkSealedChunk(const Entry& entry, const nlohmann::json& body, Statement& row) {
         const auto number = countOr(body, "stream");
@@ -249,14 +253,9 @@ private:
         const auto name = fmt::format("chunk {} of stream '{}'", index, stream.name);
         if (index != stream.nextIndex) problem("{} follows chunk {}: samples are missing", name, stream.nextIndex - 1);
         stream.nextIndex = index + 1;
-        row.reset();
-        row.bind(1, entry.seq);
-        auto there = row.step();
+        const auto there = bulkOf(entry, name, row);
         if (!there) return failure(there);
-        if (!*there) {
-            problem("the samples of {} are missing", name);
-            return {};
-        }
+        if (!*there) return {};
         if (row.integer(0) != static_cast<std::int64_t>(number) || row.integer(1) != index || !row.isNull(2))
             problem("{} is filed under stream {}, chunk {}", name, row.integer(0), row.integer(1));
         const std::span<const std::byte> parts[] = {row.blob(3)};
@@ -268,14 +267,9 @@ private:
         if (countOr(body, "trial") > report_.trials) {
             problem("capture {} belongs to trial {}, which is missing", entry.seq, countOr(body, "trial"));
         }
-        row.reset();
-        row.bind(1, entry.seq);
-        auto there = row.step();
+        const auto there = bulkOf(entry, fmt::format("capture {}", entry.seq), row);
         if (!there) return failure(there);
-        if (!*there) {
-            problem("the samples of capture {} are missing", entry.seq);
-            return {};
-        }
+        if (!*there) return {};
         const std::span<const std::byte> parts[] = {row.blob(0)};
         if (entry.digest != bulkDigest(parts)) problem("capture {} was altered: its hash is wrong", entry.seq);
         if (sealed_) return {};

@@ -4,6 +4,7 @@
 
 #include "core/calibration/CalibrationStore.h"
 #include "core/session/SessionReader.h"
+#include "tests/scripting/DataHome.h"
 #include "tests/scripting/RunBench.h"
 
 namespace tacto::test {
@@ -31,13 +32,8 @@ function invented(from, to) {
 const RANGES = { amplitude: [10, 40], interval: [0.5, 2], width: [1e-4, 4e-4], gap: [1e-4, 4e-4] };
 )";
 
-class ForgedCalibration : public testing::Test {
+class ForgedCalibration : public DataHome {
 protected:
-    ForgedCalibration() { ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1); }
-    ~ForgedCalibration() override { ::unsetenv("XDG_DATA_HOME"); }
-    ForgedCalibration(const ForgedCalibration&) = delete;
-    ForgedCalibration& operator=(const ForgedCalibration&) = delete;
-
     /// What the run ended with.
     [[nodiscard]] std::string run(const std::string& body, const std::string& device = "sim:") {
         RunBench rig(true, device, 1, true, kCalibrated);
@@ -67,7 +63,6 @@ protected:
         return CalibrationStore::open(calibrationFile()).value().all();
     }
 
-    ScratchDir folder_;
     std::string session_;
 };
 

@@ -10,6 +10,7 @@
 #include "core/calibration/CertificateStore.h"
 #include "core/devices/DeviceUri.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/scripting/DataHome.h"
 #include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
@@ -18,10 +19,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class Known : public testing::Test {
+class Known : public DataHome {
 protected:
     Known() {
-        ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
         std::filesystem::create_directories(calibrationFile().parent_path());
         std::vector<std::unique_ptr<Driver>> drivers;
         drivers.push_back(makeSimulatedDriver());
@@ -29,9 +29,6 @@ protected:
         const std::vector<DeviceUri> uris{DeviceUri::parse("sim:").value()};
         devices_ = registry.open(uris, {Role::Stimulator}, OpenContext{*clock_, 1, "1 kohm"}).value();
     }
-    ~Known() override { ::unsetenv("XDG_DATA_HOME"); }
-    Known(const Known&) = delete;
-    Known& operator=(const Known&) = delete;
 
     /// Keeps a calibration of the open stimulator, made and valid until so many days from now.
     void keep(double gain, int made, int until, const std::string& output = "SIM-1", const char* unit = "V") {
@@ -57,7 +54,6 @@ protected:
         ASSERT_TRUE(added) << added.error().message;
     }
 
-    ScratchDir folder_;
     std::shared_ptr<VirtualClock> clock_ = std::make_shared<VirtualClock>();
     DeviceSet devices_;
 };

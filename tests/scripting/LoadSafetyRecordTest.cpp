@@ -10,6 +10,7 @@
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/scripting/DataHome.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -17,13 +18,8 @@ namespace {
 
 using testing::HasSubstr;
 
-class LoadSafetyRecord : public testing::Test {
+class LoadSafetyRecord : public DataHome {
 protected:
-    LoadSafetyRecord() { ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1); }
-    ~LoadSafetyRecord() override { ::unsetenv("XDG_DATA_HOME"); }
-    LoadSafetyRecord(const LoadSafetyRecord&) = delete;
-    LoadSafetyRecord& operator=(const LoadSafetyRecord&) = delete;
-
     [[nodiscard]] RunOrder order(const std::map<std::string, std::string>& settings) const {
         RunOrder made;
         made.script = ProtocolLibrary(sourceDir() / "resources" / "protocols", {}).find("load-safety").value();
@@ -59,7 +55,6 @@ protected:
         return LoadSafetyStore::open(loadSafetyFile()).value().all();
     }
 
-    ScratchDir folder_;
     std::vector<LoadSafetyCheck> during_;  // what was kept while the run that is stopped went on
 };
 

@@ -11,6 +11,7 @@
 #include "core/calibration/CalibrationStore.h"
 #include "core/devices/DeviceUri.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/scripting/DataHome.h"
 #include "tests/scripting/Technician.h"
 #include "tests/support/Support.h"
 
@@ -69,10 +70,23 @@ Registry labRegistry() {
     return Registry(std::move(drivers));
 }
 
-class MachineGate : public testing::Test {
+/// A person who is there and does nothing.
+class SilentPerson final : public PilotParticipant {
+public:
+    void show(const PilotScreen&) override {}
+    [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
+        return fail(ErrorCode::NotFound, "no answer to {}", prompt.name);
+    }
+    void delivered(const FeltPresentation&) override {}
+    [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
+    void cancel() noexcept override {}
+    [[nodiscard]] bool holding() const noexcept override { return true; }
+    [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
+};
+
+class MachineGate : public DataHome {
 protected:
     MachineGate() {
-        ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
         limits_ = shippedLimits().value();
         study_.title = "Four conditions";
         study_.approval.reference = "EC-2026-17";
@@ -83,10 +97,24 @@ protected:
             study_.limits.push_back({limits_.sets[i].id, limits_.sha256[i]});
         profile_.electrodeArea = study_.electrode.area;
     }
-    ~MachineGate() override { ::unsetenv("XDG_DATA_HOME"); }
-    MachineGate(const MachineGate&) = delete;
-    MachineGate& operator=(const MachineGate&) = delete;
 
+    /// A session of the study in the folder "study".
+    [[nodiscard]] auto prepared(const ProtocolSource& script, const std::map<std::string, std::string>& given,
+                                const std::string& uri) {
+        RunOrder order;
+        order.script = script;
+        order.declaration = readDeclaration(script).value();
+        order.settings = applySettings(order.declaration, given).value();
+        order.uris = {DeviceUri::parse(uri).value()};
+        order.limits = limits_;
+        PilotOrder pilot;
+        pilot.study = folder_.path() / "study";
+        pilot.passphrase = Passphrase::from("correct horse 4711").value();
+        pilot.people = &person_;
+        pilot.codeConfirmed = true;
+        pilot.exclusions = nothingExcludes();
+        return PilotRun::prepare(std::move(order), std::move(pilot), registry_);
+    }
     [[nodiscard]] DeviceSet open(const std::string& uri) {
         auto registry = labRegistry();
         const std::vector<DeviceUri> uris{DeviceUri::parse(uri).value()};
@@ -135,9 +163,10 @@ protected:
         ASSERT_TRUE(kept) << kept.error().message;
     }
 
-    ScratchDir folder_;
     VirtualClock clock_;
     const CalibrationDate today_ = utcToday();
+    SilentPerson person_;
+    Registry registry_ = labRegistry();
     ShippedLimits limits_;
     StudySettings study_;
     Profile profile_;
@@ -228,20 +257,6 @@ TEST_F(MachineGate, AMassagerIsAskedForItsStepsAndForBeingAlone) {
     EXPECT_EQ(saidOf({"sim:finger"}), "no massager is connected; one is expected");
 }
 
-/// A person who is there and does nothing.
-class SilentPerson final : public PilotParticipant {
-public:
-    void show(const PilotScreen&) override {}
-    [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
-        return fail(ErrorCode::NotFound, "no answer to {}", prompt.name);
-    }
-    void delivered(const FeltPresentation&) override {}
-    [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
-    void cancel() noexcept override {}
-    [[nodiscard]] bool holding() const noexcept override { return true; }
-    [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
-};
-
 TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
     RecordProperty("hazard", "H11");
     const auto passphrase = Passphrase::from("correct horse 4711").value();
@@ -254,24 +269,10 @@ TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
         code = study.enrol({}).value().code;
         ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
     }
-    SilentPerson person;
-    auto registry = labRegistry();
     const auto prepare = [&](const std::map<std::string, std::string>& more = {}) {
         auto given = more;
         given["participant"] = code;
-        RunOrder order;
-        order.script = script;
-        order.declaration = readDeclaration(script).value();
-        order.settings = applySettings(order.declaration, given).value();
-        order.uris = {DeviceUri::parse(std::string("lab:stimulator?") + kSource).value()};
-        order.limits = limits_;
-        PilotOrder pilot;
-        pilot.study = at;
-        pilot.passphrase = Passphrase::from("correct horse 4711").value();
-        pilot.people = &person;
-        pilot.codeConfirmed = true;
-        pilot.exclusions = nothingExcludes();
-        return PilotRun::prepare(std::move(order), std::move(pilot), registry);
+        return prepared(script, given, std::string("lab:stimulator?") + kSource);
     };
     const auto sessions = [&] { return Study::open(at, nullptr, Study::Access::Read).value().sessions().size(); };
     calibrate();
@@ -307,23 +308,7 @@ TEST_F(MachineGate, APersonAtAMassagerPassesEveryGateButThoseOfCurrent) {
         auto study = Study::create(at, study_, Passphrase::from("correct horse 4711").value()).value();
         code = study.enrol({}).value().code;
     }
-    SilentPerson person;
-    auto registry = labRegistry();
-    const auto prepare = [&](const char* uri) {
-        RunOrder order;
-        order.script = script;
-        order.declaration = readDeclaration(script).value();
-        order.settings = applySettings(order.declaration, {{"participant", code}}).value();
-        order.uris = {DeviceUri::parse(uri).value()};
-        order.limits = limits_;
-        PilotOrder pilot;
-        pilot.study = at;
-        pilot.passphrase = Passphrase::from("correct horse 4711").value();
-        pilot.people = &person;
-        pilot.codeConfirmed = true;
-        pilot.exclusions = nothingExcludes();
-        return PilotRun::prepare(std::move(order), std::move(pilot), registry);
-    };
+    const auto prepare = [&](const char* uri) { return prepared(script, {{"participant", code}}, uri); };
     const auto refusal = [&](const char* uri) {
         const auto refused = prepare(uri);
         if (refused) return std::string();

@@ -1,5 +1,7 @@
 #include "tests/scripting/RunBench.h"
 
+#include <gtest/gtest.h>
+
 #include "drivers/simulated/SimulatedDriver.h"
 
 namespace tacto::test {
@@ -54,6 +56,21 @@ RunRequest RunBench::shipped(const std::string& protocol, const std::map<std::st
     out.parameters = std::move(applied.parameters);
     out.operatorGave = std::move(applied.given);
     return out;
+}
+
+ScriptOutcome RunBench::stoppedAt(int trial, const std::string& protocol,
+                                  const std::map<std::string, std::string>& settings) {
+    auto request = shipped(protocol, settings);
+    int trials = 0;
+    // From the script's own thread, at a moment that is the same in every run: the next call of the bench says so.
+    request.onTrial = [&](const nlohmann::json&) {
+        if (++trials == trial) bench_->stop("the test");
+    };
+    auto outcome = runProtocol(std::move(request)).value();
+    EXPECT_TRUE(outcome.error && outcome.error->code == ErrorCode::Stopped);
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
+    EXPECT_TRUE(outputOff());
+    return outcome;
 }
 
 bool RunBench::outputOff() const {

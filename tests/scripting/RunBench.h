@@ -40,6 +40,10 @@ public:
     [[nodiscard]] RunRequest shipped(const std::string& protocol, const std::map<std::string, std::string>& settings);
     [[nodiscard]] ScriptOutcome run(std::string script) { return runProtocol(request(std::move(script))).value(); }
 
+    /// Runs a shipped protocol that the operator stops at the n-th trial, and checks that the outputs are off.
+    [[nodiscard]] ScriptOutcome stoppedAt(int trial, const std::string& protocol,
+                                          const std::map<std::string, std::string>& settings);
+
     [[nodiscard]] Bench& bench() { return *bench_; }
     [[nodiscard]] SessionWriter& writer() { return *writer_; }
     [[nodiscard]] bool outputOff() const;

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "core/session/SessionReader.h"
+#include "tests/scripting/DataHome.h"
 #include "tests/scripting/RunBench.h"
 
 namespace tacto::test {
@@ -14,13 +15,8 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-class ScriptTrust : public testing::Test {
+class ScriptTrust : public DataHome {
 protected:
-    ScriptTrust() { ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1); }
-    ~ScriptTrust() override { ::unsetenv("XDG_DATA_HOME"); }
-    ScriptTrust(const ScriptTrust&) = delete;
-    ScriptTrust& operator=(const ScriptTrust&) = delete;
-
     /// What the run ended with; `area` is the profile's, `given` the operator's --set.
     [[nodiscard]] std::string run(const std::string& body, std::optional<double> area,
                                   const std::map<std::string, std::string>& given = {}) {
@@ -57,7 +53,6 @@ protected:
         return all;
     }
 
-    ScratchDir folder_;
     std::unique_ptr<RunBench> rig_;
     Json results_;
 };

@@ -6,6 +6,7 @@
 #include "core/bench/Profile.h"
 #include "core/dsp/RoughnessAnalysis.h"
 #include "core/session/SessionReader.h"
+#include "tests/scripting/DataHome.h"
 #include "tests/scripting/RunBench.h"
 #include "tests/support/InTime.h"
 
@@ -180,15 +181,7 @@ TEST(SensorCalibrationRun, WhoStartsTouchedIsToldSo) {
     EXPECT_THAT(outcome.error->message, HasSubstr("it was in contact"));
 }
 
-/// A store of its own for each test.
-class SensorProfileKept : public ::testing::Test {
-protected:
-    SensorProfileKept() { ::setenv("XDG_DATA_HOME", folder.path().c_str(), 1); }
-    ~SensorProfileKept() override { ::unsetenv("XDG_DATA_HOME"); }
-    SensorProfileKept(const SensorProfileKept&) = delete;
-    SensorProfileKept& operator=(const SensorProfileKept&) = delete;
-    test::ScratchDir folder;
-};
+using SensorProfileKept = test::DataHome;  // a store of its own for each test
 
 TEST_F(SensorProfileKept, IsAFileThatALaterOneDoesNotOverwrite) {
     const auto settings = with(kShort, {{"store", "true"}});
@@ -221,7 +214,7 @@ TEST_F(SensorProfileKept, IsNotWrittenForSurfacesThatCannotBeToldApart) {
     EXPECT_THAT(outcome.reasons.front(), HasSubstr("v_static of the two references is d′"));
     EXPECT_TRUE(outcome.results["profile"].is_null());
     EXPECT_FALSE(outcome.results["roughness"]["calibrated"].get<bool>());
-    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
 TEST(SensorCalibrationRun, TakesRaFromTheProfilometersFile) {
@@ -341,17 +334,8 @@ class SensorCalibrationCancel : public ::testing::TestWithParam<int> {};
 TEST_P(SensorCalibrationCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     RunBench rig(true, "sim:", 1, false, kSensorBench);
-    auto request = rig.shipped("sensor-calibration", with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}}));
-    Bench& bench = rig.bench();
-    int readings = 0;
-    request.onTrial = [&](const nlohmann::json&) {
-        if (++readings == GetParam()) bench.stop("the test");
-    };
-    const auto outcome = runProtocol(std::move(request)).value();
-    ASSERT_TRUE(outcome.error);
-    EXPECT_EQ(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
-    EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
-    EXPECT_TRUE(rig.outputOff());
+    const auto outcome = rig.stoppedAt(GetParam(), "sensor-calibration",
+                                       with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}}));
     ASSERT_TRUE(outcome.results.is_object());
     EXPECT_TRUE(outcome.results["partial"].get<bool>());
     // A reading counts as kept once record.partial() saw it; the one at which it was stopped does too.

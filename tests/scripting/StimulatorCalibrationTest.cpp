@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/session/SessionReader.h"
+#include "tests/scripting/DataHome.h"
 #include "tests/scripting/RunBench.h"
 
 namespace tacto {
@@ -138,15 +139,7 @@ TEST(StimulatorCalibration, TheSessionHoldsEveryReadingAndTheReportItsFigures) {
     EXPECT_EQ(budgets, 1) << "one table for the largest and the smallest command";
 }
 
-/// A store of its own for each test.
-class CalibrationKept : public ::testing::Test {
-protected:
-    CalibrationKept() { ::setenv("XDG_DATA_HOME", folder.path().c_str(), 1); }
-    ~CalibrationKept() override { ::unsetenv("XDG_DATA_HOME"); }
-    CalibrationKept(const CalibrationKept&) = delete;
-    CalibrationKept& operator=(const CalibrationKept&) = delete;
-    test::ScratchDir folder;
-};
+using CalibrationKept = test::DataHome;  // a store of its own for each test
 
 TEST_F(CalibrationKept, IsCheckedByAShortRunAndNoticesThatTheStimulatorChanged) {
     RecordProperty("hazard", "H9");
@@ -179,7 +172,7 @@ TEST_F(CalibrationKept, IsKeptOfAllFourOnly) {
     const auto some = calibrate("sim:", {{"quantities", "amplitude"}, {"store", "true"}});
     ASSERT_TRUE(some.error);
     EXPECT_THAT(some.error->message, HasSubstr("quantities is amplitude; all is expected to keep a result"));
-    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
 TEST_F(CalibrationKept, RefusesAnIncompleteOneAndAnOverdueOscilloscope) {
@@ -194,7 +187,7 @@ TEST_F(CalibrationKept, RefusesAnIncompleteOneAndAnOverdueOscilloscope) {
     const auto late = calibrate("sim:", overdue);
     ASSERT_TRUE(late.error);
     EXPECT_THAT(late.error->message, HasSubstr("was itself due on 2020-01-01"));
-    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
 /// Devices fail at every step in turn: while the reference is checked, while it warms up, and in amplitude, interval,
@@ -227,18 +220,7 @@ class CalibrationCancel : public ::testing::TestWithParam<int> {};
 TEST_P(CalibrationCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     RunBench rig(true, "sim:", 1, false, kNeeded);
-    auto request = rig.shipped(kName, {{"repeats", "2"}, {"levels", "4"}});
-    Bench& bench = rig.bench();
-    int readings = 0;
-    // From the script's own thread, at a moment that is the same in every run: the next call of the bench says so.
-    request.onTrial = [&](const nlohmann::json&) {
-        if (++readings == GetParam()) bench.stop("the test");
-    };
-    const auto outcome = runProtocol(std::move(request)).value();
-    ASSERT_TRUE(outcome.error);
-    EXPECT_EQ(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
-    EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
-    EXPECT_TRUE(rig.outputOff());
+    const auto outcome = rig.stoppedAt(GetParam(), kName, {{"repeats", "2"}, {"levels", "4"}});
     ASSERT_EQ(outcome.results.is_object(), GetParam() > 4) << outcome.results.dump();
     if (outcome.results.is_object()) {
         EXPECT_TRUE(outcome.results["partial"].get<bool>());

@@ -274,17 +274,7 @@ class TransitionsCancel : public ::testing::TestWithParam<int> {};
 TEST_P(TransitionsCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     RunBench rig(true, "sim:", 1, false, kNeeded);
-    auto request = rig.shipped("transitions", {{"repeats", "3"}});
-    Bench& bench = rig.bench();
-    int steps = 0;
-    request.onTrial = [&](const nlohmann::json&) {
-        if (++steps == GetParam()) bench.stop("the test");
-    };
-    const auto outcome = runProtocol(std::move(request)).value();
-    ASSERT_TRUE(outcome.error);
-    EXPECT_EQ(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
-    EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
-    EXPECT_TRUE(rig.outputOff());
+    const auto outcome = rig.stoppedAt(GetParam(), "transitions", {{"repeats", "3"}});
     ASSERT_TRUE(outcome.results.is_object());
     EXPECT_TRUE(outcome.results["partial"].get<bool>());
 }

@@ -48,6 +48,14 @@ Result<nlohmann::json> ScriptSession::ask(const OperatorQuestion& question) {
     return answer;
 }
 
+Result<void> ScriptSession::askTo(std::string name, std::string text) {
+    OperatorQuestion question;
+    question.name = std::move(name);
+    question.text = std::move(text);
+    if (const auto answer = ask(question); !answer) return failure(answer);
+    return {};
+}
+
 void ScriptSession::log(const std::string& text) {
     log_.push_back(text);
     if (request_.onLog) request_.onLog(text);

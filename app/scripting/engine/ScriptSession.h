@@ -46,6 +46,8 @@ public:
 
     /// Errors: as Operator::ask(); NotFound naming the question without an operator.
     [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question);
+    /// Asks the operator to do something, and to confirm it. Errors: as ask().
+    [[nodiscard]] Result<void> askTo(std::string name, std::string text);
     /// What the operator confirmed in this run, until a load is changed.
     [[nodiscard]] bool hasConfirmed(const std::string& text) const { return confirmed_.contains(text); }
     void noteConfirmed(const std::string& text) { confirmed_.insert(text); }

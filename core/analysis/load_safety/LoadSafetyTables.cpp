@@ -107,16 +107,21 @@ Reading extrapolate(const LoadSafetyInput& input, const std::vector<Place>& plac
     return {value, std::sqrt(squares) / 2, std::sqrt(squares)};
 }
 
-SafetyRow extrapolated(const LoadSafetyInput& input, const std::string& range, const LimitSet& set,
-                       const LimitRow& limit, const Reading& most) {
+SafetyRow rowOf(const LimitSet& set, const LimitRow& limit, std::string_view title) {
     SafetyRow row;
-    row.load = limit.judged == JudgedAt::Ohm500 ? "500 ohm, extrapolated" : range;
     row.item = keyOf(limit.quantity);
-    row.title = titleOf(limit.quantity);
+    row.title = title;
     row.unit = unitOf(limit.quantity);
     row.limit = limit.max;
     row.set = set.id;
     row.source = limit.source;
+    return row;
+}
+
+SafetyRow extrapolated(const LoadSafetyInput& input, const std::string& range, const LimitSet& set,
+                       const LimitRow& limit, const Reading& most) {
+    auto row = rowOf(set, limit, titleOf(limit.quantity));
+    row.load = limit.judged == JudgedAt::Ohm500 ? "500 ohm, extrapolated" : range;
     row.basis = RowBasis::Computed;
     row.value = most.value;
     row.expanded = most.expanded;
@@ -192,14 +197,8 @@ std::vector<SafetyRow> openCircuitRows(const LoadSafetyInput& input) {
     for (const auto& set : input.limits) {
         for (const auto& limit : set.rows) {
             if (limit.quantity != Quantity::PeakVoltage) continue;
-            SafetyRow row;
+            auto row = rowOf(set, limit, "peak voltage on the open circuit");
             row.load = "open";
-            row.item = keyOf(limit.quantity);
-            row.title = "peak voltage on the open circuit";
-            row.unit = unitOf(limit.quantity);
-            row.limit = limit.max;
-            row.set = set.id;
-            row.source = limit.source;
             std::string missing = "no train into an open circuit was captured";
             if (input.openCircuit) {
                 const auto& reading = input.openCircuit->reading;

@@ -28,16 +28,14 @@ struct Level {
 Result<void> apply(ScriptSession& session, double volts) {
     if (auto& source = session.bench().devices().reference) return source->applyVoltage(volts);
     session.forgetConfirmed();
-    OperatorQuestion question;
-    question.name = volts > 0 ? "reference-source" : "reference-zero";
-    question.text = volts > 0 ? fmt::format(
-                                    "Connect the reference source at {:g} V to the oscilloscope's voltage input "
-                                    "in place of the load, then confirm",
-                                    volts)
-                              : "Short the oscilloscope's voltage input in place of the reference source, then confirm";
-    auto answer = session.ask(question);
-    if (!answer) return failure(answer);
-    return {};
+    if (!(volts > 0)) {
+        return session.askTo("reference-zero",
+                             "Short the oscilloscope's voltage input in place of the reference source, then confirm");
+    }
+    return session.askTo("reference-source",
+                         fmt::format("Connect the reference source at {:g} V to the oscilloscope's voltage input in "
+                                     "place of the load, then confirm",
+                                     volts));
 }
 
 /// Errors: Unsupported where the oscilloscope takes no record without a trigger; Timeout.

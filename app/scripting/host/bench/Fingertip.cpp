@@ -108,11 +108,8 @@ Result<Json> measureRest(ScriptSession& session, const Arguments& arguments) {
     bench.disarm();
     if (auto& surface = bench.devices().surface) {
         if (auto up = surface->present("", MillimetresPerSecond(0), Newtons(0)); !up) return failure(up);
-    } else {
-        OperatorQuestion question;
-        question.name = "rest";
-        question.text = "Lift the fingertip; nothing touches it";
-        if (auto answer = session.ask(question); !answer) return failure(answer);
+    } else if (auto lifted = session.askTo("rest", "Lift the fingertip; nothing touches it"); !lifted) {
+        return failure(lifted);
     }
     if (auto waited = bench.wait(Seconds(1)); !waited) return failure(waited);  // the finger leaves what it was on
     auto samples = listenFor(session, duration);
@@ -160,11 +157,10 @@ Result<Json> measureWeight(ScriptSession& session, const Arguments& arguments) {
         auto pressed = surface->present("glass", MillimetresPerSecond(0), Newtons(force));
         if (!pressed) return failure(pressed);
     } else {
-        OperatorQuestion question;
-        question.name = fmt::format("weight-{}g", mass);
-        question.text =
-            fmt::format("Rest the weight of {} g ({:.4g} N) on the fingertip and wait until it is still", mass, force);
-        if (auto answer = session.ask(question); !answer) return failure(answer);
+        auto rested = session.askTo(
+            fmt::format("weight-{}g", mass),
+            fmt::format("Rest the weight of {} g ({:.4g} N) on the fingertip and wait until it is still", mass, force));
+        if (!rested) return failure(rested);
     }
     if (auto waited = bench.wait(Seconds(1.5)); !waited) return failure(waited);
     auto samples = listenFor(session, duration);

@@ -19,12 +19,9 @@ Result<void> slide(ScriptSession& session, const Sliding& sliding) {
     if (auto& surface = session.bench().devices().surface) {
         return surface->present(sliding.material, MillimetresPerSecond(sliding.speed_mm_s), Newtons(sliding.force_n));
     }
-    OperatorQuestion question;
-    question.name = "surface-" + sliding.material;
-    question.text = fmt::format("Slide the fingertip over {} at {} mm/s with {} N", sliding.material,
-                                sliding.speed_mm_s, sliding.force_n);
-    if (auto answer = session.ask(question); !answer) return failure(answer);
-    return {};
+    return session.askTo("surface-" + sliding.material,
+                         fmt::format("Slide the fingertip over {} at {} mm/s with {} N", sliding.material,
+                                     sliding.speed_mm_s, sliding.force_n));
 }
 
 namespace {

@@ -32,12 +32,7 @@ constexpr std::string_view kNoReadBack =
 Result<void> change(ScriptSession& session, const std::string& to, const std::string& request) {
     session.forgetConfirmed();
     if (auto& fitter = session.bench().devices().load) return fitter->fitLoad(to);
-    OperatorQuestion question;
-    question.name = "change-load";
-    question.text = request;
-    auto answer = session.ask(question);
-    if (!answer) return failure(answer);
-    return {};
+    return session.askTo("change-load", request);
 }
 
 /// The bench is in a fault that was provoked: counted, and its cause taken away.

@@ -26,6 +26,22 @@ Json samplesOf(const CaptureChannel& channel) {
     return out;
 }
 
+/// `entry` with the capture: the row that keeps it, or its samples.
+Json withCapture(Json entry, const ScriptSession::Exemplar& exemplar) {
+    if (exemplar.row) {
+        entry["capture"] = *exemplar.row;
+        return entry;
+    }
+    const auto& capture = exemplar.capture;
+    entry["rate_hz"] = capture.rate_hz;
+    entry["start_s"] = capture.start_s - (std::isfinite(capture.trigger_s) ? capture.trigger_s : 0);
+    for (const auto& channel : capture.channels) {
+        if (channel.unit == "V") entry["voltage_v"] = samplesOf(channel);
+        if (channel.unit == "A") entry["current_a"] = samplesOf(channel);
+    }
+    return entry;
+}
+
 /// The condition as captured: where its trains begin and how far each reaches, and the samples of the first.
 void addLane(Json& condition, const std::vector<Capture>& captures) {
     Json trains = Json::array();
@@ -104,19 +120,7 @@ Result<Json> confusion(ScriptSession&, const Arguments& arguments) {
 Result<Json> waveforms(ScriptSession& session, const Arguments&) {
     Json captures = Json::array();
     for (const auto& exemplar : session.exemplars()) {
-        Json entry = {{"condition", exemplar.condition}};
-        if (exemplar.row) {
-            entry["capture"] = *exemplar.row;
-        } else {
-            const double origin = std::isfinite(exemplar.capture.trigger_s) ? exemplar.capture.trigger_s : 0;
-            entry["rate_hz"] = exemplar.capture.rate_hz;
-            entry["start_s"] = exemplar.capture.start_s - origin;
-            for (const auto& channel : exemplar.capture.channels) {
-                if (channel.unit == "V") entry["voltage_v"] = samplesOf(channel);
-                if (channel.unit == "A") entry["current_a"] = samplesOf(channel);
-            }
-        }
-        captures.push_back(std::move(entry));
+        captures.push_back(withCapture({{"condition", exemplar.condition}}, exemplar));
     }
     return Json{{"type", "waveforms"}, {"captures", captures}};
 }
@@ -145,20 +149,7 @@ Json tracingsFigure(ScriptSession& session, const std::vector<Tracing>& tracings
     Json captures = Json::array();
     for (const auto& [condition, label] : tracings) {
         for (const auto& exemplar : session.exemplars()) {
-            if (exemplar.condition != condition) continue;
-            Json entry = {{"label", label}};
-            if (exemplar.row) {
-                entry["capture"] = *exemplar.row;
-            } else {
-                const double origin = std::isfinite(exemplar.capture.trigger_s) ? exemplar.capture.trigger_s : 0;
-                entry["rate_hz"] = exemplar.capture.rate_hz;
-                entry["start_s"] = exemplar.capture.start_s - origin;
-                for (const auto& channel : exemplar.capture.channels) {
-                    if (channel.unit != "V" && channel.unit != "A") continue;
-                    entry[channel.unit == "V" ? "voltage_v" : "current_a"] = channel.samples;
-                }
-            }
-            captures.push_back(std::move(entry));
+            if (exemplar.condition == condition) captures.push_back(withCapture({{"label", label}}, exemplar));
         }
     }
     return {{"type", "waveforms"}, {"captures", captures}};
