@@ -83,11 +83,9 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     QStringList titles{tr("State"),      tr("Instrument"), tr("Serial"), tr("Certificate"),
                        tr("Laboratory"), tr("Date"),       tr("Due")};
     for (const auto& figure : kCertificateFigures) titles << figureTitle(figure);
-    for (int column = kFirstU; column < kCertificateColumns; ++column)
-        titles[column].replace(titles[column].indexOf(' ', 2), 1, '\n');
+    for (int c = kFirstU; c < kCertificateColumns; ++c) titles[c].replace(titles[c].indexOf(' ', 2), 1, '\n');
     table_->setHorizontalHeaderLabels(titles);
-    for (int column = 0; column < kCertificateColumns; ++column)
-        table_->horizontalHeaderItem(column)->setTextAlignment(alignmentOf(column));
+    for (int c = 0; c < kCertificateColumns; ++c) table_->horizontalHeaderItem(c)->setTextAlignment(alignmentOf(c));
     setTextSize(*table_->horizontalHeader(), TextSize::Small);
     // As high as its rows are, and no higher than a few.
     table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
