@@ -30,6 +30,7 @@ enum CertificateColumn {
 };
 
 constexpr int kWide = 960;
+constexpr int kMostRows = 8;  // in sight; more scroll
 constexpr int kIndexRole = Qt::UserRole;
 constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
 
@@ -45,6 +46,10 @@ QString markOf(CertificateState state) {
             break;
     }
     return "– ";
+}
+
+Qt::Alignment alignmentOf(int column) {
+    return (column >= kFirstU ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter;
 }
 
 QString figureTitle(const CertificateFigure& figure) {
@@ -78,7 +83,14 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     QStringList titles{tr("State"),      tr("Instrument"), tr("Serial"), tr("Certificate"),
                        tr("Laboratory"), tr("Date"),       tr("Due")};
     for (const auto& figure : kCertificateFigures) titles << figureTitle(figure);
+    for (int c = kFirstU; c < kCertificateColumns; ++c) titles[c].replace(titles[c].indexOf(' ', 2), 1, '\n');
     table_->setHorizontalHeaderLabels(titles);
+    for (int c = 0; c < kCertificateColumns; ++c) table_->horizontalHeaderItem(c)->setTextAlignment(alignmentOf(c));
+    setTextSize(*table_->horizontalHeader(), TextSize::Small);
+    // As high as its rows are, and no higher than a few.
+    table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+    table_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
+    table_->setMaximumHeight(kMostRows * table_->verticalHeader()->defaultSectionSize());
     table_->verticalHeader()->hide();
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -87,7 +99,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     table_->setWordWrap(false);
     table_->setTabKeyNavigation(false);
     table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    column->addWidget(table_, 1);
+    column->addWidget(table_);
     withdraw_ = new ConfirmButton({}, this);
     withdraw_->setObjectName("withdrawCertificate");
     withdraw_->setAutoDefault(false);
@@ -97,6 +109,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     row->addWidget(withdraw_);
     column->addLayout(row);
     column->addWidget(buildForm());
+    column->addStretch(1);
     page->hold(all);
     auto* frame = new QVBoxLayout(this);
     frame->addWidget(page, 1);
@@ -293,7 +306,7 @@ void CertificateDialog::list() {
         table_->insertRow(row);
         for (int column = 0; column < kCertificateColumns; ++column) {
             auto* item = new QTableWidgetItem(cells[column]);
-            item->setTextAlignment((column >= kFirstU ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+            item->setTextAlignment(alignmentOf(column));
             // What is not used is greyed, and its state says so in words.
             if (state != CertificateState::Counts) item->setForeground(palette().brush(QPalette::PlaceholderText));
             item->setData(kIndexRole, int(i));
@@ -302,6 +315,7 @@ void CertificateDialog::list() {
         }
     }
     table_->resizeColumnsToContents();
+    table_->updateGeometry();
     nameWithdraw();
 }
 

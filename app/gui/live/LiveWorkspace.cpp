@@ -265,7 +265,7 @@ void LiveWorkspace::showSide(const Telemetry& telemetry) {
     }
     setTone(*health_, health.stale ? Tone::Warning : Tone::Quiet);
     staleLine_->setVisible(plotOnly_ && health.stale);
-    if (health.stale) staleLine_->setText(tr("⚠ %1").arg(health.text));
+    if (health.stale) staleLine_->setText(health.text);
     command_->show(telemetry, health.stale);
     showTaxels(health.stale);
 }

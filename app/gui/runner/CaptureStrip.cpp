@@ -28,12 +28,19 @@ CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
     empty_->setText(tr("The last captured train\nappears here."));
+    plotLayout()->insertRow(0);
+    title_ = new QCPTextElement(this);
+    title_->setTextFlags(Qt::AlignLeft | Qt::AlignVCenter);
+    plotLayout()->addElement(0, 0, title_);
     addPlotMenu(*this, "train");
     setMinimumHeight(fontMetrics().height() * 10);
     show(nullptr);
 }
 
-void CaptureStrip::show(const std::shared_ptr<const Capture>& capture) {
+void CaptureStrip::show(const std::shared_ptr<const Capture>& capture, const QString& title) {
+    title_->setText(title);
+    title_->setVisible(!title.isEmpty());
+    title_->setMaximumSize(QWIDGETSIZE_MAX, title.isEmpty() ? 0 : QWIDGETSIZE_MAX);
     empty_->setVisible(capture == nullptr);
     watermark_->setVisible(capture && capture->simulated);
     voltage_->data()->clear();
@@ -63,6 +70,8 @@ void CaptureStrip::colour() {
     stylePlot(*this);
     const auto& c = colours();
     empty_->setColor(c.quiet);
+    title_->setFont(textFont(TextSize::Small, QFont::DemiBold));
+    title_->setTextColor(c.text);
     voltage_->setPen(QPen(c.voltage));
     current_->setPen(QPen(c.current, 1, Qt::DashLine));
     yAxis->setLabelColor(c.voltage);

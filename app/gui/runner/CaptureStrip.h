@@ -14,8 +14,11 @@ class CaptureStrip final : public QCustomPlot {
     Q_OBJECT
 public:
     explicit CaptureStrip(QWidget* parent = nullptr);
-    /// Null empties it.
-    void show(const std::shared_ptr<const Capture>& capture);
+    /// Null empties it. What it is, where that is not the last capture, stands above it.
+    void show(const std::shared_ptr<const Capture>& capture, const QString& title = {});
+    [[nodiscard]] QString title() const { return title_->text(); }
+    /// Whether no trace is drawn.
+    [[nodiscard]] bool empty() const { return empty_->visible(); }
 
 protected:
     void changeEvent(QEvent* event) override;
@@ -29,6 +32,7 @@ private:
     QCPGraph* current_ = nullptr;
     QCPItemText* watermark_ = nullptr;
     QCPItemText* empty_ = nullptr;
+    QCPTextElement* title_ = nullptr;
 };
 
 }  // namespace tacto::gui

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/gui/runner/CaptureStrip.h"
+#include "app/gui/runner/LoadCaptures.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -18,18 +19,6 @@ namespace {
 
 constexpr int kGap = 8;
 constexpr int kMinWave = 150;
-
-/// The highest finite magnitude of the first channel in `unit`; negative without one.
-double peakIn(const Capture& capture, const char* unit) {
-    double peak = -1;
-    for (const auto& channel : capture.channels) {
-        if (channel.unit != unit) continue;
-        for (const float sample : channel.samples)
-            if (std::isfinite(sample)) peak = std::max(peak, std::abs(double(sample)));
-        break;
-    }
-    return peak;
-}
 
 /// "maximum power density" above "(over 1 s)".
 std::string onTwoLines(std::string name) {
@@ -85,6 +74,11 @@ void DisclosedPanel::take(const std::shared_ptr<const Capture>& capture) {
     strongest_ = peak;
     unit_ = unit;
     peak_->setText(tr("Strongest output captured: %1 at its peak").arg(quantityText(peak, unit, 3)));
+    wave_->show(capture);
+}
+
+void DisclosedPanel::showTracing(const std::shared_ptr<const Capture>& capture, const QString& title) {
+    peak_->setText(title);
     wave_->show(capture);
 }
 

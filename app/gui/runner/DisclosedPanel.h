@@ -28,6 +28,8 @@ public:
     /// `disclosed` as in the results of load-safety; anything else shows none.
     void show(const nlohmann::json& disclosed);
     using QWidget::show;
+    /// In place of the strongest output, below `title`.
+    void showTracing(const std::shared_ptr<const Capture>& capture, const QString& title);
 
 private:
     QScrollArea* area_;

@@ -24,6 +24,7 @@ constexpr int kCellVerdict = Qt::UserRole;    // "pass", ...; none where nothing
 constexpr int kCellShare = Qt::UserRole + 1;  // "23 %"
 constexpr int kCellNear = Qt::UserRole + 2;   // 80 % or more of the limit used
 constexpr int kLineNote = Qt::UserRole;       // below a limit's title
+constexpr int kLineUnit = Qt::UserRole + 3;   // of a limit
 constexpr int kRow = 40, kIconSize = 14, kPad = 8;
 constexpr double kNear_pct = 80;
 constexpr int kLimitChars = 28, kLoadChars = 9;
@@ -109,7 +110,7 @@ public:
         }
         painter->drawText(cell.adjusted(0, 0, -kPad / 2, 0),
                           int(asked ? Qt::AlignRight : Qt::AlignHCenter) | Qt::AlignVCenter, text);
-        if ((option.state & QStyle::State_HasFocus) != 0) {
+        if ((option.state & (QStyle::State_HasFocus | QStyle::State_Selected)) != 0) {
             painter->setPen(QPen(c.text, 2));
             painter->drawRect(cell.adjusted(1, 1, -1, -1));
         }
@@ -122,17 +123,19 @@ public:
 LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
     setObjectName("limitMatrix");
     setAccessibleName(tr("Limits on each load"));
-    setToolTip(tr(
-        "How much of each limit is used on each load, uncertainty included. ✔ inside, amber from 80 %; ▲ attention; "
-        "? indeterminate; ✖ exceeded; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load."));
+    setToolTip(
+        tr("How much of each limit is used on each load, uncertainty included. ✔ inside, amber from 80 %; ▲ attention; "
+           "? indeterminate; ✖ exceeded; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load. "
+           "A chosen cell shows the strongest train on its load."));
     verticalHeader()->hide();
     setEditTriggers(NoEditTriggers);
-    setSelectionMode(NoSelection);
+    setSelectionMode(SingleSelection);
     setTabKeyNavigation(false);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     setVerticalScrollMode(ScrollPerPixel);
     setItemDelegate(new CellDelegate(this));
     setItemDelegateForColumn(0, new LimitDelegate(this));
+    connect(this, &QTableWidget::currentCellChanged, this, &LimitMatrixView::choose);
     auto* header = horizontalHeader();
     header->setHighlightSections(false);
     header->setSectionsClickable(false);
@@ -142,6 +145,7 @@ LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
 void LimitMatrixView::show(const json& matrix) {
     clear();
     loads_.clear();
+    loadKeys_.clear();
     setRowCount(0);
     setColumnCount(0);
     const auto& lines = memberAt(matrix, "lines");
@@ -151,6 +155,7 @@ void LimitMatrixView::show(const json& matrix) {
     for (const auto& load : loads) {
         const auto name = wordsOf(load);
         loads_.push_back(loadText(name));
+        loadKeys_.push_back(name);
         header << (name.contains("||")                           ? tr("skin RC")
                    : name.contains(' ') && !name.contains("ohm") ? QString(name).replace(' ', '\n')
                                                                  : loadText(name));
@@ -164,6 +169,11 @@ void LimitMatrixView::show(const json& matrix) {
     fitColumns();
 }
 
+void LimitMatrixView::choose(int row, int column) {
+    if (row < 0 || column < 1 || item(row, 0) == nullptr) return;
+    emit chosen(item(row, 0)->text(), loadKeys_[std::size_t(column) - 1], item(row, 0)->data(kLineUnit).toString());
+}
+
 void LimitMatrixView::addLine(int row, const json& line) {
     const auto unit = wordsOf(memberAt(line, "unit"));
     const auto title = titled(wordsOf(memberAt(line, "title")));
@@ -172,6 +182,7 @@ void LimitMatrixView::addLine(int row, const json& line) {
     const auto set = limitSetTitle(wordsOf(memberAt(line, "set")));
     const auto verdict = wordsOf(memberAt(line, "verdict"));
     auto* head = new QTableWidgetItem(title);
+    head->setData(kLineUnit, unit);
     head->setData(kLineNote, QStringList{verdictText(verdict), limit, set}.join(" · "));
     head->setToolTip(QStringList{title, limit, set, wordsOf(memberAt(line, "source")), verdict}.join(" · "));
     setItem(row, 0, head);

@@ -1,5 +1,6 @@
 // LimitMatrixView.h - limits x loads: every limit once, the nearest to its limit first, and on each load how much of it
-// is used, uncertainty included. A cell is colour, shape and share; what was not evaluated is hatched.
+// is used, uncertainty included. A cell is colour, shape and share; what was not evaluated is hatched. A chosen cell
+// drives the tracing.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -17,6 +18,11 @@ public:
     void show(const nlohmann::json& matrix);
     [[nodiscard]] bool empty() const { return rowCount() == 0; }
 
+signals:
+    /// A cell of a load was chosen by mouse or arrow key. `load` as the results name it ("500 ohm"), `unit` the
+    /// limit's.
+    void chosen(const QString& limit, const QString& load, const QString& unit);
+
 protected:
     void changeEvent(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
@@ -24,7 +30,9 @@ protected:
 private:
     void addLine(int row, const nlohmann::json& line);
     void fitColumns();
-    std::vector<QString> loads_;  // as people write them
+    void choose(int row, int column);
+    std::vector<QString> loads_;     // as people write them
+    std::vector<QString> loadKeys_;  // as the results do
 };
 
 }  // namespace tacto::gui

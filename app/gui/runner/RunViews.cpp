@@ -7,10 +7,13 @@
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/DisclosedPanel.h"
 #include "app/gui/runner/LimitMatrixView.h"
+#include "app/gui/runner/LoadCaptures.h"
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/ResultHead.h"
 #include "app/gui/runner/ResultTables.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/TableContent.h"
 
 namespace tacto::gui {
 
@@ -69,6 +72,10 @@ QWidget* RunViews::buildPlots() {
     plane_ = new TrialPlane(holder);
     loads_ = new LoadRows(holder);
     matrix_ = new LimitMatrixView(holder);
+    connect(matrix_, &LimitMatrixView::chosen, this, &RunViews::trace);
+    connect(matrix_, &QTableWidget::cellActivated, this, [this](int, int column) {
+        if (column > 0 && !disclosed_->isVisible()) showView(kWaveform);
+    });
     disclosed_ = new DisclosedPanel(holder);
     disclosed_->setMinimumWidth(fontMetrics().averageCharWidth() * kDisclosedChars);
     calibration_ = new CalibrationView(holder);
@@ -183,6 +190,7 @@ void RunViews::begin(Plot plot, const nlohmann::json& parameters) {
     head_->clear();
     next_->show({});
     tables_->show({});
+    session_.clear();
     matrix_->show({});
     disclosed_->clear();
     log_->clear();
@@ -213,7 +221,32 @@ void RunViews::take(const RunFeed& feed) {
         for (const auto& capture : feed.captures) disclosed_->take(capture);
 }
 
+void RunViews::trace(const QString& limit, const QString& load, const QString& unit) {
+    struct Found {
+        std::shared_ptr<const Capture> capture;
+        QString trouble;
+    };
+    const bool ofVoltage = unit == "V";
+    reading_.drop();  // of a cell chosen before
+    reading_.start(
+        this,
+        [session = session_, load, ofVoltage]() -> Found {
+            auto capture = strongestOn(session, load.toStdString(), ofVoltage);
+            if (!capture) return {nullptr, sentence(capture.error())};
+            return {std::move(*capture), {}};
+        },
+        [this, limit, load, session = session_](const Found& found) {
+            if (session != session_) return;  // another run has begun
+            const auto title = !found.trouble.isEmpty() ? found.trouble
+                               : found.capture          ? tr("%1 on %2: the strongest train").arg(limit, loadText(load))
+                                               : tr("%1 on %2: no train was captured").arg(limit, loadText(load));
+            disclosed_->showTracing(found.capture, title);
+            wave_->show(found.capture, title);
+        });
+}
+
 QString RunViews::end(const FinishedRun& run) {
+    session_ = run.result.session;
     setSimulated(run.result.simulated);
     QString odd;
     const auto shows = [&odd](auto&& show) {

@@ -9,7 +9,9 @@
 #include <QPushButton>
 #include <QStackedWidget>
 #include <QWidget>
+#include <filesystem>
 
+#include "app/gui/controller/SideWork.h"
 #include "app/gui/runner/NextSteps.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
@@ -56,8 +58,11 @@ private:
     [[nodiscard]] QWidget* buildPlots();
     [[nodiscard]] QWidget* buildBar();
     void arrange();
+    /// The strongest train on the load of a cell, in the tracing.
+    void trace(const QString& limit, const QString& load, const QString& unit);
 
     Plot plot_ = Plot::Trials;
+    std::filesystem::path session_;  // of the run that ended
     bool showsResult_ = false;
     ResultHead* head_ = nullptr;
     QStackedWidget* views_ = nullptr;
@@ -75,6 +80,7 @@ private:
     NextStepBar* next_ = nullptr;
     QWidget* viewRow_ = nullptr;
     QButtonGroup* choices_ = nullptr;
+    SideWork reading_;
 };
 
 }  // namespace tacto::gui

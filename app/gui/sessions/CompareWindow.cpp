@@ -92,7 +92,8 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     const bool simulated = sessions_[0]->about.simulated || sessions_[1]->about.simulated;
     marks_ = std::make_unique<MarkLines>(*streams_);
     connect(streams_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &CompareWindow::drawMarks);
-    for (const auto* plot : {plane_, streams_}) addWatermark(*plot->axisRect())->setVisible(simulated);
+    addWatermark(*plane_->axisRect())->setVisible(simulated);
+    addWatermark(*streams_->axisRect(), WatermarkPlace::InFront)->setVisible(simulated);
     const auto found = differencesOf(*sessions_[0], *sessions_[1]);
     auto* said = new QTextBrowser(tabs);
     said->setObjectName("differences");

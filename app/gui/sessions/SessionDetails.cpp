@@ -67,7 +67,7 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     plot_->xAxis->setLabel(tr("time (s)"));
     addPlotMenu(*plot_, "stream");
     putLegendAbove(*plot_);
-    watermark_ = addWatermark(*plot_->axisRect());
+    watermark_ = addWatermark(*plot_->axisRect(), WatermarkPlace::InFront);
     watermark_->setVisible(false);
     marks_ = std::make_unique<MarkLines>(*plot_);
     // Dragged and zoomed: a mark's word goes with its moment.

@@ -52,6 +52,10 @@ void MarkLines::draw(const std::vector<PlotMark>& marks, const std::vector<QCPAx
         word->position->setCoords(mark.t_s, 0);
         const QFontMetrics metrics(word->font());
         word->setText(metrics.elidedText(qtext(mark.word), Qt::ElideRight, metrics.averageCharWidth() * kWordChars));
+        // At the left of its line where it would leave the plot at the right.
+        const double end = rects.front()->axis(QCPAxis::atBottom)->coordToPixel(mark.t_s) +
+                           metrics.horizontalAdvance(word->text()) + 2 * kWordPad;
+        word->setPositionAlignment((end > rects.front()->right() ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignTop);
         word->setVisible(true);
     }
     for (; used < drawn_.size(); ++used) {

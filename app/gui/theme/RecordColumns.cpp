@@ -17,7 +17,8 @@ namespace {
 using nlohmann::json;
 using As = RecordColumn::As;
 
-constexpr double kOnePrefix = 1e4;  // numbers further apart than this have a prefix each
+constexpr double kOnePrefix = 1e4;        // numbers further apart than this have a prefix each
+constexpr double kOnePrefixWithU = 1000;  // and those with all the decimals of an uncertainty
 constexpr int kHeaderPad = 10;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
 const QString kNone = QStringLiteral("–");
@@ -108,9 +109,9 @@ ColumnText numbersText(const RecordColumn& column, const json& records) {
         most = std::max(most, seen);
     }
     const bool own = column.unit.startsWith('@');
-    const bool apart = most > kOnePrefix * least;
     const bool around =
         std::any_of(all.begin(), all.end(), [](const Known& k) { return k.hasAround || std::isfinite(k.low); });
+    const bool apart = most > (around ? kOnePrefixWithU : kOnePrefix) * least;
     const auto axis = axisUnit(most, own ? QString() : column.unit);
     const auto format = columnFormat(values, column.unit);
     for (std::size_t row = 0; row < all.size(); ++row) {

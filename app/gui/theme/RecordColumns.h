@@ -27,7 +27,8 @@ struct RecordColumn {
 /// A column as it is written: the header with its unit, a cell for each record, "–" for what is missing. A tolerance
 /// has two digits at most, for more are not known, and its unit in the cell. A statistic
 /// {"mean","sd"} is "40.12 ± 0.46", an estimate {"value","low","high"} "99.0 (94.6 to 99.8)". All have the
-/// prefix of the largest; numbers more than ten thousand times apart carry one each, in their cells.
+/// prefix of the largest; numbers more than ten thousand times apart (a thousand, where each has its uncertainty) carry
+/// one each, in their cells.
 struct ColumnText {
     QString header;
     QStringList cells;

@@ -1,6 +1,7 @@
 #include "app/gui/theme/Theme.h"
 
 #include <QLabel>
+#include <QPainterPath>
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <cmath>
@@ -180,7 +181,7 @@ namespace {
 /// As large as its axes let it be: a word that is cut says nothing.
 class Watermark final : public QCPItemText {
 public:
-    using QCPItemText::QCPItemText;
+    Watermark(QCustomPlot* plot, bool outlined) : QCPItemText(plot), outlined_(outlined) {}
 
 protected:
     void draw(QCPPainter* painter) override {
@@ -192,17 +193,43 @@ protected:
         const double fits = kRoomUsed * std::min(room.width() / needed.width(), room.height() / needed.height());
         if (fits > 0 && fits < 1) mFont.setPointSizeF(std::max(1.0, mFont.pointSizeF() * fits));
         QCPItemText::draw(painter);
+        if (outlined_) outline(*painter);
         mFont = whole;
     }
+
+private:
+    /// Two lines, one of which is seen on whatever lies below.
+    void outline(QCPPainter& painter) const {
+        QPainterPath word;
+        word.addText(0, 0, mFont, mText);
+        const auto centre = word.boundingRect().center();
+        painter.save();
+        painter.setRenderHint(QPainter::Antialiasing);
+        painter.translate(position->pixelPosition());
+        painter.rotate(mRotation);
+        painter.translate(-centre);
+        painter.setBrush(Qt::NoBrush);
+        painter.setPen(QPen(colours().base, kOutline_px));
+        painter.drawPath(word);
+        auto faint = colours().text;
+        faint.setAlpha(kOutlineAlpha);
+        painter.setPen(QPen(faint, 1));
+        painter.drawPath(word);
+        painter.restore();
+    }
+    static constexpr double kOutline_px = 1.5;
+    static constexpr int kOutlineAlpha = 60;
+    const bool outlined_;
 };
 
 }  // namespace
 
-QCPItemText* addWatermark(QCPAxisRect& axes) {
+QCPItemText* addWatermark(QCPAxisRect& axes, WatermarkPlace place) {
     auto* plot = axes.parentPlot();
-    // In front of the data, where they are dense too; it is too faint to cover any.
-    if (plot->layer("watermark") == nullptr) plot->addLayer("watermark", plot->layer("main"), QCustomPlot::limAbove);
-    auto* item = new Watermark(plot);
+    const bool inFront = place == WatermarkPlace::InFront;
+    if (plot->layer("watermark") == nullptr)
+        plot->addLayer("watermark", plot->layer(inFront ? "main" : "grid"), QCustomPlot::limAbove);
+    auto* item = new Watermark(plot, inFront);
     item->setObjectName("watermark");
     item->setLayer("watermark");
     item->setClipAxisRect(&axes);

@@ -69,9 +69,10 @@ constexpr double kDisplayText = 28 / 10.5;
 void styleAxis(QCPAxis& axis);
 void stylePlot(QCustomPlot& plot);
 
-/// "SIMULATED" across an axis rect, in front of the data and too faint to cover any. Returns the item, to be hidden
-/// where nothing is simulated.
-QCPItemText* addWatermark(QCPAxisRect& axes);
+/// "SIMULATED" across an axis rect. Returns the item, to be hidden where nothing is simulated. It stands behind the
+/// data; or, where they fill the plot, in front as an outline that covers a pixel's width of them.
+enum class WatermarkPlace { Behind, InFront };
+QCPItemText* addWatermark(QCPAxisRect& axes, WatermarkPlace place = WatermarkPlace::Behind);
 
 /// "just now", "2 s ago", "3 min ago"; "–" for NaN.
 [[nodiscard]] QString ageText(double seconds);

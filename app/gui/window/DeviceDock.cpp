@@ -43,7 +43,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     tree_->setRootIsDecorated(false);
     tree_->setHeaderHidden(true);
     tree_->setWordWrap(true);
-    tree_->setTextElideMode(Qt::ElideRight);
+    tree_->setTextElideMode(Qt::ElideMiddle);  // what tells two of a kind apart stands at the end
     tree_->setToolTip(tr("Devices that are present; open ones are bold. Select the devices for the bench (Return)."));
     tree_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     tree_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
@@ -130,7 +130,7 @@ void DeviceDock::list() {
         item->setData(0, kUriRole, uri);
         item->setData(0, kOpenRole, isOpen);
         if (uri == current) tree_->setCurrentItem(item);
-        item->setToolTip(0, QString("%1: %2").arg(role, uri));
+        item->setToolTip(0, QString("%1\n%2: %3").arg(name, role, uri));
         if (ready != nullptr) {
             const auto was = before.find(ready->role);
             item->setData(0, kRoleRole, int(ready->role));

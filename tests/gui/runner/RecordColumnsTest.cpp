@@ -35,7 +35,7 @@ TEST(RecordColumns, HasOnePrefixInAColumnUpToAFactorOfTenThousand) {
     const auto text = columnText({"Level", "v", As::Number, "V"}, rows);
     EXPECT_EQ(text.header, "Level\n(V)");
     for (const auto& cell : text.cells) EXPECT_FALSE(cell.contains("V")) << cell.toStdString();
-    EXPECT_EQ(text.cells[1], "0.0125");
+    EXPECT_EQ(text.cells[1], "0.01250");
 }
 
 TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {

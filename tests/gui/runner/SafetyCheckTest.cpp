@@ -3,6 +3,7 @@
 #include <QScrollArea>
 #include <gmock/gmock.h>
 
+#include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/theme/Theme.h"
@@ -60,11 +61,37 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_GE(qobject_cast<QTableWidget*>(disclosed.widget())->rowCount(), 6);
     EXPECT_THAT(says("strongestOutput").toStdString(), HasSubstr("mA at its peak"));
     EXPECT_LE(matrix.horizontalHeader()->length(), matrix.viewport()->width());
+    // The tracing is that of the chosen cell's load.
+    const auto choose = [&](const char* load) {
+        int column = 1;
+        while (column < matrix.columnCount() && matrix.horizontalHeaderItem(column)->toolTip() != load) ++column;
+        QTest::mouseClick(matrix.viewport(), Qt::LeftButton, {},
+                          matrix.visualItemRect(matrix.item(0, column)).center());
+        const auto title = matrix.item(0, 0)->text() + " on " + load + ": the strongest train";
+        EXPECT_IN_TIME(comesTrue([&] { return says("strongestOutput") == title; }))
+            << says("strongestOutput").toStdString();
+        const auto* strip = qobject_cast<gui::CaptureStrip*>(disclosed.parentWidget()->findChild<QCustomPlot*>());
+        bool any = false;
+        const auto range = strip->graph(1)->getValueRange(any);
+        EXPECT_TRUE(any) << "a trace of the current";
+        return std::max(range.upper, -range.lower);
+    };
+    const double through500 = choose("500\u00a0Ω"), through100k = choose("100\u00a0kΩ");
+    EXPECT_GT(through500, 10 * through100k);
+    QTest::keyClick(&matrix, Qt::Key_Left);
+    EXPECT_IN_TIME(comesTrue([&] { return !says("strongestOutput").contains("100\u00a0kΩ:"); })) << "by arrow keys too";
     shot(*workspace, "safety_result_wide");
     gui::applyTheme(gui::Theme::Dark);
     QTest::qWait(50);
     shot(*workspace, "safety_result_dark");
     workspace->resize(1150, 600);
+    QTest::keyClick(&matrix, Qt::Key_Return);
+    auto* wave = find<gui::CaptureStrip>(*workspace, "Last capture");
+    ASSERT_NE(wave, nullptr) << "Return shows the tracing where there is no room beside the limits";
+    EXPECT_TRUE(wave->title().endsWith(": the strongest train")) << wave->title().toStdString();
+    EXPECT_FALSE(wave->empty());
+    shot(*workspace, "safety_tracing");
+    click(*find<QPushButton>(*workspace, "Plot"));
     int live = 0;
     QObject::connect(workspace.get(), &gui::ProtocolWorkspace::liveWanted, [&] { ++live; });
     click(the<QPushButton>("Go to Live"));
