@@ -174,7 +174,7 @@ QWidget* InputRows::build(Row& row) {
     return row.widget;
 }
 
-/// Of one that is not used the lamps alone, in a row: pressed, it shows which of several it is.
+/// A device that is not used shows one line: it names the button that is pressed, so which of several it is.
 void InputRows::buildButtons(Row& row, QVBoxLayout& column) {
     const auto& buttons = row.seat.device.buttons;
     if (!row.there || !row.trouble.isEmpty()) return;
