@@ -74,7 +74,8 @@ Result<PilotAnswer> PilotOutput::insist(const PilotPrompt& prompt) {
         stage_.bench().attend(PilotStage::kAskingTakes);
         auto said = stage_.participant().ask(prompt);
         if (said) return said;
-        if (stage_.ended() != PilotEnd::Unfinished && takeStop()) {  // off for good: what is asked after it stays asked
+        const bool over = stage_.ended() != PilotEnd::Unfinished;
+        if (over && (takeStop() || paused_.exchange(false))) {  // off for good: what is asked after it stays asked
             stage_.participant().show({});
             continue;
         }

@@ -105,6 +105,25 @@ TEST_F(PilotCareTest, ASessionThatTheParticipantEndsAsksForSkinAndSideEffects) {
     EXPECT_THAT(bodies(row::kSessionEnd), SizeIs(1));
 }
 
+TEST_F(PilotCareTest, ABreakThatIsWantedAfterItsEndSkipsNoQuestion) {
+    RecordProperty("hazard", "H12");
+    PilotCare care(*stage_);
+    someone_.answers = {{"erythema", "1"}, {"oedema", "0"}};
+    someone_.stops = 1;
+    someone_.stopsAtGoOn = 2;
+    bool pressed = false;
+    someone_.onAsk = [&](const PilotPrompt& prompt) {
+        if (prompt.name != "erythema" || stage_->ended() == PilotEnd::Unfinished || std::exchange(pressed, true))
+            return;
+        someone_.stops = 1;
+        someone_.stoppedBy = kOperatorPauses;
+    };
+    EXPECT_FALSE(stage_->trial(trial()));
+    EXPECT_TRUE(pressed);
+    EXPECT_THAT(bodies(row::kSkin), SizeIs(2));
+    EXPECT_THAT(bodies(row::kSideEffect), SizeIs(testing::Ge(1U)));
+}
+
 TEST_F(PilotCareTest, AThirdStopDuringAPresentationIsFollowedByTheQuestionsToo) {
     RecordProperty("hazard", "H12");
     PilotCare care(*stage_);

@@ -20,9 +20,9 @@ struct ButtonUse {
 
 inline constexpr int kMostAnswers = 6;  ///< of a question that buttons answer
 
-/// Of a device with so many buttons, until the operator says otherwise: one pedal is STOP, of two the first holds, of
-/// up to five the last is STOP, and of more the fifth and the sixth are, the shoulder buttons of a game pad; the two
-/// after them hold.
+/// What the buttons of a device do, by their number, until the operator says otherwise: one pedal is STOP, of two the
+/// first holds, of up to five the last is STOP, and of more the fifth and the sixth are, the shoulder buttons of a game
+/// pad; the two after them hold.
 [[nodiscard]] std::vector<ButtonUse> usualUses(std::size_t buttons);
 
 /// A device and its person for one session.

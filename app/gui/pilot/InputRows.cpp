@@ -12,7 +12,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kLookEvery_ms = 1000;
-constexpr int kButtonsInRow = 3;
+constexpr int kButtonsInRow = 2;
 enum Assigned { kUnused, kParticipants, kOperators };
 
 QString lampText(const std::string& button, bool down) { return (down ? "● " : "○ ") + qtext(button); }
@@ -174,12 +174,12 @@ QWidget* InputRows::build(Row& row) {
     return row.widget;
 }
 
-/// Of one that is not used the lamps alone, in a row: pressed, it shows which of several it is.
+/// A device that is not used shows one line: it names the button that is pressed, so which of several it is.
 void InputRows::buildButtons(Row& row, QVBoxLayout& column) {
     const auto& buttons = row.seat.device.buttons;
     if (!row.there || !row.trouble.isEmpty()) return;
     auto* grid = new QGridLayout;
-    grid->setHorizontalSpacing(4);
+    grid->setHorizontalSpacing(8);
     grid->setVerticalSpacing(4);
     column.addLayout(grid);
     if (!row.assigned) {
@@ -194,7 +194,6 @@ void InputRows::buildButtons(Row& row, QVBoxLayout& column) {
     for (std::size_t i = 0; i < buttons.size(); ++i) {
         auto* lamp = new QLabel(lampText(buttons[i], false), row.widget);
         lamp->setObjectName(QString("lamp %1").arg(qtext(buttons[i])));
-        setTone(*lamp, Tone::Quiet);
         auto* use = new QComboBox(row.widget);
         use->setObjectName(QString("use %1").arg(qtext(buttons[i])));
         use->setAccessibleName(tr("What button %1 does").arg(qtext(buttons[i])));
@@ -223,7 +222,6 @@ void InputRows::light(const std::string& identity, std::size_t button, bool down
                                 : down        ? tr("● button %1 is down").arg(qtext(name))
                                               : tr("Press a button to see which device it is."));
     setTextSize(*row->lamps[button], TextSize::Body, down);
-    setTone(*row->lamps[button], down ? Tone::Text : Tone::Quiet);
 }
 
 std::vector<SeatedDevice> InputRows::seats() const {

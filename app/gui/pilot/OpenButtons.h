@@ -19,7 +19,7 @@ class OpenButtons final : public QObject {
 public:
     explicit OpenButtons(QObject* parent = nullptr);
     ~OpenButtons() override;
-    /// Of what is opened from now on; null: there are none.
+    /// Sets where devices are opened from now on; null: there are none.
     void setDevices(std::shared_ptr<const ButtonDevices> devices);
     [[nodiscard]] const std::shared_ptr<const ButtonDevices>& devices() const { return devices_; }
     /// Errors: as ButtonDevices::open(). One that is open stays so.

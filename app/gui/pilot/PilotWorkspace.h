@@ -28,7 +28,7 @@ class PilotWorkspace final : public QWidget {
 public:
     explicit PilotWorkspace(BenchController& controller, QWidget* parent = nullptr);
     ~PilotWorkspace() override;
-    /// Of both pages that begin a session; null: there are none.
+    /// Sets the devices that both pages offer; null: there are none.
     void setButtonDevices(const std::shared_ptr<const ButtonDevices>& devices);
     void refresh(const Telemetry& telemetry) { session_->refresh(telemetry); }
     [[nodiscard]] bool running() const { return session_->running(); }

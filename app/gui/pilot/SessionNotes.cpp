@@ -29,7 +29,7 @@ SessionNotes::SessionNotes(QWidget* parent)
     line_->setObjectName("noteLine");
     line_->setAccessibleName(tr("Note"));
     line_->setMaxLength(kLongestNote);
-    line_->setPlaceholderText(tr("Write a note; Enter keeps it. Never a name. Space types here; Esc and Pause stop."));
+    line_->setPlaceholderText(tr("A note; never a name. Space types here, Esc and Pause stop."));
     line_->setToolTip(tr(
         "Enter keeps the note with its time. Space types here and stops elsewhere; Esc and Pause stop from here too."));
     connect(line_, &QLineEdit::returnPressed, this, &SessionNotes::enter);

@@ -19,7 +19,7 @@ inline Bytes padDescriptor() {
             0xC0, 0xC0};
 }
 
-/// Of padDescriptor(): the sticks at rest, the hat at none, and these buttons down, from 1.
+/// A report of padDescriptor(): the sticks at rest, the hat at none, and these buttons down, from 1.
 inline Bytes padReport(std::initializer_list<int> down) {
     Bytes report{0x80, 0x7F, 0x80, 0x7F, 0x08, 0x00, 0x00, 0xFF};
     for (const int button : down) {

@@ -6,12 +6,14 @@
 #include <QTest>
 #include <gmock/gmock.h>
 
+#include "app/gui/controller/DeviceWatch.h"
 #include "app/gui/pilot/ExclusionChecklist.h"
 #include "app/gui/pilot/SessionStartPage.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/pilot/PluggedButtons.h"
 #include "tests/gui/pilot/PluggedDevices.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
@@ -173,6 +175,13 @@ TEST_F(SessionStart, LooksRightInBothThemesAndSizes) {
     page.findChild<gui::UnfinishedOffer*>()->offer(
         gui::Unfinished{1, "pilot-identification", 113, QDateTime::currentDateTime().addSecs(-600), true});
     answer("-no");
+    const auto buttons = std::make_shared<PluggedButtons>();
+    buttons->set({PluggedButtons::pad("Logitech Dual Action"), PluggedButtons::pad("VEC USB Footpedal", 3)});
+    page.setButtonDevices(buttons);
+    const char* pad = "inputOf Logitech Dual Action";
+    ASSERT_IN_TIME(comesTrue([&] { return page.findChild<QComboBox*>(pad) != nullptr; }));
+    emit box(pad).activated(1);
+    buttons->press("Logitech Dual Action", 6);
     page.say("P-7K3D has given no consent; a dated consent to version 2 is needed.");
     for (const int percent : {100, 200}) {
         gui::applyTextSize(percent);
