@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/bench/Bench.h"
+#include "core/devices/Registry.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 #include "core/session/SessionWriter.h"

@@ -9,6 +9,7 @@
 #include "core/calibration/CalibrationStore.h"
 #include "core/calibration/CertificateStore.h"
 #include "core/devices/DeviceUri.h"
+#include "core/devices/Registry.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/scripting/DataHome.h"
 #include "tests/support/Limits.h"

@@ -10,6 +10,7 @@
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "app/scripting/engine/ScriptRun.h"
 #include "core/bench/Bench.h"
+#include "core/devices/Registry.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionWriter.h"
 #include "drivers/simulated/SimulatedDriver.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/devices/Registry.h"
 #include "drivers/simulated/SimulatedDriver.h"
 
 namespace tacto::test {
