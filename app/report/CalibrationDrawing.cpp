@@ -38,7 +38,7 @@ QCPGraph* addLine(QCPAxisRect* axes, const Points& points, const QPen& pen, cons
 
 QCPScatterStyle triangle(bool up) {
     const auto shape = up ? QCPScatterStyle::ssTriangle : QCPScatterStyle::ssTriangleInverted;
-    return {shape, QPen(up ? ink::kVoltage : ink::kCurrent, 1.1), QBrush(Qt::NoBrush), 6};
+    return {shape, QPen(up ? ink::kVoltage : ink::kThird, 1.1), QBrush(Qt::NoBrush), 6};
 }
 
 QCPScatterStyle cross() { return {QCPScatterStyle::ssCross, QPen(ink::kFault, 1.4), QBrush(Qt::NoBrush), 8}; }
@@ -112,7 +112,7 @@ void drawDirections(PlotSheet& sheet, QCPAxisRect* axes, QCPLegend* legend, cons
         down.add(level.commanded * across.factor, (level.meanDown - level.commanded) * upward.factor);
     }
     addLine(axes, up, QPen(ink::kVoltage, 0.8), {});
-    addLine(axes, down, QPen(ink::kCurrent, 0.8, Qt::DashLine), {});
+    addLine(axes, down, QPen(ink::kThird, 0.8, Qt::DashLine), {});
     addPoints(axes, legend, up, triangle(true), "mean going up");
     addPoints(axes, legend, down, triangle(false), "mean going down");
     axes->axis(QCPAxis::atBottom)->setRange(padded(x.low * across.factor, x.high * across.factor, 0.04));
@@ -146,9 +146,9 @@ void drawErrors(PlotSheet& sheet, QCPAxisRect* axes, QCPLegend* legend, const Ca
         if (!reading.outlier) continue;
         odd.add(reading.commanded * across.factor, (reading.measured - reading.commanded) * upward.factor);
     }
-    auto* bottom = addLine(axes, low, QPen(ink::kAmber, 1.2, Qt::DashLine), "tolerance");
-    auto* top = addLine(axes, high, QPen(ink::kAmber, 1.2, Qt::DashLine), "tolerance");
-    top->setBrush(QColor(0xe6, 0x9f, 0x00, 24));
+    auto* bottom = addLine(axes, low, QPen(ink::kPass, 1.2, Qt::DashLine), "tolerance");
+    auto* top = addLine(axes, high, QPen(ink::kPass, 1.2, Qt::DashLine), "tolerance");
+    top->setBrush(QColor(ink::kPass.red(), ink::kPass.green(), ink::kPass.blue(), 28));
     top->setChannelFillGraph(bottom);
     bottom->addToLegend(legend);
     auto* means = addPoints(axes, legend, mean, {QCPScatterStyle::ssDisc, QPen(ink::kText, 1), QBrush(ink::kText), 4},

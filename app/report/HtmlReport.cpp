@@ -80,7 +80,8 @@ QString pageStyle() {
 class Writer {
 public:
     void operator()(const TitleBlock& block) {
-        out_ += "<h1>" + escaped(block.title) + "</h1>\n<p class=\"quiet\">" + escaped(block.subtitle) + "</p>\n";
+        out_ += "<h1>" + escaped(block.title) + "</h1>\n<p class=\"quiet\">" +
+                escaped(block.subtitle).replace('\n', "<br/>") + "</p>\n";
     }
 
     void operator()(const VerdictBlock& block) {

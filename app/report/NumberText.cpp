@@ -98,11 +98,11 @@ ColumnName columnName(const QString& key) {
         const char* ending;
         const char* unit;
     };
-    static constexpr std::array<Suffix, 20> kSuffixes{
-        {{"_w_cm2", "W/cm²"}, {"_ma_cm2", "mA/cm²"}, {"_pct_fs", "% FS"}, {"_pct", "%"},    {"_ohm", "Ω"},
-         {"_v", "V"},         {"_mv", "mV"},         {"_ma", "mA"},       {"_a", "A"},      {"_ms", "ms"},
-         {"_us", "µs"},       {"_s", "s"},           {"_hz", "Hz"},       {"_uc", "µC"},    {"_mj", "mJ"},
-         {"_kpa", "kPa"},     {"_pa", "Pa"},         {"_n", "N"},         {"_bits", "bit"}, {"_um", "µm"}}};
+    static constexpr std::array<Suffix, 21> kSuffixes{
+        {{"_w_cm2", "W/cm²"}, {"_ma_cm2", "mA/cm²"}, {"_pct_fs", "% FS"}, {"_pct", "%"},   {"_ohm", "Ω"}, {"_v", "V"},
+         {"_mv", "mV"},       {"_ma", "mA"},         {"_a", "A"},         {"_ms", "ms"},   {"_us", "µs"}, {"_s", "s"},
+         {"_hz", "Hz"},       {"_uc", "µC"},         {"_mj", "mJ"},       {"_kpa", "kPa"}, {"_pa", "Pa"}, {"_n", "N"},
+         {"_bits", "bit"},    {"_um", "µm"},         {"_g", "g"}}};
     ColumnName result;
     QString words = key;
     for (const auto& suffix : kSuffixes) {
@@ -170,9 +170,10 @@ QString quantityText(double value, const QString& unit, const ColumnFormat& form
                     split.base.isEmpty() ? shown : prefixOf(format.exponent).symbol + split.base);
 }
 
-QString withMinus(QString text) {
-    static const QRegularExpression kHyphen(R"((^|[\s(\[])-(?=\d))");
-    return text.replace(kHyphen, "\\1" + kMinus);
+QString withSigns(QString text) {
+    static const QRegularExpression kHyphen(R"((^|[\s(\[])-(?=\d))"), kOhm(R"((\d)[ \x{a0}\x{202f}]?([kM]?)ohm\b)"),
+        kSquare(R"(\b([cm]?m)2\b)");
+    return text.replace(kHyphen, "\\1" + kMinus).replace(kOhm, "\\1" + kSpace + "\\2Ω").replace(kSquare, "\\1²");
 }
 
 bool isFigure(const QString& text) {
@@ -180,6 +181,23 @@ bool isFigure(const QString& text) {
         R"(^(± )?[−-]?\d+(\.\d+)?( ± \d+(\.\d+)?)?([ \x{202f}\x{a0}]?[^\d\s−-][^\d\s]{0,7})?$)",
         QRegularExpression::UseUnicodePropertiesOption);
     return kFigure.match(text).hasMatch();
+}
+
+QString takeUnit(QStringList& cells) {
+    static const QRegularExpression kLastNumber(R"(^(.*\d)([^\d]+)$)");
+    std::optional<QString> shared;
+    for (const auto& cell : cells) {
+        if (!cell.contains(QRegularExpression("\\d"))) continue;
+        const auto found = kLastNumber.match(cell);
+        if (!found.hasMatch() || !isFigure(cell)) return {};
+        if (!shared) shared = found.captured(2);
+        if (found.captured(2) != *shared) return {};
+    }
+    if (!shared) return {};
+    for (auto& cell : cells) {
+        if (cell.endsWith(*shared)) cell.chop(shared->size());
+    }
+    return shared->trimmed();
 }
 
 void alignPoints(QStringList& cells) {

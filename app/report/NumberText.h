@@ -58,11 +58,15 @@ struct ColumnFormat {
 [[nodiscard]] std::optional<ColumnFormat> columnFormat(const std::vector<double>& values, const QString& unit);
 [[nodiscard]] QString quantityText(double value, const QString& unit, const ColumnFormat& format);
 
-/// `text` with a true minus before every number that has a hyphen there; dates and ranges keep theirs.
-[[nodiscard]] QString withMinus(QString text);
+/// `text` with the signs that a page has and a script's source need not: a minus before a number in place of a hyphen
+/// (dates and ranges keep theirs), Ω after a number in place of ohm, cm² in place of cm2.
+[[nodiscard]] QString withSigns(QString text);
 
 /// True for a figure as it stands in a cell: "5.03 mA", "± 200 mV", "−0.3 ± 1.2 %".
 [[nodiscard]] bool isFigure(const QString& text);
+
+/// Takes the unit that all numbers of a column share out of its cells, for the header; empty where they share none.
+[[nodiscard]] QString takeUnit(QStringList& cells);
 
 /// Puts the decimal points of a column of numbers one below the other where all have the same unit: fills the places
 /// that a number lacks with spaces as wide as a digit and a point. Cells without a number stay as they are.

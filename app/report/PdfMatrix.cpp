@@ -75,6 +75,21 @@ private:
         return width + 2 * kPad + 1;
     }
 
+    /// Broken before ± where the cell is too narrow for it, and then before the unit: never within one.
+    [[nodiscard]] QString detailOf(const MatrixBlock::Cell& cell) const {
+        const QFontMetricsF metrics(textFont(kDetailSize));
+        const auto fits = [&](const QString& text) {
+            const auto lines = text.split('\n');
+            return std::all_of(lines.begin(), lines.end(), [&](const QString& line) {
+                return metrics.horizontalAdvance(line) <= cell_ - 2 * kPad;
+            });
+        };
+        QString detail = cell.detail;
+        if (!fits(detail)) detail.replace(" ± ", "\n± ");
+        if (!fits(detail)) detail.replace(QChar(0x202f), '\n');
+        return detail;
+    }
+
     /// Smaller where the cell is too narrow for it: a number is not broken.
     [[nodiscard]] QFont mainFont(const MatrixBlock::Cell& cell) const {
         const QFont font = textFont(kMainSize, standsOut(cell.state));
@@ -115,7 +130,7 @@ private:
         for (const auto& cell : row.cells) {
             double own = PdfPages::textHeight(cell_ - 2 * kPad, cell.main, mainFont(cell));
             if (!cell.detail.isEmpty())
-                own += PdfPages::textHeight(cell_ - 2 * kPad, cell.detail, textFont(kDetailSize));
+                own += PdfPages::textHeight(cell_ - 2 * kPad, detailOf(cell), textFont(kDetailSize));
             height = std::max(height, own);
         }
         return height + 5;
@@ -144,7 +159,7 @@ private:
         const bool broken = cell.state == State::Broken;
         const QColor color = broken ? fail.ink : cell.state == State::Close ? ink::kAmberText : ink::kText;
         pages_.advance(pages_.text(x + kPad, cell_ - 2 * kPad, cell.main, mainFont(cell), color, Qt::AlignRight));
-        pages_.text(x + kPad, cell_ - 2 * kPad, cell.detail, textFont(kDetailSize), broken ? fail.ink : ink::kQuiet,
+        pages_.text(x + kPad, cell_ - 2 * kPad, detailOf(cell), textFont(kDetailSize), broken ? fail.ink : ink::kQuiet,
                     Qt::AlignRight);
     }
 

@@ -84,10 +84,12 @@ public:
             if (right != nullptr) setFact(*right, PdfPages::kWidth - kHalf, kHalf, kBriefFactColumn);
             pages_.advance(height + 3);
         }
+        if (!brief.empty() && !wide.empty()) pages_.advance(kGap / 2);
+        const double column = brief.empty() ? kFactColumn : kBriefFactColumn;  // values stand below each other
         for (const auto* fact : wide) {
-            const double height = factHeight(*fact, PdfPages::kWidth, kFactColumn);
+            const double height = factHeight(*fact, PdfPages::kWidth, column);
             pages_.require(height);
-            setFact(*fact, 0, PdfPages::kWidth, kFactColumn);
+            setFact(*fact, 0, PdfPages::kWidth, column);
             pages_.advance(height + 3);
         }
         pages_.advance(kGap);

@@ -155,7 +155,7 @@ private:
 
 constexpr std::size_t kLong = 24;  // rows from which a narrow table is set in columns side by side
 constexpr double kColumnGap = 26;
-constexpr std::size_t kMinRows = 3;  // rows that stay with the header
+constexpr std::size_t kMinRows = 3;  // rows that stay with the header, and with the last row
 
 double setCaption(PdfPages& pages, const QString& caption, bool draw) {
     const QFont font = textFont(12, true);
@@ -170,7 +170,7 @@ double setCaption(PdfPages& pages, const QString& caption, bool draw) {
 /// What must fit below the table's top: a short table is kept whole, a long one begins with a few rows.
 double beginningOf(const TableSetter& setter, double caption, std::size_t rows) {
     const double whole = caption + setter.wholeHeight();
-    if (whole < PdfPages::kHeight / 6) return whole;
+    if (whole < PdfPages::kHeight / 4) return whole;
     double start = caption + setter.headerHeight();
     for (std::size_t r = 0; r < std::min(kMinRows, rows); ++r) start += setter.rowHeight(r);
     return start;
@@ -181,7 +181,11 @@ void setDown(PdfPages& pages, TableSetter& setter, const QString& caption, std::
     setCaption(pages, caption, true);
     setter.setHeader();
     for (std::size_t r = 0; r < rows; ++r) {
-        if (pages.require(setter.rowHeight(r))) {
+        double together = setter.rowHeight(r);
+        if (rows > kMinRows && r + kMinRows == rows) {
+            for (std::size_t last = r + 1; last < rows; ++last) together += setter.rowHeight(last);
+        }
+        if (pages.require(together)) {
             setCaption(pages, caption + ", continued", true);
             setter.setHeader();
         }

@@ -49,7 +49,7 @@ bool isAllSimulated(const ReportModel& model) {
 VerdictBlock verdictOf(const ReportModel& model) {
     VerdictBlock block;
     block.verdict = model.verdict;
-    for (const auto& reason : model.reasons) block.reasons << loadText(withMinus(reason));
+    for (const auto& reason : model.reasons) block.reasons << withSigns(reason);
     // H9: nothing passes on evidence that was altered.
     const bool unproven = !model.damage.isEmpty() && model.verdict == ReportVerdict::Pass;
     if (unproven) block.verdict = ReportVerdict::Indeterminate;
@@ -90,7 +90,6 @@ QString titleOf(const ReportModel& model) {
 
 QString subtitleOf(const ReportModel& model) {
     QStringList parts;
-    if (!model.purpose.isEmpty()) parts << model.purpose;
     QString when = model.started;
     when.replace('T', ' ').replace('Z', " UTC");
     if (!when.isEmpty()) parts << when;
@@ -102,7 +101,8 @@ QString subtitleOf(const ReportModel& model) {
                                       .arg(seconds / 60 % 60, 2, 10, QChar('0'))
                                       .arg(seconds % 60, 2, 10, QChar('0')));
     }
-    return parts.join("  ·  ");
+    const QString line = parts.join("  ·  ");
+    return model.purpose.isEmpty() ? line : line.isEmpty() ? model.purpose : model.purpose + '\n' + line;
 }
 
 TableBlock devicesTable(const ReportModel& model) {
@@ -150,7 +150,8 @@ void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlo
         facts.facts.push_back({"Report number", reportNumber(model)});
         facts.facts.push_back({"Raw data", model.session + ".tacto"});
     }
-    facts.facts.insert(facts.facts.end(), model.settings.begin(), model.settings.end());
+    for (const auto& setting : model.settings)
+        facts.facts.push_back({setting.name, withSigns(setting.value), setting.isHash});
     facts.facts.insert(facts.facts.end(), model.identity.begin(), model.identity.end());
     facts.facts.push_back({"Chain head",
                            model.chainHead.isEmpty() ? QString("none: the session has no rows yet") : model.chainHead,
@@ -175,7 +176,7 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
         } else if (const auto* matrix = std::get_if<ReportMatrix>(&item)) {
             blocks.emplace_back(matrixOf(*matrix, captions.table(matrix->caption)));
         } else {
-            blocks.emplace_back(ParagraphBlock{std::get<ReportText>(item).text});
+            blocks.emplace_back(ParagraphBlock{withSigns(std::get<ReportText>(item).text)});
         }
     }
 }

@@ -162,7 +162,8 @@ void addRatings(std::vector<ReportBlock>& blocks, Captions& captions, const Bids
             const auto rated = std::ranges::find_if(session.ratings, [&](const BidsRating& rating) {
                 return rating.condition == label && rating.item == item;
             });
-            row << (rated == session.ratings.end() || rated->value.empty() ? QString("–") : qtext(rated->value));
+            const bool isRated = rated != session.ratings.end() && !rated->value.empty();
+            row << (isRated ? qtext(rated->value).replace(',', ", ").replace('-', ' ') : QString("–"));
         }
         table.rows.push_back(std::move(row));
     }

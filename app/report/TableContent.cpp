@@ -47,6 +47,12 @@ QString withOwnUnit(const QJsonObject& row, const QString& key) {
                                                 : quantityText(value, unit);
 }
 
+/// A number stays on its line with the sign behind it.
+QString wordsOf(const QJsonValue& value, const QString& unit) {
+    static const QRegularExpression kBeforePercent("(?<=\\d) (?=%)");
+    return withSigns(shownText(cellText(value, unit), kShownCell)).replace(kBeforePercent, QString(QChar(0x202f)));
+}
+
 void fillColumn(TableBlock& table, const ReportTable& source, const QString& key) {
     const ColumnName name = columnName(key);
     const bool ownUnit = hasUnitOfItsOwn(source.columns.isEmpty() ? columnsOf(source) : source.columns) &&
@@ -67,13 +73,18 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
         const auto value = row.value(key);
         cells << (ownUnit                      ? withOwnUnit(row, key)
                   : value.isDouble() && format ? quantityText(value.toDouble(), name.unit, *format)
-                  : key == "verdict"           ? shownText(verdictCell(cellText(value, {})), kShownCell)
+                  : key == "verdict"           ? verdictCell(shownText(cellText(value, {}), kShownCell))
                   : key == "load"              ? shownText(loadText(cellText(value, {})), kShownCell)
-                                               : shownText(cellText(value, name.unit), kShownCell));
-        if (figures) cells.back() = withMinus(cells.back());
+                                               : wordsOf(value, name.unit));
     }
-    if (numeric || figures) alignPoints(cells);
-    table.columns.push_back({shownText(name.title, kShownCell), numeric || figures});
+    // A column of which no row says anything is not there.
+    if (std::all_of(cells.begin(), cells.end(), [](const QString& cell) { return cell.isEmpty(); })) return;
+    QString title = shownText(name.title, kShownCell);
+    if (numeric || figures) {
+        if (const QString unit = takeUnit(cells); !unit.isEmpty()) title += " (" + unit + ")";
+        alignPoints(cells);
+    }
+    table.columns.push_back({title, numeric || figures});
     for (qsizetype r = 0; r < cells.size(); ++r) table.rows[static_cast<std::size_t>(r)] << cells[r];
 }
 
@@ -99,7 +110,8 @@ MatrixBlock::Cell cellOf(const QJsonValue& value, const QString& rowUnit) {
     using State = MatrixBlock::State;
     if (!value.isObject()) return {};
     const auto cell = value.toObject();
-    if (cell.contains("text")) return {shownText(cell.value("text").toString(), kShownCell), {}, State::Plain};
+    if (cell.contains("text"))
+        return {verdictCell(shownText(cell.value("text").toString(), kShownCell)), {}, State::Plain};
     const QString unit = cell.value("unit").toString(rowUnit);
     if (cell.contains("margin_pct")) return judgedCell(cell, unit);
     const double measured = numberOf(cell, "value");
@@ -183,7 +195,7 @@ TableBlock eventsTable(const ReportModel& model, const QString& caption) {
     table.caption = caption;
     table.columns = {{"Time", true}, {"What"}, {"Details"}};
     for (const auto& event : model.events) {
-        QString text = event.text.isEmpty() ? QString("–") : event.text;
+        QString text = event.text.isEmpty() ? QString("–") : withSigns(event.text);
         if (event.count > 1) text += QString(" (%1 times)").arg(event.count);
         table.rows.push_back({QString::number(event.t_s, 'f', 3) + QChar(0x202f) + "s", event.kind, text});
     }

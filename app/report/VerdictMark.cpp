@@ -48,7 +48,7 @@ VerdictMark verdictMark(ReportVerdict verdict) {
 
 QString verdictCell(const QString& key) {
     const auto found = verdictMarks().find(key);
-    return found != verdictMarks().end() ? found->second.shape + ' ' + key : key;
+    return found != verdictMarks().end() ? found->second.shape + QChar(0x00a0) + key : key;
 }
 
 }  // namespace tacto

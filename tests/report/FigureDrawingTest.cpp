@@ -270,5 +270,16 @@ TEST(FigureDrawing, DrawsATimelineOfOneTrain) {
     EXPECT_NE(textOf(svg).find("Neither roughness nor pressure"), std::string::npos);
 }
 
+TEST(FigureDrawing, AnSvgsNumberIsNotPartedFromItsMinus) {
+    PlotSheet sheet(200, 100, false);
+    sheet.addNote(sheet.addAxes(0, 0), "−12.5 ≤ 3", {0.5, 0.5});
+    const auto svg = sheetSvg(sheet, "minus");
+    EXPECT_NE(textOf(svg).find("−12.5 ≤ 3"), std::string::npos) << svg.toStdString();
+    EXPECT_FALSE(svg.contains(">−</text>"));
+    QXmlStreamReader xml(svg);
+    while (!xml.atEnd()) xml.readNext();
+    EXPECT_FALSE(xml.hasError()) << xml.errorString().toStdString();
+}
+
 }  // namespace
 }  // namespace tacto::test

@@ -1,6 +1,8 @@
+#include <QFontMetricsF>
 #include <QJsonObject>
 #include <gtest/gtest.h>
 
+#include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
 
 namespace tacto {
@@ -104,6 +106,48 @@ TEST(NumberText, GivesComparableColumnsOneFormat) {
     EXPECT_EQ(plain(quantityText(2.0, "s", *format)), "2.000 s");
     EXPECT_FALSE(columnFormat({1e-6, 2.0}, "s")) << "numbers that far apart keep their own prefixes";
     EXPECT_FALSE(columnFormat({1, 2, 3}, "")) << "counts stay counts";
+}
+
+TEST(NumberText, HasTheSignsOfAPage) {
+    EXPECT_EQ(withSigns("off by -2.1 us (-3)"), "off by −2.1 us (−3)");
+    EXPECT_EQ(withSigns("2026-11-26, EN 60601-2-10, x-1"), "2026-11-26, EN 60601-2-10, x-1");
+    EXPECT_EQ(plain(withSigns("10 mA at 100 ohm, 1 kohm")), "10 mA at 100 Ω, 1 kΩ");
+    EXPECT_EQ(withSigns("0.25 W/cm2, ohmic"), "0.25 W/cm², ohmic");
+}
+
+TEST(NumberText, TellsAFigureFromWords) {
+    for (const char* figure : {"5", "−5.25", "± 200 mV", "−0.3 ± 1.2 %", "1.412 ± 0.071 mA/cm²", "10.0\u202fkΩ"})
+        EXPECT_TRUE(isFigure(figure)) << figure;
+    for (const char* words :
+         {"", "–", "pass", "2026-11-26", "79 of 80", "99 % (93 to 100)", "5 to 6 V", "4, at least 3"})
+        EXPECT_FALSE(isFigure(words)) << words;
+}
+
+TEST(NumberText, AUnitThatAColumnSharesIsTakenForItsHeader) {
+    QStringList shared{"5.03\u202fmA", "–", "12.1 ± 0.4\u202fmA"};
+    EXPECT_EQ(takeUnit(shared), "mA");
+    EXPECT_EQ(shared, (QStringList{"5.03", "–", "12.1 ± 0.4"}));
+    QStringList mixed{"5.03\u202fmA", "870\u202fµA"};
+    EXPECT_EQ(takeUnit(mixed), "");
+    EXPECT_EQ(mixed.front(), "5.03\u202fmA");
+    QStringList bare{"5", "6"};
+    EXPECT_EQ(takeUnit(bare), "");
+}
+
+TEST(NumberText, DecimalPointsStandOneBelowTheOther) {
+    QStringList cells{"7 ± 11", "−2.1 ± 6.65", "–"};
+    alignPoints(cells);
+    const QString point(QChar(0x2008)), digit(QChar(0x2007));
+    EXPECT_EQ(cells[0], "7" + point + digit + " ± 11" + point + digit + digit);
+    EXPECT_EQ(cells[1], "−2.1 ± 6.65");
+    EXPECT_EQ(cells[2], "–");
+    // As wide as what they stand for, in the face of the reports.
+    const QFontMetricsF metrics(textFont(11));
+    EXPECT_NEAR(metrics.horizontalAdvance(digit), metrics.horizontalAdvance("0"), 0.01);
+    EXPECT_NEAR(metrics.horizontalAdvance(point), metrics.horizontalAdvance("."), 0.01);
+    QStringList units{"7\u202fmA", "2.25\u202fµA"};
+    alignPoints(units);
+    EXPECT_EQ(units.front(), "7\u202fmA") << "numbers of other units are not compared";
 }
 
 TEST(NumberText, GivesProportionsAsPercentages) {

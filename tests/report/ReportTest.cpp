@@ -137,7 +137,8 @@ TEST_F(Report, DrawsVectorsOnly) {
 TEST_F(Report, EmbedsItsFonts) {
     if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
     const auto fonts = poppler("pdffonts", write(separabilityModel(false), "r.pdf"));
-    EXPECT_NE(fonts.find("DejaVuSans"), std::string::npos) << fonts;
+    EXPECT_NE(fonts.find("NotoSans-Regular"), std::string::npos) << fonts;
+    EXPECT_NE(fonts.find("NotoSans-Bold"), std::string::npos) << fonts;
     EXPECT_TRUE(std::regex_search(fonts, std::regex("Identity-H +yes"))) << fonts;
     EXPECT_FALSE(std::regex_search(fonts, std::regex("Identity-H +no"))) << fonts;
 }
@@ -274,7 +275,53 @@ TEST_F(Report, SplitsATableThatIsWiderThanThePage) {
     const auto text = pdfText(write(model, "wide.pdf"));
     EXPECT_NE(text.find("Loads, further columns"), std::string::npos) << text;
     EXPECT_NE(text.find("pass"), std::string::npos);
-    EXPECT_GE(occurrences(text, "200 ohm"), 2U) << "each part names its rows";
+    EXPECT_GE(occurrences(text, "200\u202fΩ"), 2U) << "each part names its rows";
+}
+
+TEST_F(Report, ATableHasItsUnitInTheHeaderAndItsVerdictAsShapeAndWord) {
+    ReportModel model;
+    model.items.emplace_back(ReportTable{
+        "Levels",
+        {"commanded", "error", "verdict", "remark"},
+        QJsonArray{
+            QJsonObject{{"commanded", "10.00 V"}, {"error", "-2.1 ± 6.6 µs"}, {"verdict", "pass"}, {"remark", ""}},
+            QJsonObject{
+                {"commanded", "12.00 V"}, {"error", "7 ± 11 µs"}, {"verdict", "indeterminate"}, {"remark", ""}}}});
+    const auto html = QString::fromUtf8(contentOfFile(write(model, "t.html")));
+    EXPECT_TRUE(html.contains("<th scope=\"col\" class=\"number\">Commanded (V)</th>"));
+    EXPECT_TRUE(html.contains("<td class=\"number\">10.00</td>"));
+    EXPECT_TRUE(html.contains("<td class=\"number\">−2.1 ± 6.6</td>"));
+    EXPECT_TRUE(html.contains("<td>✔\u00a0pass</td>"));
+    EXPECT_TRUE(html.contains("<td>?\u00a0indeterminate</td>"));
+    EXPECT_FALSE(html.contains("Remark")) << "a column that says nothing";
+}
+
+TEST_F(Report, ALongTablesLastRowIsNotAloneOnItsPage) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    for (int rows = 30; rows < 120; rows += 7) {
+        ReportModel model;
+        QJsonArray all;
+        const QString words =
+            "words that take the whole width of the page, so that rows stand one below the other and "
+            "none beside";
+        for (int i = 0; i < rows; ++i) all << QJsonObject{{"name", QString("row%1").arg(i)}, {"remark", words}};
+        model.items.emplace_back(ReportTable{"Rows", {"name", "remark"}, all});
+        const auto text = pdfText(write(model, "rows.pdf"));
+        const auto last = text.find("row" + std::to_string(rows - 1));
+        ASSERT_NE(last, std::string::npos);
+        const auto page = text.rfind('\f', last);
+        const auto third = text.find("row" + std::to_string(rows - 3));
+        EXPECT_TRUE(page == std::string::npos || third > page) << rows;
+    }
+}
+
+TEST_F(Report, AVerdictStandsOnItsColourAlsoInPrint) {
+    auto model = separabilityModel(false, 3);
+    model.verdict = ReportVerdict::Pass;
+    const auto html = contentOfFile(write(model, "v.html"));
+    EXPECT_TRUE(html.contains("background: #00735c; color: #ffffff"));
+    EXPECT_TRUE(html.contains("print-color-adjust: exact"));
+    EXPECT_FALSE(html.contains('@' + QByteArray("text"))) << "every role has its colour";
 }
 
 TEST_F(Report, RefusesToWriteWithoutItsFont) {

@@ -42,8 +42,8 @@ void applyTheme(Theme wanted) {
 void applyTextSize(int percent) {
     static const double desktops_pt = QApplication::font().pointSizeF();
     auto font = QApplication::font();
-    // Debian's Noto Sans has no minus, ≤ or arrows; Noto Sans Math has them, of the same widths. A report keeps DejaVu
-    // Sans: SVG splits a text where the face changes, and a number must not come apart from its minus.
+    // Debian's Noto Sans has no minus, ≤ or arrows; Noto Sans Math has them, of the same widths. Reports have the same
+    // faces (app/report/Fonts.cpp).
     font.setFamilies({"Noto Sans", "Noto Sans Math", "DejaVu Sans"});
     font.setPointSizeF(std::max(desktops_pt, kSmallestText_pt) * (percent < 100 || percent > 200 ? 100 : percent) /
                        100);

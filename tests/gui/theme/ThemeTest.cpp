@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Verdict.h"
+#include "app/report/VerdictMark.h"
 #include "tests/gui/Looks.h"
 #include "tests/support/InTime.h"
 
@@ -26,6 +28,21 @@ INSTANTIATE_TEST_SUITE_P(Both, InTheme, testing::Values(Theme::Light, Theme::Dar
 /// A hue that a person calls red, as that of STOP: vermilion (#D55E00) and purple (#CC79A7) are none.
 bool isRed(const QColor& colour) {
     return colour.hsvSaturationF() > 0.4 && (colour.hsvHue() >= 345 || (colour.hsvHue() >= 0 && colour.hsvHue() <= 12));
+}
+
+TEST(Verdicts, AreTheSameOnScreenAndOnPaper) {
+    gui::applyTheme(Theme::Light);
+    for (const char* key : {"pass", "fail", "indeterminate", "stopped", "attention", "refused as expected",
+                            "not evaluated", "not applicable", ""}) {
+        const auto screen = gui::verdictStyle(key);
+        const auto paper = verdictMark(QString(key));
+        EXPECT_EQ(screen.shape.toStdString(), paper.shape.toStdString()) << key;
+        EXPECT_EQ(screen.fill, paper.fill) << key;
+        EXPECT_EQ(screen.ink, paper.ink) << key;
+        EXPECT_EQ(screen.colour, paper.colour) << key;
+        EXPECT_GE(contrast(paper.fill, paper.ink), 4.5) << key;
+        EXPECT_GE(contrast(Qt::white, paper.colour), 4.5) << key;
+    }
 }
 
 TEST(Looks, AreFoundWrongWhereTheyAre) {

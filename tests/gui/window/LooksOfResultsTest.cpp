@@ -1,0 +1,160 @@
+// The screens that take a run or a fault to come to: results of a calibration, a safety check and a separability run,
+// the faulted state, the second step of arming, the drive panel; in both themes, small and large.
+#include <QDialog>
+#include <QLineEdit>
+
+#include "app/gui/scope/ScopeModel.h"
+#include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/calibrate/CalibrationLab.h"
+#include "tests/gui/window/WindowFixture.h"
+
+namespace tacto::test {
+namespace {
+
+class ResultsInTheWindow : public Window {
+protected:
+    ~ResultsInTheWindow() override { gui::applyTheme(gui::Theme::Light); }
+
+    void looksRight(const QString& name) {
+        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+            gui::applyTheme(theme);
+            for (const auto size : {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)}) {
+                window.resize(size);
+                static_cast<void>(comesTrue([&] { return faultsOf(window).empty(); }, 2'000));
+                const auto file =
+                    QString("%1-%2-%3").arg(name, theme == gui::Theme::Dark ? "dark" : "light").arg(size.width());
+                shot(window, file);
+                EXPECT_EQ(faultsOf(window), "") << file.toStdString();
+            }
+        }
+        gui::applyTheme(gui::Theme::Light);
+    }
+    void type(const char* field, const QString& text) {
+        QLineEdit* line = nullptr;
+        ASSERT_IN_TIME(comesTrue([&] { return (line = find<QLineEdit>(window, field)) != nullptr; })) << field;
+        line->setText(text);
+    }
+    void runsToItsEnd() {
+        QPushButton* run = nullptr;
+        ASSERT_IN_TIME(comesTrue([&] {
+            run = find<QPushButton>(window, "runButton");
+            return run != nullptr && run->isEnabled();
+        }));
+        bool over = false;
+        QObject::connect(&window.controller(), &gui::BenchController::finished, &window, [&] { over = true; });
+        click(*run);
+        ASSERT_IN_TIME(comesTrue([&] { return over; }, 120'000));
+        ASSERT_IN_TIME(comesTrue([&] { return find<QLabel>(window, "verdict") != nullptr; }));
+    }
+
+private:
+    OwnDataHome home_;
+};
+
+TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
+    window.showWorkspace(1);
+    window.findChild<QLineEdit*>("warm_up_s")->setText("0");
+    ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
+    looksRight("result-calibrate");
+}
+
+TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
+    window.showWorkspace(2);
+    ASSERT_NO_FATAL_FAILURE(type("area", "4"));
+    ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
+    looksRight("result-safety");
+}
+
+TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
+    window.showWorkspace(3);
+    ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
+    looksRight("result-separability");
+}
+
+TEST_F(ResultsInTheWindow, AFaultLooksRight) {
+    ASSERT_NO_FATAL_FAILURE(openAndUnplugAfter2s());
+    window.showWorkspace(0);
+    arm();
+    window.controller().drive(DriveSource::Manual, 1, 1);
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    ASSERT_IN_TIME(comesTrue([this] { return banner().startsWith("Fault: "); }));
+    looksRight("faulted");
+}
+
+TEST_F(ResultsInTheWindow, TheArmDialogLooksRight) {
+    open();
+    window.controller().drive(DriveSource::Manual, 0.69, 0.8);
+    auto* first = window.findChild<QPushButton*>("armButton");
+    ASSERT_IN_TIME(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        click(*first);
+        auto* second = window.findChild<QPushButton*>("armOutput");
+        ASSERT_NE(second, nullptr);
+        ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
+        auto& dialog = *second->window();
+        ASSERT_NE(&dialog, &window);
+        const QString file = theme == gui::Theme::Dark ? "arm-dark" : "arm-light";
+        EXPECT_IN_TIME(comesTrue([&] { return faultsOf(dialog).empty(); })) << faultsOf(dialog);
+        shot(dialog, file);
+        dialog.close();
+        EXPECT_NE(state(), InterlockState::Armed) << "closing it arms nothing";
+    }
+}
+
+TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
+    open();
+    arm();
+    deliver();
+    auto* dock = window.findChild<QWidget*>("driveDock");
+    ASSERT_NE(dock, nullptr);
+    window.showWorkspace(0);
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (const auto source : {DriveSource::Manual, DriveSource::Sensor}) {
+            window.controller().drive(source, 0.5, 1);
+            const auto file = QString("drive-%1-%2")
+                                  .arg(theme == gui::Theme::Dark ? "dark" : "light",
+                                       source == DriveSource::Manual ? "by-hand" : "fingertip");
+            EXPECT_IN_TIME(comesTrue([&] { return faultsOf(*dock).empty(); })) << faultsOf(*dock);
+            shot(*dock, file);
+        }
+    }
+}
+
+/// What the README shows (./dev readme-pictures).
+TEST_F(ResultsInTheWindow, TheReadmesPicturesLookRight) {
+    open();
+    auto* tabs = window.findChild<gui::TabbedPage*>("livePage");
+    window.showWorkspace(0);
+    arm();
+    window.controller().drive(DriveSource::Sensor);
+    window.controller().present("P120", 50, 1);
+    const auto delivered = [this](std::uint64_t more) {
+        const auto before = window.controller().telemetry().trainsDelivered;
+        return comesTrue([&] { return window.controller().telemetry().trainsDelivered >= before + more; }, 60'000);
+    };
+    ASSERT_IN_TIME(delivered(12));
+    EXPECT_EQ(faultsOf(window), "");
+    shot(window, "readme-window");
+    window.controller().drive(DriveSource::Manual, 0.5, 1);
+    tabs->setCurrentIndex(1);
+    gui::applyTheme(gui::Theme::Dark);
+    ASSERT_IN_TIME(delivered(8));
+    window.activateWindow();  // the arming dialog had the keys
+    ASSERT_IN_TIME(QTest::qWaitForWindowActive(&window));
+    key(Qt::Key_T);
+    auto& model = window.findChild<gui::ScopeWorkspace*>()->model();
+    ASSERT_TRUE(model.cursors().time_s());
+    const double reach_s = model.viewport().width_s() / 50;
+    model.dragTimeCursor(0, 0, reach_s);
+    model.dragTimeCursor(1, 200e-6, reach_s);
+    EXPECT_IN_TIME(comesTrue([this] { return faultsOf(window).empty(); })) << faultsOf(window);
+    shot(window, "readme-oscilloscope");
+}
+
+}  // namespace
+}  // namespace tacto::test
