@@ -188,7 +188,9 @@ int nextDay(Study& study, const QCommandLineParser& parser, const QStringList& w
 }
 
 int enrol(Study& study, const QCommandLineParser& parser, const QStringList& words) {
-    auto participant = participantGiven(parser);
+    auto asked = participantGiven(parser);
+    if (!asked) return usage(fmt::format("study enrol: {}", asked.error().message));
+    auto& participant = *asked;
     if (words.size() > 2) participant.code = words.at(2).toStdString();
     if (parser.isSet("virtual")) {
         const auto seed = seedGiven(parser);
@@ -236,7 +238,12 @@ int withdraw(Study& study, const QCommandLineParser& parser, const QStringList& 
     if (done) {
         say(stderr,
             "The key is destroyed. Copies of the key file, backups and spare blocks of a solid-state disk still open "
-            "the data for anyone with the passphrase; exports lie where they were written and are deleted by hand.\n");
+            "the data for anyone with the passphrase.\n");
+        const auto exports = study.exports();
+        say(stderr, "{}\n",
+            exports.empty() ? "Nothing was exported from this study."
+                            : "Exports lie where they were written, and are deleted by hand:");
+        for (const auto& each : exports) say(stderr, "  {}\n", each.place);
     }
     return changed(done, study, code, parser);
 }
@@ -298,21 +305,21 @@ const std::vector<StudyWord>& studyWords() {
          2,
          2,
          "STUDY",
-         {"title", "approval", "from", "expires", "consent-version", "set", "passphrase-file", "json"},
+         {"title", "approval", "from", "expires", "consent-version", "set", "profile", "passphrase-file", "json"},
          true,
          nullptr},
         {"amend",
          2,
          2,
          "STUDY",
-         {"reference", "from", "expires", "consent-version", "set", "passphrase-file", "json"},
+         {"reference", "from", "expires", "consent-version", "set", "profile", "passphrase-file", "json"},
          true,
          amend},
         {"enrol",
          2,
          3,
          "STUDY and CODE",
-         {"virtual", "age", "sex", "handedness", "passphrase-file", "json"},
+         {"virtual", "group", "age", "sex", "handedness", "passphrase-file", "json"},
          true,
          enrol},
         {"consent", 3, 3, "STUDY and CODE", {"version", "date", "by", "passphrase-file", "json"}, true, consent},
@@ -377,9 +384,10 @@ int runStudy(const QCommandLineParser& parser) {
 
 const Command kStudy{
     "study",
-    "{create STUDY --title T --approval REF --from DATE --expires DATE --consent-version V [--set KEY=VALUE]... | "
-    "amend STUDY --reference REF [--from DATE] [--expires DATE] [--consent-version V] [--set KEY=VALUE]... | "
-    "enrol STUDY [CODE] [--virtual SEED] [--age YEARS] [--sex SEX] [--handedness HAND] | "
+    "{create STUDY --title T --approval REF --from DATE --expires DATE --consent-version V [--set KEY=VALUE]... "
+    "[--profile FILE] | amend STUDY --reference REF [--from DATE] [--expires DATE] [--consent-version V] "
+    "[--set KEY=VALUE]... [--profile FILE] | "
+    "enrol STUDY [CODE] [--virtual SEED] [--group GROUP] [--age YEARS] [--sex SEX] [--handedness HAND] | "
     "consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | "
     "trials STUDY CODE [--session N] | leave STUDY CODE | withdraw STUDY CODE --confirm CODE | "
     "adverse-event STUDY SESSION --what TEXT --severity 1..4 --relation 1..5 [--serious] [--action T] [--outcome T] "

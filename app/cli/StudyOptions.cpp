@@ -1,5 +1,6 @@
 #include "app/cli/StudyOptions.h"
 
+#include "app/cli/Command.h"
 #include "app/cli/StudyPassphrase.h"
 #include "app/run/StudyProgram.h"
 
@@ -16,6 +17,16 @@ Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings)
         if (auto done = setStudyField(settings, text.substr(0, equals), text.substr(equals + 1)); !done) return done;
     }
     return {};
+}
+
+/// With what --set changes and what this program and --profile are.
+Result<StudySettings> asSetHere(const QCommandLineParser& parser, StudySettings settings) {
+    if (!settings.procedure) settings.procedure.emplace();
+    if (auto taken = takeSets(parser, settings); !taken) return failure(taken);
+    const auto profile = profileOption(parser);
+    if (!profile) return failure(profile);
+    if (auto stated = stateProgram(settings, *profile); !stated) return failure(stated);
+    return settings;
 }
 
 Result<int> scoreGiven(const QCommandLineParser& parser, const char* name, int least, int most) {
@@ -37,6 +48,7 @@ void declareStudyOptions(QCommandLineParser& parser) {
     parser.addOption({"consent-version", "Version of the consent form in force.", "V"});
     parser.addOption(
         {"set", "A setting of the study: blocks=3, electrode.area_cm2=5, license=CC-BY-4.0.", "KEY=VALUE"});
+    parser.addOption({"profile", "Profile that its sessions are run with; the shipped one where left out.", "FILE"});
     parser.addOption({"reference", "Reference of the committee's amendment.", "REF"});
     parser.addOption({"virtual", "Enrols a virtual participant of this seed.", "SEED"});
     parser.addOption({"version", "Version of the consent form that was signed.", "V"});
@@ -45,12 +57,16 @@ void declareStudyOptions(QCommandLineParser& parser) {
     parser.addOption({"confirm", "The code once more: the participant's records are lost for good.", "CODE"});
     parser.addOption({"session", "Number of the participant's session; the last where left out.", "N"});
     parser.addOption({"what", "What happened; never a name.", "TEXT"});
-    parser.addOption({"severity", "How severe it was, 1 to 4.", "1..4"});
-    parser.addOption({"relation", "How it is related to the stimulation, 1 (not) to 5 (certainly).", "1..5"});
+    parser.addOption(
+        {"severity", QString::fromStdString("How severe it was: " + scaleText(kEventSeverities) + "."), "1..4"});
+    parser.addOption({"relation",
+                      QString::fromStdString("How it is related to the stimulation: " + scaleText(kRelations) + "."),
+                      "1..5"});
     parser.addOption({"serious", "It was a serious adverse event."});
     parser.addOption({"action", "What was done.", "TEXT"});
     parser.addOption({"outcome", "What became of it.", "TEXT"});
     parser.addOption({"reported", "It was reported to the committee."});
+    parser.addOption({"group", "intact, or \"limb difference\"; intact where left out.", "GROUP"});
     parser.addOption({"age", "Age in whole years, where the approval asks for it.", "YEARS"});
     parser.addOption({"sex", "female, male or other, where the approval asks for it.", "SEX"});
     parser.addOption({"handedness", "right, left or ambidextrous, where the approval asks for it.", "HAND"});
@@ -86,9 +102,7 @@ Result<StudySettings> settingsGiven(const QCommandLineParser& parser) {
     if (!expires) return failure(expires);
     settings.approval.from = *from;
     settings.approval.expires = *expires;
-    if (auto taken = takeSets(parser, settings); !taken) return failure(taken);
-    if (auto stated = stateProgram(settings); !stated) return failure(stated);
-    return settings;
+    return asSetHere(parser, std::move(settings));
 }
 
 Result<StudySettings> settingsAmended(const QCommandLineParser& parser, StudySettings settings) {
@@ -101,13 +115,20 @@ Result<StudySettings> settingsAmended(const QCommandLineParser& parser, StudySet
         *day = *date;
     }
     if (parser.isSet("consent-version")) settings.consentVersion = given(parser, "consent-version");
-    if (auto taken = takeSets(parser, settings); !taken) return failure(taken);
-    if (auto stated = stateProgram(settings); !stated) return failure(stated);
-    return settings;
+    return asSetHere(parser, std::move(settings));
 }
 
-Participant participantGiven(const QCommandLineParser& parser) {
+Result<Participant> participantGiven(const QCommandLineParser& parser) {
     Participant participant;
+    if (parser.isSet("group")) {
+        const auto word = given(parser, "group");
+        const auto group = valueFor(kParticipantGroups, word);
+        if (!group) {
+            return fail(ErrorCode::InvalidArgument, "--group is \"{}\"; {} or {} is expected", word,
+                        kParticipantGroups[0].text, kParticipantGroups[1].text);
+        }
+        participant.group = *group;
+    }
     participant.age = given(parser, "age");
     participant.sex = given(parser, "sex");
     participant.handedness = given(parser, "handedness");

@@ -24,8 +24,8 @@ void declareStudyOptions(QCommandLineParser& parser);
 /// `settings` with what the options change, and this program's limit sets and pilot scripts.
 [[nodiscard]] Result<StudySettings> settingsAmended(const QCommandLineParser& parser, StudySettings settings);
 [[nodiscard]] Result<NextDay> nextDayGiven(const QCommandLineParser& parser);
-/// A new participant, without what `virtual` says. The study checks it.
-[[nodiscard]] Participant participantGiven(const QCommandLineParser& parser);
+/// A new participant, without what `virtual` says. The study checks it. Errors: InvalidArgument for another group.
+[[nodiscard]] Result<Participant> participantGiven(const QCommandLineParser& parser);
 [[nodiscard]] Result<AdverseEvent> adverseEventGiven(const QCommandLineParser& parser);
 
 }  // namespace tacto::cli

@@ -15,6 +15,11 @@ namespace {
 
 QString shown(const std::string& value) { return value.empty() ? QString("–") : QString::fromStdString(value); }
 
+/// "3 severe"; a dash where it was not said.
+QString scored(std::span<const char* const> words, std::optional<int> score) {
+    return score ? QString::fromStdString(scoreText(words, *score)) : QString("–");
+}
+
 QString score(std::optional<int> value) { return value ? QString::number(*value) : QString("–"); }
 
 std::size_t rowsOf(const SessionRecord& session, std::string_view kind) {
@@ -194,8 +199,9 @@ TableBlock sideEffectsTable(const StudyRecord& study, ShownName name, const QStr
         QStringList all;
         for (const auto& each : session.sideEffects) {
             if (each.moment != moment) continue;
-            all << QString("%1 (severity %2, relation %3)")
-                       .arg(QString::fromStdString(each.item), score(each.severity), score(each.relation));
+            all << QString("%1 (%2; relation %3)")
+                       .arg(QString::fromStdString(each.item), scored(kSideEffectSeverities, each.severity),
+                            scored(kRelations, each.relation));
         }
         return all.isEmpty() ? QString("nothing") : all.join("; ");
     };
@@ -205,7 +211,7 @@ TableBlock sideEffectsTable(const StudyRecord& study, ShownName name, const QStr
             const auto& results = session.results;
             table.rows.push_back({shown(name == ShownName::Code ? about.code : labelOf(shared, about)),
                                   QString::number(session.about.number), said(results, "before"),
-                                  said(results, "after"), said(results, "next day"),
+                                  said(results, "after"), said(results, kNextDayMoment),
                                   results.skinNextDay ? score(results.skinNextDay) : QString("not asked")});
         }
     }
@@ -233,13 +239,13 @@ TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
 TableBlock eventsTable(const StudyRecord& study, const QString& caption) {
     TableBlock table;
     table.caption = caption;
-    table.columns = {
-        {"Session"}, {"What"},    {"Severity, 1 to 4", true}, {"Serious"}, {"Relation, 1 to 5", true}, {"Action"},
-        {"Outcome"}, {"Reported"}};
+    table.columns = {{"Session"},  {"What"},   {"Severity"}, {"Serious"},
+                     {"Relation"}, {"Action"}, {"Outcome"},  {"Reported"}};
     for (const auto& [session, event] : study.events) {
-        table.rows.push_back({shown(session), shown(event.what), QString::number(event.severity),
-                              event.serious ? "yes" : "no", QString::number(event.relation), shown(event.action),
-                              shown(event.outcome), event.reported ? "yes" : "no"});
+        table.rows.push_back(
+            {shown(session), shown(event.what), QString::fromStdString(scoreText(kEventSeverities, event.severity)),
+             event.serious ? "yes" : "no", QString::fromStdString(scoreText(kRelations, event.relation)),
+             shown(event.action), shown(event.outcome), event.reported ? "yes" : "no"});
     }
     return table;
 }

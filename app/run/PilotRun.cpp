@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/run/MachineGate.h"
+#include "app/run/StudyProgram.h"
 #include "core/analysis/identification/Encodings.h"
 #include "core/base/JsonFields.h"
 #include "core/base/SystemTime.h"
@@ -52,17 +53,6 @@ void fitSource(DeviceUri& uri) {
     if (has("mode")) return;
     uri.parameters.emplace_back("mode", "current");
     if (!has("step")) uri.parameters.emplace_back("step", "0.5mA");
-}
-
-/// The electrode and the one kind of train of the study.
-void fitProfile(Profile& profile, const StudySettings& study) {
-    profile.electrodeArea = study.electrode.area;
-    auto& train = profile.encoding.train;
-    train.shape = study.train.shape == "monophasic" ? PulseShape::Monophasic : PulseShape::SymmetricBiphasic;
-    train.phaseWidth = Micros(study.train.width_us);
-    train.interPhaseGap = Micros(study.train.gap_us);
-    train.pulses = study.train.pulses;
-    if (study.train.rate_hz > 0) train.rate = Hertz(study.train.rate_hz);
 }
 
 PersonSetup stimulated(const Participant& who, const StudySettings& study, const Profile& profile) {
@@ -277,6 +267,10 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     const auto& study = study_->settings();
     auto& profile = order.profile;
     const bool massager = study.modality == Modality::Massager;
+    if (study.procedure && !order.settings.given.contains("method"))
+        order.settings.parameters["method"] = nameOf(study.procedure->method);
+    const auto method = valueFor(kDetectionMethods, textOf(order, "method")).value_or(DetectionMethod::Quest);
+    request_.procedure = procedureOf(profile, study, method);
     if (!massager) fitProfile(profile, study);
 
     settings_.code = who_.code;
@@ -418,7 +412,7 @@ Result<void> PilotRun::noteSkin(const std::string& moment, int score) {
         "skin at the {} scored {} of 4 ({}); severity and relation as noted by the program, for "
         "the investigator to judge",
         settings_.modality(), score, moment);
-    event.severity = score;
+    event.severity = severityOfSkin(score);
     event.relation = 5;
     const auto& session = begun_->session.id;
     const auto noted = study_->adverseEvents();

@@ -2,6 +2,8 @@
 
 #include "app/run/Shipped.h"
 #include "app/scripting/ShippedResources.h"
+#include "core/base/JsonFields.h"
+#include "core/session/Digest.h"
 
 namespace tacto {
 
@@ -9,7 +11,33 @@ namespace {
 constexpr std::string_view kPilotScripts = "pilot-";
 }
 
-Result<void> stateProgram(StudySettings& settings) {
+void fitProfile(Profile& profile, const StudySettings& study) {
+    profile.electrodeArea = study.electrode.area;
+    auto& train = profile.encoding.train;
+    // Monophasic is refused at a person, and with it whatever else a study may name.
+    train.shape = study.train.shape == "biphasic" ? PulseShape::SymmetricBiphasic : PulseShape::Monophasic;
+    train.phaseWidth = Micros(study.train.width_us);
+    train.interPhaseGap = Micros(study.train.gap_us);
+    train.pulses = study.train.pulses;
+    if (study.train.rate_hz > 0) train.rate = Hertz(study.train.rate_hz);
+}
+
+/// Conditions are hashed, since their names stand in no plain text of a study.
+StudyProcedure procedureOf(const Profile& profile, const StudySettings& study, DetectionMethod method) {
+    auto fitted = profile;
+    fitProfile(fitted, study);
+    const auto all = toJson(fitted);
+    const auto& encoding = all.at("encoding");
+    const nlohmann::json hashed = {{"conditions", encoding.at("conditions")},
+                                   {"assignment", encoding.at("assignment")},
+                                   {"polarity", encoding.at("polarity")},
+                                   {"rate_hz", encoding.at("rate_hz")},
+                                   {"safety", all.at("safety")}};
+    return {profile.encoding.intervalMin.count(), profile.encoding.intervalMax.count(), method,
+            sha256Hex(dumpJson(hashed))};
+}
+
+Result<void> stateProgram(StudySettings& settings, const Profile& profile) {
     const auto limits = shippedLimits();
     if (!limits) return failure(limits);
     settings.limits.clear();
@@ -20,6 +48,7 @@ Result<void> stateProgram(StudySettings& settings) {
         if (script.name.starts_with(kPilotScripts))
             settings.scripts.push_back({std::string(script.name), std::string(script.sha256)});
     }
+    settings.procedure = procedureOf(profile, settings, settings.procedure.value_or(StudyProcedure()).method);
     return {};
 }
 

@@ -1,13 +1,19 @@
-// StudyProgram.h - what a new study's approval says of this program: its limit sets and its pilot protocols, by hash.
+// StudyProgram.h - what a study's approval says of this program and of the profile that its sessions are run with.
 //
 // Thread-safety: pure but for the limit sets' files.
 #pragma once
 
+#include "core/bench/Profile.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto {
 
-/// Fills in `limits` and `scripts`. Errors: as shippedLimits().
-[[nodiscard]] Result<void> stateProgram(StudySettings& settings);
+/// `profile` with the electrode and the one kind of train of the study.
+void fitProfile(Profile& profile, const StudySettings& study);
+/// What `profile` makes people of this study feel, and how detection is asked for.
+[[nodiscard]] StudyProcedure procedureOf(const Profile& profile, const StudySettings& study, DetectionMethod method);
+
+/// Fills in `limits`, `scripts` and `procedure`; the method of detection stays as it is. Errors: as shippedLimits().
+[[nodiscard]] Result<void> stateProgram(StudySettings& settings, const Profile& profile);
 
 }  // namespace tacto

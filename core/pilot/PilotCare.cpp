@@ -18,9 +18,9 @@ constexpr int kSkinEnds = 2;          // erythema or oedema from which a session
 constexpr std::chrono::milliseconds kStopIn{10};
 constexpr int kStopTries = 3;  // while the other one's STOP is pressed
 
-double inMs(std::chrono::nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
+constexpr Word<int> kSkinKeys[] = {{"0", 0}, {"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}};
 
-constexpr Word<int> kSkinScores[] = {{"0", 0}, {"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}};
+double inMs(std::chrono::nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
 
 struct Named {
     const char* key;
@@ -48,9 +48,14 @@ PilotPrompt severalPrompt(std::string name, std::string text, std::vector<Prompt
     return prompt;
 }
 
+/// "1 none to 5 definite".
+std::string endsOf(std::span<const char* const> words) {
+    return scoreText(words, 1) + " to " + scoreText(words, static_cast<int>(words.size()));
+}
+
 PilotPrompt skinPrompt(const std::string& what, const std::string& words) {
     std::vector<PromptTarget> scores;
-    for (const auto& score : kSkinScores) scores.push_back({std::string(score.text), std::string(score.text)});
+    for (const auto& score : kSkinKeys) scores.push_back({std::string(score.text), std::string(score.text)});
     return choicePrompt(what, words, std::move(scores), PromptTo::Operator);
 }
 
@@ -272,7 +277,7 @@ Result<void> PilotCare::skin(const std::string& moment) {
          {std::pair{"erythema", "Redness of the skin, 0 to 4"}, std::pair{"oedema", "Swelling of the skin, 0 to 4"}}) {
         const auto said = stage_.ask(row::kSkin, moment + " " + what, skinPrompt(what, words));
         if (!said) return failure(said);
-        const auto score = valueFor(kSkinScores, textOr(*said, "key"));
+        const auto score = valueFor(kSkinKeys, textOr(*said, "key"));
         if (!score)
             return fail(ErrorCode::InvalidArgument, "{}: {} is not a score; 0 to 4 is expected", what, dumpJson(*said));
         worst = std::max(worst, *score);
@@ -353,11 +358,13 @@ Result<void> PilotCare::sideEffects(const std::string& moment) {
     if (!noticed) return failure(noticed);
     for (const auto& key : textsOr(*noticed, "keys")) {
         const auto severity = stage_.ask(row::kSideEffect, fmt::format("{} {} severity", moment, key),
-                                         scalePrompt("severity", key + ": how severe? 1 absent to 4 severe", 1, 4));
+                                         scalePrompt("severity", key + ": how severe? " + endsOf(kSideEffectSeverities),
+                                                     1, static_cast<int>(std::size(kSideEffectSeverities))));
         if (!severity) return failure(severity);
         const auto relation =
             stage_.ask(row::kSideEffect, fmt::format("{} {} relation", moment, key),
-                       scalePrompt("relation", key + ": related to the stimulation? 1 none to 5 definite", 1, 5));
+                       scalePrompt("relation", key + ": related to the stimulation? " + endsOf(kRelations), 1,
+                                   static_cast<int>(std::size(kRelations))));
         if (!relation) return failure(relation);
     }
     return {};

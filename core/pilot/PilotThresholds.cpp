@@ -9,8 +9,6 @@ namespace tacto {
 
 namespace {
 
-constexpr Word<DetectionMethod> kMethods[] = {{"quest", DetectionMethod::Quest},
-                                              {"staircase", DetectionMethod::Staircase}};
 constexpr Seconds kFeltBeforeAsked{4};  // I_max, before "half an hour of this?"
 
 nlohmann::json orNull(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
@@ -34,10 +32,8 @@ Estimate estimateOf(const StaircaseResult& found) { return {found.estimate, kNaN
 
 }  // namespace
 
-std::string_view nameOf(DetectionMethod method) noexcept { return wordFor<DetectionMethod>(kMethods, method); }
-
 Result<DetectionMethod> detectionMethodFrom(std::string_view name) {
-    if (const auto method = valueFor(kMethods, name)) return *method;
+    if (const auto method = valueFor(kDetectionMethods, name)) return *method;
     return fail(ErrorCode::InvalidArgument, "the detection method is \"{}\"; quest or staircase is expected", name);
 }
 

@@ -12,11 +12,10 @@
 #include "core/analysis/psychophysics/QuestPlus.h"
 #include "core/analysis/psychophysics/Staircase.h"
 #include "core/pilot/PilotStage.h"
+#include "core/study/StudySettings.h"
 
 namespace tacto {
 
-enum class DetectionMethod { Quest, Staircase };
-[[nodiscard]] std::string_view nameOf(DetectionMethod method) noexcept;  // "quest", "staircase"
 [[nodiscard]] Result<DetectionMethod> detectionMethodFrom(std::string_view name);
 
 class PilotThresholds {

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <fstream>
+#include <span>
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include "core/session/DatabaseFile.h"
 #include "core/session/Schema.h"
 
 namespace tacto {
@@ -28,11 +30,46 @@ std::string uriOf(const std::filesystem::path& path, const char* query) {
 /// Whether the first page says "SQLite, made by Tactoscope", for a file that SQLite itself will not open.
 bool looksLikeSession(const std::filesystem::path& path) {
     std::array<char, 72> head{};
-    std::ifstream file(path, std::ios::binary);
-    if (!file.read(head.data(), head.size())) return false;
+    const auto file = DatabaseFile::open(path);
+    if (!file || !file->read(0, std::as_writable_bytes(std::span(head)))) return false;
     std::uint32_t id = 0;
     for (std::size_t i = 68; i < 72; ++i) id = id << 8 | static_cast<unsigned char>(head[i]);
     return std::string_view(head.data(), 15) == "SQLite format 3" && id == kApplicationId;
+}
+
+/// What another program's writer changes when it moves rows from the journal into the file: the file, and the first
+/// bytes of a journal that begins anew.
+struct Written {
+    std::filesystem::file_time_type at{};
+    std::uintmax_t size = 0;
+    std::array<char, 32> journal{};
+    bool operator==(const Written&) const = default;
+};
+
+Written writtenNow(const std::filesystem::path& path) {
+    std::error_code ignored;
+    Written now;
+    now.at = std::filesystem::last_write_time(path, ignored);
+    now.size = std::filesystem::file_size(path, ignored);
+    std::ifstream journal(beside(path, "-wal"), std::ios::binary);  // no lock is on a journal
+    journal.read(now.journal.data(), now.journal.size());
+    return now;
+}
+
+/// The file and its journal, of one moment.
+Result<void> copyBoth(const std::filesystem::path& path, const std::filesystem::path& copy) {
+    constexpr int kTries = 5;
+    for (int i = 0; i < kTries; ++i) {
+        const auto before = writtenNow(path);
+        if (auto copied = copyDatabaseFile(path, copy); !copied) return copied;
+        std::error_code error;
+        std::filesystem::remove(beside(copy, "-wal"), error);
+        if (std::filesystem::exists(beside(path, "-wal"), error))
+            std::filesystem::copy_file(beside(path, "-wal"), beside(copy, "-wal"), error);
+        if (error) return fail(ErrorCode::Io, "{}", error.message());
+        if (writtenNow(path) == before) return {};
+    }
+    return fail(ErrorCode::Io, "another program is writing it");
 }
 
 tl::unexpected<Error> refuse(const std::filesystem::path& path, std::string_view reason) {
@@ -64,11 +101,8 @@ Result<SessionSource> SessionSource::openCopy(const std::filesystem::path& path)
     }
     const auto folder = std::make_shared<PrivateFolder>(pattern);
     const auto copy = folder->path / "session.tacto";
-    std::filesystem::copy_file(path, copy, error);
-    if (!error && std::filesystem::exists(beside(path, "-wal"))) {
-        std::filesystem::copy_file(beside(path, "-wal"), beside(copy, "-wal"), error);
-    }
-    if (error) return fail(ErrorCode::Io, "{} cannot be copied for reading: {}", path.string(), error.message());
+    if (auto copied = copyBoth(path, copy); !copied)
+        return fail(ErrorCode::Io, "{} cannot be copied for reading: {}", path.string(), copied.error().message);
     auto database = Database::open(copy.string(), SQLITE_OPEN_READWRITE);
     if (!database) return failure(database);
     if (auto rows = database->number("SELECT count(*) FROM sqlite_schema"); !rows) return failure(rows);

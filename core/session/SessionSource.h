@@ -5,8 +5,8 @@
 //   *-wal alone, or no access a private copy of both, recovered and removed afterwards
 //   an older schema           a private copy, migrated
 //
-// The file itself is not opened with anything but SQLite while a writer of this process may hold it: closing another
-// handle would drop that writer's locks (POSIX).
+// The file itself is opened with nothing but SQLite (DatabaseFile.h), since a writer of this process may hold it. A
+// copy is of one moment: it is made anew where another program wrote meanwhile.
 //
 // Thread-safety: one owner; several sources may be open on one file.
 #pragma once

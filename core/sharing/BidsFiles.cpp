@@ -9,6 +9,7 @@
 #include "core/base/Random.h"
 #include "core/base/Text.h"
 #include "core/sharing/BidsSessionTables.h"
+#include "core/study/ScoreWords.h"
 
 namespace tacto {
 
@@ -129,15 +130,33 @@ std::vector<BidsCell> feltCells(const BidsStudy& study, const BidsSession& sessi
             session.detection,       session.tooStrong};
 }
 
+/// "redness:2:4,itching:1:1"; empty where it was not asked.
+std::string sideEffectsNextDay(const BidsSession& session) {
+    if (std::ranges::find(session.sideEffectsAsked, kNextDayMoment) == session.sideEffectsAsked.end()) return {};
+    std::string all;
+    for (const auto& each : session.sideEffects) {
+        if (each.moment != kNextDayMoment) continue;
+        all += fmt::format("{}{}:{}:{}", all.empty() ? "" : ",", each.item, each.severity.value_or(0),
+                           each.relation.value_or(0));
+    }
+    return all.empty() ? "none" : all;
+}
+
 BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participant) {
     std::vector<BidsColumn> columns = {{"session_id", "Label of the session"},
                                        {"days_since_first", "Whole days since the participant's first session", "d"},
                                        {"encoding", "Which stimulus has which name"},
                                        {"site", "Where the stimulation was applied"}};
     std::ranges::move(feltColumns(study.massager), std::back_inserter(columns));
+    const auto skin = "Worse of erythema and oedema: " + scaleText(kSkinScores, 0);
     const std::initializer_list<BidsColumn> more = {
-        {"skin_before", "Worse of erythema and oedema, 0 to 4"},
-        {"skin_after", "Worse of erythema and oedema, 0 to 4"},
+        {"skin_before", skin},
+        {"skin_after", skin},
+        {"skin_next_day", skin + ", on a later day; n/a where it was not asked"},
+        {"side_effects_next_day",
+         "On a later day, ITEM:SEVERITY:RELATION with commas between; none: asked, and nothing was noticed. "
+         "Severity: " +
+             scaleText(kSideEffectSeverities) + ". Relation to the stimulation: " + scaleText(kRelations)},
         {"complete", "Whether the session came to its end", "", {{"true", "yes"}, {"false", "no"}}},
         {"parts", "1, and one more for each time it was interrupted and gone on with"}};
     columns.insert(columns.end(), more.begin(), more.end());
@@ -145,8 +164,9 @@ BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participa
     for (const auto& session : participant.sessions) {
         std::vector<BidsCell> cells = {sessionLabel(session), session.days, session.encoding, study.site};
         std::ranges::move(feltCells(study, session), std::back_inserter(cells));
-        for (const BidsCell& cell : {BidsCell(session.skinBefore), BidsCell(session.skinAfter),
-                                     BidsCell(session.complete), BidsCell(session.parts)})
+        for (const BidsCell& cell :
+             {BidsCell(session.skinBefore), BidsCell(session.skinAfter), BidsCell(session.skinNextDay),
+              BidsCell(sideEffectsNextDay(session)), BidsCell(session.complete), BidsCell(session.parts)})
             cells.push_back(cell);
         table.add(std::move(cells));
     }

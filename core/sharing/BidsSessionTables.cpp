@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/study/ScoreWords.h"
+
 namespace tacto {
 
 namespace {
@@ -159,10 +161,10 @@ BidsTable sideEffectsTable(const BidsSession& session, bool massager) {
                       "",
                       {{"before", "before the first stimulation"},
                        {"after", massager ? "after the massager was taken off" : "after the electrodes were taken off"},
-                       {"next day", "on a later day"}}},
+                       {kNextDayMoment, "on a later day"}}},
                      {"item", "What was noticed"},
-                     {"severity", "1 absent, 2 mild, 3 moderate, 4 severe"},
-                     {"relation", "To the stimulation: 1 none, 2 remote, 3 possible, 4 probable, 5 definite"}});
+                     {"severity", scaleText(kSideEffectSeverities)},
+                     {"relation", "To the stimulation: " + scaleText(kRelations)}});
     for (const auto& row : session.sideEffects) table.add({row.moment, row.item, row.severity, row.relation});
     return table;
 }

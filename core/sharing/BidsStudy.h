@@ -48,6 +48,9 @@ struct BidsRating {
     std::string value;      ///< a number, or words with commas between
 };
 
+/// A moment at which side effects are asked for: a later day.
+inline constexpr const char* kNextDayMoment = "next day";
+
 struct BidsSideEffect {
     std::string moment;           ///< "before", "after", "next day"
     std::string item;             ///< "tingling", ...

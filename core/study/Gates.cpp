@@ -102,6 +102,28 @@ Result<void> scriptGate(const StudySettings& settings, const ScriptHash& script)
     return {};
 }
 
+Result<void> procedureGate(const StudySettings& settings, const StudyProcedure& procedure) {
+    if (settings.kind == StudyKind::Rehearsal || !settings.procedure) return {};
+    const auto& approved = *settings.procedure;
+    const auto refused = [&](std::string_view what, const auto& now, const auto& then, std::string_view unit) {
+        return fail(kGateRefused, "{} is {}{}, and approval {} is for {}{}; a change needs an amendment", what, now,
+                    unit, settings.approval.reference, then, unit);
+    };
+    if (procedure.intervalMin_s != approved.intervalMin_s)
+        return refused("the profile's shortest interval", procedure.intervalMin_s, approved.intervalMin_s, " s");
+    if (procedure.intervalMax_s != approved.intervalMax_s)
+        return refused("the profile's longest interval", procedure.intervalMax_s, approved.intervalMax_s, " s");
+    if (procedure.method != approved.method)
+        return refused("the method of detection", nameOf(procedure.method), nameOf(approved.method), "");
+    if (procedure.conditionsSha256 != approved.conditionsSha256) {
+        return fail(kGateRefused,
+                    "the profile's conditions, assignment, polarity, load range and ceilings hash to {:.12}…, and "
+                    "approval {} is for {:.12}…; a change needs an amendment",
+                    procedure.conditionsSha256, settings.approval.reference, approved.conditionsSha256);
+    }
+    return {};
+}
+
 Result<void> participantGate(const StudySettings& settings, const Participant& participant) {
     if (participant.state != ParticipantState::Active) {
         return fail(kGateRefused, "{} has {} the study; only an active participant takes part", shownName(participant),

@@ -45,6 +45,9 @@ struct ExclusionAnswer {
 [[nodiscard]] Result<void> approvalGate(const StudySettings& settings, CalibrationDate today);
 /// `script` is one of those approved.
 [[nodiscard]] Result<void> scriptGate(const StudySettings& settings, const ScriptHash& script);
+/// What a session is run with, `procedure`, is what was approved. A rehearsal does not ask, nor does a study whose
+/// approval names no procedure.
+[[nodiscard]] Result<void> procedureGate(const StudySettings& settings, const StudyProcedure& procedure);
 /// Active, and fewer sessions than the approval allows.
 [[nodiscard]] Result<void> participantGate(const StudySettings& settings, const Participant& participant);
 /// The last session lies far enough back; a rehearsal does not ask.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/Result.h"
+#include "core/study/ScoreWords.h"
 
 namespace tacto {
 
@@ -35,8 +36,8 @@ inline constexpr int kSkinIsAdverse = 2;
 
 struct SideEffect {
     std::string item;  ///< a key of kSideEffects
-    int severity = 1;  ///< 1 (absent) to 4 (severe)
-    int relation = 1;  ///< to the stimulation, 1 (none) to 5 (definite)
+    int severity = 1;  ///< one of kSideEffectSeverities
+    int relation = 1;  ///< one of kRelations
     bool operator==(const SideEffect&) const = default;
 };
 

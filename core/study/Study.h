@@ -31,6 +31,7 @@
 #include "core/study/Gates.h"
 #include "core/study/NextDay.h"
 #include "core/study/Participant.h"
+#include "core/study/ScoreWords.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto {
@@ -63,6 +64,7 @@ struct StudySession {
 struct SessionRequest {
     std::string code;  ///< or "virtual:SEED" of a participant who is enrolled
     ScriptHash script;
+    StudyProcedure procedure{};  ///< of the profile and protocol that it is run with
     std::string encoding;
     bool codeConfirmed = false;  ///< the participant read the code on their own screen and said that it is theirs
     bool devicesSimulated = false;
@@ -86,9 +88,9 @@ struct StudyAmendment {
 
 struct AdverseEvent {
     std::string what;
-    int severity = 1;  ///< 1 to 4
+    int severity = 1;  ///< one of kEventSeverities
     bool serious = false;
-    int relation = 1;  ///< 1 (none) to 5 (certain)
+    int relation = 1;  ///< one of kRelations
     std::string action{}, outcome{};
     bool reported = false;
 };

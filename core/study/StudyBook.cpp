@@ -145,9 +145,8 @@ Result<void> StudyBook::adverseEvent(std::string_view session, const AdverseEven
     if (event.what.empty() || event.severity < 1 || event.severity > 4 || event.relation < 1 || event.relation > 5) {
         return fail(
             ErrorCode::InvalidArgument,
-            "an adverse event needs what happened, a severity from 1 to 4 and a relation from 1 to 5; these are "
-            "\"{}\", {} and {}",
-            event.what, event.severity, event.relation);
+            "an adverse event needs what happened, a severity ({}) and a relation ({}); these are \"{}\", {} and {}",
+            scaleText(kEventSeverities), scaleText(kRelations), event.what, event.severity, event.relation);
     }
     if (auto fits = checkForLedger(event); !fits) return fits;
     return append(ledger::kAdverseEvent, {{"session", session}}, &keys->study(), toJson(event));
@@ -175,7 +174,7 @@ Result<void> StudyBook::nextDay(std::string_view session, const NextDay& said) {
         // The last entry counts, and is of the same event.
         const auto isNoted = [&](const auto& each) { return each.first == session && each.second.what == what; };
         if (std::ranges::none_of(known.adverseEvents, isNoted)) {
-            auto noted = adverseEvent(session, {.what = what, .severity = said.skin(), .relation = 5});
+            auto noted = adverseEvent(session, {.what = what, .severity = severityOfSkin(said.skin()), .relation = 5});
             if (!noted) return noted;
         }
     }
@@ -210,6 +209,7 @@ Result<void> StudyBook::stillApproved() const {
 Result<void> StudyBook::gates(const SessionRequest& request, Participant participant, bool again) const {
     if (auto holds = stillApproved(); !holds) return holds;
     if (auto holds = scriptGate(settings, request.script); !holds) return holds;
+    if (auto holds = procedureGate(settings, request.procedure); !holds) return holds;
     if (again) --participant.sessions;
     participant.sessions -= static_cast<int>(std::ranges::count_if(
         known.sessions, [&](const StudySession& each) { return each.participant == participant.id && !each.opened; }));

@@ -64,6 +64,16 @@ RecordFields<StudyTrain> trainFields() {
     return all;
 }
 
+RecordFields<StudyProcedure> procedureFields() {
+    using P = StudyProcedure;
+    RecordFields<P> all;
+    all.number("interval_min_s", &P::intervalMin_s, {.low = 0.01, .high = 60, .unit = "s"});
+    all.number("interval_max_s", &P::intervalMax_s, {.low = 0.01, .high = 60, .unit = "s"});
+    all.word("method", &P::method, kDetectionMethods);
+    all.text("conditions_sha256", &P::conditionsSha256, kOptionalText);
+    return all;
+}
+
 template <class Named>
 RecordFields<Named> namedHashFields(std::string_view name, std::string Named::*member) {
     RecordFields<Named> all;
@@ -101,6 +111,7 @@ RecordFields<StudySettings> buildStudyFields() {
     all.word("data_on_request", &S::dataOnRequest, kDataOnRequest);
     all.text("license", &S::license, kOptionalText);
     all.list("scripts", &S::scripts, namedHashFields<ScriptHash>("name", &ScriptHash::name).kind(), 0, 100);
+    all.record("procedure", &S::procedure, procedureFields());
     all.rule([](const S& settings) -> Result<void> {
         if (settings.conditions == kTexturePressure) return {};
         return fail(ErrorCode::InvalidArgument, "\"conditions\" is \"{}\"; \"{}\" is expected", settings.conditions,
@@ -151,6 +162,8 @@ Result<nlohmann::json> asJson(const nlohmann::json& before, std::string_view key
 std::string_view nameOf(StudyKind kind) noexcept { return wordFor(kStudyKinds, kind); }
 std::string_view nameOf(ElectrodeSite site) noexcept { return wordFor(kElectrodeSites, site); }
 
+std::string_view nameOf(DetectionMethod method) noexcept { return wordFor<DetectionMethod>(kDetectionMethods, method); }
+
 const RecordFields<StudySettings>& studyFields() {
     static const auto fields = buildStudyFields();
     return fields;
@@ -164,11 +177,17 @@ Result<void> setStudyField(StudySettings& settings, std::string_view key, std::s
                                                 "approval.reference",
                                                 "approval.from",
                                                 "approval.expires",
-                                                "approval.protocol_sha256"};
+                                                "approval.protocol_sha256",
+                                                "procedure.interval_min_s",
+                                                "procedure.interval_max_s",
+                                                "procedure.conditions_sha256"};
+    const auto hasOwnOption = [&](std::string_view name) {
+        return std::ranges::find(kOwnOptions, name) != std::end(kOwnOptions);
+    };
     auto json = studyFields().write(settings);
     const auto dot = key.find('.');
     const auto outer = std::string(key.substr(0, dot));
-    const bool known = json.contains(outer) && std::ranges::find(kOwnOptions, key) == std::end(kOwnOptions);
+    const bool known = json.contains(outer) && !hasOwnOption(key);
     auto* field = known ? &json[outer] : nullptr;
     if (field != nullptr && dot != std::string_view::npos) {
         const auto inner = std::string(key.substr(dot + 1));
@@ -177,9 +196,12 @@ Result<void> setStudyField(StudySettings& settings, std::string_view key, std::s
     if (field == nullptr) {
         std::string names;
         for (const auto& info : studyFields().infos()) {
-            if (std::ranges::find(kOwnOptions, info.key) != std::end(kOwnOptions) || info.key == "approval") continue;
+            if (hasOwnOption(info.key) || info.key == "approval") continue;
             if (info.members.empty()) names += fmt::format("{}{}", names.empty() ? "" : ", ", info.key);
-            for (const auto& member : info.members) names += fmt::format(", {}.{}", info.key, member.key);
+            for (const auto& member : info.members) {
+                const auto name = fmt::format("{}.{}", info.key, member.key);
+                if (!hasOwnOption(name)) names += ", " + name;
+            }
         }
         return fail(ErrorCode::InvalidArgument, "a study has no setting \"{}\"; there are {}", key, names);
     }
@@ -196,6 +218,7 @@ Result<void> setStudyField(StudySettings& settings, std::string_view key, std::s
 std::string protocolHash(const StudySettings& settings) {
     auto json = studyFields().write(settings);
     for (const char* key : {"id", "approval", "license"}) json.erase(key);
+    if (!settings.procedure) json.erase("procedure");
     return sha256Hex(dumpJson(json));
 }
 

@@ -26,12 +26,17 @@ inline constexpr Word<Modality> kModalities[] = {{"electrodes", Modality::Electr
 enum class ElectrodeSite { Forearm, ResidualLimbEnd, UpperArm, Hand };
 enum class Nerve { Radial, Median, Ulnar };
 enum class Limb { Left, Right };
+/// How the detection threshold is sought (pilot.md section 4); the words are those of the protocols' `method`.
+enum class DetectionMethod { Quest, Staircase };
+inline constexpr Word<DetectionMethod> kDetectionMethods[] = {{"quest", DetectionMethod::Quest},
+                                                              {"staircase", DetectionMethod::Staircase}};
 /// What happens to the data of a participant who asks for it to be destroyed.
 enum class DataOnRequest { Destroy, Keep };
 
 [[nodiscard]] std::string_view nameOf(StudyKind kind) noexcept;
 [[nodiscard]] constexpr std::string_view nameOf(Modality modality) noexcept { return wordFor(kModalities, modality); }
 [[nodiscard]] std::string_view nameOf(ElectrodeSite site) noexcept;
+[[nodiscard]] std::string_view nameOf(DetectionMethod method) noexcept;
 
 /// A committee's approval. Days are local dates; both ends count.
 struct Approval {
@@ -68,6 +73,15 @@ struct StudyTrain {
     bool operator==(const StudyTrain&) const = default;
 };
 
+/// What people feel and are asked, beside electrode and train: an approval is for it, and a session's profile and
+/// protocol must agree with it.
+struct StudyProcedure {
+    double intervalMin_s = 0.5;  ///< T_min
+    double intervalMax_s = 2;    ///< T_max
+    DetectionMethod method = DetectionMethod::Quest;
+    std::string conditionsSha256{};  ///< of the conditions, their assignment, polarity, load range and ceilings
+    bool operator==(const StudyProcedure&) const = default;
+};
 struct StudySettings {
     std::string id;  ///< 16 hexadecimal digits; made by Study::create()
     std::string title;
@@ -94,8 +108,9 @@ struct StudySettings {
     int catchTrials = 2;  ///< per block
     bool blind = true;
     DataOnRequest dataOnRequest = DataOnRequest::Destroy;
-    std::string license;              ///< under which exports may be used: "CC-BY-4.0"; empty: not decided
-    std::vector<ScriptHash> scripts;  ///< approved; a session's script must be one of them
+    std::string license;                      ///< under which exports may be used: "CC-BY-4.0"; empty: not decided
+    std::vector<ScriptHash> scripts;          ///< approved; a session's script must be one of them
+    std::optional<StudyProcedure> procedure;  ///< approved; a study of before it was kept has none until its amendment
     bool operator==(const StudySettings&) const = default;
 };
 
@@ -103,12 +118,12 @@ struct StudySettings {
 [[nodiscard]] const RecordFields<StudySettings>& studyFields();
 
 /// Sets one field by its key, as `--set blocks=3` or `--set electrode.area_cm2=5`.
-/// Errors: InvalidArgument naming key, value and what is accepted; also for id, kind, approval and scripts, which have
-/// options of their own.
+/// Errors: InvalidArgument naming key, value and what is accepted; also for id, kind, approval, scripts and what a
+/// profile says of the procedure, which have options of their own.
 [[nodiscard]] Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value);
 
 /// What an approval's protocol_sha256 stands for: SHA-256 over every setting but the approval itself and the
-/// license of exports, and the scripts.
+/// license of exports, and the scripts. A procedure that is absent is no part of it.
 [[nodiscard]] std::string protocolHash(const StudySettings& settings);
 
 }  // namespace tacto

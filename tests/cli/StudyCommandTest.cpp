@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/Csv.h"
 #include "tests/cli/RunCli.h"
 #include "tests/cli/Shape.h"
 
@@ -63,7 +64,12 @@ TEST_F(StudyCli, IsMadeEnrolledInConsentedToShownLeftAndWithdrawnFrom) {
     EXPECT_EQ(jsonOf(sealed)["participants"].size(), 2U);
 
     EXPECT_EQ(study({"withdraw", at(), code, "--confirm", "P-7K3D"}).code, 2);
-    ASSERT_EQ(study({"withdraw", at(), code, "--confirm", code}).code, 0);
+    ASSERT_EQ(
+        desk.run({"export", at(), "--format", "bids", "--out", desk.at("bids"), "--passphrase-file", passphrase}).code,
+        0);
+    const auto withdrawn = study({"withdraw", at(), code, "--confirm", code});
+    ASSERT_EQ(withdrawn.code, 0) << withdrawn.err;
+    EXPECT_THAT(withdrawn.err, HasSubstr("deleted by hand:\n  " + desk.at("bids")));
     ASSERT_EQ(study({"leave", at(), "P-7K3D"}).code, 0);
     EXPECT_EQ(study({"leave", at(), "P-7K3D"}).code, 4);
     EXPECT_EQ(study({"leave", at(), code}).code, 3);
@@ -158,6 +164,45 @@ TEST_F(StudyCli, ADamagedOneIsFoundWithoutThePassphrase) {
     const auto enrolled = study({"enrol", at()});
     EXPECT_EQ(enrolled.code, 3);
     EXPECT_THAT(enrolled.err, HasSubstr("the ledger of the study in"));
+}
+
+TEST_F(StudyCli, AProfileThatWasNotApprovedBeginsNoSessionUntilItIsAmended) {
+    RecordProperty("hazard", "H11");
+    const auto other = desk.write("other.json", R"({"encoding": {"interval_max_s": 3}})");
+    ASSERT_EQ(create("2099-12-31", {"--set", "procedure.method=staircase"}).code, 0);
+    const auto code = jsonOf(study({"enrol", at(), "--virtual", "7"}))["code"].get<std::string>();
+    ASSERT_EQ(study({"consent", at(), code, "--version", "2", "--date", "2026-11-20", "--by", "KL"}).code, 0);
+    const auto run = [&](const Words& more) {
+        Words words{"run",   "pilot-thresholds",    "--device",          "sim:",     "--out", at(),
+                    "--set", "participant=" + code, "--passphrase-file", passphrase, "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return desk.run(words);
+    };
+    expectRefused(run({"--profile", other}), 4, {"longest interval is 3 s, and approval EC-17 is for 2 s"});
+    expectRefused(run({"--set", "method=quest"}), 4, {"quest, and approval EC-17 is for staircase"});
+    EXPECT_EQ(jsonOf(study({"show", at()}))["sessions"], Json::array());
+    expectRefused(study({"amend", at(), "--reference", "EC-18", "--profile", desk.at("none.json")}), 2, {"none.json"});
+    const auto amended = study({"amend", at(), "--reference", "EC-18", "--profile", other});
+    ASSERT_EQ(amended.code, 0) << amended.err;
+    EXPECT_EQ(jsonOf(amended)["changed"], Json::array({"procedure.interval_max_s"}));
+    expectRefused(run({}), 4, {"longest interval is 2 s, and approval EC-18 is for 3 s"});
+    const auto ran = run({"--profile", other});
+    EXPECT_THAT(ran.code, testing::AnyOf(0, 5)) << ran.err;
+    EXPECT_EQ(jsonOf(ran).at("results").at("detection").at("method"), "staircase") << "asked as approved";
+}
+
+TEST_F(StudyCli, TheGroupOfAParticipantIsEnrolledAndExported) {
+    ASSERT_EQ(create().code, 0);
+    EXPECT_EQ(study({"enrol", at(), "--group", "amputee"}).code, 2);
+    EXPECT_EQ(jsonOf(study({"show", at()}))["participants"], Json::array());
+    ASSERT_EQ(study({"enrol", at(), "--group", "limb difference"}).code, 0);
+    ASSERT_EQ(study({"enrol", at()}).code, 0);
+    ASSERT_EQ(
+        desk.run({"export", at(), "--format", "bids", "--out", desk.at("bids"), "--passphrase-file", passphrase}).code,
+        0);
+    const auto people = readTextFile(desk.at("bids") + "/participants.tsv").value_or("");
+    EXPECT_THAT(people, HasSubstr("\tlimb difference\t0"));
+    EXPECT_THAT(people, HasSubstr("\tintact\t0"));
 }
 
 }  // namespace

@@ -30,6 +30,7 @@
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SafetyBar.h"
+#include "app/run/Shipped.h"
 #include "app/run/StudyProgram.h"
 #include "core/study/Study.h"
 #include "tests/e2e/Hand.h"
@@ -212,7 +213,7 @@ protected:
         settings.approval.from = std::chrono::year(2020) / 1 / 1;
         settings.approval.expires = std::chrono::year(2090) / 12 / 31;
         settings.consentVersion = "2";
-        ASSERT_TRUE(stateProgram(settings));
+        ASSERT_TRUE(stateProgram(settings, shippedProfile().value()));
         auto made = Study::create(study().toStdString(), settings, Passphrase::from(kPassphrase).value());
         ASSERT_TRUE(made) << made.error().message;
         ASSERT_TRUE(made->enrol(Participant()));

@@ -185,10 +185,18 @@ TEST(StudyReport, SideEffectsOfTheNextDayAreShownOrCalledNotAsked) {
     results.skinNextDay = 1;
     const auto content = studyReport(study);
     ASSERT_TRUE(content) << content.error().message;
-    const auto row = " | 1 | nothing | not asked | redness (severity 2, relation 4) | 1";
+    const auto row = " | 1 | nothing | not asked | redness (2 mild; relation 4 probable) | 1";
     EXPECT_THAT(textOf(*content), HasSubstr(std::string("P-7K3M") + row));
     EXPECT_THAT(textOf(*content), HasSubstr("P-7K3M | 2 | not asked | not asked | not asked | not asked"));
     EXPECT_THAT(textOf(committeeReport(study)), HasSubstr(row));
+}
+
+TEST(StudyReport, AnAdverseEventIsReportedInTheWordsInWhichItIsNoted) {
+    RecordProperty("hazard", "H12");
+    auto study = studyOfThree();
+    study.events[0].second.severity = 4;
+    study.events[0].second.relation = 3;
+    EXPECT_THAT(textOf(committeeReport(study)), HasSubstr("redness | 4 life-threatening | no | 3 possible | "));
 }
 
 TEST(StudyReport, PreferencesAreShownWithTheirOrderAndNotTested) {

@@ -1,15 +1,18 @@
 // Which stimulator may be at a person today.
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/run/LoadSafetyRecord.h"
 #include "app/run/MachineGate.h"
 #include "app/run/PilotRun.h"
+#include "app/run/StudyProgram.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/calibration/CalibrationStore.h"
 #include "core/devices/DeviceUri.h"
+#include "core/session/SessionReader.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/scripting/DataHome.h"
 #include "tests/scripting/Technician.h"
@@ -295,6 +298,91 @@ TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
     const auto left = Study::open(at, nullptr, Study::Access::Read).value().sessions();
     ASSERT_EQ(left.size(), 2U);
     EXPECT_NE(left[0].state, StudySessionState::Unfinished);
+}
+
+TEST_F(MachineGate, AProfileThatWasChangedAfterTheApprovalBeginsNoSession) {
+    RecordProperty("hazard", "H11");
+    calibrate();
+    keep(CheckVerdict::Pass);
+    const auto script = ProtocolLibrary(sourceDir() / "resources" / "protocols", {}).find("pilot-thresholds").value();
+    Profile profile;
+    study_.procedure.emplace().method = DetectionMethod::Staircase;
+    ASSERT_TRUE(stateProgram(study_, profile));
+    study_.scripts = {{script.name, script.sha256}};
+    const auto at = folder_.path() / "study";
+    std::string code;
+    {
+        auto study = Study::create(at, study_, Passphrase::from("correct horse 4711").value()).value();
+        code = study.enrol({}).value().code;
+        ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
+    }
+    SilentPerson person;
+    auto registry = labRegistry();
+    const auto prepare = [&](const Profile& with, std::map<std::string, std::string> given = {}) {
+        given["participant"] = code;
+        RunOrder order;
+        order.script = script;
+        order.declaration = readDeclaration(script).value();
+        order.settings = applySettings(order.declaration, given).value();
+        order.uris = {DeviceUri::parse(std::string("lab:stimulator?") + kSource).value()};
+        order.limits = limits_;
+        order.profile = with;
+        PilotOrder pilot;
+        pilot.study = at;
+        pilot.passphrase = Passphrase::from("correct horse 4711").value();
+        pilot.people = &person;
+        pilot.codeConfirmed = true;
+        pilot.exclusions = nothingExcludes();
+        return PilotRun::prepare(std::move(order), std::move(pilot), registry);
+    };
+    const auto refusal = [&](const Profile& with, std::map<std::string, std::string> given = {}) {
+        const auto refused = prepare(with, std::move(given));
+        if (refused) return std::string();
+        EXPECT_EQ(refused.error().code, kGateRefused);
+        EXPECT_TRUE(std::filesystem::is_empty(at / "sessions"));
+        return refused.error().message;
+    };
+    auto changed = profile;
+    changed.encoding.intervalMax = Seconds(3);
+    EXPECT_THAT(refusal(changed), HasSubstr("longest interval is 3 s, and approval EC-2026-17 is for 2 s"));
+    const auto conditions = HasSubstr("the profile's conditions, assignment, polarity, load range and ceilings hash");
+    for (const auto& change : std::vector<std::function<void(Profile&)>>{
+             [](Profile& one) { one.encoding.conditions[1].P = 0.5; },
+             [](Profile& one) { one.encoding.assignment = Assignment::Swapped; },
+             [](Profile& one) { one.encoding.train.polarity = Polarity::Negative; },
+             [](Profile& one) { one.encoding.train.rate = Hertz(90); },
+             [](Profile& one) { one.loadHigh = Ohms(50'000); },
+             [](Profile& one) {
+                 one.ceilings = {{Quantity::PeakCurrent, 20}};
+             }}) {
+        changed = profile;
+        change(changed);
+        EXPECT_THAT(refusal(changed), conditions);
+    }
+    EXPECT_THAT(refusal(profile, {{"method", "quest"}}), HasSubstr("quest, and approval EC-2026-17 is for staircase"));
+    changed = profile;
+    changed.name = "another name";
+    changed.encoding.train.phaseWidth = Micros(300);  // the study's is taken
+    const auto accepted = prepare(changed);
+    ASSERT_TRUE(accepted) << accepted.error().message;
+    const auto& begun = (*accepted)->study();
+    const auto file = begun.sessions().front().parts.front().file;
+    const auto about = SessionReader::open(begun.pathOf(file), begun.sealOf(file).value()).value().about();
+    EXPECT_EQ(about.parameters["method"], "staircase") << "asked as approved";
+}
+
+TEST_F(MachineGate, AShapeThatIsNotBiphasicIsPresentedToNobody) {
+    RecordProperty("hazard", "H12");
+    calibrate();
+    keep(CheckVerdict::Pass);
+    for (const char* shape : {"monophasic", "asymmetric", "Biphasic"}) {
+        study_.train.shape = shape;
+        fitProfile(profile_, study_);
+        EXPECT_THAT(said(), HasSubstr("a biphasic one is expected")) << shape;
+    }
+    study_.train.shape = "biphasic";
+    fitProfile(profile_, study_);
+    EXPECT_EQ(said(), "");
 }
 
 TEST_F(MachineGate, APersonAtAMassagerPassesEveryGateButThoseOfCurrent) {

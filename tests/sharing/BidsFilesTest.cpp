@@ -299,6 +299,36 @@ sys.exit(1 if refused else 0)
     EXPECT_THAT(said, HasSubstr(fmt::format("{} files", files->size())));
 }
 
+TEST(BidsFiles, TheDayAfterStandsInTheSessionsTableAndItsSidecar) {
+    RecordProperty("hazard", "H12");
+    auto study = studyOfThree();
+    auto& sessions = study.participants[0].sessions;
+    ASSERT_EQ(sessions.size(), 2U);
+    sessions[0].skinNextDay = 1;
+    sessions[0].sideEffectsAsked = {"before", "next day"};
+    sessions[0].sideEffects = {{"before", "pain", 2, 1}, {"next day", "redness", 2, 4}, {"next day", "itching", 3, 5}};
+    const auto cells = [&](const char* column) {
+        const auto files = filesOf(study);
+        const auto stem =
+            fmt::format("sub-{0}/sub-{0}_sessions", bidsLabel(study, study.participants[0].enrolled).value());
+        const auto rows = tableOf(files.at(stem + ".tsv"));
+        const auto at = static_cast<std::size_t>(std::ranges::find(rows[0], column) - rows[0].begin());
+        std::vector<std::string> found;
+        for (std::size_t row = 1; row < rows.size() && at < rows[0].size(); ++row) found.push_back(rows[row][at]);
+        EXPECT_FALSE(json::parse(files.at(stem + ".json")).at(column).at("Description").get<std::string>().empty());
+        return found;
+    };
+    EXPECT_EQ(cells("skin_next_day"), (std::vector<std::string>{"1", "n/a"}));
+    EXPECT_EQ(cells("side_effects_next_day"), (std::vector<std::string>{"redness:2:4,itching:3:5", "n/a"}));
+    sessions[0].sideEffects.clear();
+    EXPECT_EQ(cells("side_effects_next_day"), (std::vector<std::string>{"none", "n/a"})) << "asked is not n/a";
+    for (const auto& [path, text] : filesOf(study)) {
+        if (!path.ends_with("_sessions.json")) continue;
+        EXPECT_THAT(text, HasSubstr("1 absent, 2 mild, 3 moderate, 4 severe"));
+        EXPECT_THAT(text, HasSubstr("0 none, 1 very slight, 2 well defined, 3 moderate, 4 severe"));
+    }
+}
+
 TEST(BidsFiles, WithAMassagerThereAreStrengthsAndNeverCurrentsOrVoltages) {
     RecordProperty("hazard", "H9");
     auto study = studyOfThree();

@@ -1,3 +1,6 @@
+#include <limits>
+
+#include "core/session/Digest.h"
 #include "core/study/Gates.h"
 #include "tests/study/StudySupport.h"
 
@@ -68,6 +71,49 @@ TEST(Gates, AScriptThatWasChangedNeedsAnAmendment) {
                   "the script live is none of those that approval EC-2026-17 names; an amendment is needed");
     settings.kind = StudyKind::Rehearsal;
     EXPECT_TRUE(scriptGate(settings, {"live", std::string(64, 'a')}));
+}
+
+TEST(Gates, WhatPeopleFeelIsWhatWasApproved) {
+    RecordProperty("hazard", "H11");
+    auto settings = approved();
+    StudyProcedure now;
+    now.intervalMax_s = 3;
+    EXPECT_TRUE(procedureGate(settings, now)) << "an approval of before it was kept names none";
+    settings.procedure = {0.5, 2, DetectionMethod::Quest, std::string(64, 'a')};
+    EXPECT_TRUE(procedureGate(settings, *settings.procedure));
+    expectRefused(
+        procedureGate(settings, {0.4, 2, DetectionMethod::Quest, std::string(64, 'a')}),
+        "the profile's shortest interval is 0.4 s, and approval EC-2026-17 is for 0.5 s; a change needs an amendment");
+    expectRefused(
+        procedureGate(settings, {0.5, 3, DetectionMethod::Quest, std::string(64, 'a')}),
+        "the profile's longest interval is 3 s, and approval EC-2026-17 is for 2 s; a change needs an amendment");
+    expectRefused(procedureGate(settings, {0.5, 2, DetectionMethod::Staircase, std::string(64, 'a')}),
+                  "the method of detection is staircase, and approval EC-2026-17 is for quest; a change needs an "
+                  "amendment");
+    expectRefused(procedureGate(settings, {0.5, 2, DetectionMethod::Quest, std::string(64, 'b')}),
+                  "the profile's conditions, assignment, polarity, load range and ceilings hash to bbbbbbbbbbbb…, and "
+                  "approval EC-2026-17 is for aaaaaaaaaaaa…; a change needs an amendment");
+    now = *settings.procedure;
+    now.intervalMin_s = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(procedureGate(settings, now));
+    settings.kind = StudyKind::Rehearsal;
+    EXPECT_TRUE(procedureGate(settings, now));
+}
+
+TEST(Gates, AnApprovalIsForItsProcedureAndOldOnesKeepTheirHash) {
+    RecordProperty("hazard", "H11");
+    auto settings = approved();
+    auto stored = studyFields().write(settings);
+    for (const char* key : {"id", "approval", "license", "procedure"}) stored.erase(key);
+    EXPECT_EQ(protocolHash(settings), sha256Hex(stored.dump())) << "as before there was one";
+    settings.procedure.emplace();
+    EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused);
+    settings.approval.protocolSha256 = protocolHash(settings);
+    EXPECT_TRUE(approvalGate(settings, kToday));
+    settings.procedure->intervalMax_s = 3;
+    EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused);
+    settings.procedure.reset();
+    EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused) << "it cannot be taken out of the file";
 }
 
 TEST(Gates, OnlyAnActiveParticipantTakesPartAndNoMoreOftenThanApproved) {
@@ -161,9 +207,12 @@ TEST(Gates, VirtualParticipantsAndPeopleKeepToTheirDevices) {
 TEST(StudySettings, AreReadAsWritten) {
     auto settings = approved();
     settings.id = "0123456789abcdef";
-    const auto read = studyFields().read(studyFields().write(settings), RecordPlace{});
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(*read, settings);
+    for (const bool withProcedure : {false, true}) {
+        if (withProcedure) settings.procedure = {0.4, 3, DetectionMethod::Staircase, std::string(64, 'a')};
+        const auto read = studyFields().read(studyFields().write(settings), RecordPlace{});
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(*read, settings);
+    }
 }
 
 TEST(StudySettings, AnUnknownEncodingIsRefusedAndNotTakenAsTheStandardOne) {
@@ -205,6 +254,7 @@ TEST(StudySettings, AreSetByKeyAndRefuseWhatTheyDoNotAccept) {
                                      {"kind", "rehearsal"},
                                      {"approval.expires", "2099-01-01"},
                                      {"approval.protocol_sha256", "x"},
+                                     {"procedure.method", "quest"},
                                      {"bloks", "3"},
                                      {"electrode", "5"}}) {
         const auto set = setStudyField(settings, key, value);
@@ -212,6 +262,11 @@ TEST(StudySettings, AreSetByKeyAndRefuseWhatTheyDoNotAccept) {
         EXPECT_EQ(set.error().code, ErrorCode::InvalidArgument);
         EXPECT_EQ(settings, before);
     }
+    settings.procedure.emplace();
+    ASSERT_TRUE(setStudyField(settings, "procedure.method", "staircase"));
+    EXPECT_EQ(settings.procedure->method, DetectionMethod::Staircase);
+    EXPECT_FALSE(setStudyField(settings, "procedure.method", "constant stimuli"));
+    EXPECT_FALSE(setStudyField(settings, "procedure.interval_max_s", "3")) << "it is the profile's";
 }
 
 }  // namespace

@@ -513,5 +513,27 @@ TEST_F(Desk, ARehearsalNeedsNoPassphraseAndSaysSo) {
     EXPECT_FALSE(std::filesystem::exists(scratch.path() / "home"));
 }
 
+TEST_F(Desk, AProcedureThatWasNotApprovedBeginsNoSession) {
+    RecordProperty("hazard", "H11");
+    auto settings = test::someStudy();
+    settings.procedure = {0.5, 2, DetectionMethod::Quest, std::string(64, 'a')};
+    auto study = make(settings);
+    auto request = test::someRequest(enrolled(study));
+    const auto refused = study.beginSession(request);
+    ASSERT_FALSE(refused) << "one that says nothing of it";
+    EXPECT_EQ(refused.error().code, kGateRefused);
+    EXPECT_TRUE(study.sessions().empty());
+    request.procedure = *settings.procedure;
+    request.procedure.intervalMax_s = 3;
+    EXPECT_FALSE(study.mayBegin(request));
+    auto amended = study.settings();
+    amended.procedure->intervalMax_s = 3;
+    ASSERT_TRUE(study.amend(amended, "EC-2026-18"));
+    EXPECT_EQ(study.amendments().back().changed, std::vector<std::string>{"procedure.interval_max_s"});
+    EXPECT_TRUE(study.beginSession(request));
+    request.procedure.intervalMax_s = 2;
+    EXPECT_FALSE(study.continueSession(study.sessions().front().id, request)) << "nor goes one on";
+}
+
 }  // namespace
 }  // namespace tacto

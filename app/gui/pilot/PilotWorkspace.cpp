@@ -40,6 +40,7 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
       side_(new SessionSide(this)),
       session_(std::make_unique<SessionConduct>(controller, *page_)) {
     setObjectName("pilotWorkspace");
+    study_.setProfile([&controller] { return controller.profile(); });
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(0);

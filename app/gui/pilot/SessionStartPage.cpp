@@ -126,6 +126,8 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     asks_->setVisible(!virtual_);
     seats_->showFor(!virtual_);
     seats_->setBlind(study.settings().blind);
+    if (const auto& approved = study.settings().procedure)
+        method_->setCurrentIndex(method_->findData(qtext(nameOf(approved->method))));
     const auto unfinished = unfinishedOf(study, participant);
     say(unfinished ? QString() : sentence(unfinished.error()));
     offer_->offer(unfinished ? *unfinished : std::nullopt);

@@ -34,12 +34,10 @@ AdverseEventDialog::AdverseEventDialog(OpenStudy& study, const QString& code, QW
     serious.value = false;
     auto reported = dialogField("reported", tr("Reported to the committee"), ParameterType::Boolean, {});
     reported.value = false;
-    for (auto& field :
-         {what, scoreField("severity", tr("Severity"), {tr("least"), QString(), QString(), tr("most")}, needed),
-          scoreField("relation", tr("Relation to the stimulation"),
-                     {tr("none"), tr("remote"), tr("possible"), tr("probable"), tr("certain")}, needed),
-          serious, dialogField("action", tr("What was done"), ParameterType::Text, {}),
-          dialogField("outcome", tr("What became of it"), ParameterType::Text, {}), reported})
+    for (auto& field : {what, scoreField("severity", tr("Severity"), kEventSeverities, needed),
+                        scoreField("relation", tr("Relation to the stimulation"), kRelations, needed), serious,
+                        dialogField("action", tr("What was done"), ParameterType::Text, {}),
+                        dialogField("outcome", tr("What became of it"), ParameterType::Text, {}), reported})
         fields.parameters.push_back(field);
     form_->show(fields);
     form_->referencePart().hide();

@@ -22,7 +22,7 @@ AmendDialog::AmendDialog(OpenStudy& study, QWidget* parent)
     column->addWidget(heading(tr("An amendment"), this));
     column->addWidget(explanation(
         tr("Change what the committee approved anew, and nothing else. From then on sessions keep to it. This "
-           "program’s protocols and limit sets are stated anew as well."),
+           "program’s protocols and limit sets, and the profile in use, are stated anew as well."),
         this));
     auto* page = new ScrollingPage(this);
     if (const auto* open = study_.study()) form_->amend(open->settings());
@@ -41,7 +41,7 @@ AmendDialog::AmendDialog(OpenStudy& study, QWidget* parent)
 void AmendDialog::amend() {
     auto* study = study_.study();
     if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nothing was changed."));
-    auto settings = form_->read();
+    auto settings = form_->read(study_.profile());
     if (!settings) return trouble_->setText("⚠ " + sentence(settings.error()));
     const auto reference = settings->approval.reference;
     const auto amended = study->amend(std::move(*settings), reference);

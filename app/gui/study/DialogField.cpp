@@ -1,5 +1,6 @@
 #include "app/gui/study/DialogField.h"
 
+#include <QCoreApplication>
 #include <QDateTime>
 #include <QObject>
 #include <QStringList>
@@ -17,14 +18,17 @@ ProtocolParameter dialogField(const char* name, const QString& label, ParameterT
     return made;
 }
 
-ProtocolParameter scoreField(const char* name, const QString& label, const QStringList& words, const QString& needed,
-                             int from) {
+QString scoreChoice(std::span<const char* const> words, int score, int from) {
+    return QString("%1  %2").arg(score).arg(QCoreApplication::translate("Score", words[std::size_t(score - from)]));
+}
+
+ProtocolParameter scoreField(const char* name, const QString& label, std::span<const char* const> words,
+                             const QString& needed, int from) {
     auto made = dialogField(name, label, ParameterType::Choice, {});
     made.needed = needed.toStdString();
     made.choices.emplace_back("", QObject::tr("to be chosen").toStdString());
-    for (qsizetype i = 0; i < words.size(); ++i)
-        made.choices.emplace_back(std::to_string(from + i),
-                                  QString("%1  %2").arg(from + i).arg(words[i]).trimmed().toStdString());
+    for (int score = from; score < from + int(words.size()); ++score)
+        made.choices.emplace_back(std::to_string(score), scoreChoice(words, score, from).toStdString());
     return made;
 }
 

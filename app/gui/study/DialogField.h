@@ -4,6 +4,7 @@
 #pragma once
 
 #include <QString>
+#include <span>
 #include <string>
 
 #include "app/scripting/engine/ProtocolParameter.h"
@@ -13,8 +14,10 @@ namespace tacto::gui {
 
 [[nodiscard]] ProtocolParameter dialogField(const char* name, const QString& label, ParameterType type,
                                             std::string value);
-/// A score from 1 that has to be chosen: `words` say what its numbers mean. Without it `needed`.
-[[nodiscard]] ProtocolParameter scoreField(const char* name, const QString& label, const QStringList& words,
+/// "3  severe": a score with its word of ScoreWords.h.
+[[nodiscard]] QString scoreChoice(std::span<const char* const> words, int score, int from = 1);
+/// A score that has to be chosen: `words` say what its numbers mean. Without it `needed`.
+[[nodiscard]] ProtocolParameter scoreField(const char* name, const QString& label, std::span<const char* const> words,
                                            const QString& needed, int from = 1);
 /// The sessions of a study, "session"; first chosen is the last one of `code`, else the last of all.
 [[nodiscard]] ProtocolParameter sessionField(const Study& study, const QString& code);

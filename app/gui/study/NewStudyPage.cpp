@@ -106,7 +106,7 @@ void NewStudyPage::clear() {
 }
 
 void NewStudyPage::askForPassphrase() {
-    const auto settings = form_->read();
+    const auto settings = form_->read(study_.profile());
     const auto folder = folder_->text().trimmed();
     const auto why = !settings          ? sentence(settings.error())
                      : folder.isEmpty() ? tr("The folder is missing. A new or empty one is expected.")

@@ -27,10 +27,9 @@ NextDayDialog::NextDayDialog(OpenStudy& study, const QString& code, QWidget* par
                                   this));
     ProtocolDeclaration fields;
     if (const auto* open = study_.study()) fields.parameters.push_back(sessionField(*open, code));
-    const QStringList scores{tr("none"), tr("very slight"), tr("well defined"), tr("moderate"), tr("severe")};
     const auto needed = tr("the site is not known to be well");
-    fields.parameters.push_back(scoreField("erythema", tr("Redness of the skin"), scores, needed, 0));
-    fields.parameters.push_back(scoreField("oedema", tr("Swelling of the skin"), scores, needed, 0));
+    fields.parameters.push_back(scoreField("erythema", tr("Redness of the skin"), kSkinScores, needed, 0));
+    fields.parameters.push_back(scoreField("oedema", tr("Swelling of the skin"), kSkinScores, needed, 0));
     form_->show(fields);
     form_->referencePart().hide();
     auto* inside = new QWidget;
@@ -64,23 +63,20 @@ QWidget* NextDayDialog::buildItems() {
     head(tr("Since then"), 0);
     head(tr("Severity"), 1);
     head(tr("Related to it"), 2);
-    const QStringList severities{tr("absent"), tr("mild"), tr("moderate"), tr("severe")};
-    const QStringList relations{tr("none"), tr("remote"), tr("possible"), tr("probable"), tr("definite")};
     int row = 1;
     for (const auto& each : kSideEffects) {
         const auto text = QCoreApplication::translate("SideEffect", each.text);
         grid->addWidget(new QLabel(text, holder), row, 0);
-        const auto box = [&](const QStringList& words, const char* part, int column) {
+        const auto box = [&](std::span<const char* const> words, const char* part, int column) {
             auto* made = new QComboBox(holder);
             made->setObjectName(QString("%1-%2").arg(each.key, part));
             made->setAccessibleName(QString("%1, %2").arg(text, part));
             made->addItem(column == 1 ? tr("not noticed") : QString("–"), 0);
-            for (qsizetype i = 0; i < words.size(); ++i)
-                made->addItem(QString("%1  %2").arg(i + 1).arg(words[i]), i + 1);
+            for (int score = 1; score <= int(words.size()); ++score) made->addItem(scoreChoice(words, score), score);
             grid->addWidget(made, row, column);
             return made;
         };
-        const Item item{box(severities, "severity", 1), box(relations, "relation", 2)};
+        const Item item{box(kSideEffectSeverities, "severity", 1), box(kRelations, "relation", 2)};
         item.relation->setEnabled(false);
         connect(item.severity, &QComboBox::currentIndexChanged, item.relation, [item](int index) {
             item.relation->setEnabled(index > 0);

@@ -3,11 +3,14 @@
 #include <utility>
 
 #include "app/gui/theme/Text.h"
+#include "app/run/Shipped.h"
 #include "core/sharing/results/BidsExport.h"
 
 namespace tacto::gui {
 
 OpenStudy::OpenStudy(QObject* parent, Study::Surroundings around) : QObject(parent), around_(std::move(around)) {}
+
+Profile OpenStudy::profile() const { return profile_ ? profile_() : shippedProfile().value_or(Profile()); }
 
 Result<OpenStudy::Look> OpenStudy::look(const QString& folder) const {
     const auto seen = Study::open(folder.toStdString(), nullptr, Study::Access::Read, around_);

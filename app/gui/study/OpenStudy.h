@@ -8,10 +8,12 @@
 
 #include <QObject>
 #include <QString>
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include "app/gui/sessions/Background.h"
+#include "core/bench/Profile.h"
 #include "core/sharing/BidsFiles.h"
 #include "core/study/Study.h"
 
@@ -45,6 +47,9 @@ public:
     void takeBack();
     /// exported() or refused() follows.
     void exportBids(const QString& place, const BidsWith& with = {});
+    /// The profile that its sessions are run with: an approval is for it. The shipped one until it is set.
+    void setProfile(std::function<Profile()> profile) { profile_ = std::move(profile); }
+    [[nodiscard]] Profile profile() const;
     /// Call after a change through study(): emits the change.
     void noteChange() { emit changed(); }
 
@@ -59,6 +64,7 @@ private:
     void begin(Make make);
 
     const Study::Surroundings around_;
+    std::function<Profile()> profile_;
     QString folder_;
     std::shared_ptr<const Secret> passphrase_;
     std::optional<Study> study_;

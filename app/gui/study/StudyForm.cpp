@@ -107,6 +107,11 @@ std::vector<StudyFormField> describedFields() {
 
         {Group::Test, "encodings", WORDS("Encodings"),
          WORDS("standard, or standard,swapped: in the swapped one texture and pressure change places.")},
+        {Group::Test,
+         "procedure.method",
+         WORDS("Detection by"),
+         WORDS("Every session asks by this method."),
+         {WORDS("QUEST+"), WORDS("weighted staircase")}},
         {Group::Test, "blocks", WORDS("Blocks"), WORDS("Number of test blocks, with breaks in between.")},
         {Group::Test, "per_condition", WORDS("Trials of each condition"), WORDS("In a block.")},
         {Group::Test, "catch", WORDS("Empty trials"), WORDS("In a block. The right answer is “nothing”.")},
@@ -127,6 +132,13 @@ nlohmann::json& memberOf(nlohmann::json& record, std::string_view key) {
     const auto dot = key.find('.');
     auto& outer = record[std::string(key.substr(0, dot))];
     return dot == std::string_view::npos ? outer : outer[std::string(key.substr(dot + 1))];
+}
+
+/// What the form begins with. A study whose approval names no procedure names one with its amendment.
+StudySettings shownIn(const std::optional<StudySettings>& amended) {
+    auto settings = amended.value_or(StudySettings{});
+    if (!settings.procedure) settings.procedure.emplace();
+    return settings;
 }
 
 /// As the form of a protocol's parameters takes it.
@@ -173,8 +185,15 @@ const std::vector<StudyFormField>& studyForm() {
 }
 
 const std::vector<std::string_view>& studyFieldsOfTheProgram() {
-    static const std::vector<std::string_view> all{"id",     "kind",       "approval.protocol_sha256",
-                                                   "limits", "conditions", "scripts"};
+    static const std::vector<std::string_view> all{"id",
+                                                   "kind",
+                                                   "approval.protocol_sha256",
+                                                   "limits",
+                                                   "conditions",
+                                                   "scripts",
+                                                   "procedure.interval_min_s",
+                                                   "procedure.interval_max_s",
+                                                   "procedure.conditions_sha256"};
     return all;
 }
 
@@ -217,7 +236,7 @@ void StudyForm::amend(const StudySettings& settings) {
 }
 
 void StudyForm::fill() {
-    auto shown = amended_.value_or(StudySettings{});
+    auto shown = shownIn(amended_);
     shown.approval.reference.clear();
     const auto values = studyFields().write(shown);
     for (int g = 0; g < kStudyGroups; ++g) {
@@ -240,8 +259,8 @@ void StudyForm::set(const std::string& key, const QString& text) {
     for (auto* form : groups_) form->set(key, text);
 }
 
-Result<StudySettings> StudyForm::read() {
-    const auto settings = amended_.value_or(StudySettings{});
+Result<StudySettings> StudyForm::read(const Profile& profile) {
+    const auto settings = shownIn(amended_);
     auto json = studyFields().write(settings);
     for (auto* form : groups_) {
         if (const auto open = form->unanswered(); !open.isEmpty()) {
@@ -266,7 +285,7 @@ Result<StudySettings> StudyForm::read() {
     }
     auto filled = studyFields().read(json, RecordPlace{});
     if (!filled) return tl::unexpected<Error>(asInvalidArgument(filled.error()));
-    if (auto stated = stateProgram(*filled); !stated) return failure(stated);
+    if (auto stated = stateProgram(*filled, profile); !stated) return failure(stated);
     return filled;
 }
 

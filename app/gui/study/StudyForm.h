@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/gui/runner/ParameterForm.h"
+#include "core/bench/Profile.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto::gui {
@@ -35,9 +36,9 @@ class StudyForm final : public QWidget {
     Q_OBJECT
 public:
     explicit StudyForm(QWidget* parent = nullptr);
-    /// As written, with what the approval says of this program. Errors: of the first field that is refused or missing;
-    /// the form goes there.
-    [[nodiscard]] Result<StudySettings> read();
+    /// As written, with what the approval says of this program and of `profile`, which its sessions are run with.
+    /// Errors: of the first field that is refused or missing; the form goes there.
+    [[nodiscard]] Result<StudySettings> read(const Profile& profile);
     /// Writes into a field, as if it were typed.
     void set(const std::string& key, const QString& text);
     void clear();

@@ -41,11 +41,10 @@ Result<SessionRecord> readSession(const Study& study, const StudySession& about)
     record.exposure = exposureOf(commands);
     record.results = sessionResults(record.rows, conditionNames());
     if (const auto said = study.nextDay(about.id)) {
-        constexpr const char* kMoment = "next day";
-        record.results.sideEffectsAsked.emplace_back(kMoment);
+        record.results.sideEffectsAsked.emplace_back(kNextDayMoment);
         record.results.skinNextDay = said->skin();
         for (const auto& each : said->sideEffects)
-            record.results.sideEffects.push_back({kMoment, each.item, each.severity, each.relation});
+            record.results.sideEffects.push_back({kNextDayMoment, each.item, each.severity, each.relation});
     }
     record.results.number = static_cast<std::size_t>(about.number);
     record.results.complete = about.state == StudySessionState::Complete;

@@ -15,6 +15,7 @@
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
+#include "app/run/Shipped.h"
 #include "app/run/StudyProgram.h"
 #include "core/study/Study.h"
 #include "drivers/simulated/SimulatedDriver.h"
@@ -53,7 +54,7 @@ protected:
         settings.approval.expires = std::chrono::year(2090) / 12 / 31;
         settings.consentVersion = "2";
         settings.blocks = 3;  // a session that is not over before it is stopped
-        ASSERT_TRUE(stateProgram(settings));
+        ASSERT_TRUE(stateProgram(settings, shippedProfile().value()));
         auto study = Study::create(place(), settings, Passphrase::from(kWords).value());
         ASSERT_TRUE(study) << study.error().message;
         Participant enrolled;

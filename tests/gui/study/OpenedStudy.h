@@ -15,6 +15,7 @@
 #include "app/gui/study/PassphraseDialog.h"
 #include "app/gui/study/StudyList.h"
 #include "app/gui/study/StudyPage.h"
+#include "app/run/Shipped.h"
 #include "app/run/StudyProgram.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
@@ -44,7 +45,7 @@ protected:
         made.approval.from = std::chrono::year(2020) / 1 / 1;
         made.approval.expires = std::chrono::year(2090) / 12 / 31;
         made.consentVersion = "2";
-        EXPECT_TRUE(stateProgram(made));
+        EXPECT_TRUE(stateProgram(made, shippedProfile().value()));
         return made;
     }
     [[nodiscard]] QString folder() const { return QString::fromStdString((scratch.path() / "study").string()); }

@@ -36,7 +36,7 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
     RecordProperty("hazard", "H12");
     gui::StudyForm form;
     form.show();
-    const auto missing = form.read();
+    const auto missing = form.read(shippedProfile().value());
     ASSERT_FALSE(missing);
     EXPECT_THAT(missing.error().message, HasSubstr("Title"));
     form.set("title", "Four conditions");
@@ -44,7 +44,7 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
     form.set("approval.from", "2026-11-01");
     form.set("approval.expires", "2027-10-31");
     form.set("consent_version", "2");
-    auto read = form.read();
+    auto read = form.read(shippedProfile().value());
     ASSERT_TRUE(read) << read.error().message;
     StudySettings expected;
     expected.title = "Four conditions";
@@ -54,22 +54,27 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
     expected.consentVersion = "2";
     expected.limits = read->limits;
     expected.scripts = read->scripts;
+    expected.procedure = procedureOf(shippedProfile().value(), expected, DetectionMethod::Quest);
     EXPECT_EQ(*read, expected);
     EXPECT_FALSE(read->limits.empty());
     EXPECT_FALSE(read->scripts.empty());
+    EXPECT_EQ(read->procedure->intervalMin_s, 0.5);
+    EXPECT_EQ(read->procedure->intervalMax_s, 2);
+    form.set("procedure.method", "staircase");
     form.set("encodings", "standard, swapped");
     form.set("site", "forearm");
     form.set("electrode.area_cm2", "5.5");
-    read = form.read();
+    read = form.read(shippedProfile().value());
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->encodings, (std::vector<std::string>{"standard", "swapped"}));
     EXPECT_EQ(read->site, ElectrodeSite::Forearm);
+    EXPECT_EQ(read->procedure->method, DetectionMethod::Staircase);
     EXPECT_DOUBLE_EQ(read->electrode.area.value(), 5.5);
     form.set("cap_ma", "16");
-    EXPECT_FALSE(form.read()) << "the table's range";
+    EXPECT_FALSE(form.read(shippedProfile().value())) << "the table's range";
     form.set("cap_ma", "15");
     form.set("approval.expires", "2026-10-31");
-    EXPECT_FALSE(form.read()) << "the table's rule: it expires before it begins";
+    EXPECT_FALSE(form.read(shippedProfile().value())) << "the table's rule: it expires before it begins";
 }
 
 TEST_F(StudyInThePage, ANewStudyIsMade) {

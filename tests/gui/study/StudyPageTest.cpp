@@ -253,6 +253,13 @@ TEST_F(StudyWithASession, AnAdverseEventIsNotedByTheWindow) {
     EXPECT_THAT(said(*asks, "adverseEventTrouble"), HasSubstr("Relation to the stimulation"));
     EXPECT_EQ(study.study()->adverseEventCount(), 0U);
     look(*asks, "study-adverse-event");
+    for (const auto& [name, words] : {std::pair("severity", std::span<const char* const>(kEventSeverities)),
+                                      std::pair("relation", std::span<const char* const>(kRelations))}) {
+        const auto* box = asks->findChild<QComboBox*>(name);
+        ASSERT_EQ(box->count(), int(words.size()) + 1) << name;
+        for (int i = 1; i < box->count(); ++i)
+            EXPECT_EQ(box->itemText(i).toStdString(), fmt::format("{}  {}", i, words[std::size_t(i - 1)]));
+    }
     pick(*asks, "relation", "4");
     asks->findChild<QLineEdit*>("action")->setText("cooled");
     click(*asks->findChild<QPushButton*>("noteEvent"));
