@@ -27,10 +27,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
       offer_(new UnfinishedOffer(this)),
       protocol_(new QComboBox(this)),
       method_(new QComboBox(this)),
-      asks_(new QWidget(this)),
-      checklist_(new ExclusionChecklist(asks_)),
-      trouble_(new QLabel(this)),
-      begin_(new QPushButton(tr("Begin the session"), this)) {
+      trouble_(new QLabel(this)) {
     setObjectName("sessionStart");
     auto* whole = new QVBoxLayout(this);
     whole->setContentsMargins(0, 0, 0, 0);
@@ -63,6 +60,10 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     form->addRow(tr("Detection by"), method_);
     devices_ = new DeviceRows(*form, *inside, watch);
     seats_ = std::make_unique<SeatRows>(*form, *inside);
+    // Tab goes from what is made first to what is made later: devices and seats, the checklist, then the buttons.
+    asks_ = new QWidget(this);
+    checklist_ = new ExclusionChecklist(asks_);
+    begin_ = new QPushButton(tr("Begin the session"), this);
     auto* left = new QVBoxLayout;
     left->setSpacing(12);
     left->addLayout(form);

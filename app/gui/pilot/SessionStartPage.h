@@ -58,10 +58,10 @@ private:
     DeviceRows* devices_;
     std::unique_ptr<SeatRows> seats_;
     QBoxLayout* body_ = nullptr;
-    QWidget* asks_;
-    ExclusionChecklist* checklist_;
+    QWidget* asks_ = nullptr;
+    ExclusionChecklist* checklist_ = nullptr;
     QLabel* trouble_;
-    QPushButton* begin_;
+    QPushButton* begin_ = nullptr;
 };
 
 }  // namespace tacto::gui

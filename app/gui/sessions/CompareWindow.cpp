@@ -226,7 +226,7 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, std::siz
     streams_->replot();
 }
 
-/// Of both sessions, each from the first sample of its stream, as the traces are.
+/// Marks of both sessions, each from the first sample of its stream, as the traces are.
 void CompareWindow::drawMarks() {
     std::vector<PlotMark> marks;
     for (std::size_t s = 0; s < 2 && streams_->graphCount() > 0; ++s) {

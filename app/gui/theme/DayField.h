@@ -1,6 +1,6 @@
 // DayField.h - a day: typed as 2027-03-01, or chosen in a calendar by the button beside it (in the line: Alt+Down).
 //
-// Whoever reads it checks what is typed and says what is wrong with it.
+// Its owner checks what is typed and says what is wrong with it.
 //
 // Thread-safety: the GUI thread.
 #pragma once

@@ -1,0 +1,90 @@
+// Whereabouts.cpp - a plugin that Qt loads into the built program for a journey (QT_QPA_GENERIC_PLUGINS): it answers
+// where a widget stands, so that a click finds it wherever the layout has put it. It clicks and types nothing itself.
+//
+// A question is the file "ask" in the folder of its specification, the answer the file "answer":
+//   where NAME   "X Y", the middle in real pixels of the visible and enabled widget with this text, name or accessible
+//                name; of "tab NAME" the current tab of a tab bar
+//   popup        "X Y" of the menu or list that is open
+//   focus        the name of the widget that has the focus
+// Empty where there is none.
+#include <QAbstractButton>
+#include <QApplication>
+#include <QFile>
+#include <QGenericPlugin>
+#include <QLabel>
+#include <QTabBar>
+#include <QTimer>
+
+namespace tacto::test {
+namespace {
+
+constexpr int kLooksEvery_ms = 20;
+
+bool isCalled(const QWidget& widget, const QString& name) {
+    if (widget.objectName() == name || widget.accessibleName() == name) return true;
+    if (const auto* button = qobject_cast<const QAbstractButton*>(&widget))
+        return QString(button->text()).remove('&') == name;
+    if (const auto* label = qobject_cast<const QLabel*>(&widget)) return label->text() == name;
+    const auto* tabs = qobject_cast<const QTabBar*>(&widget);
+    return tabs != nullptr && name == "tab " + tabs->tabText(tabs->currentIndex()).remove('&');
+}
+
+QString middleOf(const QWidget& widget) {
+    const auto at = widget.mapToGlobal(widget.rect().center()) * widget.devicePixelRatioF();
+    return QString("%1 %2").arg(at.x()).arg(at.y());
+}
+
+QString answerTo(const QString& question) {
+    if (question == "popup") {
+        const auto* popup = QApplication::activePopupWidget();
+        return popup == nullptr ? QString() : middleOf(*popup);
+    }
+    if (question == "focus") {
+        const auto* focus = QApplication::focusWidget();
+        return focus == nullptr ? QString() : focus->objectName();
+    }
+    const auto name = question.section(' ', 1);
+    for (const auto* widget : QApplication::allWidgets()) {
+        if (widget->isVisible() && widget->isEnabled() && isCalled(*widget, name) &&
+            widget->visibleRegion().contains(widget->rect().center()))
+            return middleOf(*widget);
+    }
+    return {};
+}
+
+class Whereabouts final : public QObject {
+public:
+    explicit Whereabouts(QString folder) : folder_(std::move(folder)) {
+        connect(&looks_, &QTimer::timeout, this, [this] { look(); });
+        looks_.start(kLooksEvery_ms);
+    }
+
+private:
+    void look() {
+        QFile ask(folder_ + "/ask");
+        if (!ask.open(QIODevice::ReadOnly)) return;
+        const auto question = QString::fromUtf8(ask.readAll()).trimmed();
+        ask.close();
+        ask.remove();
+        QFile answer(folder_ + "/answer.new");
+        if (!answer.open(QIODevice::WriteOnly)) return;
+        answer.write(answerTo(question).toUtf8() + "\n");
+        answer.close();
+        answer.rename(folder_ + "/answer");
+    }
+    const QString folder_;
+    QTimer looks_;
+};
+
+}  // namespace
+
+class WhereaboutsPlugin final : public QGenericPlugin {
+    Q_OBJECT
+    Q_PLUGIN_METADATA(IID QGenericPluginFactoryInterface_iid FILE "Whereabouts.json")
+public:
+    QObject* create(const QString& /*name*/, const QString& folder) override { return new Whereabouts(folder); }
+};
+
+}  // namespace tacto::test
+
+#include "Whereabouts.moc"
