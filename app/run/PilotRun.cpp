@@ -267,7 +267,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     const auto& study = study_->settings();
     auto& profile = order.profile;
     const bool massager = study.modality == Modality::Massager;
-    if (study.procedure && !order.settings.given.contains("method"))
+    if (study.procedure && !order.settings.chosen.contains("method"))
         order.settings.parameters["method"] = nameOf(study.procedure->method);
     const auto method = valueFor(kDetectionMethods, textOf(order, "method")).value_or(DetectionMethod::Quest);
     request_.procedure = procedureOf(profile, study, method);

@@ -129,7 +129,7 @@ Result<ProtocolSettings> applySettings(const ProtocolDeclaration& declaration,
             if (!value) return failure(value);
             out.parameters[key] = *value;
             // Which of a script's choices is taken says nothing in the operator's own words.
-            if (parameter->type != ParameterType::Choice) out.given.insert(key);
+            (parameter->type == ParameterType::Choice ? out.chosen : out.given).insert(key);
             continue;
         }
         const bool asked = declaration.hasOtherQuestions ||

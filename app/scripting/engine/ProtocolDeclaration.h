@@ -54,6 +54,7 @@ struct ProtocolSettings {
     std::map<std::string, std::string> answers;            ///< for `operator`, by question name
     /// The parameters (choices apart) that are the operator's word and not the script's default.
     std::set<std::string> given;
+    std::set<std::string> chosen;  ///< choices that were set, also to what they are by themselves
 };
 
 /// Runs the script's top level and reads what it declares.
