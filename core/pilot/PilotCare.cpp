@@ -147,7 +147,7 @@ Result<void> PilotCare::stopTest(PromptTo by) {
         stage_.participant().show(screen);
         const auto answered = stage_.participant().ask(prompt);
         pressed = stage_.takeStop();
-        const auto mark = stage_.bench().stops().mark();  // one from here on is no test
+        const auto mark = stage_.bench().stops().mark();  // one from here on is not a test
         armed = stage_.isArmed();
         if (!answered && !pressed) {  // an abort, a lost screen, the program: no test
             if (auto goesOn = stage_.goOnAfter("stop-test", answered.error()); !goesOn) return goesOn;

@@ -156,7 +156,7 @@ Result<double> PilotOutput::measureImpedance(const std::string& name) {
     }
 }
 
-/// A stop or a fault in between is no seating.
+/// A stop or a fault in between is not a seating.
 Result<void> PilotOutput::afterArmingFailed(const std::string& during, const Error& why, int& seatings) {
     if (!isUnseated(why)) return recover(during, why);
     if (++seatings >= kSeatings) return tl::unexpected<Error>(why);
