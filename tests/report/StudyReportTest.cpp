@@ -115,7 +115,7 @@ TEST(StudyReport, EachPersonsResultComesFirst) {
                                 "25 %) between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ."));
     EXPECT_LT(said.find("told the four apart"), said.find("All participants"));
     EXPECT_THAT(said, HasSubstr("1 of 2 were above chance"));
-    EXPECT_THAT(said, HasSubstr("swapped less standard: -15"));
+    EXPECT_THAT(said, HasSubstr("swapped minus standard: -15"));
     EXPECT_THAT(said, HasSubstr("P-7K3M over sessions"));
     EXPECT_THAT(said, HasSubstr("Enrolled | 3"));
     EXPECT_THAT(said, HasSubstr("Answered test trials | 2"));
@@ -224,7 +224,7 @@ TEST(StudyReport, TheCommitteesNamesNoCodeAndNoAnswer) {
     EXPECT_THAT(said, HasSubstr("EK 2026/117"));
     EXPECT_THAT(said, HasSubstr("version 2: 3 participant(s)"));
     EXPECT_THAT(said, HasSubstr("the skin scores 2"));
-    EXPECT_THAT(said, HasSubstr("redness | 2 | no | 5"));
+    EXPECT_THAT(said, HasSubstr("redness | 2 moderate | no | 5 definite"));
     EXPECT_THAT(said, HasSubstr("Enrolled | 3"));
 }
 

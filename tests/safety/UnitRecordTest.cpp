@@ -225,7 +225,7 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
     };
     const auto size = soundOne();
     spoil(size / 2);  // in a slot that was never written
-    expectRest("torn");
+    expectRest("incomplete");
     soundOne();
     spoil(16);
     expectRest("damaged");
