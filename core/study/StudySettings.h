@@ -123,7 +123,7 @@ struct StudySettings {
 [[nodiscard]] Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value);
 
 /// What an approval's protocol_sha256 stands for: SHA-256 over every setting but the approval itself and the
-/// license of exports, and the scripts. A procedure that is absent is no part of it.
+/// license of exports, and the scripts. A procedure that is absent does not count.
 [[nodiscard]] std::string protocolHash(const StudySettings& settings);
 
 }  // namespace tacto

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "core/measure/Capture.h"
 #include "core/base/Result.h"
+#include "core/measure/Capture.h"
 
 namespace tacto::sigrok_driver {
 

@@ -229,7 +229,7 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     const auto tests = [&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; };
     ASSERT_IN_TIME(comesTrue(tests, 20'000));
 
-    plugged->plug("pad", false);  // a STOP that is gone is no STOP that was pressed
+    plugged->plug("pad", false);  // a STOP that is gone is not a STOP that was pressed
     ASSERT_IN_TIME(comesTrue([&] { return !theirs->asking(); }));
     EXPECT_EQ(window.controller().telemetry().state, InterlockState::Disarmed);
     const auto* obstacle = pilot->findChild<QLabel*>("presentationObstacle");

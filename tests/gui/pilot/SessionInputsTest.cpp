@@ -106,7 +106,7 @@ TEST_F(SeatedWithPad, AQuestionWithMoreTargetsThanButtonsIsNotAnsweredByThem) {
     ASSERT_TRUE(answered());
     ASSERT_NO_FATAL_FAILURE(ask(scalePrompt("pain", "How painful was it?", 0, 3)));
     click("theirs", 1);
-    EXPECT_FALSE(isAnswered()) << "answer 1 is no 0";
+    EXPECT_FALSE(isAnswered()) << "answer 1 is not 0";
     key(Qt::Key_2);
     ASSERT_TRUE(answered());
 }

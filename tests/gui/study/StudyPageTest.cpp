@@ -144,6 +144,7 @@ protected:
             for (const auto& script : made.settings().scripts) {
                 if (script.name == "pilot-identification") request.script = script;
             }
+            request.procedure = made.settings().procedure.value();
             const auto begun = made.beginSession(request);
             EXPECT_TRUE(begun) << begun.error().message;
             if (begun) {
