@@ -28,7 +28,7 @@ TEST(StudyForm, HasEveryFieldOfTheCoreOnceAndNoOther) {
     const auto all = studyFields().kind().info;
     for (const auto& field : gui::studyForm()) {
         if (field.words.empty()) continue;
-        const std::string key = field.key;
+        const std::string_view key = field.key;
         const auto dot = key.find('.');
         const auto* info = all.find(key.substr(0, dot));
         if (info != nullptr && dot != std::string::npos) info = info->find(key.substr(dot + 1));
