@@ -47,10 +47,11 @@ QString withOwnUnit(const QJsonObject& row, const QString& key) {
                                                 : quantityText(value, unit);
 }
 
-/// A number stays on its line with the sign behind it.
+/// A number stays on its line with its unit.
 QString wordsOf(const QJsonValue& value, const QString& unit) {
-    static const QRegularExpression kBeforePercent("(?<=\\d) (?=%)");
-    return withSigns(shownText(cellText(value, unit), kShownCell)).replace(kBeforePercent, QString(QChar(0x202f)));
+    static const QRegularExpression kBeforeUnit("(?<=\\d) (?=(?:%|[nµmkM]?(?:V|A|s|Ω|C|J|W|N|Hz|Pa)\\b))",
+                                                QRegularExpression::UseUnicodePropertiesOption);
+    return withSigns(shownText(cellText(value, unit), kShownCell)).replace(kBeforeUnit, QString(QChar(0x202f)));
 }
 
 void fillColumn(TableBlock& table, const ReportTable& source, const QString& key) {

@@ -1,6 +1,7 @@
 // The screens that take a run or a fault to come to: results of a calibration, a safety check and a separability run,
 // the faulted state, the second step of arming, the drive panel; in both themes, small and large.
 #include <QDialog>
+#include <QDoubleSpinBox>
 #include <QLineEdit>
 
 #include "app/gui/scope/ScopeModel.h"
@@ -36,6 +37,13 @@ protected:
         QLineEdit* line = nullptr;
         ASSERT_IN_TIME(comesTrue([&] { return (line = find<QLineEdit>(window, field)) != nullptr; })) << field;
         line->setText(text);
+    }
+    /// As a person does it in the drive's dock.
+    void driveByHand(double roughness, double pressure) {
+        click(*find<QPushButton>(window, "By hand"));
+        find<QDoubleSpinBox>(window, "Roughness R")->setValue(roughness);
+        find<QDoubleSpinBox>(window, "Pressure P")->setValue(pressure);
+        EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
     }
     void runsToItsEnd() {
         QPushButton* run = nullptr;
@@ -101,24 +109,32 @@ TEST_F(ResultsInTheWindow, TheArmDialogLooksRight) {
         EXPECT_IN_TIME(comesTrue([&] { return faultsOf(dialog).empty(); })) << faultsOf(dialog);
         shot(dialog, file);
         dialog.close();
+        // It is deleted once it is closed: the next one has another button.
+        ASSERT_IN_TIME(comesTrue([&] { return window.findChild<QPushButton*>("armOutput") == nullptr; }));
         EXPECT_NE(state(), InterlockState::Armed) << "closing it arms nothing";
     }
 }
 
 TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
     open();
+    window.showWorkspace(0);
     arm();
-    deliver();
     auto* dock = window.findChild<QWidget*>("driveDock");
     ASSERT_NE(dock, nullptr);
-    window.showWorkspace(0);
     for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
         gui::applyTheme(theme);
-        for (const auto source : {DriveSource::Manual, DriveSource::Sensor}) {
-            window.controller().drive(source, 0.5, 1);
+        for (const bool byHand : {true, false}) {
+            if (byHand) {
+                driveByHand(0.69, 0.8);
+                // Step by step, as the limits on a step let it.
+                ASSERT_IN_TIME(comesTrue(
+                    [&] { return dock->findChild<QLabel*>("driveOutput")->text().startsWith("30.7"); }, 60'000));
+            } else {
+                click(*find<QPushButton>(window, "driveFingertip"));
+            }
+            QTest::qWait(300);  // the panel follows
             const auto file = QString("drive-%1-%2")
-                                  .arg(theme == gui::Theme::Dark ? "dark" : "light",
-                                       source == DriveSource::Manual ? "by-hand" : "fingertip");
+                                  .arg(theme == gui::Theme::Dark ? "dark" : "light", byHand ? "by-hand" : "fingertip");
             EXPECT_IN_TIME(comesTrue([&] { return faultsOf(*dock).empty(); })) << faultsOf(*dock);
             shot(*dock, file);
         }
@@ -140,7 +156,7 @@ TEST_F(ResultsInTheWindow, TheReadmesPicturesLookRight) {
     ASSERT_IN_TIME(delivered(12));
     EXPECT_EQ(faultsOf(window), "");
     shot(window, "readme-window");
-    window.controller().drive(DriveSource::Manual, 0.5, 1);
+    driveByHand(0.96, 0.81);
     tabs->setCurrentIndex(1);
     gui::applyTheme(gui::Theme::Dark);
     ASSERT_IN_TIME(delivered(8));
