@@ -184,10 +184,10 @@ bool isFigure(const QString& text) {
 }
 
 QString takeUnit(QStringList& cells) {
-    static const QRegularExpression kLastNumber(R"(^(.*\d)([^\d]+)$)");
+    static const QRegularExpression kLastNumber(R"(^(.*\d)([^\d]+)$)"), kDigit("\\d");
     std::optional<QString> shared;
     for (const auto& cell : cells) {
-        if (!cell.contains(QRegularExpression("\\d"))) continue;
+        if (!cell.contains(kDigit)) continue;
         const auto found = kLastNumber.match(cell);
         if (!found.hasMatch() || !isFigure(cell)) return {};
         if (!shared) shared = found.captured(2);

@@ -46,7 +46,7 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
         std::ranges::move(*events, std::back_inserter(rows.events));
         if (!rows.seed) rows.seed = about.seed;
         const auto delivers = std::ranges::find_if(about.devices, [](const SessionDevice& device) {
-            return device.role == nameOf(Role::Stimulator) || device.role == nameOf(Role::Massager);
+            return device.is(Role::Stimulator) || device.is(Role::Massager);
         });
         if (!rows.delivers && delivers != about.devices.end()) rows.delivers = *delivers;
         rows.chainHead = reader->chainHead();

@@ -172,6 +172,10 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
     unfinished_ = study_->unfinished(who_.id);
     if (!unfinished_) return {};
     const auto wanted = textOf(order, "unfinished");
+    if (wanted != "end" && wanted != "resume")
+        return fail(ErrorCode::NotFound,
+                    "session {} of {} ({}) is unfinished; --set unfinished=resume or unfinished=end is expected",
+                    unfinished_->number, who_.code, unfinished_->protocol);
     auto rows = pilotRows(*study_, *unfinished_);
     if (wanted == "end" && rows && rows->ended == PilotEnd::Complete)
         return fail(ErrorCode::NotFound,
@@ -181,10 +185,6 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
         toEnd_ = std::exchange(unfinished_, std::nullopt);
         return {};
     }
-    if (wanted != "resume")
-        return fail(ErrorCode::NotFound,
-                    "session {} of {} ({}) is unfinished; --set unfinished=resume or unfinished=end is expected",
-                    unfinished_->number, who_.code, unfinished_->protocol);
     if (unfinished_->protocol != order.script.name)
         return fail(ErrorCode::NotFound, "session {} of {} is of {}; it goes on with that protocol, or ends with {}",
                     unfinished_->number, who_.code, unfinished_->protocol, whatEnds());

@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <string_view>
 
-#include "core/base/JsonFields.h"
+#include "core/pilot/PilotEnding.h"
 #include "core/pilot/PilotStage.h"
 
 namespace tacto {
 
 namespace {
 
-constexpr std::size_t kMaxStops = 3;   // of the participant: the third ends the session
-constexpr std::size_t kMaxFaults = 2;  // the second ends it
-constexpr const char* kThirdStop = "the participant stopped for the third time, which ends the session";
-constexpr const char* kSecondFault = "a second fault ends the session";
-constexpr const char* kTooStrong = "too-strong";
-constexpr const char* kRamp = "ramp";  // in the body of a trial: its level was accepted before
-constexpr Seconds kWayLook{0.1};       // between two looks at what is in the way
+constexpr Seconds kWayLook{0.1};  // between two looks at what is in the way
 constexpr Seconds kReasonTakes{300};
 
 /// The check pulse found no load that the bench is armed on.
@@ -24,23 +18,7 @@ bool isUnseated(const Error& why) { return why.code == ErrorCode::NotArmed || wh
 
 bool isParticipants(std::string_view by) { return by.starts_with("participant"); }
 
-std::string tooStrongNow(const std::string& level) {
-    return fmt::format("{} was accepted before and is too strong now; the session ends here", level);
-}
-
 }  // namespace
-
-std::string PilotOutput::endedBy(const PilotRecord& record) {
-    if (record.count(row::kParticipantStop) >= kMaxStops) return kThirdStop;
-    if (record.count(row::kFault) >= kMaxFaults) return kSecondFault;
-    std::string ended;
-    record.each([&](std::string_view kind, const nlohmann::json& body) {
-        if (kind == row::kGate && flagOr(body, row::kEnds)) ended = textOr(body, "said");
-        if (kind == row::kAnswer && flagOr(body, kRamp) && textOr(body, "response") == kTooStrong)
-            ended = tooStrongNow(textOr(body, "name"));
-    });
-    return ended;
-}
 
 // Stops
 
@@ -202,7 +180,7 @@ Result<void> PilotOutput::ramp() {
         if (level >= tooStrong_ || (settled_ && level > *settled_)) break;
         StageTrial again;
         again.name = named(level);
-        again.about = {{kRamp, true}};
+        again.about = {{row::kRamp, true}};
         again.level = level;
         again.presentation = ascendingPresentation(stage_.levelOf(level), stage_.settings().shortest);
         again.prompt = strengthPrompt();
@@ -213,7 +191,7 @@ Result<void> PilotOutput::ramp() {
         again.drawnAs = first;  // A virtual participant says of a level what they said of it before
         const auto answer = stage_.trial(again);
         if (!answer) return failure(answer);
-        if (answer->response == kTooStrong) {
+        if (answer->response == row::kTooStrong) {
             if (auto told = bench.reportDiscomfort(stage_.levelOf(level)); !told) return told;
             return stage_.end(PilotEnd::Stopped, tooStrongNow(textOf(stage_.levelOf(level))));
         }
@@ -423,7 +401,7 @@ Result<void> PilotOutput::noteStop(const std::string& during, const Error& why) 
 Result<void> PilotOutput::noteParticipantStop(const std::string& during, const char* by) {
     auto& record = stage_.record();
     if (auto kept = record.write(row::kParticipantStop, during, {{"by", by}}); !kept) return kept;
-    if (record.count(row::kParticipantStop) < kMaxStops) return {};
+    if (record.count(row::kParticipantStop) < kMaxParticipantStops) return {};
     return stage_.end(PilotEnd::Stopped, kThirdStop);
 }
 

@@ -24,7 +24,6 @@
 
 namespace tacto {
 
-class PilotRecord;
 class PilotStage;
 struct StageTrial;
 
@@ -51,11 +50,6 @@ public:
     [[nodiscard]] bool stopped() const noexcept {
         return stoppedBy_.load() != nullptr || screenGone_ || aborted_ || paused_;
     }
-
-    /// What ends a session by the rows that it has: the third stop, the second fault, a gate that did not hold, a level
-    /// of the ramp that is too strong now. A sentence; empty while nothing has. A session that was killed before it
-    /// ended is not tried again.
-    [[nodiscard]] static std::string endedBy(const PilotRecord& record);
 
     // As those of PilotStage.
     [[nodiscard]] bool isArmed() const noexcept { return armed_; }

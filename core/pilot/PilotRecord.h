@@ -59,6 +59,8 @@ inline constexpr const char* kAdverseEvent = "adverse-event";
 inline constexpr const char* kSessionEnd = "session-end";
 inline constexpr const char* kEnd = "end";    // name of its row
 inline constexpr const char* kEnds = "ends";  // in the body of a gate that did not hold: `said` ends the session
+inline constexpr const char* kRamp = "ramp";  // in the body of a trial: its level was accepted before
+inline constexpr const char* kTooStrong = "too-strong";  // a response
 
 // Ratings that compare the session's encoding with an earlier one are named by the first of these and one of the next
 // two. What is said is an encoding, or the last.

@@ -50,7 +50,7 @@ Result<void> PilotSession::begin(bool withTrials) {
     const auto* ended = record.find(row::kSessionEnd, row::kEnd);
     const bool complete = ended != nullptr && textOr(*ended, "state") == nameOf(PilotEnd::Complete);
     if (ended != nullptr && !complete) return stage_.end(PilotEnd::Stopped, textOr(*ended, "why"));
-    if (auto why = PilotOutput::endedBy(record); !complete && !why.empty()) return stage_.end(PilotEnd::Stopped, why);
+    if (auto why = endedBy(record); !complete && !why.empty()) return stage_.end(PilotEnd::Stopped, why);
     if (auto planned = identification_.plan(withTrials); !planned || complete) return planned;
     return care_.checklist();
 }

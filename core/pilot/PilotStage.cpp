@@ -7,14 +7,10 @@
 #include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/JsonFields.h"
 #include "core/base/Random.h"
-#include "core/base/Words.h"
 
 namespace tacto {
 
 namespace {
-
-constexpr Word<PilotEnd> kPilotEnds[] = {
-    {"unfinished", PilotEnd::Unfinished}, {"complete", PilotEnd::Complete}, {"stopped", PilotEnd::Stopped}};
 
 constexpr std::size_t kMaxLate = 5;              // presentations in a row that the bench could not begin in time
 constexpr Seconds kMinPause{2};                  // from an answer to the next first train
@@ -41,10 +37,6 @@ nlohmann::json trainsJson(const Presented& presented) {
 std::string silentName(const StageTrial& trial) { return trial.askedAgain ? trial.name + " again" : trial.name; }
 
 }  // namespace
-
-std::string_view nameOf(PilotEnd end) noexcept { return wordFor<PilotEnd>(kPilotEnds, end); }
-
-std::optional<PilotEnd> pilotEndFrom(std::string_view word) noexcept { return valueFor(kPilotEnds, word); }
 
 PilotStage::PilotStage(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings)
     : bench_(bench),

@@ -17,22 +17,13 @@
 
 #include "core/bench/Bench.h"
 #include "core/pilot/Participant.h"
+#include "core/pilot/PilotEnding.h"
 #include "core/pilot/PilotOutput.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/pilot/PilotSettings.h"
 #include "core/pilot/VibrationWatch.h"
 
 namespace tacto {
-
-/// How a session stands when its script has ended.
-enum class PilotEnd {
-    Unfinished,  ///< interrupted; may be resumed
-    Complete,
-    Stopped,  ///< ended before its end, for good
-};
-[[nodiscard]] std::string_view nameOf(PilotEnd end) noexcept;  // "unfinished", "complete", "stopped"
-/// Nothing for another word.
-[[nodiscard]] std::optional<PilotEnd> pilotEndFrom(std::string_view word) noexcept;
 
 /// One presentation with its question.
 struct StageTrial {

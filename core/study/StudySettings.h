@@ -82,6 +82,7 @@ struct StudyProcedure {
     std::string conditionsSha256{};  ///< of the conditions, their assignment, polarity, load range and ceilings
     bool operator==(const StudyProcedure&) const = default;
 };
+
 struct StudySettings {
     std::string id;  ///< 16 hexadecimal digits; made by Study::create()
     std::string title;

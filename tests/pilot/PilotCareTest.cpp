@@ -244,7 +244,7 @@ TEST_F(PilotCareTest, TheRowsThatEndASessionSaySo) {
     PilotCare care(*stage_);
     someone_.answers = {{"erythema", "3"}, {"oedema", "0"}};
     ASSERT_FALSE(care.skin("after"));
-    EXPECT_THAT(PilotOutput::endedBy(*record_), HasSubstr("the skin scores 3"));
+    EXPECT_THAT(endedBy(*record_), HasSubstr("the skin scores 3"));
 }
 
 TEST_F(PilotCareTest, WhatIsCompleteIsReplayedAndNothingIsAskedOrArmed) {

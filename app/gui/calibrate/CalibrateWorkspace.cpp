@@ -45,12 +45,7 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     tabs_->addTab(stored_, tr("S&tored calibrations"));
     tabs_->setTabToolTip(2, tr("The state of the calibration today, and everything stored before"));
     column->addWidget(tabs_, 1);
-    for (int page = 0; page < tabs_->count(); ++page) {
-        auto* key = new QShortcut(QKeySequence::mnemonic(tabs_->tabText(page)), this);
-        key->setEnabled(false);  // the tab bar has its own
-        connect(key, &QShortcut::activated, this, [this, page] { tabs_->setCurrentIndex(page); });
-        tabKeys_.push_back(key);
-    }
+    for (int page = 0; page < tabs_->count(); ++page) tabKeys_.add(tabs_->tabText(page));
     for (auto* runner : runners())
         connect(runner, &ProtocolWorkspace::attentionWanted, this, [this, runner] { tabs_->setCurrentWidget(runner); });
     connect(card_, &CalibrationCard::calibrateWanted, this, [this] { prepare("full"); });
@@ -79,7 +74,7 @@ void CalibrateWorkspace::prepare(const QString& mode) {
 
 void CalibrateWorkspace::showPlotOnly(bool only) {
     tabs_->tabBar()->setVisible(!only);
-    for (auto* key : tabKeys_) key->setEnabled(only);
+    tabKeys_.setEnabled(only);
 }
 
 void CalibrateWorkspace::showReady() {

@@ -4,13 +4,12 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QShortcut>
 #include <QTabWidget>
 #include <QWidget>
 #include <array>
-#include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
+#include "app/gui/theme/TabKeys.h"
 
 namespace tacto::gui {
 
@@ -38,8 +37,8 @@ private:
     ProtocolWorkspace* runner_;
     ProtocolWorkspace* sensor_;
     CalibrationHistory* history_;
-    std::vector<QShortcut*> tabKeys_;  // while the row of tabs is hidden
-    QWidget* stored_;                  ///< its page, with the card above
+    TabKeys tabKeys_{*this, [this](int page) { tabs_->setCurrentIndex(page); }};
+    QWidget* stored_;  ///< its page, with the card above
 };
 
 }  // namespace tacto::gui

@@ -31,6 +31,8 @@ public:
     /// another day and today was not asked: wanted() asks, and what was ordered is not begun. It is ordered again after
     /// the answer.
     [[nodiscard]] bool asksFirst();
+    /// Why what was ordered is not begun then.
+    [[nodiscard]] static QString wantedText() { return tr("A new day: enter operator and sample, then start again."); }
     /// As entered on the last day before, to be offered. Empty where nothing is known.
     [[nodiscard]] RunNotes before() const;
     /// "A. Weber · sample S-014"; empty where neither was entered.

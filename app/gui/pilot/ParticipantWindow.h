@@ -108,8 +108,8 @@ private:
     int heldKey_ = 0;  ///< or button
     int buttonAnswers_ = 0;
     QString inputGone_;
-    std::map<int, SteadyTime>
-        pressed_;          ///< keys and buttons that went down while no target was there, and their last press
+    /// Keys and buttons that went down while no target was there, and their last press.
+    std::map<int, SteadyTime> pressed_;
     QElapsedTimer since_;  // the targets were shown
     QTimer ticking_;
 

@@ -197,7 +197,7 @@ void PilotWorkspace::sayWhereItBegan(const QString& why) {
 QString PilotWorkspace::stopWords() const {
     const int stops = session_->participantStops();
     return stops == 0 ? tr("Participant’s STOP: not pressed")
-                      : tr("Participant’s STOP: pressed %1 of %2").arg(stops).arg(SessionConduct::kMaxStops);
+                      : tr("Participant’s STOP: pressed %1 of %2").arg(stops).arg(kMaxParticipantStops);
 }
 
 }  // namespace tacto::gui

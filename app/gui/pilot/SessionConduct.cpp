@@ -124,7 +124,7 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     if (running_) return tr("A session is running. Wait for its end or stop it (Esc).");
     if (controller_.activity() != Activity::Closed && controller_.activity() != Activity::Live)
         return tr("Another protocol is running. Wait for its end or stop it (Esc).");
-    if (controller_.day().asksFirst()) return tr("A new day: enter operator and sample, then start again.");
+    if (controller_.day().asksFirst()) return DayNotes::wantedText();
     mark_ = controller_.mark();
     start_ = start;
     auto made = order();
@@ -332,7 +332,8 @@ void SessionConduct::giveKeys() {
 void SessionConduct::pauseFor(const char* why) {
     if (!running_ || !start_.person) return;
     if (!desk_.stopBy(why)) controller_.stop(why);
-    desk_.setHolding(false);  // letting go now is not a stop by the participant
+    if (confirming_) desk_.cancel();  // nothing has begun
+    desk_.setHolding(false);          // letting go now is not a stop by the participant
     if (window_) window_->noteStop();
 }
 

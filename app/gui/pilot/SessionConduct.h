@@ -49,7 +49,6 @@ public:
     [[nodiscard]] ParticipantWindow* window() const { return window_.get(); }
     /// The screen that shows the participant's window.
     [[nodiscard]] QString screenName() const;
-    static constexpr int kMaxStops = 3;  ///< of the participant: the third ends the session
 
     void refresh(const Telemetry& telemetry);
     /// A stop by the participant's keys; false where no session of a person runs.

@@ -49,7 +49,7 @@ void SessionSide::show(const SessionConduct& session) {
                     {tr("Consent"), start.rehearsal ? tr("rehearsal") : tr("noted")},
                     {tr("Study"), start.folder.section('/', -1)}});
     stops_->setFacts(
-        {{tr("Participant"), tr("%1 of %2").arg(session.participantStops()).arg(SessionConduct::kMaxStops), true},
+        {{tr("Participant"), tr("%1 of %2").arg(session.participantStops()).arg(kMaxParticipantStops), true},
          {tr("Faults"), QString::number(session.faults()), true}});
     using Shows = TheirScreen::Shows;
     const auto* window = session.window();

@@ -264,8 +264,7 @@ void ProtocolWorkspace::runAsked() {
         if (part || inWiring) showStep(part ? (*part ? kReference : kSettings) : kWiring);
         return;
     }
-    if (controller_.day().asksFirst())
-        return panel_->say(tr("A new day: enter operator and sample, then start again."));
+    if (controller_.day().asksFirst()) return panel_->say(DayNotes::wantedText());
     preview();  // of these settings, not of those of a moment ago
     if (!obstacle_.isEmpty()) {
         if (const auto part = pages_->form().goToRefused()) showStep(*part ? kReference : kSettings);

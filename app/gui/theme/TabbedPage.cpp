@@ -49,16 +49,13 @@ TabbedPage::TabbedPage(QWidget* parent)
 void TabbedPage::addTab(QWidget* page, const QString& title, QWidget* tools) {
     pages_->addWidget(page);
     tools_->addWidget(tools != nullptr ? tools : new QWidget(tools_));
-    const int index = bar_->addTab(title);
-    auto* key = new QShortcut(QKeySequence::mnemonic(title), this);
-    key->setEnabled(false);
-    connect(key, &QShortcut::activated, this, [this, index] { setCurrentIndex(index); });
-    keys_.push_back(key);
+    bar_->addTab(title);
+    keys_.add(title);
 }
 
 void TabbedPage::setHeadVisible(bool visible) {
     head_->setVisible(visible);
-    for (auto* key : keys_) key->setEnabled(!visible);
+    keys_.setEnabled(!visible);
 }
 
 }  // namespace tacto::gui

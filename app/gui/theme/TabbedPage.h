@@ -3,11 +3,11 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QShortcut>
 #include <QStackedWidget>
 #include <QTabBar>
 #include <QWidget>
-#include <vector>
+
+#include "app/gui/theme/TabKeys.h"
 
 namespace tacto::gui {
 
@@ -32,7 +32,7 @@ private:
     QTabBar* bar_;
     QStackedWidget* tools_;
     QStackedWidget* pages_;
-    std::vector<QShortcut*> keys_;  // of the tabs, while their row is hidden
+    TabKeys keys_{*this, [this](int index) { setCurrentIndex(index); }};
 };
 
 }  // namespace tacto::gui

@@ -139,7 +139,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, 
     menuBar()->setCornerWidget(day, Qt::TopRightCorner);
     connect(&controller_.day(), &DayNotes::wanted, this, [this] {
         askForDay(true);
-        line_->say(tr("A new day: enter operator and sample, then start again."));
+        line_->say(DayNotes::wantedText());
     });
     tour_ = new WelcomeTour(*this);
     arming_ = new ArmQuestion(controller_, *this);

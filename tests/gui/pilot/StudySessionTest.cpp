@@ -255,6 +255,16 @@ TEST_F(StudyInTheWindow, ASessionThatWasBrokenOffGoesOnWithNoOtherMassager) {
     EXPECT_EQ(filesIn(place() / "sessions"), files);
 }
 
+TEST_F(StudyInTheWindow, AWindowThatIsClosedWhileTheCodeIsAskedBeginsNothing) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(seatAtMassager());
+    pilot->participantWindow()->close();
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); })) << "the question is gone, and none would follow";
+    EXPECT_THAT(trouble(), HasSubstr("was confirmed. Nothing was begun."));
+    EXPECT_EQ(pilot->participantWindow(), nullptr);
+    EXPECT_TRUE(nothingWasMade());
+}
+
 TEST_F(StudyInTheWindow, AStopInPlaceOfTheCodeBeginsNothing) {
     RecordProperty("hazard", "H2");
     ASSERT_NO_FATAL_FAILURE(seatAtMassager());
