@@ -1,10 +1,11 @@
-// OffscreenScreen.h - the screen of a program that has none: full HD. Qt's own offscreen screen has 800 x 800 pixels,
-// and the window stays on its screen.
+// OffscreenScreen.h - the screen of a program that has none: full HD, at scale 2 with twice the pixels each way. Qt's
+// own offscreen screen has 800 x 800 pixels, and the window stays on its screen.
 //
 // Thread-safety: call it before QApplication is made.
 #pragma once
 
 #include <QFile>
+#include <QString>
 #include <QTemporaryDir>
 
 namespace tacto::test {
@@ -15,8 +16,12 @@ inline void useOffscreenScreen(const QTemporaryDir& folder) {
     if (!platform.isEmpty() && platform != "offscreen") return;
     QFile screen(folder.filePath("screen.json"));
     if (!screen.open(QIODevice::WriteOnly)) qFatal("cannot write %s", qPrintable(screen.fileName()));
-    screen.write(R"({"screens": [{"name": "desk", "x": 0, "y": 0, "width": 1920, "height": 1080,)"
-                 R"( "logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}]})");
+    const double scale = qEnvironmentVariable("QT_SCALE_FACTOR", "1").toDouble();
+    screen.write(QString(R"({"screens": [{"name": "desk", "x": 0, "y": 0, "width": %1, "height": %2,)"
+                         R"( "logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}]})")
+                     .arg(int(1920 * scale))
+                     .arg(int(1080 * scale))
+                     .toUtf8());
     qputenv("QT_QPA_PLATFORM", "offscreen:configfile=" + screen.fileName().toUtf8());
 }
 
