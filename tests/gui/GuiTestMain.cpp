@@ -39,5 +39,6 @@ int main(int argc, char** argv) {
     QApplication::setOrganizationName("tactoscope");
     QApplication::setQuitOnLastWindowClosed(false);
     tacto::gui::applyTheme(tacto::gui::Theme::Light);
+    tacto::gui::applyTextSize(100);  // the program's own font, as its window begins
     return RUN_ALL_TESTS();
 }

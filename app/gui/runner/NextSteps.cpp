@@ -1,6 +1,6 @@
 #include "app/gui/runner/NextSteps.h"
 
-#include <QPushButton>
+#include <algorithm>
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/RecordColumns.h"
@@ -78,6 +78,7 @@ NextStepBar::NextStepBar(QWidget* parent) : QWidget(parent), row_(new QHBoxLayou
 }
 
 void NextStepBar::show(const std::vector<NextStep>& steps) {
+    buttons_.clear();
     while (auto* item = row_->takeAt(0)) {
         // Later: one of them may be what was clicked.
         if (item->widget() != nullptr) item->widget()->hide(), item->widget()->deleteLater();
@@ -87,7 +88,6 @@ void NextStepBar::show(const std::vector<NextStep>& steps) {
         const auto words = wordsOf(step);
         auto* button = new QPushButton(words.text, this);
         const bool first = row_->count() == 0;
-        button->setIcon(icon(words.icon, first ? Ink::Primary : Ink::Text));
         button->setToolTip(words.tip);
         button->setAutoDefault(false);
         makePrimary(*button, first);
@@ -95,7 +95,33 @@ void NextStepBar::show(const std::vector<NextStep>& steps) {
         connect(button, &QPushButton::clicked, this, [this, step] { emit chosen(step); });
         row_->addWidget(button);
         button->show();
+        Button made{button, icon(words.icon, first ? Ink::Primary : Ink::Text), button->sizeHint().width(), 0};
+        button->setIcon(made.icon);
+        made.whole = button->sizeHint().width();
+        buttons_.push_back(std::move(made));
     }
+    fit();
+}
+
+QSize NextStepBar::room(int Button::*width) const {
+    int all = row_->spacing() * std::max(0, int(buttons_.size()) - 1);
+    for (const auto& each : buttons_) all += each.*width;
+    return {all, QWidget::minimumSizeHint().height()};
+}
+
+QSize NextStepBar::sizeHint() const { return room(&Button::whole); }
+
+QSize NextStepBar::minimumSizeHint() const { return room(&Button::bare); }
+
+void NextStepBar::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    fit();
+}
+
+void NextStepBar::fit() {
+    const bool icons = width() >= sizeHint().width();
+    for (const auto& each : buttons_) each.button->setIcon(icons ? each.icon : QIcon());
+    updateGeometry();
 }
 
 }  // namespace tacto::gui

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <QHBoxLayout>
+#include <QPushButton>
 #include <QWidget>
 #include <vector>
 
@@ -25,18 +26,31 @@ enum class NextStep {
 /// The first one is what goes on from here. Nothing that would need a session where the run left none.
 [[nodiscard]] std::vector<NextStep> nextStepsAfter(const FinishedRun& run);
 
-/// As buttons in a row, the first one filled.
+/// As buttons in a row, the first one filled. Where the row is too narrow for their icons they have none.
 class NextStepBar final : public QWidget {
     Q_OBJECT
 public:
     explicit NextStepBar(QWidget* parent = nullptr);
     void show(const std::vector<NextStep>& steps);
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
 
 signals:
     void chosen(tacto::gui::NextStep step);
 
 private:
+    struct Button {
+        QPushButton* button;
+        QIcon icon;
+        int bare, whole;  ///< widths without and with it
+    };
+    [[nodiscard]] QSize room(int Button::*width) const;
+    void fit();
     QHBoxLayout* row_;
+    std::vector<Button> buttons_;
 };
 
 }  // namespace tacto::gui

@@ -18,6 +18,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kBesideTheName = 2;  ///< channels; more stand below it
+constexpr std::size_t kMostInLine = 3;     ///< of those below; more stand in lines of two
 constexpr int kRowHeight = 24;
 constexpr int kIndent = 2;  ///< of the names that are buttons
 
@@ -57,7 +58,7 @@ MeasurementSummary::MeasurementSummary(QWidget* parent)
       impedanceName_(new QLabel(tr("|Z|"), this)),
       impedance_(new QLabel(this)),
       note_(new QLabel(this)),
-      choose_(new QPushButton(tr("Add or remove…"), this)),
+      choose_(new QPushButton(tr("Choose…"), this)),
       reset_(new QPushButton(tr("Reset"), this)) {
     setAccessibleName(tr("Measurements"));
     head_->setObjectName("summaryHead");
@@ -155,14 +156,15 @@ void MeasurementSummary::lay() {
     grid_->setColumnStretch(0, 1);
     column_->insertWidget(1, rows_);
     const auto& channels = statistics_.channels();
-    const int first = channels.size() > kBesideTheName ? 0 : 1;
+    const int first = below() ? 0 : 1;
     for (std::size_t c = 0; c < channels.size(); ++c) {
         auto* title = new QLabel(inColour(channels[c].letter, channels[c].unit), rows_);
         title->setToolTip(titled(channels[c].name));
         title->setAlignment(Qt::AlignRight);
         setTextSize(*title, TextSize::Small, true);
-        grid_->addWidget(title, 0, first + static_cast<int>(c));
-        if (first == 0) grid_->setColumnStretch(static_cast<int>(c), 1);
+        const auto [line, column] = placeOf(c);
+        grid_->addWidget(title, line, first + column);
+        if (first == 0) grid_->setColumnStretch(column, 1);
     }
     if (!channels.empty()) {
         for (const auto reading : chosen_->all()) layRow(reading);
@@ -174,7 +176,6 @@ void MeasurementSummary::lay() {
 
 void MeasurementSummary::layRow(Reading reading) {
     const auto name = nameOf(reading);
-    const bool below = statistics_.channels().size() > kBesideTheName;
     auto* button = new QToolButton(rows_);
     button->setText(name.title);
     button->setToolTip(tr("%1 A click unfolds its statistics.").arg(name.explained));
@@ -186,17 +187,28 @@ void MeasurementSummary::layRow(Reading reading) {
     button->setFixedHeight(std::max(scaledPx(kRowHeight), button->minimumSizeHint().height()));
     connect(button, &QToolButton::clicked, this, [this, reading] { unfold(reading); });
     int row = grid_->rowCount();
-    grid_->addWidget(button, row, 0, 1, below ? static_cast<int>(statistics_.channels().size()) : 1, Qt::AlignLeft);
-    layFigures(reading, Statistic::Last, below ? row + 1 : row, below ? 0 : 1);
+    grid_->addWidget(button, row, 0, 1, below() ? inLine() : 1, Qt::AlignLeft);
+    layFigures(reading, Statistic::Last, below() ? row + 1 : row, below() ? 0 : 1);
     if (unfolded_ != reading) return;
     for (std::size_t s = 1; s < kStatistics.size(); ++s) {
         row = grid_->rowCount();
         auto* title = new QLabel("    " + nameOf(kStatistics[s]), rows_);
         setTextSize(*title, TextSize::Small);
         quiet_.push_back(title);
-        grid_->addWidget(title, row, 0, 1, below ? static_cast<int>(statistics_.channels().size()) : 1);
-        layFigures(reading, kStatistics[s], below ? row + 1 : row, below ? 0 : 1);
+        grid_->addWidget(title, row, 0, 1, below() ? inLine() : 1);
+        layFigures(reading, kStatistics[s], below() ? row + 1 : row, below() ? 0 : 1);
     }
+}
+
+bool MeasurementSummary::below() const { return statistics_.channels().size() > kBesideTheName; }
+
+int MeasurementSummary::inLine() const {
+    const auto channels = statistics_.channels().size();
+    return static_cast<int>(channels > kMostInLine ? kBesideTheName : channels);
+}
+
+std::pair<int, int> MeasurementSummary::placeOf(std::size_t channel) const {
+    return {static_cast<int>(channel) / inLine(), static_cast<int>(channel) % inLine()};
 }
 
 void MeasurementSummary::layFigures(Reading reading, Statistic statistic, int row, int column) {
@@ -208,7 +220,8 @@ void MeasurementSummary::layFigures(Reading reading, Statistic statistic, int ro
         label->setAccessibleName(statistic == Statistic::Last ? name : tr("%1, %2").arg(name, nameOf(statistic)));
         setTextSize(*label, TextSize::Small);
         if (statistic != Statistic::Last) quiet_.push_back(label);
-        grid_->addWidget(label, row, column + static_cast<int>(c));
+        const auto [line, at] = placeOf(c);
+        grid_->addWidget(label, row + line, column + at);
         figures_.push_back({reading, statistic, c, label});
     }
 }
@@ -287,9 +300,8 @@ void MeasurementSummary::restyle() {
     for (auto* label : quiet_) setTone(*label, Tone::Quiet);
     const auto numbers = digits(textFont(TextSize::Small));
     // As wide as what may come: figures that jump cannot be read. Three and more share the width that there is.
-    const bool below = statistics_.channels().size() > kBesideTheName;
     const int wide = QFontMetrics(numbers).horizontalAdvance(QString("00.00\u202fmA"));
-    for (const auto& figure : figures_) figure.label->setMinimumWidth(below ? 0 : wide);
+    for (const auto& figure : figures_) figure.label->setMinimumWidth(below() ? 0 : wide);
 }
 
 }  // namespace tacto::gui

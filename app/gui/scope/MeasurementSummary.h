@@ -20,6 +20,7 @@
 #include <QElapsedTimer>
 #include <QWidget>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/gui/scope/CapturePipe.h"
@@ -68,6 +69,11 @@ private:
     };
     void lay();
     void layRow(Reading reading);
+    /// The channels' figures stand below their reading's name, in lines of inLine().
+    [[nodiscard]] bool below() const;
+    [[nodiscard]] int inLine() const;
+    /// Line and column of a channel among its figures.
+    [[nodiscard]] std::pair<int, int> placeOf(std::size_t channel) const;
     void layFigures(Reading reading, Statistic statistic, int row, int column);
     void unfold(Reading reading);
     void fill();

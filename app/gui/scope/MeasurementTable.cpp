@@ -33,7 +33,7 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
       table_(new QTableWidget(this)),
       seen_(new QLabel(this)),
       warnings_(new QLabel(this)),
-      choose_(new QPushButton(tr("Add or remove…"), this)),
+      choose_(new QPushButton(tr("Choose…"), this)),
       reset_(new QPushButton(tr("Reset statistics"), this)) {
     table_->setObjectName("measurements");
     table_->setAccessibleName(tr("Measurements"));

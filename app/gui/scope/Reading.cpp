@@ -93,7 +93,7 @@ ReadingName nameOf(Reading reading) {
                     QObject::tr("Mean height of the leading phase above the baseline, from 30 to 90 % of its width."),
                     ""};
         case Reading::PeakToPeak:
-            return {"peak-to-peak", QObject::tr("Peak to peak"),
+            return {"peak-to-peak", QObject::tr("Pk-pk"),
                     QObject::tr("Largest minus smallest sample of the record, noise included."), ""};
         case Reading::Width:
             return {"width", QObject::tr("Width"), QObject::tr("Leading phase, from half height to half height."), "s"};

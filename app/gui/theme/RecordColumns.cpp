@@ -21,6 +21,7 @@ constexpr double kOnePrefix = 1e4;        // numbers further apart than this hav
 constexpr double kOnePrefixWithU = 1000;  // and those with all the decimals of an uncertainty
 constexpr int kHeaderPad = 10;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
+constexpr int kRoom = 860;        // pixels beside a path in a window of 1280: a wider table is set small
 const QString kNone = QStringLiteral("–");
 
 /// A number of a record with what is known around it.
@@ -165,6 +166,18 @@ void fitHeader(QTableWidget& table) {
     header->setFixedHeight(lines * QFontMetrics(textFont(TextSize::Small)).height() + kHeaderPad);
 }
 
+/// The width of the table with columns as wide as what is in them.
+int fitColumns(QTableWidget& table) {
+    const int longest = table.fontMetrics().averageCharWidth() * kLongestText;
+    table.resizeColumnsToContents();
+    int width = 2 * table.frameWidth();
+    for (int c = 0; c < table.columnCount(); ++c) {
+        if (table.columnWidth(c) > longest) table.setColumnWidth(c, longest);
+        width += table.columnWidth(c);
+    }
+    return width;
+}
+
 }  // namespace
 
 const json& memberAt(const json& record, const std::string& path) {
@@ -235,12 +248,10 @@ void layOutRecordTable(QTableWidget& table) {
     header->setHighlightSections(false);
     header->setSectionsClickable(false);
     fitHeader(table);
-    const int longest = table.fontMetrics().averageCharWidth() * kLongestText;
-    table.resizeColumnsToContents();
-    int width = 2 * table.frameWidth();
-    for (int c = 0; c < table.columnCount(); ++c) {
-        if (table.columnWidth(c) > longest) table.setColumnWidth(c, longest);
-        width += table.columnWidth(c);
+    int width = fitColumns(table);
+    if (width > kRoom) {
+        setTextSize(table, TextSize::Small);
+        width = fitColumns(table);
     }
     // A last column of words takes the rest; one of numbers stands beside the others.
     const auto* last = table.item(0, table.columnCount() - 1);
