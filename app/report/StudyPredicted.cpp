@@ -48,7 +48,7 @@ Result<VirtualObserver> personWith(double detection, double weber, bool massager
 }  // namespace
 
 Result<void> addPredicted(std::vector<ReportBlock>& blocks, Captions& captions, const QString& caption,
-                          const AnalysedSession& one, bool massager) {
+                          const AnalysedSession& one, double weber, bool massager) {
     const double detection = one.session->results.detection;
     const auto delivered = deliveredIn(one, massager);
     if (!(detection > 0) || !delivered || delivered->empty()) return {};
@@ -61,14 +61,18 @@ Result<void> addPredicted(std::vector<ReportBlock>& blocks, Captions& captions, 
     table.columns.push_back({"Right, predicted", true});
     table.columns.push_back({"Right, answered", true});
     QStringList accuracies;
-    for (const double weber : kWeberFractions) {
-        const auto person = personWith(detection, weber, massager);
+    std::vector<double> tried(std::begin(kWeberFractions), std::end(kWeberFractions));
+    const bool measured = std::isfinite(weber);
+    if (measured) tried.push_back(weber);
+    const double inTable = measured ? weber : kAmplitudeWeberFraction;
+    for (const double fraction : tried) {
+        const auto person = personWith(detection, fraction, massager);
         if (!person) return failure(person);
         const auto shares = person->predicted(*delivered, Seconds(0));
         double right = 0;
         for (std::size_t i = 0; i < count; ++i) right += shares[i][i] / static_cast<double>(count);
-        accuracies << QString("%1 % at %2").arg(100 * right, 0, 'f', 0).arg(weber, 0, 'f', 2);
-        if (weber != kAmplitudeWeberFraction) continue;
+        accuracies << QString("%1 % at %2").arg(100 * right, 0, 'f', 0).arg(fraction, 0, 'f', 2);
+        if (fraction != inTable) continue;
         for (std::size_t i = 0; i < count; ++i) {
             std::size_t n = 0;
             for (const auto answers : found.confusion[i]) n += answers;
@@ -82,10 +86,12 @@ Result<void> addPredicted(std::vector<ReportBlock>& blocks, Captions& captions, 
     table.caption = captions.table(caption);
     blocks.emplace_back(std::move(table));
     blocks.emplace_back(ParagraphBlock{
-        QString("The prediction is a model's with this session's detection threshold, without lapses and drift. All "
-                "together it expects %1 as the Weber fraction of amplitude, which was not measured; 0.10 stands in the "
-                "table. It is shown beside the answers and judges nothing.")
-            .arg(accuracies.join(", ")),
+        QString(
+            "The prediction is a model's with this session's detection threshold, without lapses and drift. All "
+            "together it expects %1 as the Weber fraction of amplitude%2. It is shown beside the answers and judges "
+            "nothing.")
+            .arg(accuracies.join(", "), measured ? QString(", of which the last was measured and stands in the table")
+                                                 : QString(", which was not measured; 0.10 stands in the table")),
         true});
     return {};
 }

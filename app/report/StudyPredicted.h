@@ -1,6 +1,6 @@
 // StudyPredicted.h - what a model of a person with the thresholds that they had in a session would have answered,
-// beside what they answered (pilot.md section 8). It is shown and never judged: a person's Weber fractions are not
-// known.
+// beside what they answered (pilot.md section 8). It is shown and never judged: a person's Weber fraction of interval
+// is not known, that of amplitude only where they compared strengths.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -11,9 +11,9 @@
 
 namespace tacto {
 
-/// Nothing where the session has no detection threshold, or some condition was not presented in its test.
-/// Errors: as VirtualObserver::create().
+/// `weber`: their own, of amplitude; NaN where it was not measured. Nothing where the session has no detection
+/// threshold, or some condition was not presented in its test. Errors: as VirtualObserver::create().
 [[nodiscard]] Result<void> addPredicted(std::vector<ReportBlock>& blocks, Captions& captions, const QString& caption,
-                                        const AnalysedSession& one, bool massager);
+                                        const AnalysedSession& one, double weber, bool massager);
 
 }  // namespace tacto

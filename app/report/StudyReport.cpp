@@ -242,6 +242,15 @@ const ParticipantRecord* withCode(const StudyRecord& study, const std::string& c
     return nullptr;
 }
 
+/// As they measured it last.
+double amplitudeWeberOf(const ParticipantRecord& participant) {
+    double weber = kNaN;
+    for (const auto& session : participant.sessions) {
+        if (std::isfinite(session.results.amplitudeWeber)) weber = session.results.amplitudeWeber;
+    }
+    return weber;
+}
+
 Result<void> addOver(std::vector<ReportBlock>& blocks, Captions& captions, const StudyRecord& study,
                      const std::string& code) {
     const auto* participant = withCode(study, code);
@@ -291,7 +300,9 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
             const auto predicted = QString("%1, session %2: predicted from the detection threshold, and answered")
                                        .arg(qtext(name))
                                        .arg(results.number);
-            if (auto added = addPredicted(blocks, captions, predicted, one, massager); !added) return failure(added);
+            const double weber = who == nullptr ? kNaN : amplitudeWeberOf(*who);
+            if (auto added = addPredicted(blocks, captions, predicted, one, weber, massager); !added)
+                return failure(added);
             addRatings(blocks, captions, results, name);
             if (massager) {
                 if (auto added = addVibration(blocks, captions, results, name); !added) return failure(added);

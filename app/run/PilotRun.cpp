@@ -19,8 +19,25 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kVirtual = "virtual:";
+constexpr const char *kMethod = "method", *kComparison = "comparison";
 
 std::string textOf(const RunOrder& order, const char* name) { return textOr(order.settings.parameters, name); }
+
+/// What the script is to do: what was chosen, else what the study was approved for. What a script does not declare it
+/// does not do, and that is approved.
+AskedProcedure askedProcedure(RunOrder& order, const std::optional<StudyProcedure>& approved) {
+    auto& parameters = order.settings.parameters;
+    const auto isOpen = [&](const char* name) {
+        return approved && parameters.contains(name) && !order.settings.chosen.contains(name);
+    };
+    if (isOpen(kMethod)) parameters[kMethod] = nameOf(approved->method);
+    if (isOpen(kComparison)) parameters[kComparison] = approved->comparison ? "yes" : "no";
+    AskedProcedure asked;
+    asked.method = valueFor(kDetectionMethods, textOf(order, kMethod)).value_or(DetectionMethod::Quest);
+    asked.comparison =
+        parameters.contains(kComparison) ? textOf(order, kComparison) == "yes" : approved && approved->comparison;
+    return asked;
+}
 
 /// A number as it was declared; NaN where the script declares none of that name.
 double numberOf(const RunOrder& order, const char* name) { return numberOr(order.settings.parameters, name); }
@@ -267,10 +284,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     const auto& study = study_->settings();
     auto& profile = order.profile;
     const bool massager = study.modality == Modality::Massager;
-    if (study.procedure && !order.settings.chosen.contains("method"))
-        order.settings.parameters["method"] = nameOf(study.procedure->method);
-    const auto method = valueFor(kDetectionMethods, textOf(order, "method")).value_or(DetectionMethod::Quest);
-    request_.procedure = procedureOf(profile, study, method);
+    request_.procedure = procedureOf(profile, study, askedProcedure(order, study.procedure));
     if (!massager) fitProfile(profile, study);
 
     settings_.code = who_.code;

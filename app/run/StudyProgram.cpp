@@ -23,7 +23,7 @@ void fitProfile(Profile& profile, const StudySettings& study) {
 }
 
 /// Conditions are hashed, since their names stand in no plain text of a study.
-StudyProcedure procedureOf(const Profile& profile, const StudySettings& study, DetectionMethod method) {
+StudyProcedure procedureOf(const Profile& profile, const StudySettings& study, const AskedProcedure& asked) {
     auto fitted = profile;
     fitProfile(fitted, study);
     const auto all = toJson(fitted);
@@ -33,8 +33,8 @@ StudyProcedure procedureOf(const Profile& profile, const StudySettings& study, D
                                    {"polarity", encoding.at("polarity")},
                                    {"rate_hz", encoding.at("rate_hz")},
                                    {"safety", all.at("safety")}};
-    return {profile.encoding.intervalMin.count(), profile.encoding.intervalMax.count(), method,
-            sha256Hex(dumpJson(hashed))};
+    return {profile.encoding.intervalMin.count(), profile.encoding.intervalMax.count(), asked.method,
+            sha256Hex(dumpJson(hashed)), asked.comparison};
 }
 
 Result<void> stateProgram(StudySettings& settings, const Profile& profile) {
@@ -48,7 +48,8 @@ Result<void> stateProgram(StudySettings& settings, const Profile& profile) {
         if (script.name.starts_with(kPilotScripts))
             settings.scripts.push_back({std::string(script.name), std::string(script.sha256)});
     }
-    settings.procedure = procedureOf(profile, settings, settings.procedure.value_or(StudyProcedure()).method);
+    const auto asked = settings.procedure.value_or(StudyProcedure());
+    settings.procedure = procedureOf(profile, settings, {asked.method, asked.comparison});
     return {};
 }
 

@@ -10,10 +10,16 @@ namespace tacto {
 
 /// `profile` with the electrode and the one kind of train of the study.
 void fitProfile(Profile& profile, const StudySettings& study);
-/// What `profile` makes people of this study feel, and how detection is asked for.
-[[nodiscard]] StudyProcedure procedureOf(const Profile& profile, const StudySettings& study, DetectionMethod method);
+/// What a session's script is to do.
+struct AskedProcedure {
+    DetectionMethod method = DetectionMethod::Quest;
+    bool comparison = false;
+};
+/// What `profile` makes people of this study feel, and what they are asked.
+[[nodiscard]] StudyProcedure procedureOf(const Profile& profile, const StudySettings& study,
+                                         const AskedProcedure& asked);
 
-/// Fills in `limits`, `scripts` and `procedure`; the method of detection stays as it is. Errors: as shippedLimits().
+/// Fills in `limits`, `scripts` and `procedure`; what is asked stays as it is. Errors: as shippedLimits().
 [[nodiscard]] Result<void> stateProgram(StudySettings& settings, const Profile& profile);
 
 }  // namespace tacto

@@ -249,7 +249,10 @@ Result<void> Bench::wait(Seconds duration) {
 Result<Presented> Bench::present(const Presentation& presentation, const std::function<void(Seconds since)>& passing) {
     auto& s = *state_;
     if (const auto valid = validate(presentation); !valid) return failure(valid);
-    if (const auto settable = s.levels.checkSettable(presentation.level); !settable) return failure(settable);
+    for (std::size_t train = 0; train < presentation.onsets.size(); ++train) {
+        const auto settable = s.levels.checkSettable(presentation.levelOf(train));
+        if (!settable) return failure(settable);
+    }
     const Instant now = s.time.now();
     if (!(presentation.notBefore <= now + toInstant(Presentation::kLongest))) {
         return fail(ErrorCode::InvalidArgument, "a presentation that begins in {:.3g} s; at most {} s is accepted",

@@ -144,7 +144,7 @@ public:
     /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
     /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor; Stopped, unless Off.
     [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
-    /// One presentation at one level, in the kind of train that the profile describes: waits for its end. Every train
+    /// One presentation, in the kind of train that the profile describes: waits for its end. Every train
     /// is approved by the gate, delivered, read back and judged as any other. Where the last impedance reading would be
     /// more than 5 s old by the last onset, one check pulse comes first, also before an empty one.
     /// Nothing else may drive the output. A stop, a pause or a fault ends it (see Presented::end) and makes it void.

@@ -1,5 +1,6 @@
 #include "core/bench/Presentation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -29,6 +30,37 @@ Result<void> checkLevel(const StimulusLevel& level) {
     const double intensity = std::get<VibrationIntensity>(level).value;
     if (intensity >= 0 && intensity <= 1) return {};
     return fail(ErrorCode::InvalidArgument, "level at intensity {}: must be 0 to 1", intensity);
+}
+
+double numberOf(const StimulusLevel& level) noexcept {
+    const auto* current = std::get_if<Milliamps>(&level);
+    return current != nullptr ? current->value() : std::get<VibrationIntensity>(level).value;
+}
+
+/// Those of the trains, where each has its own.
+Result<void> checkLevels(const Presentation& presentation) {
+    const auto& levels = presentation.levels;
+    if (levels.empty()) return {};
+    if (levels.size() != presentation.onsets.size()) {
+        return fail(ErrorCode::InvalidArgument, "{} levels for {} onsets; one for each is expected", levels.size(),
+                    presentation.onsets.size());
+    }
+    double highest = 0;
+    for (const auto& level : levels) {
+        if (auto fine = checkLevel(level); !fine) return fine;
+        if (level.index() != presentation.level.index() || isEmpty(level)) {
+            return fail(ErrorCode::InvalidArgument,
+                        "a train of {} in a presentation of {}; a level above 0 of the "
+                        "same kind is expected",
+                        textOf(level), textOf(presentation.level));
+        }
+        highest = std::max(highest, numberOf(level));
+    }
+    if (highest == numberOf(presentation.level)) return {};
+    return fail(ErrorCode::InvalidArgument,
+                "the highest level of the trains is {:g}; that of the presentation, {}, is "
+                "expected",
+                highest, textOf(presentation.level));
 }
 
 Result<void> checkOnsets(const Presentation& presentation) {
@@ -90,6 +122,14 @@ Presentation detectionPresentation(StimulusLevel level, bool inSecond, Seconds t
             .duration = 2 * kDetectionInterval + kDetectionPause};
 }
 
+Presentation comparisonPresentation(StimulusLevel first, StimulusLevel second, Seconds trainLength, Seconds interval) {
+    auto made =
+        detectionPresentation(numberOf(first) < numberOf(second) ? second : first, false, trainLength, interval);
+    made.onsets.push_back(made.onsets.front() + kDetectionInterval + kDetectionPause);
+    made.levels = {first, second};
+    return made;
+}
+
 int detectionIntervalAt(Seconds since) noexcept {
     if (since >= kDetectionInterval + kDetectionPause) return 2;
     return since >= Seconds(0) && since < kDetectionInterval ? 1 : 0;
@@ -102,6 +142,7 @@ Result<void> validate(const Presentation& presentation) {
                     presentation.interval.count(), Presentation::kLongest.count());
     }
     if (auto fine = checkOnsets(presentation); !fine) return fine;
+    if (auto fine = checkLevels(presentation); !fine) return fine;
     const Seconds least = presentation.onsets.back() + Presentation::kTail;
     if (isTime(presentation.duration, least * (1 - kRounding), Presentation::kLongest)) return {};
     return fail(ErrorCode::InvalidArgument,

@@ -1,5 +1,5 @@
-// Presentation.h - one presentation of a pilot session: trains of the profile's own kind, all at one level, at given
-// onsets; and what became of it. Bench::present() carries it out.
+// Presentation.h - one presentation of a pilot session: trains of the profile's own kind at given onsets, all at one
+// level or, to be compared, each at its own; and what became of it. Bench::present() carries it out.
 //
 // An empty presentation has the level 0: its onsets pass and nothing is delivered at them. It takes the same time, asks
 // the same of the bench and is recorded as any other, but for the rows of trains.
@@ -29,11 +29,16 @@ using StimulusLevel = std::variant<Milliamps, VibrationIntensity>;
 [[nodiscard]] std::string textOf(const StimulusLevel& level);  // "4.5 mA", "intensity 0.4"
 
 struct Presentation {
-    StimulusLevel level = Milliamps(0);
-    std::vector<Seconds> onsets{};  ///< from the beginning, ascending, at least `interval` apart; 1 to kMaxTrains
-    Seconds interval{0};            ///< > 0, that each train is judged at: the shortest at which another may follow
-    Seconds duration{0};            ///< of the whole, at least kTail after the last onset, at most kLongest
-    Instant notBefore{0};           ///< of the bench's clock: it begins then, or as soon after as the bench is ready
+    StimulusLevel level = Milliamps(0);  ///< of every train; where `levels` says otherwise, the highest of those
+    std::vector<Seconds> onsets{};       ///< from the beginning, ascending, at least `interval` apart; 1 to kMaxTrains
+    Seconds interval{0};   ///< > 0, that each train is judged at: the shortest at which another may follow
+    Seconds duration{0};   ///< of the whole, at least kTail after the last onset, at most kLongest
+    Instant notBefore{0};  ///< of the bench's clock: it begins then, or as soon after as the bench is ready
+    std::vector<StimulusLevel> levels{};  ///< one for each onset, none of them empty; empty: all at `level`
+    /// `train` < onsets.size().
+    [[nodiscard]] const StimulusLevel& levelOf(std::size_t train) const noexcept {
+        return levels.empty() ? level : levels[train];
+    }
 
     static constexpr std::size_t kMaxTrains = 64;
     static constexpr Seconds kLongest{60};
@@ -50,13 +55,17 @@ struct Presentation {
 /// judged at `interval`.
 [[nodiscard]] Presentation detectionPresentation(StimulusLevel level, bool inSecond, Seconds trainLength,
                                                  Seconds interval);
+/// The same intervals with a train in each, to be compared: `first` in the first, `second` in the second. Both are
+/// above 0 and of one kind.
+[[nodiscard]] Presentation comparisonPresentation(StimulusLevel first, StimulusLevel second, Seconds trainLength,
+                                                  Seconds interval);
 /// Which of its two intervals passes that long after its beginning: 1 or 2; 0 before the first and between them. The
 /// second lasts until the presentation has ended.
 [[nodiscard]] int detectionIntervalAt(Seconds since) noexcept;
 
 /// Errors: InvalidArgument naming the value and what is accepted: NaN and negative levels, an intensity above 1, onsets
-/// that do not ascend or come nearer than the interval, a duration that is too short or too long. The device's grid is
-/// the bench's matter.
+/// that do not ascend or come nearer than the interval, a duration that is too short or too long; levels of another
+/// kind or number, an empty one among them, and a highest that is not `level`. The device's grid is the bench's matter.
 [[nodiscard]] Result<void> validate(const Presentation& presentation);
 
 /// How a presentation ended. All but Complete make it void.

@@ -25,9 +25,11 @@ std::optional<Presented> PresentationRun::result() {
 }
 
 void PresentationRun::begin(Presentation presentation, const TrainPlanner& planner) {
-    Timed timed{
-        presentation.level, presentation.interval, {}, toInstant(presentation.duration), presentation.notBefore};
-    for (const Seconds onset : presentation.onsets) timed.onsets.push_back(toInstant(planner.programmed(onset)));
+    Timed timed{{}, presentation.interval, {}, toInstant(presentation.duration), presentation.notBefore};
+    for (std::size_t train = 0; train < presentation.onsets.size(); ++train) {
+        timed.levels.push_back(presentation.levelOf(train));
+        timed.onsets.push_back(toInstant(planner.programmed(presentation.onsets[train])));
+    }
     made_ = {};
     made_.trains.reserve(timed.onsets.size());
     what_ = std::move(timed);
@@ -51,7 +53,7 @@ PresentationRun::Due PresentationRun::next(const Sight& sight) noexcept {
             return Due::Nothing;
         }
         const bool old = sight.readingUntil && *sight.readingUntil < sight.now;
-        if (!isEmpty(what_->level)) return old ? Due::Check : Due::Train;
+        if (!isEmpty(what_->levels[next_])) return old ? Due::Check : Due::Train;
         ++next_;
     }
     if (next_ == what_->onsets.size() && sight.now >= *began_ + what_->duration)
@@ -75,12 +77,12 @@ Result<PlannedStimulus> PresentationRun::plan(TrainPlanner& planner, SafetyGate&
         end(now, PresentationEnd::Refused, why.message);
         return tl::unexpected<Error>(why);
     };
-    if (const auto* current = std::get_if<Milliamps>(&what_->level)) {
+    if (const auto* current = std::get_if<Milliamps>(&what_->levels[next_])) {
         auto train = planner.planLevel(*current, what_->interval, at);
         if (!train) return refused(train.error());
         return std::move(*train);
     }
-    auto burst = gate.approve(VibrationBurst{.intensity = std::get<VibrationIntensity>(what_->level).value});
+    auto burst = gate.approve(VibrationBurst{.intensity = std::get<VibrationIntensity>(what_->levels[next_]).value});
     if (!burst) return refused(burst.error());
     return PlannedVibration{std::move(*burst), at, what_->interval};
 }
@@ -109,7 +111,7 @@ void PresentationRun::read(const TrainReport& report) noexcept {
     if (report.outcome != TrainOutcome::Delivered) return;
     PresentedTrain train;
     train.onset = report.onset;
-    train.approved = what_->level;
+    train.approved = what_->levels[next_ - 1];  // none is posted while one is awaited
     train.interval = what_->interval;
     if (!std::isnan(report.measured)) train.readBack = Milliamps(report.measured);
     if (!std::isnan(report.impedance_ohm)) train.impedance = Ohms(report.impedance_ohm);

@@ -75,9 +75,9 @@ public:
 
 private:
     struct Timed {
-        StimulusLevel level;
-        Seconds interval;             // as it was asked for
-        std::vector<Instant> onsets;  // from the beginning, as they must be kept
+        std::vector<StimulusLevel> levels;  // of each train; all empty in an empty presentation
+        Seconds interval;                   // as it was asked for
+        std::vector<Instant> onsets;        // from the beginning, as they must be kept
         Instant duration, notBefore;
     };
     [[nodiscard]] Instant onset() const noexcept { return *began_ + what_->onsets[next_]; }

@@ -23,7 +23,8 @@ namespace tacto {
 struct FeltPresentation {
     double level = 0;     ///< mA, or a massager's intensity (0 to 1); 0: an empty presentation
     Seconds interval{0};  ///< onset to onset
-    int inInterval = 0;   ///< 1 or 2: where the train of a detection trial came; else 0
+    double weaker = 0;    ///< of a comparison: the other of its two levels; else 0
+    int inInterval = 0;   ///< 1 or 2: where the train of a detection trial, or the stronger of two, came; else 0
     std::string named;    ///< familiarisation: the condition's key, as the screen said; else empty
     /// For how long trains were given in this session before this presentation: what adaptation follows.
     Seconds stimulated{0};

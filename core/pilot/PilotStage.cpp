@@ -139,6 +139,12 @@ Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body
         return fail(ErrorCode::ParseError,
                     "the record has {} at {} {}, and the script now asks for {}: the session cannot continue from it",
                     trial.name, unit, stored, trial.level);
+    const double weaker = numberOr(body, levelKey("weaker", settings_.unit).c_str());
+    if (trial.weaker > 0 && !(std::abs(weaker - trial.weaker) < 1e-6))
+        return fail(ErrorCode::ParseError,
+                    "the record has {} beside {} {}, and the script now asks for {}: the session cannot continue from "
+                    "it",
+                    trial.name, unit, weaker, trial.weaker);
     const double interval_s = numberOr(body, "interval_s");
     if (body.contains("interval_s") && !(std::abs(interval_s - trial.presentation.interval.count()) < 1e-6))
         return fail(ErrorCode::ParseError,
@@ -159,6 +165,7 @@ Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body
 void PilotStage::feel(const StageTrial& trial) {
     auto felt = trial.felt;
     felt.level = trial.level;
+    felt.weaker = trial.weaker;
     felt.interval = trial.presentation.interval;
     felt.stimulated = stimulated_;
     felt.drawnFor = fmt::format("seed {} session {} {}", settings_.seed, settings_.session,
@@ -174,6 +181,7 @@ PilotStage::Json PilotStage::about(const StageTrial& trial, std::size_t attempt)
     Json body = trial.about;
     body["attempt"] = attempt;
     body[nameOf(settings_.unit)] = trial.level;
+    if (trial.weaker > 0) body[levelKey("weaker", settings_.unit)] = trial.weaker;
     body["interval_s"] = trial.presentation.interval.count();
     return body;
 }

@@ -30,11 +30,12 @@ struct StageTrial {
     std::string name;                                 ///< of its rows: "test 17"
     nlohmann::json about = nlohmann::json::object();  ///< into both rows: number, phase, block, condition
     double level = 0;                                 ///< in the settings' unit; 0: empty
+    double weaker = 0;                                ///< of a comparison: the other of its two levels; else 0
     Presentation presentation;
     PilotPrompt prompt;
     bool asks = true;  ///< false: nothing is asked, and its answer has no response
     /// From before the first train until the targets appear; with ScreenState::Interval it marks the two intervals of
-    /// a detection trial as they pass.
+    /// a trial as they pass.
     PilotScreen screen;
     FeltPresentation felt;     ///< `named` and `inInterval`; the stage fills in the rest
     bool askedAgain = false;   ///< this is the second time: no answer is final

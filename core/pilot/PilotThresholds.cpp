@@ -162,17 +162,20 @@ Result<TrialInterval> PilotThresholds::twoIntervals(const std::string& name, con
                                                     const std::string& phase) {
     StageTrial trial;
     trial.name = name;
-    trial.about = {{"right", nameOf(asked.interval)}};
     trial.level = asked.level;
-    const bool second = asked.interval == TrialInterval::Second;
     const auto& settings = stage_.settings();
-    trial.presentation = detectionPresentation(stage_.levelOf(asked.level), second,
+    trial.presentation = detectionPresentation(stage_.levelOf(asked.level), asked.interval == TrialInterval::Second,
                                                trainLength(stage_.bench(), settings.unit), settings.shortest);
     trial.prompt = intervalPrompt();
-    trial.screen.state = ScreenState::Interval;
     trial.screen.phase = phase;
-    trial.screen.trial = static_cast<int>(asked.number);
-    trial.felt.inInterval = second ? 2 : 1;
+    return askInterval(std::move(trial), asked.interval, asked.number);
+}
+
+Result<TrialInterval> PilotThresholds::askInterval(StageTrial trial, TrialInterval held, std::size_t number) {
+    trial.about = {{"right", nameOf(held)}};
+    trial.screen.state = ScreenState::Interval;
+    trial.screen.trial = static_cast<int>(number);
+    trial.felt.inInterval = held == TrialInterval::Second ? 2 : 1;
     const auto answer = stage_.trial(trial);
     if (!answer) return failure(answer);
     return trialIntervalFrom(answer->response);
@@ -237,6 +240,54 @@ Result<void> PilotThresholds::range() {
     return {};
 }
 
+// Comparison
+
+Result<void> PilotThresholds::comparison() {
+    if (!range_) return fail(ErrorCode::InvalidArgument, "the comparison comes after the range");
+    if (!range_->usable) return {};
+    const auto& settings = stage_.settings();
+    auto procedure = StrengthComparison::create(*grid_, {.low = range_->min, .high = range_->max}, settings.seed);
+    if (!procedure) return failure(procedure);
+    while (const auto next = procedure->next()) {
+        const bool second = next->interval == TrialInterval::Second;
+        const auto& [weaker, stronger] = next->pair;
+        StageTrial trial;
+        trial.name = fmt::format("comparison {}", next->number);
+        trial.level = stronger;
+        trial.weaker = weaker;
+        trial.presentation = comparisonPresentation(stage_.levelOf(second ? weaker : stronger),
+                                                    stage_.levelOf(second ? stronger : weaker),
+                                                    trainLength(stage_.bench(), settings.unit), settings.shortest);
+        trial.prompt = comparisonPrompt();
+        trial.screen.phase = "comparison";
+        const auto said = askInterval(std::move(trial), next->interval, next->number);
+        if (!said) return failure(said);
+        if (auto taken = procedure->answer(*said); !taken) return taken;
+    }
+    compared_ = procedure->result();
+    const auto kept = stage_.record().once(row::kEstimate, "comparison", [this]() -> Result<nlohmann::json> {
+        return nlohmann::json{{"amplitude_weber", estimateJson(compared_->weber)},
+                              {"trials", compared_->trials.size()}};
+    });
+    return kept ? Result<void>() : failure(kept);
+}
+
+nlohmann::json PilotThresholds::comparisonJson() const {
+    if (!compared_) return nullptr;
+    const auto unit = stage_.settings().unit;
+    nlohmann::json history = nlohmann::json::array();
+    for (const auto& each : compared_->trials)
+        history.push_back({{levelKey("weaker", unit), each.pair.weaker},
+                           {levelKey("stronger", unit), each.pair.stronger},
+                           {"correct", each.correct}});
+    return {{"amplitude_weber", estimateJson(compared_->weber)},
+            {"at_edge", compared_->atEdge},
+            {"trials", compared_->trials.size()},
+            {"history", std::move(history)},
+            {"first", shareJson(compared_->intervals.first)},
+            {"second", shareJson(compared_->intervals.second)}};
+}
+
 nlohmann::json PilotThresholds::describe(const PersonalRangeResult& found) const {
     const double ohm = stage_.impedance();
     const auto unit = stage_.settings().unit;
@@ -274,7 +325,8 @@ nlohmann::json PilotThresholds::toJson() const {
             {"said_too_strong", ascending_.saidTooStrong},
             {"series", std::move(series)},
             {"detection", measured_ ? detection : nlohmann::json(nullptr)},
-            {"range", rangeJson()}};
+            {"range", rangeJson()},
+            {"comparison", comparisonJson()}};
 }
 
 }  // namespace tacto

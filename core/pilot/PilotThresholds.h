@@ -1,5 +1,6 @@
 // PilotThresholds.h - the first three steps of a session: ascending limits, detection, the personal range (pilot.md
-// section 4). Each is done once; called again after a resume it returns what the rows say.
+// section 4); and, where the study has it, the comparison of strengths (section 8). Each is done once; called again
+// after a resume it returns what the rows say.
 //
 // Thread-safety: one caller, the session's thread.
 #pragma once
@@ -11,6 +12,7 @@
 #include "core/analysis/psychophysics/PersonalRange.h"
 #include "core/analysis/psychophysics/QuestPlus.h"
 #include "core/analysis/psychophysics/Staircase.h"
+#include "core/analysis/psychophysics/StrengthComparison.h"
 #include "core/pilot/PilotStage.h"
 #include "core/study/StudySettings.h"
 
@@ -29,8 +31,11 @@ public:
     /// Without a felt level there is nothing to measure: done at once, without an estimate.
     [[nodiscard]] Result<void> detection(DetectionMethod method);
     [[nodiscard]] Result<void> range();
+    /// The Weber fraction of strength within the range, by 40 trials. Without a usable range there is nothing to
+    /// compare.
+    [[nodiscard]] Result<void> comparison();
 
-    /// As part of the results; detection and range are null until they are measured.
+    /// As part of the results; detection, range and comparison are null until they are measured.
     [[nodiscard]] nlohmann::json toJson() const;
     /// As its row says it; null before it was measured.
     [[nodiscard]] const nlohmann::json& rangeJson() const noexcept { return rangeRow_; }
@@ -51,6 +56,9 @@ private:
     template <class Procedure, class Settings>
     [[nodiscard]] Result<void> measureBy(Settings settings);
     [[nodiscard]] nlohmann::json describe(const PersonalRangeResult& found) const;
+    /// The common part of the trials with two intervals, of which `held` holds the train, or the stronger one.
+    [[nodiscard]] Result<TrialInterval> askInterval(StageTrial trial, TrialInterval held, std::size_t number);
+    [[nodiscard]] nlohmann::json comparisonJson() const;
 
     PilotStage& stage_;
     std::optional<LevelGrid> grid_;
@@ -63,6 +71,7 @@ private:
     bool measured_ = false;
     std::optional<PersonalRangeResult> range_;
     nlohmann::json rangeRow_;
+    std::optional<StrengthComparisonResult> compared_;
     std::size_t liveSeries_ = 0;
 };
 

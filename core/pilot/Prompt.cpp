@@ -55,6 +55,12 @@ PilotPrompt intervalPrompt() {
                   {{"first", "First"}, {"second", "Second"}});
 }
 
+PilotPrompt comparisonPrompt() {
+    return prompt(PromptKind::Interval, "comparison",
+                  "Was it stronger in the first or in the second interval? Guess if unsure.",
+                  {{"first", "First"}, {"second", "Second"}});
+}
+
 PilotPrompt conditionPrompt(const std::vector<std::string>& names) {
     std::vector<PromptTarget> targets;
     for (const auto& name : names) targets.push_back({name, conditionText(name)});

@@ -109,6 +109,7 @@ inline constexpr const char* kReasonPrompt = "abort-reason";
 [[nodiscard]] PilotPrompt holdPrompt();
 [[nodiscard]] PilotPrompt strengthPrompt();
 [[nodiscard]] PilotPrompt intervalPrompt();
+[[nodiscard]] PilotPrompt comparisonPrompt();
 /// `names`: keys of the four conditions in the study's order.
 [[nodiscard]] PilotPrompt conditionPrompt(const std::vector<std::string>& names);
 [[nodiscard]] PilotPrompt yesNoPrompt(std::string name, std::string text, PromptTo to = PromptTo::Participant);

@@ -67,6 +67,7 @@ std::string VirtualPilotParticipant::answerTo(const PilotPrompt& prompt) const {
             return std::string(nameOf(observer_.strength(key, felt_.level, felt_.stimulated)));
         case PromptKind::Interval: {
             const auto held = felt_.inInterval == 2 ? TrialInterval::Second : TrialInterval::First;
+            if (felt_.weaker > 0) return std::string(nameOf(observer_.compare(key, felt_.weaker, felt_.level, held)));
             return std::string(nameOf(observer_.detect(key, felt_.level, held, felt_.stimulated)));
         }
         case PromptKind::Condition:

@@ -113,6 +113,7 @@ BidsTable thresholdsTable(const BidsSession& session, bool massager) {
          {{"ascending", "ascending limits, from 0"},
           {"detection", "two intervals, which of them held the train"},
           {"range", "whether half an hour of this level would be borne"},
+          {"comparison", "two intervals with a train in each, which of them was stronger"},
           {"drift", "detection again before a later block"}}},
         {"series", "Series of the ascending limits, or the block before which drift was checked"},
         {"trial_type",
@@ -120,10 +121,13 @@ BidsTable thresholdsTable(const BidsSession& session, bool massager) {
          "",
          {{"stimulus", "trains at the level"},
           {"catch", "nothing"},
-          {"first", "a train in the first interval"},
-          {"second", "a train in the second interval"}}}};
+          {"first", "a train in the first interval; in a comparison the stronger"},
+          {"second", "a train in the second interval; in a comparison the stronger"}}}};
     if (!massager) columns.push_back(kCurrent);
     columns.push_back(kIntensity);
+    columns.push_back(massager
+                          ? BidsColumn{"weaker_intensity", "Strength in the other interval of a comparison, 0 to 1"}
+                          : BidsColumn{"weaker_ma", "Amplitude in the other interval of a comparison", "mA"});
     columns.push_back({"response", "What was answered; stop: the person stopped the output"});
     columns.push_back({"correct", "Whether the right interval was named", "", kYesNo});
     columns.push_back({"response_time", "From the appearance of the targets to the answer", "s"});
@@ -132,7 +136,7 @@ BidsTable thresholdsTable(const BidsSession& session, bool massager) {
         std::vector<BidsCell> cells = {row.number, row.procedure,
                                        row.series > 0 ? BidsCell(row.series) : BidsCell(kNaN), row.type};
         if (!massager) cells.emplace_back(row.current);
-        append(cells, {row.intensity, row.response, row.correct, row.response_s});
+        append(cells, {row.intensity, row.weaker, row.response, row.correct, row.response_s});
         table.add(std::move(cells));
     }
     return table;

@@ -32,11 +32,13 @@ struct BidsTrial {
 /// One presentation of a threshold procedure.
 struct BidsThresholdTrial {
     std::size_t number = 0;
-    std::string procedure{};  ///< "ascending", "detection", "range", "drift"
+    std::string procedure{};  ///< "ascending", "detection", "range", "comparison", "drift"
     std::size_t series = 0;   ///< of the ascending limits, or the block before which drift was checked; 0: none
-    std::string type{};       ///< "stimulus" or "catch"; of two intervals the one that holds it, "first" or "second"
+    /// "stimulus" or "catch"; of two intervals the one that holds it, or the stronger, "first" or "second"
+    std::string type{};
     Milliamps current{kNaN};
     double intensity = kNaN;
+    double weaker = kNaN;  ///< mA, or intensity, in the other interval of a comparison
     std::string response{};
     std::optional<bool> correct{};  ///< of two intervals
     double response_s = kNaN;
@@ -74,6 +76,7 @@ struct BidsSession {
     double lowIntensity = kNaN, highIntensity = kNaN;
     double detection = kNaN, tooStrong = kNaN;         ///< mA, or a massager's intensity
     double detectionLow = kNaN, detectionHigh = kNaN;  ///< 95 % interval of `detection`
+    double amplitudeWeber = kNaN;                      ///< their own, from a comparison of strengths
     std::vector<std::string> sideEffectsAsked;         ///< moments at which they were asked for
     std::optional<int> skinNextDay;                    ///< as those before and after
     std::optional<int> skinBefore, skinAfter;          ///< the worse of erythema and oedema, 0 to 4

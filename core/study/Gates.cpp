@@ -115,6 +115,10 @@ Result<void> procedureGate(const StudySettings& settings, const StudyProcedure& 
         return refused("the profile's longest interval", procedure.intervalMax_s, approved.intervalMax_s, " s");
     if (procedure.method != approved.method)
         return refused("the method of detection", nameOf(procedure.method), nameOf(approved.method), "");
+    if (procedure.comparison != approved.comparison) {
+        const auto said = [](bool compares) { return compares ? "measured" : "not measured"; };
+        return refused("the Weber fraction of strength", said(procedure.comparison), said(approved.comparison), "");
+    }
     if (procedure.conditionsSha256 != approved.conditionsSha256) {
         return fail(kGateRefused,
                     "the profile's conditions, assignment, polarity, load range and ceilings hash to {:.12}…, and "

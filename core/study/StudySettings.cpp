@@ -71,6 +71,7 @@ RecordFields<StudyProcedure> procedureFields() {
     all.number("interval_max_s", &P::intervalMax_s, {.low = 0.01, .high = 60, .unit = "s"});
     all.word("method", &P::method, kDetectionMethods);
     all.text("conditions_sha256", &P::conditionsSha256, kOptionalText);
+    all.flag("comparison", &P::comparison);
     return all;
 }
 

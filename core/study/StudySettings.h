@@ -80,6 +80,7 @@ struct StudyProcedure {
     double intervalMax_s = 2;    ///< T_max
     DetectionMethod method = DetectionMethod::Quest;
     std::string conditionsSha256{};  ///< of the conditions, their assignment, polarity, load range and ceilings
+    bool comparison = false;         ///< sessions of thresholds measure the Weber fraction of strength too
     bool operator==(const StudyProcedure&) const = default;
 };
 

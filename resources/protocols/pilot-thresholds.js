@@ -1,5 +1,6 @@
-// What can this participant feel today, and from where is it too strong? Three steps; each answer is on disk before
-// the next presentation. A study with massagers has a massager in the stimulator's place.
+// What can this participant feel today, and from where is it too strong? Three steps, and a fourth where the study has
+// it; each answer is on disk before the next presentation. A study with massagers has a massager in the stimulator's
+// place.
 protocol({
   title: "Pilot session: thresholds",
   purpose: "Find the levels between which this participant's conditions lie today.",
@@ -28,6 +29,12 @@ protocol({
       choices: { quest: "QUEST+", staircase: "weighted staircase" },
       value: "quest",
     },
+    comparison: {
+      label: "Weber fraction of strength",
+      type: "choice",
+      choices: { no: "is not measured", yes: "is measured, by 40 trials" },
+      value: "no",
+    },
     detection: { label: "Virtual: perception threshold, median", unit: "mA", min: 0.1, max: 50, value: 3.5 },
     attention: { label: "Virtual: attention threshold, median", unit: "mA", min: 0.1, max: 200, value: 6.9 },
     discomfort: { label: "Virtual: too strong from, median", unit: "mA", min: 0.2, max: 200, value: 9.8 },
@@ -48,6 +55,8 @@ function run(p) {
   pilot.detection({ method: p.method });
   // 3. The range, accepted for half an hour.
   pilot.range();
+  // 4. How much stronger must it be to be told apart? "In which interval was it stronger?"
+  if (p.comparison === "yes") pilot.comparison();
 
   pilot.skin("after");
   pilot.sideEffects("after");

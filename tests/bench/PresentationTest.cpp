@@ -33,7 +33,14 @@ TEST(Presentation, TheThreeKindsHaveTheirOnsets) {
     EXPECT_THAT(secondsOf(first.onsets), testing::ElementsAre(testing::DoubleEq(0.35)));
     EXPECT_THAT(secondsOf(second.onsets), testing::ElementsAre(testing::DoubleEq(1.75)));
     EXPECT_DOUBLE_EQ(first.duration.count(), 2.2);
-    for (const auto& made : {test, first, second, ascendingPresentation(VibrationIntensity{1}, Seconds(0.5))}) {
+    const auto both = comparisonPresentation(Milliamps(2), Milliamps(3), Seconds(0.1), Seconds(0.5));
+    EXPECT_THAT(secondsOf(both.onsets), testing::ElementsAre(testing::DoubleEq(0.35), testing::DoubleEq(1.75)));
+    EXPECT_EQ(both.level, StimulusLevel(Milliamps(3))) << "the higher, wherever it comes";
+    EXPECT_EQ(both.levelOf(0), StimulusLevel(Milliamps(2)));
+    EXPECT_EQ(both.levelOf(1), StimulusLevel(Milliamps(3)));
+    EXPECT_EQ(comparisonPresentation(Milliamps(3), Milliamps(2), Seconds(0.1), Seconds(0.5)).level, both.level);
+    EXPECT_EQ(both.duration, first.duration) << "as long as a detection trial";
+    for (const auto& made : {test, first, second, both, ascendingPresentation(VibrationIntensity{1}, Seconds(0.5))}) {
         const auto valid = validate(made);
         EXPECT_TRUE(valid) << valid.error().message;
     }
@@ -68,6 +75,20 @@ TEST(Presentation, WhatIsNoPresentationIsRefused) {
     EXPECT_THAT(refusal([](auto& p) { p.duration = Seconds(4); }), HasSubstr("a presentation of 4 s"));
     EXPECT_THAT(refusal([](auto& p) { p.duration = Seconds(61); }), HasSubstr("a presentation of 61 s"));
     EXPECT_THAT(refusal([](auto& p) { p.duration = Seconds(kNotANumber); }), HasSubstr("a presentation of nan s"));
+    const auto levels = [&](std::vector<StimulusLevel> each) {
+        return refusal([&](auto& p) {
+            p.onsets.resize(2);
+            p.levels = each;
+        });
+    };
+    EXPECT_EQ(levels({Milliamps(1), Milliamps(2)}), "");
+    EXPECT_THAT(levels({Milliamps(2)}), HasSubstr("1 levels for 2 onsets"));
+    EXPECT_THAT(levels({Milliamps(1), Milliamps(3)}), HasSubstr("the highest level of the trains is 3"));
+    EXPECT_THAT(levels({Milliamps(1), Milliamps(1)}), HasSubstr("that of the presentation, 2 mA, is expected"));
+    EXPECT_THAT(levels({Milliamps(0), Milliamps(2)}), HasSubstr("a train of 0 mA"));
+    EXPECT_THAT(levels({VibrationIntensity{1}, Milliamps(2)}), HasSubstr("a train of intensity 1"));
+    EXPECT_THAT(levels({Milliamps(kNotANumber), Milliamps(2)}), HasSubstr("level nan mA"));
+    EXPECT_THAT(levels({Milliamps(-1), Milliamps(2)}), HasSubstr("level -1 mA"));
     EXPECT_EQ(refusal([](auto&) {}), "");
     EXPECT_FALSE(validate(testPresentation(Milliamps(2), Seconds(0.01)))) << "more trains than a presentation has";
 }
@@ -99,6 +120,48 @@ TEST_F(PresentationTest, EveryTrainIsApprovedDeliveredAndReadBack) {
     }
     EXPECT_GE(presented->ended - presented->began, 4200ms);
     EXPECT_LE(presented->ended - presented->began, 4200ms + 2 * ControlLoop::kPeriod);
+}
+
+TEST_F(PresentationTest, EachOfTwoTrainsIsApprovedDeliveredAndJudgedAtItsOwnLevel) {
+    RecordProperty("hazard", "H1");
+    openArmed();
+    rampTo(4.5);
+    for (const auto& [first, second] : {std::pair(2.0, 4.5), {4.5, 2.0}, {4.0, 4.5}}) {
+        const auto presented =
+            bench_->present(comparisonPresentation(Milliamps(first), Milliamps(second), Seconds(0.001), Seconds(0.5)));
+        ASSERT_TRUE(presented) << presented.error().message;
+        ASSERT_EQ(presented->end, PresentationEnd::Complete) << presented->reason;
+        ASSERT_EQ(presented->trains.size(), 2U);
+        EXPECT_EQ(presented->trains[1].onset - presented->trains[0].onset, 1400ms);
+        for (const auto& [train, mA] : {std::pair(presented->trains[0], first), {presented->trains[1], second}}) {
+            EXPECT_EQ(train.approved, StimulusLevel(Milliamps(mA)));
+            ASSERT_TRUE(train.readBack);
+            EXPECT_NEAR(train.readBack->value(), mA, 0.05 * mA) << "a train of one level is not the other's";
+        }
+    }
+}
+
+TEST_F(PresentationTest, ATrainThatMayNotBeIsRefusedAlsoBesideOneThatMay) {
+    RecordProperty("hazard", "H6");
+    openArmed();
+    rampTo(2);
+    const auto compared = [&](double first, double second) {
+        return bench_->present(
+            comparisonPresentation(Milliamps(first), Milliamps(second), Seconds(0.001), Seconds(0.5)));
+    };
+    for (const bool strongFirst : {true, false}) {
+        const auto refused = strongFirst ? compared(4, 1) : compared(1, 4);
+        ASSERT_TRUE(refused) << refused.error().message;
+        EXPECT_EQ(refused->end, PresentationEnd::Refused);
+        EXPECT_THAT(refused->reason, HasSubstr("the ramp rule"));
+        EXPECT_EQ(refused->trains.size(), strongFirst ? 0U : 1U);
+        EXPECT_FALSE(bench_->accept(Milliamps(4))) << "what was refused was not felt";
+    }
+    const auto delivered = bench_->telemetry().trainsDelivered;
+    const auto offTheGrid = compared(0.7, 1);
+    ASSERT_FALSE(offTheGrid);
+    EXPECT_THAT(offTheGrid.error().message, HasSubstr("a level of 0.7 mA; multiples of the device's step"));
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
 }
 
 TEST_F(PresentationTest, AnEmptyOneTakesTheSameTimeAndDeliversNothing) {

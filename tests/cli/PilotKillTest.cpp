@@ -34,7 +34,7 @@ const KilledSession kKilledSessions[] = {
     {"Staircase",
      "pilot-thresholds",
      {"sim:"},
-     {"--set", "participant=virtual:5", "--set", "method=staircase"},
+     {"--set", "participant=virtual:5", "--set", "method=staircase", "--set", "comparison=yes"},
      1,
      {.local = 80, .ci = 4, .campaign = 1},
      false},
@@ -77,7 +77,8 @@ std::string cameTo(const nlohmann::json& value) {
     for (const char* measured : {"impedance_ohm", "min_v", "max_v"}) range.erase(measured);
     if (results.contains("confusion"))
         return planAndAnswers(value) + '\n' + range.dump() + '\n' + results["drift"].dump();
-    return results["series"].dump() + '\n' + results["detection"].dump() + '\n' + range.dump();
+    return results["series"].dump() + '\n' + results["detection"].dump() + '\n' + results["comparison"].dump() + '\n' +
+           range.dump();
 }
 
 /// Plan and answers of the study's only session, where that is complete on disk.

@@ -80,6 +80,31 @@ TEST(Pilot, ThresholdsComeNearTheTruth) {
                 1e-6);
 }
 
+TEST(Pilot, ComparesStrengthsWithinTheRangeWhereItIsAskedTo) {
+    RecordProperty("hazard", "H6");
+    for (const auto& [unit, devices] :
+         {std::pair<std::string, Words>("ma", {"sim:"}), {"intensity", {"sim:massager"}}}) {
+        const PilotDesk desk(devices);
+        const auto ran = desk.run("pilot-thresholds", {"--set", "participant=virtual:8", "--set", "comparison=yes"});
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        const auto results = jsonOf(ran)["results"];
+        const auto& compared = results["comparison"];
+        EXPECT_EQ(compared["trials"], 40);
+        ASSERT_EQ(compared["history"].size(), 40U);
+        for (const auto& trial : compared["history"]) {
+            EXPECT_GE(trial["weaker_" + unit], results["range"]["min_" + unit]);
+            EXPECT_LE(trial["stronger_" + unit], results["range"]["max_" + unit]);
+        }
+        const double truth = results["truth"]["amplitude_weber"];
+        EXPECT_LT(compared["amplitude_weber"]["low"].get<double>(), truth);
+        EXPECT_GT(compared["amplitude_weber"]["high"].get<double>(), truth);
+        const PilotDesk other(devices);
+        const auto without = jsonOf(other.run("pilot-thresholds", {"--set", "participant=virtual:8"}))["results"];
+        EXPECT_TRUE(without["comparison"].is_null());
+        EXPECT_EQ(without["range"], results["range"]) << "what came before is the same";
+    }
+}
+
 TEST(Pilot, TheSameSeedGivesTheSameAnswersAndAnotherOtherOnes) {
     const PilotDesk desk;
     const auto answers = [&](const char* study, const char* seed) {

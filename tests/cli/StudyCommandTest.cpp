@@ -191,6 +191,23 @@ TEST_F(StudyCli, AProfileThatWasNotApprovedBeginsNoSessionUntilItIsAmended) {
     EXPECT_EQ(jsonOf(ran).at("results").at("detection").at("method"), "staircase") << "asked as approved";
 }
 
+TEST_F(StudyCli, StrengthsAreComparedWhereTheApprovalIsForIt) {
+    RecordProperty("hazard", "H11");
+    ASSERT_EQ(create("2099-12-31", {"--set", "procedure.comparison=yes"}).code, 0);
+    const auto code = jsonOf(study({"enrol", at(), "--virtual", "8"}))["code"].get<std::string>();
+    ASSERT_EQ(study({"consent", at(), code, "--version", "2", "--date", "2026-11-20", "--by", "KL"}).code, 0);
+    const auto run = [&](const Words& more) {
+        return desk.run(Words{"run", "pilot-thresholds", "--device", "sim:", "--out", at(), "--set",
+                              "participant=" + code, "--passphrase-file", passphrase, "--json"} +
+                        more);
+    };
+    expectRefused(run({"--set", "comparison=no"}), 4, {"strength is not measured, and approval EC-17 is for measured"});
+    EXPECT_EQ(jsonOf(study({"show", at()}))["sessions"], Json::array());
+    const auto ran = run({});
+    EXPECT_THAT(ran.code, testing::AnyOf(0, 5)) << ran.err;
+    EXPECT_EQ(jsonOf(ran).at("results").at("comparison").is_null(), ran.code == 5) << "as approved, without a word";
+}
+
 TEST_F(StudyCli, TheGroupOfAParticipantIsEnrolledAndExported) {
     ASSERT_EQ(create().code, 0);
     EXPECT_EQ(study({"enrol", at(), "--group", "amputee"}).code, 2);

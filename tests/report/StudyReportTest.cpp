@@ -173,7 +173,15 @@ TEST(StudyReport, APredictionFromThePersonsThresholdsStandsBesideTheAnswersAndJu
     // the levels are never taken for one another.
     EXPECT_THAT(said, HasSubstr("rough-low | 0 % | 0 % | 50 % | 0 % | 50 % | 50 % | "));
     EXPECT_THAT(said, HasSubstr("smooth-high | 0 % | 100 % | 0 % | 0 % | 0 % | 100 % | "));
-    EXPECT_THAT(said, HasSubstr("it expects 75 % at 0.05, 75 % at 0.10, 75 % at 0.20 as the Weber fraction"));
+    EXPECT_THAT(said,
+                HasSubstr("it expects 75 % at 0.05, 75 % at 0.10, 75 % at 0.20 as the Weber fraction of amplitude, "
+                          "which was not measured"));
+    auto compared = sessionWith(0, 3, "standard", 14);
+    compared.results.trials.clear();
+    compared.results.amplitudeWeber = 0.37;
+    study.participants[0].sessions.push_back(compared);
+    EXPECT_THAT(textOf(*studyReport(study)), HasSubstr("75 % at 0.37 as the Weber fraction of amplitude, of which the "
+                                                       "last was measured and stands in the table"));
 }
 
 TEST(StudyReport, SideEffectsOfTheNextDayAreShownOrCalledNotAsked) {

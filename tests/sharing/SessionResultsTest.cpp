@@ -84,11 +84,14 @@ TEST(SessionResults, ThresholdsKeepTheirProcedures) {
          rowOf(row::kAnswer, "ascending 3", {{"series", 2}, {"current_ma", 9}, {"response", "too-strong"}}),
          rowOf(row::kAnswer, "detection 12", {{"right", "second"}, {"current_ma", 2}, {"response", "first"}}),
          rowOf(row::kAnswer, "drift 3.2", {{"right", "first"}, {"current_ma", 2}, {"response", "first"}}),
+         rowOf(row::kAnswer, "comparison 7",
+               {{"right", "first"}, {"current_ma", 6}, {"weaker_ma", 5}, {"response", "first"}}),
+         rowOf(row::kEstimate, "comparison", {{"amplitude_weber", {{"value", 0.12}}}, {"trials", 40}}),
          rowOf(row::kAnswer, "range 1", {{"current_ma", 6}, {"response", "yes"}}),
          rowOf(row::kAnswer, "rating rough-high", {{"condition", "rough-high"}, {"current_ma", 6}}),
          rowOf(row::kAnswer, "test 4 again", {{"of", 4}, {"current_ma", 6}})},
         kLabels);
-    ASSERT_EQ(found.thresholds.size(), 6U);
+    ASSERT_EQ(found.thresholds.size(), 7U);
     EXPECT_EQ(found.thresholds[0].procedure, "ascending");
     EXPECT_EQ(found.thresholds[0].type, "stimulus");
     EXPECT_EQ(found.thresholds[1].type, "catch");
@@ -98,8 +101,16 @@ TEST(SessionResults, ThresholdsKeepTheirProcedures) {
     EXPECT_EQ(found.thresholds[4].procedure, "drift");
     EXPECT_EQ(found.thresholds[4].series, 3U);
     EXPECT_EQ(found.thresholds[4].number, 2U);
+    EXPECT_EQ(found.thresholds[5].procedure, "comparison");
+    EXPECT_EQ(found.thresholds[5].number, 7U);
+    EXPECT_EQ(found.thresholds[5].type, "first");
+    EXPECT_EQ(found.thresholds[5].current.value(), 6);
+    EXPECT_EQ(found.thresholds[5].weaker, 5);
+    EXPECT_EQ(found.thresholds[5].correct, true);
+    EXPECT_EQ(found.amplitudeWeber, 0.12);
+    EXPECT_TRUE(std::isnan(found.detection)) << "a Weber fraction is not a threshold";
     EXPECT_EQ(found.thresholds[4].correct, true);
-    EXPECT_EQ(found.thresholds[5].correct, std::nullopt);
+    EXPECT_EQ(found.thresholds[6].correct, std::nullopt);
     EXPECT_TRUE(found.trials.empty());
 }
 

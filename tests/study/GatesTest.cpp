@@ -94,6 +94,11 @@ TEST(Gates, WhatPeopleFeelIsWhatWasApproved) {
                   "the profile's conditions, assignment, polarity, load range and ceilings hash to bbbbbbbbbbbb…, and "
                   "approval EC-2026-17 is for aaaaaaaaaaaa…; a change needs an amendment");
     now = *settings.procedure;
+    now.comparison = true;
+    expectRefused(procedureGate(settings, now),
+                  "the Weber fraction of strength is measured, and approval EC-2026-17 is for not measured; a change "
+                  "needs an amendment");
+    now = *settings.procedure;
     now.intervalMin_s = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(procedureGate(settings, now));
     settings.kind = StudyKind::Rehearsal;
@@ -208,7 +213,7 @@ TEST(StudySettings, AreReadAsWritten) {
     auto settings = approved();
     settings.id = "0123456789abcdef";
     for (const bool withProcedure : {false, true}) {
-        if (withProcedure) settings.procedure = {0.4, 3, DetectionMethod::Staircase, std::string(64, 'a')};
+        if (withProcedure) settings.procedure = {0.4, 3, DetectionMethod::Staircase, std::string(64, 'a'), true};
         const auto read = studyFields().read(studyFields().write(settings), RecordPlace{});
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_EQ(*read, settings);

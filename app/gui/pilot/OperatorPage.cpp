@@ -23,6 +23,7 @@ QString phaseName(const std::string& phase) {
     if (phase == "ascending") return QObject::tr("Rising levels");
     if (phase == "detection") return QObject::tr("Detection threshold");
     if (phase == "range") return QObject::tr("Range");
+    if (phase == "comparison") return QObject::tr("Comparison of strengths");
     if (phase == "drift") return QObject::tr("Drift check");
     return titled(qtext(phase));
 }

@@ -28,6 +28,7 @@ QFont withPixels(int px, QFont::Weight weight = QFont::Normal) {
 
 QString phaseTitle(const std::string& phase) {
     if (phase == "ascending" || phase == "detection" || phase == "range") return QObject::tr("Finding your range");
+    if (phase == "comparison") return QObject::tr("Comparing strengths");
     if (phase == "familiarisation") return QObject::tr("Getting to know them");
     if (phase == "training") return QObject::tr("Training");
     if (phase == "drift") return QObject::tr("A short check");

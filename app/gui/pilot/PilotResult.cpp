@@ -62,8 +62,14 @@ QString thresholdSentence(const nlohmann::json& results) {
         said += (massager ? QObject::tr(" (95 % interval %1 to %2)") : QObject::tr(" (95 % interval %1 to %2 mA)"))
                     .arg(decimalText(low, 2), decimalText(high, 2));
     const auto range = rangeWords(memberAt(results, "range"));
-    return said + (range.isEmpty() ? QObject::tr("; there is no usable range.")
-                                   : QObject::tr("; conditions lie") + range + '.');
+    said +=
+        range.isEmpty() ? QObject::tr("; there is no usable range.") : QObject::tr("; conditions lie") + range + '.';
+    const auto& weber = memberAt(results, "comparison.amplitude_weber");
+    if (std::isfinite(numberIn(weber, "value")))
+        said += ' ' + QObject::tr("The Weber fraction of strength is %1 (95 % interval %2 to %3).")
+                          .arg(decimalText(numberIn(weber, "value"), 2), decimalText(numberIn(weber, "low"), 2),
+                               decimalText(numberIn(weber, "high"), 2));
+    return said;
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ std::optional<int> stepOf(const std::string& name, int now) {
     if (name == "electrode-lot" || name == "electrodes-untouched" || name == "massager-untouched" ||
         name == "masking-noise")
         return kSkin;
-    if (name == "ascending" || name == "detection" || name == "range") return kThresholds;
+    if (name == "ascending" || name == "detection" || name == "range" || name == "comparison") return kThresholds;
     if (name == "familiarisation" || name == "training") return kTraining;
     if (name == "test" || name == "drift" || name == "break") return kTest;
     if (name == "ratings") return kRatings;

@@ -112,6 +112,8 @@ std::vector<StudyFormField> describedFields() {
          WORDS("Detection by"),
          WORDS("Every session asks by this method."),
          {WORDS("QUEST+"), WORDS("weighted staircase")}},
+        {Group::Test, "procedure.comparison", WORDS("Weber fraction of strength"),
+         WORDS("Sessions of thresholds measure it too, by 40 trials.")},
         {Group::Test, "blocks", WORDS("Blocks"), WORDS("Number of test blocks, with breaks in between.")},
         {Group::Test, "per_condition", WORDS("Trials of each condition"), WORDS("In a block.")},
         {Group::Test, "catch", WORDS("Empty trials"), WORDS("In a block. The right answer is “nothing”.")},

@@ -11,20 +11,14 @@ namespace tacto {
 namespace {
 
 constexpr double kAlphaBelow_db = 12, kAlphaAbove_db = 9, kAlphaStep_db = 0.5;  // About 20 lg F
+constexpr auto kAlphas = static_cast<std::size_t>((kAlphaBelow_db + kAlphaAbove_db) / kAlphaStep_db) + 1;
 constexpr std::array<double, 4> kSlopes = {2, 4, 8, 16};
 constexpr double kPriorBelowFelt_db = 1;
 constexpr double kEasyTimes = 1.5;
 constexpr std::size_t kEasyEvery = 8;
-constexpr std::size_t kMaxAlike = 3;
-constexpr double kEdgeWeight = 0.025;
 
 double decibels(double level) noexcept { return 20 * std::log10(level); }
 double levelOf(double db) noexcept { return std::pow(10.0, db / 20); }
-
-double binaryEntropy(double p) noexcept {
-    const auto part = [](double q) { return q > 0 ? -q * std::log(q) : 0; };
-    return part(p) + part(1 - p);
-}
 
 Result<void> validateQuestPlus(const QuestPlusSettings& settings) {
     const auto level = [](double x) { return x > 0 && std::isfinite(x); };
@@ -57,7 +51,8 @@ Result<void> validateQuestPlus(const QuestPlusSettings& settings) {
 }  // namespace
 
 double QuestPlus::probabilityRight(double level_db, double alpha_db, double slope) noexcept {
-    return kGuess + (1 - kGuess - kLapse) * -std::expm1(-std::pow(10.0, slope * (level_db - alpha_db) / 20));
+    using P = TwoIntervalPosterior;
+    return P::kGuess + (1 - P::kGuess - P::kLapse) * -std::expm1(-std::pow(10.0, slope * (level_db - alpha_db) / 20));
 }
 
 Result<QuestPlus> QuestPlus::create(const LevelGrid& grid, const QuestPlusSettings& settings, std::uint64_t seed) {
@@ -66,80 +61,42 @@ Result<QuestPlus> QuestPlus::create(const LevelGrid& grid, const QuestPlusSettin
 }
 
 QuestPlus::QuestPlus(const LevelGrid& grid, const QuestPlusSettings& settings, std::uint64_t seed)
-    : grid_(grid), settings_(settings), order_(seed, settings.stream) {
-    const double centre = decibels(settings_.felt);
-    const double prior = settings_.prior > 0 ? decibels(settings_.prior) : centre - kPriorBelowFelt_db;
+    : grid_(grid), settings_(settings), order_(seed, settings.stream), posterior_(begun()) {
     if (!(settings_.first > 0)) settings_.first = settings_.felt;
-    const auto alphas = static_cast<std::size_t>((kAlphaBelow_db + kAlphaAbove_db) / kAlphaStep_db) + 1;
-    for (std::size_t i = 0; i < alphas; ++i) {
-        alphas_.push_back(centre - kAlphaBelow_db + kAlphaStep_db * static_cast<double>(i));
-    }
-    // A prior far outside the grid keeps its nearest end: relative to that no weight underflows to nothing.
-    const double nearest = std::clamp(prior, alphas_.front(), alphas_.back());
-    const auto exponent = [&](double alpha) { return std::pow((alpha - prior) / settings_.priorSd_db, 2) / 2; };
-    for (const double alpha : alphas_) {
-        posterior_.insert(posterior_.end(), kSlopes.size(), std::exp(exponent(nearest) - exponent(alpha)));
-    }
-    normalise();
-    right_.reserve(grid_.count() * posterior_.size());
-    for (std::size_t level = 1; level <= grid_.count(); ++level) {
-        const double x = decibels(grid_.level(level));
-        for (const double alpha : alphas_) {
-            for (const double slope : kSlopes) right_.push_back(probabilityRight(x, alpha, slope));
-        }
-    }
-    entropy_.resize(right_.size());
-    std::ranges::transform(right_, entropy_.begin(), binaryEntropy);
     choose();
 }
 
-void QuestPlus::normalise() {
-    const double sum = std::accumulate(posterior_.begin(), posterior_.end(), 0.0);
-    for (double& weight : posterior_) weight /= sum;
+TwoIntervalPosterior QuestPlus::begun() const {
+    const double centre = decibels(settings_.felt);
+    const double prior = settings_.prior > 0 ? decibels(settings_.prior) : centre - kPriorBelowFelt_db;
+    const EvenDensity alphas{centre - kAlphaBelow_db, kAlphaStep_db, {}};
+    // A prior far outside the grid keeps its nearest end: relative to that no weight underflows to nothing.
+    const double nearest = std::clamp(prior, alphas.first, alphas.at(kAlphas - 1));
+    const auto exponent = [&](double alpha) { return std::pow((alpha - prior) / settings_.priorSd_db, 2) / 2; };
+    std::vector<double> weights, right;
+    for (std::size_t i = 0; i < kAlphas; ++i)
+        weights.insert(weights.end(), kSlopes.size(), std::exp(exponent(nearest) - exponent(alphas.at(i))));
+    right.reserve(grid_.count() * weights.size());
+    for (std::size_t level = 1; level <= grid_.count(); ++level) {
+        const double x = decibels(grid_.level(level));
+        for (std::size_t i = 0; i < kAlphas; ++i) {
+            for (const double slope : kSlopes) right.push_back(probabilityRight(x, alphas.at(i), slope));
+        }
+    }
+    return {std::move(weights), std::move(right)};
 }
 
 void QuestPlus::choose() {
     const std::size_t number = trials_.size() + 1;
-    std::size_t forbidden = 0;
-    if (asked_.size() >= kMaxAlike && grid_.count() > 1) {
-        const auto last = std::span(asked_).last(kMaxAlike);
-        if (std::ranges::all_of(last, [&](std::size_t level) { return level == last.back(); })) forbidden = last.back();
-    }
     if (number != 1 && number % kEasyEvery != 0) {
-        chosen_ = informative(forbidden);
+        chosen_ = posterior_.mostInformative() + 1;
         return;
     }
-    const double wanted = kEasyTimes * (number == 1 ? settings_.first : levelOf(mean_db()));
+    const double wanted = kEasyTimes * (number == 1 ? settings_.first : levelOf(ofAlpha().mean()));
     chosen_ = grid_.nearest(wanted);
-    if (chosen_ != forbidden) return;
+    if (chosen_ != posterior_.forbidden() + 1) return;
     const bool weakerIsNearer = wanted - grid_.level(chosen_ - 1) <= grid_.level(chosen_ + 1) - wanted;
     chosen_ = chosen_ == grid_.count() || (chosen_ > 1 && weakerIsNearer) ? chosen_ - 1 : chosen_ + 1;
-}
-
-std::size_t QuestPlus::informative(std::size_t forbidden) const {
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t level = 1; level <= grid_.count(); ++level) {
-        if (level == forbidden) continue;
-        const double entropy = expectedEntropy(level);
-        if (entropy < least - kEqualEntropy) {
-            least = entropy;
-            best = level;
-        }
-    }
-    return best;
-}
-
-/// Less the entropy of what is known now, which is the same for every level: the posterior's expected entropy is the
-/// present one, plus what the answer would leave open if α and β were known, less the answer's own.
-double QuestPlus::expectedEntropy(std::size_t level) const {
-    const std::size_t size = posterior_.size(), from = (level - 1) * size;
-    double right = 0, known = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-        right += posterior_[i] * right_[from + i];
-        known += posterior_[i] * entropy_[from + i];
-    }
-    return known - binaryEntropy(right);
 }
 
 std::optional<TwoIntervalTrial> QuestPlus::next() const {
@@ -153,70 +110,46 @@ Result<void> QuestPlus::answer(TrialInterval said) {
     const auto asked = next();
     if (!asked) return fail(ErrorCode::InvalidArgument, "detection is complete; no answer is accepted");
     const bool correct = said == asked->interval;
-    const std::size_t from = (chosen_ - 1) * posterior_.size();
-    for (std::size_t i = 0; i < posterior_.size(); ++i) {
-        posterior_[i] *= correct ? right_[from + i] : 1 - right_[from + i];
-    }
-    normalise();
+    posterior_.take(chosen_ - 1, correct);
     shares_.add(asked->interval, correct);
     trials_.push_back({asked->level, asked->interval, correct});
-    asked_.push_back(chosen_);
     choose();
     return {};
 }
 
-bool QuestPlus::done() const noexcept {
+bool QuestPlus::done() const {
     if (trials_.size() >= settings_.most) return true;
-    return trials_.size() >= settings_.least && sd_db() <= settings_.enough_db;
+    return trials_.size() >= settings_.least && ofAlpha().sd() <= settings_.enough_db;
 }
 
-double QuestPlus::weightOf(std::size_t alpha) const noexcept {
-    const auto first = posterior_.begin() + static_cast<std::ptrdiff_t>(alpha * kSlopes.size());
-    return std::accumulate(first, first + static_cast<std::ptrdiff_t>(kSlopes.size()), 0.0);
-}
-
-double QuestPlus::mean_db() const noexcept {
-    double mean = 0;
-    for (std::size_t i = 0; i < alphas_.size(); ++i) mean += weightOf(i) * alphas_[i];
-    return mean;
-}
-
-double QuestPlus::sd_db() const noexcept {
-    const double mean = mean_db();
-    double variance = 0;
-    for (std::size_t i = 0; i < alphas_.size(); ++i)
-        variance += weightOf(i) * (alphas_[i] - mean) * (alphas_[i] - mean);
-    return std::sqrt(variance);
-}
-
-double QuestPlus::quantile_db(double q) const noexcept {
-    double below = 0;
-    for (std::size_t i = 0; i < alphas_.size(); ++i) {
-        const double weight = weightOf(i);
-        if (weight > 0 && below + weight >= q) {
-            return alphas_[i] + kAlphaStep_db * (std::max(q - below, 0.0) / weight - 0.5);
-        }
-        below += weight;
+EvenDensity QuestPlus::ofAlpha() const {
+    EvenDensity alpha{decibels(settings_.felt) - kAlphaBelow_db, kAlphaStep_db, {}};
+    const auto weights = posterior_.weights();
+    for (std::size_t from = 0; from < weights.size(); from += kSlopes.size()) {
+        const auto slopes = weights.subspan(from, kSlopes.size());
+        alpha.weights.push_back(std::accumulate(slopes.begin(), slopes.end(), 0.0));
     }
-    return alphas_.back() + kAlphaStep_db / 2;
+    return alpha;
 }
 
 double QuestPlus::probabilityAbove(double level) const {
     const double x = decibels(level);
+    const auto alpha = ofAlpha();
     double above = 0;
-    for (std::size_t i = 0; i < alphas_.size(); ++i) {
-        above += weightOf(i) * std::clamp((alphas_[i] - x) / kAlphaStep_db + 0.5, 0.0, 1.0);
-    }
+    for (std::size_t i = 0; i < kAlphas; ++i)
+        above += alpha.weights[i] * std::clamp((alpha.at(i) - x) / kAlphaStep_db + 0.5, 0.0, 1.0);
     return above;
 }
 
 QuestPlusResult QuestPlus::result() const {
     QuestPlusResult out;
-    out.estimate = {levelOf(mean_db()), levelOf(quantile_db(0.025)), levelOf(quantile_db(0.975))};
-    out.sd_db = sd_db();
+    const auto alpha = ofAlpha();
+    out.estimate = {levelOf(alpha.mean()), levelOf(alpha.quantile(0.025)), levelOf(alpha.quantile(0.975))};
+    out.sd_db = alpha.sd();
     out.slope = 0;
-    for (std::size_t i = 0; i < posterior_.size(); ++i) out.slope += posterior_[i] * kSlopes[i % kSlopes.size()];
-    out.atEdge = weightOf(0) > kEdgeWeight || weightOf(alphas_.size() - 1) > kEdgeWeight;
+    const auto weights = posterior_.weights();
+    for (std::size_t i = 0; i < weights.size(); ++i) out.slope += weights[i] * kSlopes[i % kSlopes.size()];
+    out.atEdge = alpha.atEdge();
     out.intervals = shares_;
     out.trials = trials_;
     return out;

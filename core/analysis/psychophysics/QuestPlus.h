@@ -1,7 +1,7 @@
 // QuestPlus.h - QUEST+ for detection: the level with the least expected entropy is asked next (pilot.md section 4).
 //
 // Model (Watson, Journal of Vision 17(3):10, 2017): p(x) = 0.5 + 0.48 (1 − exp(−10^(β (x − α)/20))), x in dB re 1 mA
-// (of an intensity: re 1). The lapse rate is fixed at 0.02: left free, it sends the search to the strongest levels.
+// (of an intensity: re 1). The lapse rate is fixed at 0.02 (TwoIntervalPosterior.h).
 // Grid: α = 20 lg F − 12 … + 9 dB by 0.5, β in {2, 4, 8, 16}; prior normal on α, even on β. Levels are those of the
 // LevelGrid above 0. Next is the level whose expected posterior entropy is least (the weakest of those within
 // kEqualEntropy), but no level four times in a row as long as there is another. The first trial and every 8th (8, 16,
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/analysis/psychophysics/LevelGrid.h"
+#include "core/analysis/psychophysics/TwoIntervalPosterior.h"
 #include "core/analysis/psychophysics/TwoIntervalTrials.h"
 #include "core/analysis/statistics/Estimate.h"
 
@@ -46,10 +47,6 @@ struct QuestPlusResult {
 
 class QuestPlus {
 public:
-    static constexpr double kGuess = 0.5;
-    static constexpr double kLapse = 0.02;
-    static constexpr double kEqualEntropy = 1e-9;  ///< nats
-
     /// Errors: InvalidArgument naming the setting, its value and what is accepted.
     [[nodiscard]] static Result<QuestPlus> create(const LevelGrid& grid, const QuestPlusSettings& settings,
                                                   std::uint64_t seed);
@@ -58,7 +55,7 @@ public:
     [[nodiscard]] std::optional<TwoIntervalTrial> next() const;
     /// Errors: InvalidArgument for a value that is not an interval, or when done(); nothing has changed then.
     [[nodiscard]] Result<void> answer(TrialInterval said);
-    [[nodiscard]] bool done() const noexcept;
+    [[nodiscard]] bool done() const;
     /// The estimate from the answers so far; without any, from the prior.
     [[nodiscard]] QuestPlusResult result() const;
     /// Posterior probability that α lies above `level` (> 0, in the grid's unit).
@@ -69,25 +66,15 @@ public:
 
 private:
     QuestPlus(const LevelGrid& grid, const QuestPlusSettings& settings, std::uint64_t seed);
-    void normalise();
     void choose();
-    [[nodiscard]] std::size_t informative(std::size_t forbidden) const;
-    [[nodiscard]] double expectedEntropy(std::size_t level) const;
-    [[nodiscard]] double weightOf(std::size_t alpha) const noexcept;
-    [[nodiscard]] double mean_db() const noexcept;
-    [[nodiscard]] double sd_db() const noexcept;
-    [[nodiscard]] double quantile_db(double q) const noexcept;
+    [[nodiscard]] TwoIntervalPosterior begun() const;
+    [[nodiscard]] EvenDensity ofAlpha() const;
 
     LevelGrid grid_;
     QuestPlusSettings settings_;
     TwoIntervalOrder order_;
-    std::vector<double> alphas_;
-    std::vector<double> posterior_;  // [α · slopes + β]
-    // [level − 1][α · slopes + β]
-    std::vector<double> right_;       // p
-    std::vector<double> entropy_;     // of the answer when α and β are known
-    std::vector<std::size_t> asked_;  // Levels of the trials answered
-    std::size_t chosen_ = 1;
+    TwoIntervalPosterior posterior_;  // its choices are the levels above 0, its cells α · slopes + β
+    std::size_t chosen_ = 1;          // index of a level
     IntervalShares shares_;
     std::vector<AnsweredTwoIntervalTrial> trials_;
 };

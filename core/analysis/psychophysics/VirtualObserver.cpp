@@ -24,6 +24,10 @@ int ratingOn(const RatingScale& scale, double level, double noise) noexcept {
 
 constexpr double kRatingNoise = 0.5;
 
+TrialInterval other(TrialInterval interval) noexcept {
+    return interval == TrialInterval::First ? TrialInterval::Second : TrialInterval::First;
+}
+
 }  // namespace
 
 Result<VirtualObserver> VirtualObserver::create(const VirtualObserverSettings& settings) {
@@ -106,8 +110,16 @@ double VirtualObserver::probabilityRight(double level, Seconds stimulated) const
 TrialInterval VirtualObserver::detect(std::string_view key, double level, TrialInterval interval,
                                       Seconds stimulated) const {
     const bool right = randomFor("detection", key).uniform() < probabilityRight(level, stimulated);
-    if (right) return interval;
-    return interval == TrialInterval::First ? TrialInterval::Second : TrialInterval::First;
+    return right ? interval : other(interval);
+}
+
+TrialInterval VirtualObserver::compare(std::string_view key, double weaker, double stronger,
+                                       TrialInterval interval) const {
+    Random random = randomFor("comparison", key);
+    const auto& who = settings_.who;
+    if (random.uniform() < who.lapse) return random.uniform() < 0.5 ? TrialInterval::First : TrialInterval::Second;
+    const double first = random.normal(), second = random.normal();
+    return jnd(stronger) - jnd(weaker) + who.noise_jnd * (first - second) > 0 ? interval : other(interval);
 }
 
 IdentificationTask VirtualObserver::taskFor(std::span<const DeliveredCondition> conditions) const {

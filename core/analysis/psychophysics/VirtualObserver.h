@@ -71,6 +71,9 @@ public:
     [[nodiscard]] StrengthWord strength(std::string_view key, double level, Seconds stimulated) const;
     [[nodiscard]] TrialInterval detect(std::string_view key, double level, TrialInterval interval,
                                        Seconds stimulated) const;
+    /// In which interval the stronger of two levels seemed to be; both > 0. `interval` holds it.
+    [[nodiscard]] TrialInterval compare(std::string_view key, double weaker, double stronger,
+                                        TrialInterval interval) const;
     /// Index of the condition that is named, or `conditions.size()` for "none". `presented`: which of them; nothing: a
     /// catch trial.
     [[nodiscard]] std::size_t identify(std::string_view key, std::span<const DeliveredCondition> conditions,

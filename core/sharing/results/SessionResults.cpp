@@ -51,6 +51,8 @@ public:
         } else if (each.name == row::kImpedance) {
             impedance_ = numberOr(body, "impedance_ohm");
             if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);
+        } else if (each.name == row::kEstimate && body.contains("amplitude_weber")) {
+            out_.amplitudeWeber = numberOr(body["amplitude_weber"], "value");
         } else if (each.name == row::kEstimate) {
             const auto& estimate = valueOr(body, "estimate");
             detectionLevel_ = numberOr(estimate, "value");
@@ -117,7 +119,8 @@ private:
         trial.response_s = numberOr(body, "rt_s");
         if (procedure == "ascending") {
             takeAscending(trial, body);
-        } else if (procedure == "detection" || procedure == "drift") {
+        } else if (procedure == "detection" || procedure == "drift" || procedure == "comparison") {
+            trial.weaker = numberOr(body, body.contains("weaker_ma") ? "weaker_ma" : "weaker_intensity");
             trial.type = textOr(body, "right");
             trial.correct = trial.response == trial.type;
         } else if (procedure == "range") {

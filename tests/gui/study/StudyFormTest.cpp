@@ -59,7 +59,7 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
     expected.consentVersion = "2";
     expected.limits = read->limits;
     expected.scripts = read->scripts;
-    expected.procedure = procedureOf(shippedProfile().value(), expected, DetectionMethod::Quest);
+    expected.procedure = procedureOf(shippedProfile().value(), expected, {});
     EXPECT_EQ(*read, expected);
     EXPECT_FALSE(read->limits.empty());
     EXPECT_FALSE(read->scripts.empty());

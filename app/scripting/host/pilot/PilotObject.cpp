@@ -63,6 +63,13 @@ std::vector<HostFunction> pilotFunctions() {
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::range},
+        {.name = "comparison",
+         .text =
+             "The participant's Weber fraction of strength, by 40 trials of two intervals with a train in each, both "
+             "within the range: in which was it stronger? Does nothing without a usable range.",
+         .errors = kEnds,
+         .failsDisarmed = true,
+         .call = host::pilot::comparison},
         {.name = "familiarise",
          .text = "Three rounds of the four conditions and nothing, each with its name; then any of them on demand.",
          .errors = kEnds,

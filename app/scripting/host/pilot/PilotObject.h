@@ -11,7 +11,7 @@ namespace tacto::host::pilot {
 using Json = nlohmann::json;
 
 HostCall begin, skin, sideEffects, ratings, finish, results, blocks;         // Session.cpp
-HostCall ascendingLimits, detection, range;                                  // Procedures.cpp
+HostCall ascendingLimits, detection, range, comparison;                      // Procedures.cpp
 HostCall familiarise, train, testBlock, driftCheck, beforeBlock, takeBreak;  // Procedures.cpp
 
 }  // namespace tacto::host::pilot

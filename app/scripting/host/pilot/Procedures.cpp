@@ -25,6 +25,12 @@ Result<Json> range(ScriptSession& session, const Arguments&) {
     return Json((*pilot)->thresholds().rangeJson());
 }
 
+Result<Json> comparison(ScriptSession& session, const Arguments&) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    return done((*pilot)->thresholds().comparison());
+}
+
 Result<Json> familiarise(ScriptSession& session, const Arguments&) {
     auto pilot = session.pilot();
     if (!pilot) return failure(pilot);
