@@ -309,7 +309,7 @@ void ScienceModeStimulator::firePlayed(Instant now) {
     Instant written{0};
     Result<Sent> fired = Sent::Stopped;
     if (late > toInstant(kMaxLate)) {
-        fired = fail(ErrorCode::Device,
+        fired = fail(ErrorCode::Timeout,
                      "the train was abandoned: pulse {} of {} would have been {:.0f} ms late, at most {:.0f} ms is "
                      "accepted",
                      play.sent + 1, play.pulses, toSeconds(late) * 1e3, kMaxLate.count() * 1e3);

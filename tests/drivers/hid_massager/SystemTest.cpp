@@ -11,11 +11,11 @@
 #include "drivers/system/KernelNodes.h"
 #include "tests/drivers/conformance/MassagerConformance.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/Comes.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/Support.h"
-#include "tests/support/usb_emulation/Comes.h"
 #include "tests/support/usb_emulation/EmulatedHidDevice.h"
 
 namespace tacto::test {
