@@ -84,7 +84,7 @@ TEST_F(HidSystem, AShortWriteAndARefusalAreFaults) {
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ErrorCode::Device);
     EXPECT_THAT(cut.error().message, AllOf(HasSubstr("10 bytes"), HasSubstr("48 were expected")));
-    auto again = vibrate(1, Seconds(0.1));  // opened anew
+    auto again = vibrate(1, Seconds(0.1));  // opened again
     // On a busy machine starting the watchdog takes longer than the 100 ms of an approval; the next one finds it open.
     if (!again && again.error().message.find("approval has expired") != std::string::npos)
         again = vibrate(1, Seconds(0.1));
