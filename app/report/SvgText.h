@@ -1,4 +1,4 @@
-// SvgText.h - texts of a drawn SVG, each in one piece: Qt writes a text anew wherever another face helps out, at a
+// SvgText.h - texts of a drawn SVG, each in one piece: Qt writes a text again wherever another face helps out, at a
 // place that holds for the reader's faces only if they are ours, and a number must not come apart from its minus.
 //
 // Thread-safety: the GUI thread (it measures type).

@@ -180,20 +180,26 @@ void ControlLoop::postCheckOfArming(Instant now) noexcept {
 
 void ControlLoop::judgeReports() noexcept {
     if (parts_.stimulator != nullptr) {
-        while (const auto report = parts_.stimulator->takeReport()) judge(*report);
+        while (const auto report = parts_.stimulator->takeReport()) {
+            if (hear(*report)) judge(*report);
+        }
     } else if (parts_.massager != nullptr) {
-        while (const auto report = parts_.massager->takeReport()) judgeBurst(*report);
+        while (const auto report = parts_.massager->takeReport()) {
+            if (hear(*report)) judgeBurst(*report);
+        }
     }
+}
+
+bool ControlLoop::hear(const TrainReport& report) noexcept {
+    taps_.push(report);
+    presentation_.read(report);
+    if (report.outcome != TrainOutcome::LoopSilent) return true;
+    if (dispatch_.mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), report.statusAt);
+    return false;
 }
 
 void ControlLoop::judge(const TrainReport& report) noexcept {
     const Instant now = report.statusAt;
-    taps_.push(report);
-    presentation_.read(report);
-    if (report.outcome == TrainOutcome::LoopSilent) {
-        if (dispatch_.mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
-        return;
-    }
     if (report.outcome == TrainOutcome::Voided) {
         journal_.train(report, "voided");
         if (arming_.active() && report.isCheck) {
@@ -227,16 +233,11 @@ void ControlLoop::judgeCheck(const TrainReport& report) noexcept {
 }
 
 void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
-    const Instant now = report.statusAt;
-    taps_.push(report);
-    presentation_.read(report);
-    if (report.outcome == TrainOutcome::LoopSilent) {
-        if (dispatch_.mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
-        return;
-    }
     const bool delivered = report.outcome == TrainOutcome::Delivered;
     journal_.burst(report, delivered ? "delivered" : report.outcome == TrainOutcome::Failed ? "failed" : "voided");
-    if (report.outcome == TrainOutcome::Failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
+    if (report.outcome == TrainOutcome::Failed) {
+        return trip(FaultCause::DeviceFault, report.error.view(), report.statusAt);
+    }
     if (!delivered) return;
     ++shown_.trainsDelivered;
     shown_.intensity = report.amplitude;

@@ -124,6 +124,8 @@ private:
     void takeCommands(Instant now) noexcept;
     void postCheckOfArming(Instant now) noexcept;
     void judgeReports() noexcept;
+    /// Shows the report. False for one that only says that the loop was silent, which is a fault and nothing to judge.
+    [[nodiscard]] bool hear(const TrainReport& report) noexcept;
     void judge(const TrainReport& report) noexcept;
     void judgeBurst(const TrainReport& report) noexcept;
     void judgeCheck(const TrainReport& report) noexcept;

@@ -27,18 +27,19 @@ struct ButtonDeviceInfo {
 
 struct ButtonPress {
     std::size_t button = 0;  ///< index in ButtonDeviceInfo::buttons
-    bool down = false;       ///< went down; else came up. A held button comes once
+    bool down = false;       ///< the button went down; else it came up. A button that is held is reported once
     std::chrono::steady_clock::time_point at;
 };
 
 struct ButtonListener {
     std::function<void(const ButtonPress& press)> moved;
-    /// False when the device went, also while buttons are down, which do not come up then; true when it is back.
+    /// False when the device was unplugged, true when it is plugged in again. A button that was down when the device
+    /// was unplugged is not reported to come up.
     std::function<void(bool there)> plugged;
 };
 
-/// One that is open. Destruction closes it, within 50 ms; the listener is not called afterwards. One that went is
-/// opened again by itself when it is back.
+/// An open device. Destruction closes it, within 50 ms; the listener is not called afterwards. A device that was
+/// unplugged is opened again by itself when it is plugged in again.
 class ButtonDevice {
 public:
     virtual ~ButtonDevice() = default;
@@ -47,7 +48,7 @@ public:
 class ButtonDevices {
 public:
     virtual ~ButtonDevices() = default;
-    /// All that are plugged in, also those that cannot be used.
+    /// All devices that are plugged in, also those that cannot be used.
     [[nodiscard]] virtual std::vector<ButtonDeviceInfo> list() const = 0;
     /// Errors: NotFound where it is not plugged in any more; Io (not permitted), Unsupported and ParseError with the
     /// sentence of its obstacle.

@@ -38,7 +38,7 @@ bool looksLikeSession(const std::filesystem::path& path) {
 }
 
 /// What another program's writer changes when it moves rows from the journal into the file: the file, and the first
-/// bytes of a journal that begins anew.
+/// bytes of a journal that begins again.
 struct Written {
     std::filesystem::file_time_type at{};
     std::uintmax_t size = 0;

@@ -6,7 +6,7 @@
 //   an older schema           a private copy, migrated
 //
 // The file itself is opened with nothing but SQLite (DatabaseFile.h), since a writer of this process may hold it. A
-// copy is of one moment: it is made anew where another program wrote meanwhile.
+// copy is of one moment: it is made again where another program wrote meanwhile.
 //
 // Thread-safety: one owner; several sources may be open on one file.
 #pragma once

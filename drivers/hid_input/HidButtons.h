@@ -42,7 +42,7 @@ public:
     /// What the report changes, in the order of the buttons. `report` is as read: with its number in front where
     /// reports are numbered. One that is shorter than its descriptor says, or of no known number, changes nothing.
     [[nodiscard]] std::vector<Change> read(std::span<const std::uint8_t> report);
-    /// All are up: the device was plugged in anew.
+    /// All are up: the device was plugged in again.
     void forget();
 
 private:

@@ -170,7 +170,7 @@ public:
             if (one.shown.address != info.address || one.shown.identity != info.identity) continue;
             if (!one.shown.obstacle.empty()) return fail(ErrorCode::Unsupported, "{}", one.shown.obstacle);
             if (one.shown.buttons != info.buttons)
-                return fail(ErrorCode::Unsupported, "{} has other buttons than before; choose it anew.",
+                return fail(ErrorCode::Unsupported, "{} has other buttons than before; choose it again.",
                             one.hid.label());
             const auto parsed = parseHidDescriptor(one.descriptor);
             if (!parsed) return failure(parsed);

@@ -1,8 +1,8 @@
 // HidInput.h - game pads and foot switches over hidraw. The kernel's own driver keeps the device, which hidraw shares.
 //
-// Two that are plugged in with the same vendor, product and serial number (or none) cannot be told apart when one is
-// plugged in again, so neither can be used (H4). One that went is opened again when a device of its identity and its
-// very report descriptor is back. A device that types keys is a keyboard, and is not listed.
+// Two devices of the same vendor, product and serial number (or none) cannot be told apart when one of them is plugged
+// in again, so neither can be used (H4). A device that was unplugged is opened again when one of the same identity and
+// report descriptor is plugged in. A device that types keys is a keyboard, and is not listed.
 //
 // Thread-safety: as ButtonDevices.
 #pragma once

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/devices/ApprovalAge.h"
+
 namespace tacto::hid {
 
 HidMassager::HidMassager(OpenPort open, DeviceIdentity identity, VibrationReports reports, const Clock& clock)
@@ -172,9 +174,11 @@ Instant HidMassager::serve(Instant now) noexcept {
 
 void HidMassager::serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) noexcept {
     const bool isBurst = what == HidWrite::Burst;
-    if (isBurst && job_ && !(clock_.now() <= job_->expires)) {
-        timer_.dropBurst();
-        return finish(fail(ErrorCode::Device, "{} refused a burst whose approval has expired", identity_.name));
+    if (isBurst && job_) {
+        if (auto current = notExpired(job_->expires, clock_.now(), identity_.name, "a burst"); !current) {
+            timer_.dropBurst();
+            return finish(std::move(current));
+        }
     }
     if (what != HidWrite::Stop) {
         lastBeat_ = clock_.now();

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "core/devices/ApprovalAge.h"
+
 namespace tacto::pulsepal {
 
 namespace {
@@ -155,10 +157,7 @@ Result<void> PulsePalStimulator::deliver(ApprovedTrain&& train) {
     const auto offs = offs_.load(std::memory_order_acquire);
     const Instant now = clock_.now();
     if (lost_) return fail(ErrorCode::Device, "{} is lost; its status looks for it again", identity_.uri);
-    if (!(now <= consumed.expires())) {
-        return fail(ErrorCode::Device, "Pulse Pal refused a train whose approval expired {:.1f} ms ago",
-                    toSeconds(now - consumed.expires()) * 1e3);
-    }
+    if (auto current = notExpired(consumed.expires(), now, "Pulse Pal", "a train"); !current) return current;
     if (playing(now)) {
         return fail(ErrorCode::Device, "Pulse Pal refused a train while another is in progress, for {:.1f} ms more",
                     toSeconds(trainEnd_ - now) * 1e3);

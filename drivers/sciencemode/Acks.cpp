@@ -132,49 +132,4 @@ Result<ExtendedVersionAck> readExtendedVersionAck(std::span<const std::uint8_t> 
     return ack;
 }
 
-Payload payloadOf(const ChannelConfigAck& ack) noexcept {
-    Payload payload;
-    payload.push(static_cast<unsigned>(ack.result));
-    if (!ack.complete) return payload;
-    payload.push(static_cast<unsigned>(ack.channel) | static_cast<unsigned>(ack.connector) << 4U);
-    payload.push(static_cast<unsigned>(ack.measurement));
-    if (!ack.measured) return payload;
-    payload.push(static_cast<unsigned>(ack.sampleTime_us) >> 8U);
-    payload.push(ack.sampleTime_us);
-    for (const auto sample : ack.samples) {
-        payload.push(static_cast<unsigned>(sample) >> 8U);
-        payload.push(sample);
-    }
-    return payload;
-}
-
-Payload payloadOf(const StimStatusAck& ack) noexcept {
-    Payload payload;
-    payload.push(static_cast<unsigned>(ack.result));
-    payload.push(static_cast<unsigned>(ack.status));
-    payload.push(ack.highVoltage);
-    return payload;
-}
-
-Payload payloadOf(const DeviceIdAck& ack) noexcept {
-    Payload payload;
-    payload.push(static_cast<unsigned>(ack.result));
-    for (std::size_t i = 0; i < kIdLength; ++i) {
-        payload.push(i < ack.id.size() ? static_cast<unsigned char>(ack.id[i]) : ' ');
-    }
-    return payload;
-}
-
-Payload payloadOf(const ExtendedVersionAck& ack) noexcept {
-    Payload payload;
-    payload.push(static_cast<unsigned>(ack.result));
-    for (const auto& version : {ack.firmware, ack.protocol}) {
-        payload.push(version.major);
-        payload.push(version.minor);
-        payload.push(version.patch);
-    }
-    for (std::size_t i = 0; i < kHashLength; ++i) payload.push(0);
-    return payload;
-}
-
 }  // namespace tacto::sciencemode

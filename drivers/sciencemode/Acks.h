@@ -1,4 +1,4 @@
-// Acks.h - what a ScienceMode4 device answers: typed results, from payloads and (for the emulated device) back.
+// Acks.h - what a ScienceMode4 device answers: typed results, from payloads.
 //
 // A parser believes no length: a payload of another size than its ack has is refused.
 //
@@ -80,10 +80,5 @@ struct ExtendedVersionAck {
 [[nodiscard]] Result<StimStatusAck> readStimStatusAck(std::span<const std::uint8_t> payload);
 [[nodiscard]] Result<DeviceIdAck> readDeviceIdAck(std::span<const std::uint8_t> payload);
 [[nodiscard]] Result<ExtendedVersionAck> readExtendedVersionAck(std::span<const std::uint8_t> payload);
-
-[[nodiscard]] Payload payloadOf(const ChannelConfigAck& ack) noexcept;
-[[nodiscard]] Payload payloadOf(const StimStatusAck& ack) noexcept;
-[[nodiscard]] Payload payloadOf(const DeviceIdAck& ack) noexcept;
-[[nodiscard]] Payload payloadOf(const ExtendedVersionAck& ack) noexcept;
 
 }  // namespace tacto::sciencemode

@@ -28,21 +28,6 @@ Result<void> putPoints(const Points& points, Payload& into) {
     return {};
 }
 
-/// Points from the front of `bytes`, which is moved past them.
-std::optional<Points> takePoints(std::span<const std::uint8_t>& bytes, std::size_t count) noexcept {
-    if (bytes.size() < 4 * count) return std::nullopt;
-    Points points;
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto point = decodePoint(bytes.first<4>());
-        bytes = bytes.subspan(4);
-        if (point.time.count() < kMinPoint_us || !(std::abs(point.current.value()) <= kMaxCurrent_mA)) {
-            return std::nullopt;
-        }
-        static_cast<void>(points.add(point));  // at most 16 are asked for
-    }
-    return points;
-}
-
 Result<void> checkCount(const Points& points) {
     if (points.count >= 1 && points.count <= kMaxPoints) return {};
     return fail(ErrorCode::InvalidArgument, "a ScienceMode pulse has {} points: 1 to {} fit", points.count, kMaxPoints);
@@ -89,12 +74,6 @@ Result<PointBytes> encodePoint(const Point& point) {
                       static_cast<std::uint8_t>((c & 0x3FU) << 2U), 0};
 }
 
-Point decodePoint(std::span<const std::uint8_t, 4> bytes) noexcept {
-    const int t = (bytes[0] << 4) | (bytes[1] >> 4);
-    const int c = ((bytes[1] & 0xF) << 6) | (bytes[2] >> 2);
-    return {Micros(t), Milliamps((c - kZeroCurrent) * kCurrentStep_mA)};
-}
-
 Payload payloadOf(const LowLevelInit& request) noexcept {
     Payload payload;
     payload.push(static_cast<unsigned>(request.highVoltage) << 1U | static_cast<unsigned>(request.measurement) << 4U);
@@ -114,24 +93,6 @@ Result<Payload> payloadOf(const ChannelConfig& request) {
                  static_cast<unsigned>(request.channel) << 5U | (request.execute ? 0x80U : 0U));
     if (auto put = putPoints(request.points, payload); !put) return failure(put);
     return payload;
-}
-
-std::optional<LowLevelInit> readLowLevelInit(std::span<const std::uint8_t> payload) noexcept {
-    if (payload.size() != 1) return std::nullopt;
-    const unsigned voltage = (payload[0] >> 1U) & 7U;
-    const unsigned measurement = (payload[0] >> 4U) & 7U;
-    if (voltage > 6 || measurement > 3 || (payload[0] & 0x81U) != 0) return std::nullopt;
-    return LowLevelInit{static_cast<HighVoltage>(voltage), static_cast<Measurement>(measurement)};
-}
-
-std::optional<ChannelConfig> readChannelConfig(std::span<const std::uint8_t> payload) noexcept {
-    if (payload.empty()) return std::nullopt;
-    const unsigned head = payload[0];
-    auto rest = payload.subspan(1);
-    const auto points = takePoints(rest, (head & 0xFU) + 1);
-    if (!points || !rest.empty()) return std::nullopt;
-    return ChannelConfig{static_cast<int>((head >> 5U) & 3U), static_cast<int>((head >> 4U) & 1U), (head & 0x80U) != 0,
-                         *points};
 }
 
 }  // namespace tacto::sciencemode

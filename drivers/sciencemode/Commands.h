@@ -1,7 +1,7 @@
-// Commands.h - what the host says to a ScienceMode4 device: typed requests, to payloads and back.
+// Commands.h - what the host says to a ScienceMode4 device: typed requests, to payloads.
 //
 // A builder refuses what the wire cannot carry (a wrapped field would be a wrong pulse): it never rounds and never
-// clamps. The reading half serves the emulated device.
+// clamps.
 //
 // Source of every figure: resources/design/wire/sciencemode4.md.
 //
@@ -82,13 +82,8 @@ struct ChannelConfig {
 using PointBytes = std::array<std::uint8_t, 4>;
 /// Errors: InvalidArgument naming the value and its range.
 [[nodiscard]] Result<PointBytes> encodePoint(const Point& point);
-[[nodiscard]] Point decodePoint(std::span<const std::uint8_t, 4> bytes) noexcept;
 
 [[nodiscard]] Payload payloadOf(const LowLevelInit& request) noexcept;
 [[nodiscard]] Result<Payload> payloadOf(const ChannelConfig& request);
-
-/// The other way round. Nothing when the payload is not one that the builders make.
-[[nodiscard]] std::optional<LowLevelInit> readLowLevelInit(std::span<const std::uint8_t> payload) noexcept;
-[[nodiscard]] std::optional<ChannelConfig> readChannelConfig(std::span<const std::uint8_t> payload) noexcept;
 
 }  // namespace tacto::sciencemode

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/devices/ApprovalAge.h"
+
 namespace tacto::sciencemode {
 
 namespace {
@@ -197,10 +199,7 @@ ExchangeCounts ScienceModeStimulator::counts() {
 
 Result<void> ScienceModeStimulator::accepts(const ApprovedTrain& train) {
     const Instant now = clock_.now();
-    if (!(now <= train.expires())) {
-        return fail(ErrorCode::Device, "the stimulator refused a train whose approval expired {:.1f} ms ago",
-                    toSeconds(now - train.expires()) * 1e3);
-    }
+    if (auto current = notExpired(train.expires(), now, "the stimulator", "a train"); !current) return current;
     if (gone_) return fail(ErrorCode::Device, "stimulator {} is gone: unplugged, or its bus failed", identity_.serial);
     const std::scoped_lock state(state_);
     if (playing()) return fail(ErrorCode::Device, "the stimulator refused a train while another is in progress");
@@ -309,7 +308,7 @@ void ScienceModeStimulator::firePlayed(Instant now) {
     Instant written{0};
     Result<Sent> fired = Sent::Stopped;
     if (late > toInstant(kMaxLate)) {
-        fired = fail(ErrorCode::Device,
+        fired = fail(ErrorCode::Timeout,
                      "the train was abandoned: pulse {} of {} would have been {:.0f} ms late, at most {:.0f} ms is "
                      "accepted",
                      play.sent + 1, play.pulses, toSeconds(late) * 1e3, kMaxLate.count() * 1e3);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/devices/ApprovalAge.h"
+
 namespace tacto::sim {
 
 SimulatedMassager::SimulatedMassager(DeviceIdentity identity, std::shared_ptr<World> world,
@@ -19,10 +21,8 @@ Result<void> SimulatedMassager::vibrate(ApprovedBurst&& burst) {
     if (settings_.faults.active(Fault::Unplug, now)) {
         return fail(ErrorCode::Device, "the simulated massager is unplugged");
     }
-    if (!(now <= consumed.expires())) {
-        return fail(ErrorCode::Device, "the simulated massager refused a burst whose approval expired {:.1f} ms ago",
-                    toSeconds(now - consumed.expires()) * 1e3);
-    }
+    if (auto current = notExpired(consumed.expires(), now, "the simulated massager", "a burst"); !current)
+        return current;
     const double asked = consumed.burst().intensity;
     const double level = settings_.step > 0 ? std::round(asked / settings_.step) * settings_.step : asked;
     const bool stuck = settings_.faults.active(Fault::StuckOn, now);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/Random.h"
+#include "core/devices/ApprovalAge.h"
 
 namespace tacto::sim {
 
@@ -161,10 +162,8 @@ Result<void> SimulatedStimulator::deliver(ApprovedTrain&& consumed) {
     const auto offs = offs_.load(std::memory_order_acquire);
     const Instant now = world_->clock().now();
     if (settings_.faults.active(Fault::Unplug, now)) return answers(now);
-    if (!(now <= approved.expires())) {
-        return fail(ErrorCode::Device, "the simulated stimulator refused a train whose approval expired {:.1f} ms ago",
-                    toSeconds(now - approved.expires()) * 1e3);
-    }
+    if (auto current = notExpired(approved.expires(), now, "the simulated stimulator", "a train"); !current)
+        return current;
     const auto& train = approved.train();
     if (const auto accepted = accepts(train); !accepted) return accepted;
     if (world_->circuit().active(now)) {

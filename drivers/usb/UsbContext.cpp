@@ -29,7 +29,6 @@ struct UsbContext::Callbacks {
             } else {
                 return 0;  // reported twice: registering lists what is there while it may also arrive
             }
-            self.generation_.fetch_add(1, std::memory_order_release);
         } catch (...) {
             return 0;  // no memory for one more entry: the device stays unlisted until it is plugged in again
         }

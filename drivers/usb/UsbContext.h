@@ -1,7 +1,6 @@
 // UsbContext.h - libusb, running: one context with an event thread of its own, and the list of what is plugged in.
 //
-// Every transfer's callback runs on the event thread; none of them calls into a driver or a program. A caller that
-// wants to know of plugging and unplugging compares generation() from time to time.
+// Every transfer's callback runs on the event thread; none of them calls into a driver or a program.
 //
 // Ownership: shared; open devices hold it, so that it ends after the last of them. It must not be let go on the event
 // thread; nothing of this library does.
@@ -9,7 +8,6 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -42,9 +40,6 @@ public:
     /// helps.
     [[nodiscard]] Result<UsbDeviceInfo> find(const UsbIdentity& wanted, std::string_view socket = {}) const;
 
-    /// Grows with each device that comes or goes.
-    [[nodiscard]] std::uint64_t generation() const noexcept { return generation_.load(std::memory_order_acquire); }
-
     /// For UsbDevice: opens a listed device, if it was not unplugged meanwhile. The caller closes it, never on the
     /// event thread. Errors: NotFound; Io (not permitted, or the system refused).
     [[nodiscard]] Result<libusb_device_handle*> openHandle(const UsbDeviceInfo& info) const;
@@ -60,7 +55,6 @@ private:
     int hotplug_ = -1;                   // libusb's number of our registration; constant after start()
     std::thread events_;
     std::atomic<bool> ending_{false};
-    std::atomic<std::uint64_t> generation_{0};
     mutable std::mutex mutex_;             // never held while libusb opens or closes: see UsbContext.cpp
     std::vector<libusb_device*> present_;  // referenced; guarded by mutex_
 };

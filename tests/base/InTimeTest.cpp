@@ -45,6 +45,24 @@ TEST(InTime, OfWrongErrorsOnlyThoseThatComeOfBeingLateAreMissedDeadlines) {
     }
 }
 
+TEST(InTime, AnErrorThatNoSlowMachineMakesIsNoMissedDeadline) {
+    testing::TestPartResultArray failures;
+    {
+        const testing::ScopedFakeTestPartResultReporter catching(&failures);
+        for (const auto code : {ErrorCode::Timeout, ErrorCode::Device, ErrorCode::NotFound, ErrorCode::InvalidArgument,
+                                ErrorCode::ParseError, ErrorCode::Unsupported}) {
+            const Result<void> failed = fail(code, "the reason");
+            EXPECT_IN_TIME(failed);
+        }
+    }
+    ASSERT_EQ(failures.size(), 6);
+    for (int i = 0; i < 6; ++i) {
+        const std::string_view message(failures.GetTestPartResult(i).message());
+        EXPECT_EQ(message.starts_with(kNotInTime), i < 3) << message;
+        EXPECT_NE(message.find("the reason"), std::string_view::npos) << message;
+    }
+}
+
 /// Tests that fail at their first try. They are disabled for ctest; the last test of this file runs each of them in a
 /// process of its own.
 class InTimeExample : public testing::Test {

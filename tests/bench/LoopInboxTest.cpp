@@ -54,7 +54,7 @@ TEST(LoopInbox, OfSeveralAmplitudesTheOneFarthestOffIsJudged) {
     ASSERT_TRUE(taken && taken->amplitude);
     EXPECT_EQ(taken->amplitude->amplitude, 6.0);
     inbox.amplitude(amplitudeOf(10.1));
-    EXPECT_EQ(inbox.take()->amplitude->amplitude, 10.1) << "each step begins anew";
+    EXPECT_EQ(inbox.take()->amplitude->amplitude, 10.1) << "what was taken before is gone";
 }
 
 TEST(LoopInbox, OfTwoFingersTheSecondIsTakenWithWhatRWasForBeforeTheFirst) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/cli/ExitsInTime.h"
 #include "tests/cli/TerminalCli.h"
 #include "tests/support/InTime.h"
 #include "tests/support/emulated/sciencemode/EmulatedPty.h"
@@ -57,15 +58,15 @@ TEST_F(RunOnHardware, DeliversNothingThatNobodyConfirmedAndSaysWhatToAnswer) {
     const auto yes = desk_.run(words({"--set", "confirm-arming=yes"}));
     EXPECT_NE(yes.code, 0) << yes.err;
     EXPECT_EQ(putOut(), 0U);
-    ASSERT_IN_TIME(yes.code == 4) << yes.err;
+    ASSERT_EXIT_IN_TIME(yes.code, 4) << yes.err;
     const auto other = desk_.run(words({"--set", "load=2000", "--set", "confirm-arming=" + text}));
     EXPECT_NE(other.code, 0) << other.err;
     EXPECT_EQ(putOut(), 0U);
-    ASSERT_IN_TIME(other.code == 4) << other.err;
+    ASSERT_EXIT_IN_TIME(other.code, 4) << other.err;
     EXPECT_THAT(wanted(other.err), HasSubstr("into 2 kohm"));
 
     const auto confirmed = desk_.run(words({"--set", "confirm-arming=" + text}));
-    ASSERT_IN_TIME(confirmed.code == 0) << confirmed.err;
+    ASSERT_EXIT_IN_TIME(confirmed.code, 0) << confirmed.err;
     EXPECT_EQ(putOut(), 1U) << "the impedance check";
 }
 
@@ -79,7 +80,7 @@ TEST_F(RunOnHardware, ATerminalIsAskedForATypedWord) {
         const int ended = cli.wait();
         EXPECT_EQ(putOut(), ended == 0 ? 1U : 0U) << cli.screen();
         EXPECT_TRUE(code == 0 || ended != 0) << cli.screen();
-        ASSERT_IN_TIME(ended == code) << cli.screen();
+        ASSERT_EXIT_IN_TIME(ended, code) << cli.screen();
     }
     EXPECT_EQ(putOut(), 1U);
 }
@@ -94,13 +95,13 @@ function run(p) { bench.arm({ load: 1000 }); bench.drive("manual", { roughness: 
     auto second = first;
     second.insert(second.end(), {"--set", "confirm-arming=" + wanted(desk_.run(first).err)});
     const auto ran = desk_.run(second);
-    ASSERT_IN_TIME(ran.code == 0) << ran.err;
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     EXPECT_THAT(ran.out, HasSubstr("SIMULATED: the fingertip sensor."));
     EXPECT_THAT(ran.out, HasSubstr("Real: stimulator ScienceMode stimulator " + serial_.text() + ", which delivered "));
     EXPECT_THAT(ran.out, testing::Not(HasSubstr("no number here was measured")));
     second.emplace_back("--json");
     const auto again = desk_.run(second);
-    ASSERT_IN_TIME(again.code == 0) << again.err;
+    ASSERT_EXIT_IN_TIME(again.code, 0) << again.err;
     const auto json = nlohmann::json::parse(again.out);
     for (const auto& device : json["devices"]) {
         EXPECT_EQ(device["simulated"], device["role"] == "sensor") << device;

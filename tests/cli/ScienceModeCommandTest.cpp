@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "tests/cli/ExitsInTime.h"
 #include "tests/cli/Shape.h"
 #include "tests/support/Figures.h"
 #include "tests/support/InTime.h"
@@ -69,7 +70,7 @@ protected:
 
 TEST_F(ScienceModeCommand, IdentifySaysWhoItIsAndWhere) {
     const auto ran = run({"identify", "--json"});
-    ASSERT_IN_TIME(ran.code == 0) << ran.err;
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     const Json expected{{"id", "EMU0000001"},
                         {"firmware", "1.2.3"},
                         {"protocol", "4.0.1"},
@@ -111,7 +112,7 @@ TEST_F(ScienceModeCommand, StatusIsInWordsAndLookingChangesNothing) {
 
 TEST_F(ScienceModeCommand, APulseIntoTheDeclaredLoadPasses) {
     const auto ran = pulse("5", "1000", {"--json"});
-    ASSERT_IN_TIME(ran.code == 0) << ran.err;
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     const auto value = jsonOf(ran);
     expectKeys(value,
                {"verdict", "reasons", "simulated", "id", "current_ma", "width_us", "gap_us", "load", "declared_ohm",
@@ -148,7 +149,7 @@ TEST_F(ScienceModeCommand, ThePulseIsTheOneThatWasAskedFor) {
 
 TEST_F(ScienceModeCommand, TheReadBackIsDrawnWithinEightyColumns) {
     const auto ran = pulse("5", "1000");
-    ASSERT_IN_TIME(ran.code == 0) << ran.err;
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     EXPECT_THAT(ran.out, HasSubstr("voltage magnitude (V): the device sends no sign"));
     EXPECT_THAT(ran.out, HasSubstr("time (us)"));
     EXPECT_THAT(ran.out, HasSubstr("^ |Z| 1.000 kΩ"));
@@ -166,7 +167,7 @@ TEST_F(ScienceModeCommand, TheReadBackIsDrawnWithinEightyColumns) {
 TEST_F(ScienceModeCommand, TheSavedReadBackIsACaptureThatMeasureReads) {
     const auto file = desk_.at("pulse.csv");
     const auto ran = pulse("5", "1000", {"--out", file, "--json"});
-    ASSERT_IN_TIME(ran.code == 0) << ran.err;
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     EXPECT_EQ(jsonOf(ran)["file"], file);
     EXPECT_TRUE(contentOf(file).starts_with("time_s,voltage_magnitude_v\n")) << contentOf(file).substr(0, 40);
     const auto measured = desk_.run({"measure", file, "--json"});
@@ -187,7 +188,7 @@ TEST_F(ScienceModeCommand, AnOpenOrShortedLoadGetsTheCheckPulseOnly) {
         const auto ran = pulse("5", "1000", {"--json"});
         EXPECT_NE(ran.code, 0) << ran.out;
         EXPECT_THAT(putOut(), Each(0.5)) << load;
-        ASSERT_IN_TIME(ran.code == 1) << ran.err;
+        ASSERT_EXIT_IN_TIME(ran.code, 1) << ran.err;
         const auto value = jsonOf(ran);
         EXPECT_EQ(value["verdict"], "fail");
         EXPECT_EQ(value["delivered"], false);
@@ -206,7 +207,7 @@ TEST_F(ScienceModeCommand, AnotherLoadThanTheDeclaredOneGetsTheCheckPulseOnly) {
         const auto ran = pulse("1", declared, {"--json"});
         EXPECT_NE(ran.code, 0) << ran.out;
         EXPECT_THAT(putOut(), Each(0.5)) << declared;
-        ASSERT_IN_TIME(ran.code == 1) << declared << ": " << ran.err;
+        ASSERT_EXIT_IN_TIME(ran.code, 1) << declared << ": " << ran.err;
         const auto value = jsonOf(ran);
         EXPECT_EQ(value["delivered"], false);
         EXPECT_TRUE(value["reasons"][0].get<std::string>().starts_with("mismatch")) << value.dump();
@@ -219,7 +220,7 @@ TEST_F(ScienceModeCommand, AnotherLoadThanTheDeclaredOneGetsTheCheckPulseOnly) {
 TEST_F(ScienceModeCommand, ARealSkinModelIsComparedAtTheEndOfTheLeadingPhase) {
     fit("200 ohm + 10 kohm || 50 nF");
     const auto ran = pulse("2", "200 ohm + 10 kohm || 50 nF", {"--json"});
-    ASSERT_IN_TIME(ran.code == 0) << ran.err << ran.out;
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err << ran.out;
     const auto printed = jsonOf(ran);
     const auto& samples = printed["pulse"]["read_back"]["samples"];
     EXPECT_EQ(samples.size(), 128U);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/cli/ExitsInTime.h"
 #include "tests/cli/TerminalCli.h"
 #include "tests/support/InTime.h"
 #include "tests/support/emulated/sciencemode/EmulatedPty.h"
@@ -26,7 +27,7 @@ protected:
         const int code = cli.wait();
         EXPECT_NE(code, 0) << cli.screen();
         EXPECT_EQ(putOut(), 0U) << cli.screen();
-        ASSERT_IN_TIME(code == 4) << cli.screen();
+        ASSERT_EXIT_IN_TIME(code, 4) << cli.screen();
     }
     static constexpr const char* kQuestion = "anything else delivers nothing: ";
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/cli/ExitsInTime.h"
 #include "tests/cli/Shape.h"
 #include "tests/drivers/sensor_board/BoardOnPty.h"
 #include "tests/support/InTime.h"
@@ -30,7 +31,7 @@ protected:
 
 TEST_F(SensorCommand, StatusSaysWhoItIsWhatItIsSetToAndHowItsLineIs) {
     const auto ran = status({"--json"});
-    ASSERT_IN_TIME(ran.code == 0) << ran.err;
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     const auto value = jsonOf(ran);
     expectKeys(value,
                {"uri", "name", "serial", "firmware", "simulated", "seconds", "streams", "losses", "line", "board"},
@@ -62,7 +63,7 @@ TEST_F(SensorCommand, WhatIsLostIsSaidInWordsToo) {
     RecordProperty("hazard", "H7");
     board_.board().inspect([](auto& board, Instant) { board.spoil({.drop = 0.2, .flip = 0.2}); });
     const auto ran = status({"--seconds", "1"});
-    ASSERT_IN_TIME(ran.code == 0) << ran.err;
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     for (const auto* part : {"something was lost", "CRC errors", "not known yet", "EMU-0001", "(simulated)", "4000 Hz",
                              "calibrated 2026-11-20 (emulated: exact)"})
         EXPECT_THAT(ran.out, HasSubstr(part));
@@ -71,7 +72,7 @@ TEST_F(SensorCommand, WhatIsLostIsSaidInWordsToo) {
 
 TEST_F(SensorCommand, RatesAreSetByTheUri) {
     const auto ran = desk_.run({"sensor", "status", uri("&rate=1kHz"), "--seconds", "0.5", "--json"});
-    ASSERT_IN_TIME(ran.code == 0) << ran.err;
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     EXPECT_EQ(jsonOf(ran)["streams"][0]["rate_hz"], 1000.0);
 }
 

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 
 #include "core/base/Result.h"
+#include "tests/cli/ExitsInTime.h"
 #include "tests/cli/Shape.h"
 #include "tests/support/InTime.h"
 
@@ -19,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
 
 void expectStopped(const Desk& desk, const Ran& ran) {
-    ASSERT_IN_TIME(ran.code == 4) << ran.err;
+    ASSERT_EXIT_IN_TIME(ran.code, 4) << ran.err;
     const auto value = jsonOf(ran);
     EXPECT_EQ(value["verdict"], "stopped");
     EXPECT_TRUE(value["results"].is_null());
@@ -71,7 +72,7 @@ TEST_F(Stop, AnInterruptAtAnyMomentOfTheStartEndsTheRunInOrder) {
         ASSERT_IN_TIME(run.waitUntil([&] { return secondsSince(begun) * 1000 >= delay; }));
         run.signal(SIGINT);
         const auto ran = run.wait(std::chrono::seconds(20));
-        ASSERT_IN_TIME(ran.code == 4) << delay << " ms after the session began: " << ran.err;
+        ASSERT_EXIT_IN_TIME(ran.code, 4) << delay << " ms after the session began: " << ran.err;
     }
 }
 
@@ -90,7 +91,7 @@ function run(p) {
     const auto signalled = Clock::now();
     const auto ran = run.wait(std::chrono::seconds(60));
     EXPECT_IN_TIME(secondsSince(signalled) < 2);
-    ASSERT_IN_TIME(ran.code == 4);
+    ASSERT_EXIT_IN_TIME(ran.code, 4);
     EXPECT_THAT(ran.err, HasSubstr("before the reports were written"));
     EXPECT_TRUE(desk.named("out", ".pdf").empty());
     EXPECT_EQ(desk.run({"verify", desk.named("out", ".tacto").at(0)}).code, 0);

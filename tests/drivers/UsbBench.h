@@ -12,9 +12,9 @@
 #include "core/session/SessionVerify.h"
 #include "core/session/SessionWriter.h"
 #include "drivers/usb/UsbProvider.h"
+#include "tests/support/Comes.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Limits.h"
-#include "tests/support/usb_emulation/Comes.h"
 #include "tests/support/usb_emulation/UsbTestbed.h"
 
 namespace tacto::test {

@@ -132,7 +132,7 @@ TEST(StaleData, NoWindowSpansAGap) {
         ASSERT_TRUE(frame.t_s + 0.03 < before || frame.t_s - 0.0321 > after - 0.001) << frame.t_s;
         if (frame.t_s > after) firstAfter = std::min(firstAfter, frame.t_s);
     }
-    EXPECT_NEAR(firstAfter, after + 0.032, 1e-9) << "windows start anew with the first sample behind the gap";
+    EXPECT_NEAR(firstAfter, after + 0.032, 1e-9) << "windows start again with the first sample behind the gap";
     EXPECT_THAT(result.summary.flags, Contains("gaps in acceleration: 1"));
 }
 

@@ -1,17 +1,15 @@
 // Figures that tests are held against are made by a script in tests/reference, and the script still makes them.
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdio>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <sys/wait.h>
 
 #include "tests/support/Figures.h"
+#include "tests/support/OtherProgram.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -38,17 +36,6 @@ std::map<fs::path, std::string> testSources() {
         sources[fs::relative(entry.path(), test::sourceDir())] = {std::istreambuf_iterator<char>(in), {}};
     }
     return sources;
-}
-
-/// What a command line prints, and its exit code.
-std::pair<std::string, int> outputOf(const std::string& line) {
-    std::string output;
-    FILE* pipe = popen((line + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) return {"", -1};
-    std::array<char, 4096> piece{};
-    for (std::size_t n = 0; (n = std::fread(piece.data(), 1, piece.size(), pipe)) > 0;) output.append(piece.data(), n);
-    const int status = pclose(pipe);
-    return {output, WIFEXITED(status) ? WEXITSTATUS(status) : -1};
 }
 
 TEST(ReferenceFigures, EachFileNamesItsScriptWhichExists) {
@@ -106,9 +93,9 @@ TEST(ReferenceFigures, AComparisonNamesNoNumberThatNeedsOne) {
 
 TEST(ReferenceFigures, AreWhatTheirScriptsMake) {
     for (const std::string python : {"/usr/bin/python3", "python3"}) {
-        if (outputOf(python + " -c 'import numpy, scipy'").second != 0) continue;
+        if (test::outputOf(python + " -c 'import numpy, scipy'").second != 0) continue;
         const auto check = test::sourceDir() / kScripts / "check.py";
-        const auto [said, code] = outputOf(python + " '" + check.string() + "'");
+        const auto [said, code] = test::outputOf(python + " '" + check.string() + "'");
         EXPECT_EQ(code, 0) << said;
         EXPECT_THAT(said, testing::HasSubstr("none disagrees"));
         return;

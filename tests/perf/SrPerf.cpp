@@ -78,7 +78,7 @@ void BM_OpenSrAgainstUnzip(benchmark::State& state) {
     double ours = 0, theirs = 0, memory = 0;
     for ([[maybe_unused]] auto _ : state) {
         theirs += unzipSeconds(path);
-        std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
+        std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts again
         const double before = statusBytes("VmRSS");
         const auto begin = std::chrono::steady_clock::now();
         const auto reading = SigrokFormat().read(path, {}, {});

@@ -228,11 +228,6 @@ double IndependentBody::charge5s() const {
     return std::abs(sum);
 }
 
-void IndependentBody::forgetBefore(double time) {
-    std::erase_if(record_, [time](const Stretch& s) { return s.start + s.length < time; });
-    std::erase_if(power_, [time](const Power& p) { return p.start + p.length < time; });
-}
-
 double IndependentBody::magnitude(const PulseTrain& train) const {
     IndependentBody fresh;
     fresh.fit(body_);

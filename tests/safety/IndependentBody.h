@@ -66,7 +66,6 @@ public:
         power_.clear();
         vc_ = 0;
     }
-    void forgetBefore(double time);
     /// |V / I| at the end of the leading phase, from rest.
     [[nodiscard]] double magnitude(const PulseTrain& train) const;
 

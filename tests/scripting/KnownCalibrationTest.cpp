@@ -107,7 +107,7 @@ TEST_F(Known, OneThatIsOutOfOrderReachesTheGateWhichArmsNothing) {
     const auto armed = (*bench)->arm({"1 kohm", true, true});
     ASSERT_FALSE(armed);
     EXPECT_THAT(armed.error().message, HasSubstr("out of order"));
-    // Left aside, it may be calibrated anew, and is judged by what it delivers.
+    // Left aside, it may be calibrated again, and is judged by what it delivers.
     ASSERT_TRUE((*bench)->useCalibration(false));
     const auto again = (*bench)->arm({"1 kohm", true, true});
     EXPECT_TRUE(again) << again.error().message;

@@ -1,5 +1,5 @@
 // The evidence of issue 6: over a grid of twins that deliver too much the check misses none; over 200 clean runs, the
-// instrument's own errors drawn anew in each from what its data sheet allows, it raises at most 5 % false alarms.
+// instrument's own errors drawn for each from what its data sheet allows, it raises at most 5 % false alarms.
 // For a voltage source, and for a current source.
 #include <gtest/gtest.h>
 #include <span>

@@ -117,7 +117,7 @@ TEST_F(SessionVerify, FindsEachWayOfTampering) {
     }
 }
 
-// A chain computed anew is consistent; the head that the report printed is what gives the forger away.
+// A chain computed again is consistent; the head that the report printed is what gives the forger away.
 TEST_F(SessionVerify, ARecomputedChainIsFoundByItsHead) {
     const auto printed = verify().head;
     std::string updates = "UPDATE entries SET body=replace(body, '\"pass\"', '\"fail\"') WHERE kind='verdict';";

@@ -1,18 +1,16 @@
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <regex>
 #include <set>
-#include <sys/wait.h>
 
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
 #include "core/base/Text.h"
 #include "core/sharing/BidsFiles.h"
+#include "tests/support/OtherProgram.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -266,19 +264,9 @@ TEST(BidsFiles, AFolderThatHoldsSomethingIsLeftAlone) {
     EXPECT_FALSE(writeBids(files, folder.path() / "new/a/b.txt"));
 }
 
-std::pair<std::string, int> outputOf(const std::string& line) {
-    std::string output;
-    FILE* pipe = popen((line + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) return {"", -1};
-    std::array<char, 4096> piece{};
-    for (std::size_t n = 0; (n = std::fread(piece.data(), 1, piece.size(), pipe)) > 0;) output.append(piece.data(), n);
-    const int status = pclose(pipe);
-    return {output, WIFEXITED(status) ? WEXITSTATUS(status) : -1};
-}
-
 TEST(BidsFiles, DebiansValidatorAcceptsEveryPath) {
     const std::string python = "/usr/bin/python3";
-    if (outputOf(python + " -c 'import bids_validator'").second != 0) GTEST_SKIP() << "no python3-bids-validator";
+    if (test::outputOf(python + " -c 'import bids_validator'").second != 0) GTEST_SKIP() << "no python3-bids-validator";
     const test::ScratchDir folder;
     const auto files = bidsFiles(studyOfThree(), {}, "1.2.3");
     ASSERT_TRUE(files);
@@ -294,7 +282,7 @@ print(len(paths), "files, refused:", refused)
 sys.exit(1 if refused else 0)
 )";
     const auto [said, code] =
-        outputOf(fmt::format("{} '{}' '{}'", python, script.string(), (folder.path() / "bids").string()));
+        test::outputOf(fmt::format("{} '{}' '{}'", python, script.string(), (folder.path() / "bids").string()));
     EXPECT_EQ(code, 0) << said;
     EXPECT_THAT(said, HasSubstr(fmt::format("{} files", files->size())));
 }

@@ -6,10 +6,14 @@
 // alone is tried again where the machine stood still (support/Standstill.cpp); any other failure is one. There an
 // ASSERT_IN_TIME also ends the test from within a function that the test calls.
 //
+// A value that is not accepted, a file or reply of another format, and an ability that a device does not have are
+// wrong on any machine: a Result that fails with one of these errors missed no deadline.
+//
 // Thread-safety: as gtest's assertions.
 #pragma once
 
 #include <gtest/gtest.h>
+#include <type_traits>
 
 namespace tacto::test {
 
@@ -20,9 +24,15 @@ inline constexpr const char* kNotInTime = "not in time: ";
 template <class Happened>
 [[nodiscard]] testing::AssertionResult inTime(const char* what, const Happened& happened) {
     if (happened) return testing::AssertionSuccess();
-    auto failure = testing::AssertionFailure() << kNotInTime << what;
-    if constexpr (requires { happened.error().message; }) failure << ": " << happened.error().message;
-    return failure;
+    if constexpr (requires { happened.error().message; }) {
+        const auto& error = happened.error();
+        using Code = std::remove_cvref_t<decltype(error.code)>;
+        const bool wrong =
+            error.code == Code::InvalidArgument || error.code == Code::ParseError || error.code == Code::Unsupported;
+        return testing::AssertionFailure() << (wrong ? "" : kNotInTime) << what << ": " << error.message;
+    } else {
+        return testing::AssertionFailure() << kNotInTime << what;
+    }
 }
 
 }  // namespace tacto::test

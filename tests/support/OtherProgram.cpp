@@ -2,6 +2,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -11,6 +12,16 @@
 #include <unistd.h>
 
 namespace tacto::test {
+
+std::pair<std::string, int> outputOf(const std::string& line) {
+    std::string output;
+    FILE* pipe = popen((line + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) return {"", -1};
+    std::array<char, 4096> piece{};
+    for (std::size_t n = 0; (n = std::fread(piece.data(), 1, piece.size(), pipe)) > 0;) output.append(piece.data(), n);
+    const int status = pclose(pipe);
+    return {output, WIFEXITED(status) ? WEXITSTATUS(status) : -1};
+}
 
 OtherProgram::OtherProgram(const std::filesystem::path& file, bool locked) {
     // A spawned program has what it inherits from its first moment on; only the lock needs the file open here.

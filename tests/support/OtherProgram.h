@@ -1,4 +1,5 @@
-// OtherProgram.h - a process that has a file open and does nothing else, as a program that uses a device.
+// OtherProgram.h - other processes: one that has a file open and does nothing else, as a program that uses a device,
+// and one that is run to its end.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -6,8 +7,12 @@
 #include <filesystem>
 #include <string>
 #include <sys/types.h>
+#include <utility>
 
 namespace tacto::test {
+
+/// What a command line prints, and its exit code.
+[[nodiscard]] std::pair<std::string, int> outputOf(const std::string& line);
 
 class OtherProgram {
 public:

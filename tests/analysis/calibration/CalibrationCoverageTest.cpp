@@ -1,4 +1,4 @@
-// How often the stated interval holds the truth, when the instrument's errors are drawn anew in each run from the
+// How often the stated interval holds the truth, when the instrument's errors are drawn for each run from the
 // distributions that the budget states: 93 to 97 % of 1000 runs. Too wide fails as well as too narrow.
 #include <array>
 #include <gtest/gtest.h>

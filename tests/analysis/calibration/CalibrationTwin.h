@@ -1,5 +1,5 @@
 // CalibrationTwin.h - a device of known gain, offset, scatter and hysteresis, read by an instrument whose errors are
-// drawn anew for each run from the distributions that a budget states.
+// drawn for each run from the distributions that a budget states.
 //
 // Thread-safety: the test's own thread.
 #pragma once

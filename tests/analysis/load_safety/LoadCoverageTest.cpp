@@ -1,4 +1,4 @@
-// How often U holds the truth when the instrument's errors are drawn anew in each run within what it states: at least
+// How often U holds the truth when the instrument's errors are drawn for each run within what it states: at least
 // 93 % of 1000 runs, and at most 97 % of what one instrument's contributions make (science.md sections 9 and 12). And:
 // no violation passes with gain, shunt and time base wrong by as much as is stated.
 #include <array>

@@ -46,7 +46,7 @@ TEST(HidButtons, ThePedalsOfAFootSwitch) {
     EXPECT_THAT(buttons->labels(), ElementsAre("1", "2", "3"));
     EXPECT_THAT(buttons->read(Bytes{0x02, 0}), ElementsAre(Change{1, true}));
     buttons->forget();
-    EXPECT_THAT(buttons->read(Bytes{0x02, 0}), ElementsAre(Change{1, true})) << "plugged in anew";
+    EXPECT_THAT(buttons->read(Bytes{0x02, 0}), ElementsAre(Change{1, true})) << "plugged in again";
 }
 
 TEST(HidButtons, TwoPadsInOneDeviceAreToldApartByTheirReports) {

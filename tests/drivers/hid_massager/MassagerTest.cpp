@@ -239,7 +239,7 @@ TEST_F(HidMassagerTest, AShortWriteIsAFaultAndStopped) {
     ASSERT_IN_TIME(device.waitForWrites(2));
     EXPECT_EQ(device.last(), kOff);
     EXPECT_IN_TIME(vibrate());
-    EXPECT_EQ(device.openings(), 2);  // after a fault it is opened anew
+    EXPECT_EQ(device.openings(), 2);  // after a fault it is opened again
 }
 
 TEST_F(HidMassagerTest, ARefusedReportIsAFaultAndTheStopIsTriedUntilItIsTaken) {

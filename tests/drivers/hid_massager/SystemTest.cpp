@@ -11,11 +11,11 @@
 #include "drivers/system/KernelNodes.h"
 #include "tests/drivers/conformance/MassagerConformance.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/Comes.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/Support.h"
-#include "tests/support/usb_emulation/Comes.h"
 #include "tests/support/usb_emulation/EmulatedHidDevice.h"
 
 namespace tacto::test {
@@ -84,10 +84,9 @@ TEST_F(HidSystem, AShortWriteAndARefusalAreFaults) {
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ErrorCode::Device);
     EXPECT_THAT(cut.error().message, AllOf(HasSubstr("10 bytes"), HasSubstr("48 were expected")));
-    auto again = vibrate(1, Seconds(0.1));  // opened anew
+    auto again = vibrate(1, Seconds(0.1));  // opened again
     // On a busy machine starting the watchdog takes longer than the 100 ms of an approval; the next one finds it open.
-    if (!again && again.error().message.find("approval has expired") != std::string::npos)
-        again = vibrate(1, Seconds(0.1));
+    if (!again && again.error().message.find("approval expired") != std::string::npos) again = vibrate(1, Seconds(0.1));
     ASSERT_IN_TIME(again);
     pad.refuseWrites(EIO);
     const auto refused = vibrate(1, Seconds(0.1));

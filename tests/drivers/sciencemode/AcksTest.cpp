@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "drivers/sciencemode/Acks.h"
 #include "tests/drivers/sciencemode/Bytes.h"
+#include "tests/support/emulated/sciencemode/DeviceSide.h"
 
 namespace tacto::test {
 namespace {

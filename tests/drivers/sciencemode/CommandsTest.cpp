@@ -4,8 +4,8 @@
 #include <rapidcheck.h>
 
 #include "core/base/NaN.h"
-#include "drivers/sciencemode/Commands.h"
 #include "tests/drivers/sciencemode/Bytes.h"
+#include "tests/support/emulated/sciencemode/DeviceSide.h"
 
 namespace tacto::test {
 namespace {

@@ -1,15 +1,37 @@
 // A host for KillTest: opens the stimulator behind the terminal it is given and sends it a train of 20 s, until it is
-// killed or gives the train up. Prints a line when it delivers.
+// killed or gives the train up. Prints a line when it delivers. With "again" as its second argument it sends another
+// train after one that was given up because the machine was late.
 #include <cstdio>
+#include <cstring>
 #include <thread>
 
 #include "drivers/sciencemode/ScienceModeStimulator.h"
 #include "drivers/sciencemode/TtyTransport.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
 
+namespace {
+
+using namespace tacto;
+
+/// Returns when the train has failed.
+Error sendTrain(sciencemode::ScienceModeStimulator& stimulator, const Clock& clock) {
+    const auto gate = test::wideGate(clock, stimulator.traits());
+    const auto begun = stimulator.deliver(test::approve(*gate, clock, test::biphasic(5, 400, 20), Seconds(22)));
+    if (!begun) return begun.error();
+    std::puts("delivering");
+    std::fflush(stdout);
+    for (;;) {
+        const auto status = stimulator.status();
+        if (!status) return status.error();
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+}
+
+}  // namespace
+
 int main(int argumentCount, char** arguments) {
-    using namespace tacto;
-    if (argumentCount != 2) return 2;
+    if (argumentCount < 2) return 2;
+    const bool again = argumentCount == 3 && std::strcmp(arguments[2], "again") == 0;
     const SteadyClock clock;
     const std::string terminal = arguments[1];
     const auto opened = sciencemode::ScienceModeStimulator::open(
@@ -18,21 +40,9 @@ int main(int argumentCount, char** arguments) {
         std::fprintf(stderr, "%s\n", opened.error().message.c_str());
         return 1;
     }
-    auto& stimulator = **opened;
-    const auto gate = test::wideGate(clock, stimulator.traits());
-    const auto begun = stimulator.deliver(test::approve(*gate, clock, test::biphasic(5, 400, 20), Seconds(22)));
-    if (!begun) {
-        std::fprintf(stderr, "%s\n", begun.error().message.c_str());
-        return 1;
-    }
-    std::puts("delivering");
-    std::fflush(stdout);
     for (;;) {
-        const auto status = stimulator.status();
-        if (!status) {
-            std::fprintf(stderr, "%s\n", status.error().message.c_str());
-            return 1;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(250));
+        const auto error = sendTrain(**opened, clock);
+        std::fprintf(stderr, "%s\n", error.message.c_str());
+        if (!again || !test::cameLate(error)) return 1;
     }
 }

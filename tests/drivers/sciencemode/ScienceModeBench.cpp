@@ -46,6 +46,10 @@ ApprovedTrain approve(SafetyGate& gate, const Clock& clock, const PulseTrain& tr
     return std::move(*approval);
 }
 
+bool cameLate(const Error& error) {
+    return error.code == ErrorCode::Timeout || error.message.find("approval expired") != std::string::npos;
+}
+
 ScienceModeBench::ScienceModeBench(sciencemode::EmulatedSettings device, sciencemode::StimulatorSettings settings)
     : line(std::make_shared<EmulatedLine>(clock, &clock, std::move(device))) {
     auto opened = sciencemode::ScienceModeStimulator::open(line->connector(), "sciencemode:", {}, settings, clock);

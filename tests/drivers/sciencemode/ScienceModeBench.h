@@ -38,5 +38,7 @@ void startRepeating(sciencemode::EmulatedStimulator& device, Instant now);
 /// A gate for any train of `traits`' source on any load.
 [[nodiscard]] std::unique_ptr<SafetyGate> wideGate(const Clock& clock, const SourceTraits& traits);
 [[nodiscard]] ApprovedTrain approve(SafetyGate& gate, const Clock& clock, const PulseTrain& train, Seconds interval);
+/// Whether a train failed because a thread was late: a pulse, an answer, or a delivery after its approval expired.
+[[nodiscard]] bool cameLate(const Error& error);
 
 }  // namespace tacto::test

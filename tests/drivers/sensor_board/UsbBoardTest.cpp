@@ -6,9 +6,9 @@
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "tests/drivers/sensor_board/BoardOnUsb.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
+#include "tests/support/Comes.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
-#include "tests/support/usb_emulation/Comes.h"
 
 namespace tacto::test {
 namespace {

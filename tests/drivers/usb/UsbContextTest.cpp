@@ -62,17 +62,13 @@ TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt)
     EXPECT_IN_TIME(UsbBulkTransport::open(context, list.front(), {}));
 }
 
-TEST_F(UsbContext_, TellsOfPluggingInBothDirections) {
+TEST_F(UsbContext_, ListsWhatIsPluggedInAndNoLongerWhatWasUnplugged) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "B1"), {}, 1, false);
-    const auto empty = context->generation();
     EXPECT_TRUE(context->devices().empty());
     device.plug();
-    ASSERT_IN_TIME(comes([&] { return context->generation() > empty; }));
-    ASSERT_EQ(context->devices().size(), 1u);
-    const auto plugged = context->generation();
+    ASSERT_IN_TIME(waitForDevices(1));
     device.unplug();
-    ASSERT_IN_TIME(comes([&] { return context->generation() > plugged; }));
-    EXPECT_TRUE(context->devices().empty());
+    EXPECT_IN_TIME(waitForDevices(0));
 }
 
 TEST_F(UsbContext_, FindsADeviceAgainBySerialInAnotherSocket) {

@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "drivers/usb/UsbBulkTransport.h"
+#include "tests/support/Comes.h"
 #include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
-#include "tests/support/usb_emulation/Comes.h"
 #include "tests/support/usb_emulation/EmulatedUsbDevice.h"
 
 namespace tacto::test {

@@ -26,10 +26,6 @@ namespace tacto::test {
 
 inline constexpr const char* kWords = "correct horse 4711";
 
-inline std::shared_ptr<const Secret> secretOf(const char* words) {
-    return std::make_shared<const Secret>(std::as_bytes(std::span(std::string_view(words))));
-}
-
 class StudyInThePage : public testing::Test {
 protected:
     /// `cheap`: keys in a place of their own that cost no second; else where the command line's program finds them.

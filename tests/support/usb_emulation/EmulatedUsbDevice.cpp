@@ -199,11 +199,6 @@ std::vector<UsbSetup> EmulatedUsbDevice::waitForRequests(std::size_t count) cons
     return emulation_->requests;
 }
 
-bool EmulatedUsbDevice::waitForKernelDriver() const {
-    std::unique_lock lock(emulation_->mutex);
-    return emulation_->changed.wait_for(lock, kTimeout, [&] { return emulation_->kernelBound; });
-}
-
 bool EmulatedUsbDevice::kernelDriverBound() const {
     const std::lock_guard lock(emulation_->mutex);
     return emulation_->kernelBound;

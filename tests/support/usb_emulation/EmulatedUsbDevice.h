@@ -95,8 +95,6 @@ public:
     [[nodiscard]] std::vector<UsbSetup> waitForRequests(std::size_t count) const;
     /// Whether the kernel's driver holds its interfaces now.
     [[nodiscard]] bool kernelDriverBound() const;
-    /// Waits until it does; false after 5 s.
-    [[nodiscard]] bool waitForKernelDriver() const;
     /// Times that a host cleared a stall.
     [[nodiscard]] int cleared() const;
 

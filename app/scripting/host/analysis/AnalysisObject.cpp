@@ -8,6 +8,19 @@
 
 namespace tacto {
 
+std::vector<HostParameter> host::analysis::withWeighing(HostParameter first) {
+    using namespace takes;
+    return {std::move(first),
+            number("options.tolerance_pct", "%", "half-width that all weights share").range(0, 50).otherwise(0),
+            number("options.gravity_tolerance_pct", "%", "half-width of local gravity; 0: not known")
+                .range(0, 50)
+                .otherwise(0),
+            number("options.contact_area_cm2", "cm2", "area under a weight; 0: not known").range(0, 100).otherwise(0),
+            number("options.contact_area_tolerance_pct", "%", "half-width of the area; 0: not known")
+                .range(0, 90)
+                .otherwise(0)};
+}
+
 std::vector<HostFunction> analysisFunctions() {
     using namespace takes;
     constexpr double kLargest = 1e9;  // of a tolerance
@@ -140,16 +153,8 @@ std::vector<HostFunction> analysisFunctions() {
          .errors = "Throws for fewer than two references, or where the readings do not follow them.",
          .call = host::analysis::sensorScale},
         {.name = "fingertipScales",
-         .parameters =
-             {list("weighed", "objects { reading: from bench.measureWeight(), direction: up or down }"),
-              number("options.tolerance_pct", "%", "half-width that all weights share").range(0, 50).otherwise(0),
-              number("options.gravity_tolerance_pct", "%", "half-width of local gravity; 0: not known")
-                  .range(0, 50)
-                  .otherwise(0),
-              number("options.contact_area_cm2", "cm2", "area under a weight; 0: not known").range(0, 100).otherwise(0),
-              number("options.contact_area_tolerance_pct", "%", "half-width of the area; 0: not known")
-                  .range(0, 90)
-                  .otherwise(0)},
+         .parameters = host::analysis::withWeighing(
+             list("weighed", "objects { reading: from bench.measureWeight(), direction: up or down }")),
          .text = "What one unit of force and of each taxel stands for: force against the weights, taxels against their "
                  "pressure over the contact area.",
          .returns = "{ force, taxels: list }: force as analysis.sensorScale() with unit, taxels { taxel, unit, scale, "

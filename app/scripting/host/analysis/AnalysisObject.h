@@ -20,4 +20,7 @@ HostCall transitions, difference;       // Transitions.cpp
 HostCall latency, changes;              // Changes.cpp
 HostCall variation, uncertainBench;     // Variation.cpp
 
+/// `first`, and what the scales of a fingertip rest on: weights, gravity and contact area.
+[[nodiscard]] std::vector<HostParameter> withWeighing(HostParameter first);
+
 }  // namespace tacto::host::analysis

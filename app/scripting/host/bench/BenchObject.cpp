@@ -12,6 +12,10 @@ std::vector<HostFunction> benchFunctions() {
         "Throws when a fault of another kind came, when the bench cannot change the load, and when the run is stopped. "
         "The fault that was provoked is reset and does not end the run.";
     constexpr auto kMaxTrains = static_cast<double>(ScriptSession::kHeldCaptures);
+    const auto speed = number("options.speed_mm_s", "mm/s", "sliding speed").range(0, 1000).otherwise(50);
+    const auto force = number("options.force_n", "N", "normal force").range(0, 50);
+    const auto sliding = number("options.duration_s", "s", "of reading").range(1, 600).otherwise(4);
+    const auto surface = text("material", "surface, as \"P120\"");
     return {
         {.name = "arm",
          .parameters = {load("options.load", "declared load, ± 20 % for the limits").otherwise(ArmRequest{}.load)},
@@ -79,9 +83,8 @@ std::vector<HostFunction> benchFunctions() {
               text("options.source", "\"finger\": slide over a surface; \"direct\": set R and P")
                   .oneOf({"finger", "direct"})
                   .otherwise("finger"),
-              text("options.material", "surface").optional("glass below R 0.5, else P60,"),
-              number("options.speed_mm_s", "mm/s", "sliding speed").range(0, 1000).otherwise(50),
-              number("options.force_n", "N", "normal force").range(0, 50).optional("0.15 below P 0.5, else 6,"),
+              text("options.material", "surface").optional("glass below R 0.5, else P60,"), speed,
+              force.optional("0.15 below P 0.5, else 6,"),
               number("options.tolerance", "", "settled: R and P did not change in 0.5 s").range(0, 1).otherwise(0.02),
               number("options.limit_s", "s", "longest wait for that").range(0.5, 600).otherwise(5)},
          .text = "Sets the bench to a condition. On a rig that cannot present surfaces the operator is asked to "
@@ -95,10 +98,7 @@ std::vector<HostFunction> benchFunctions() {
          .errors = "Throws when the run is stopped.",
          .call = host::bench::lift},
         {.name = "measureReference",
-         .parameters = {text("material", "surface, as \"P120\""),
-                        number("options.speed_mm_s", "mm/s", "sliding speed").range(0, 1000).otherwise(50),
-                        number("options.force_n", "N", "normal force").range(0, 50).otherwise(1),
-                        number("options.duration_s", "s", "of reading").range(1, 600).otherwise(4)},
+         .parameters = {surface, speed, force.otherwise(1), sliding},
          .text = "Disarms, slides over a reference surface and averages the two roughness features.",
          .returns = "{ material, h, v, frames }; a feature this rig does not have is null.",
          .errors = "Throws when nothing was felt or the run is stopped.",
@@ -315,10 +315,7 @@ std::vector<HostFunction> benchFunctions() {
          .failsDisarmed = true,
          .call = host::bench::measureRest},
         {.name = "measureSlide",
-         .parameters = {text("material", "surface, as \"P120\""), object("rest", "from bench.measureRest()"),
-                        number("options.speed_mm_s", "mm/s", "sliding speed").range(0, 1000).otherwise(50),
-                        number("options.force_n", "N", "normal force").range(0, 50).otherwise(1),
-                        number("options.duration_s", "s", "of reading").range(1, 600).otherwise(4)},
+         .parameters = {surface, object("rest", "from bench.measureRest()"), speed, force.otherwise(1), sliding},
          .text =
              "Disarms, slides over a surface as bench.measureReference() does, and reads every feature of the slide.",
          .returns = "{ material, h, h_abs, v_static, v_dynamic, force_n, sliding_frames, track }: a feature that the "

@@ -2,6 +2,8 @@
 // returns.
 #include "app/scripting/host/report/ReportObject.h"
 
+#include "app/scripting/host/analysis/AnalysisObject.h"
+
 namespace tacto {
 
 std::vector<HostFunction> reportFunctions() {
@@ -65,12 +67,7 @@ std::vector<HostFunction> reportFunctions() {
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::loadTracingsFigures},
         {.name = "fingertipScales",
-         .parameters =
-             {object("scales", "from analysis.fingertipScales()"),
-              number("options.tolerance_pct", "%", "of the weights").range(0, 50).otherwise(0),
-              number("options.gravity_tolerance_pct", "%", "of local gravity; 0: not known").range(0, 50).otherwise(0),
-              number("options.contact_area_cm2", "cm2", "area under a weight; 0: not known").range(0, 100).otherwise(0),
-              number("options.contact_area_tolerance_pct", "%", "of the area; 0: not known").range(0, 90).otherwise(0)},
+         .parameters = host::analysis::withWeighing(object("scales", "from analysis.fingertipScales()")),
          .text = "Adds the scales of force and taxels to the report; the options are those they were found with.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::fingertipScales},

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/emulated/sciencemode/DeviceSide.h"
 #include "tests/support/emulated/sciencemode/EmulatedOutput.h"
 
 namespace tacto::sciencemode {
