@@ -161,6 +161,7 @@ void readNotEvaluated(const QJsonObject& results, ReportBasis& basis) {
         found = found.mid(0, kMaxNamedAt);
         found << QString("and %1 more, which stand among the results").arg(more);
     }
+    for (auto& each : found) each = withSigns(each);
     basis.notEvaluated = found;
 }
 

@@ -145,6 +145,11 @@ public:
     }
 
 private:
+    /// A choice in the words that its protocol gives it: "1 MS/s" of "1M".
+    static QString chosenText(const QJsonObject& parameter) {
+        return parameter.contains("shown") ? parameter["shown"].toString() : plainText(parameter["value"]);
+    }
+
     void takeAbout(const QJsonObject& item) {
         if (item.contains("title")) model_.title = item["title"].toString();
         if (item.contains("purpose")) model_.purpose = item["purpose"].toString();
@@ -157,9 +162,9 @@ private:
         for (const auto& element : item["parameters"].toArray()) {
             const auto parameter = element.toObject();
             const auto value = parameter["value"];
-            model_.settings.push_back(
-                {parameter["label"].toString(),
-                 value.isDouble() ? settingText(value.toDouble(), parameter["unit"].toString()) : plainText(value)});
+            model_.settings.push_back({parameter["label"].toString(),
+                                       value.isDouble() ? settingText(value.toDouble(), parameter["unit"].toString())
+                                                        : chosenText(parameter)});
         }
     }
 
@@ -228,7 +233,10 @@ bool endsARun(const std::string& kind) {
 /// The sentence of an event: its own text, else its fields.
 QString sentenceOf(const QJsonObject& body) {
     for (const char* key : {"text", "message", "reason"}) {
-        if (body[QLatin1String(key)].isString()) return body[QLatin1String(key)].toString();
+        if (!body[QLatin1String(key)].isString()) continue;
+        const auto said = body[QLatin1String(key)].toString();
+        const auto gap = body["longest_gap_s"];  // of keep-alives
+        return gap.isDouble() ? said + ": " + quantityText(gap.toDouble(), "s", 3) : said;
     }
     QStringList parts;
     for (auto it = body.begin(); it != body.end(); ++it) parts << it.key() + " " + plainText(it.value());

@@ -102,6 +102,20 @@ TEST_F(SessionReport, OfASessionFromBeforeKindsWereDeclaredStatesTheRuleOfItsPro
     EXPECT_TRUE(model.basis.rule[0].value.startsWith("Separable when each pair of conditions"));
 }
 
+TEST_F(SessionReport, GivesAChoiceInItsProtocolsWordsAndAKeepAliveItsTime) {
+    ASSERT_TRUE(writer_->reportItem(
+        Instant{0},
+        {{"kind", "about"},
+         {"title", "x"},
+         {"parameters", {{{"name", "rate"}, {"label", "Sampling rate"}, {"value", "1M"}, {"shown", "1 MS/s"}}}}}));
+    ASSERT_TRUE(writer_->event(toInstant(1), "keep-alive", {{"longest_gap_s", 0.25}, {"text", "the longest time"}}));
+    const auto model = closedAndRead();
+    ASSERT_EQ(model.settings.size(), 1U);
+    EXPECT_EQ(model.settings[0].value, "1 MS/s");
+    ASSERT_EQ(model.events.size(), 1U);
+    EXPECT_EQ(model.events[0].text, "the longest time: 250\u202fms");
+}
+
 TEST_F(SessionReport, ShowsABrokenFigureAsASentence) {
     ASSERT_TRUE(
         writer_->reportItem(Instant{0}, {{"kind", "figure"}, {"caption", "Pie"}, {"figure", {{"type", "pie"}}}}));

@@ -1,12 +1,8 @@
 #include "app/gui/study/AdverseEventDialog.h"
 
 #include <QPushButton>
-#include <QVBoxLayout>
 
 #include "app/gui/study/DialogField.h"
-#include "app/gui/study/DialogFoot.h"
-#include "app/gui/theme/ScrollingPage.h"
-#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -16,17 +12,13 @@ constexpr int kEventWide = 520, kEventHigh = 580, kLeastForm = 120;
 }
 
 AdverseEventDialog::AdverseEventDialog(OpenStudy& study, const QString& code, QWidget* parent)
-    : QDialog(parent), study_(study), form_(new ParameterForm), trouble_(new QLabel(this)) {
-    setObjectName("adverseEventDialog");
-    setWindowTitle(tr("An adverse event"));
-    auto* column = new QVBoxLayout(this);
-    column->addWidget(heading(tr("An adverse event"), this));
-    column->addWidget(explanation(
-        tr("It is sealed under the study’s key, stands in the committee’s report, and stays when the participant "
-           "withdraws. Never write a name."),
-        this));
+    : StudyDialog(study, "adverseEventDialog", tr("An adverse event"),
+                  tr("It is sealed under the study’s key, stands in the committee’s report, and stays when the "
+                     "participant withdraws. Never write a name."),
+                  parent),
+      form_(new ParameterForm) {
     ProtocolDeclaration fields;
-    if (const auto* open = study_.study()) fields.parameters.push_back(sessionField(*open, code));
+    if (const auto* open = opened().study()) fields.parameters.push_back(sessionField(*open, code));
     const auto needed = tr("the committee cannot judge it");
     auto what = dialogField("what", tr("What happened"), ParameterType::Text, {});
     what.needed = needed.toStdString();
@@ -41,25 +33,21 @@ AdverseEventDialog::AdverseEventDialog(OpenStudy& study, const QString& code, QW
         fields.parameters.push_back(field);
     form_->show(fields);
     form_->referencePart().hide();
-    auto* page = new ScrollingPage(this);
-    page->hold(form_);
-    column->addWidget(page, 1);
-    trouble_->setObjectName("adverseEventTrouble");
+    scroll(form_, scaledPx(kLeastForm));
     auto* note = new QPushButton(tr("Note the event"), this);
     note->setObjectName("noteEvent");
     makePrimary(*note);
-    addFoot(*this, *column, *trouble_, note);
+    finish("adverseEventTrouble", note);
     connect(note, &QPushButton::clicked, this, &AdverseEventDialog::note);
     resize(scaledPx(kEventWide), kEventHigh);
-    page->setMinimumHeight(scaledPx(kLeastForm));
 }
 
 void AdverseEventDialog::note() {
-    auto* study = study_.study();
-    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nothing was noted."));
+    auto* study = openStudy(tr("Nothing was noted."));
+    if (study == nullptr) return;
     if (const auto open = form_->unanswered(); !open.isEmpty()) {
         form_->goToRefused();
-        return trouble_->setText("⚠ " + open);
+        return refuse(open);
     }
     AdverseEvent event;
     event.what = form_->text("what").trimmed().toStdString();
@@ -70,9 +58,8 @@ void AdverseEventDialog::note() {
     event.outcome = form_->text("outcome").trimmed().toStdString();
     event.reported = form_->text("reported") == "true";
     const auto noted = study->adverseEvent(form_->text("session").toStdString(), event);
-    if (!noted) return trouble_->setText("⚠ " + sentence(noted.error()));
-    study_.noteChange();
-    accept();
+    if (!noted) return refuse(noted.error());
+    noteAndClose();
 }
 
 }  // namespace tacto::gui

@@ -3,15 +3,12 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QDialog>
-#include <QLabel>
-
 #include "app/gui/runner/ParameterForm.h"
-#include "app/gui/study/OpenStudy.h"
+#include "app/gui/study/StudyDialog.h"
 
 namespace tacto::gui {
 
-class AdverseEventDialog final : public QDialog {
+class AdverseEventDialog final : public StudyDialog {
     Q_OBJECT
 public:
     /// `code`: whose last session is chosen first; may be empty. `study` outlives it.
@@ -19,9 +16,7 @@ public:
 
 private:
     void note();
-    OpenStudy& study_;
     ParameterForm* form_;
-    QLabel* trouble_;
 };
 
 }  // namespace tacto::gui

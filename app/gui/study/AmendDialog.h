@@ -3,15 +3,12 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QDialog>
-#include <QLabel>
-
-#include "app/gui/study/OpenStudy.h"
+#include "app/gui/study/StudyDialog.h"
 #include "app/gui/study/StudyForm.h"
 
 namespace tacto::gui {
 
-class AmendDialog final : public QDialog {
+class AmendDialog final : public StudyDialog {
     Q_OBJECT
 public:
     /// `study` outlives it.
@@ -19,9 +16,7 @@ public:
 
 private:
     void amend();
-    OpenStudy& study_;
     StudyForm* form_;
-    QLabel* trouble_;
 };
 
 }  // namespace tacto::gui

@@ -1,11 +1,8 @@
 #include "app/gui/study/ConsentDialog.h"
 
 #include <QPushButton>
-#include <QVBoxLayout>
 
 #include "app/gui/study/DialogField.h"
-#include "app/gui/study/DialogFoot.h"
-#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -15,15 +12,12 @@ constexpr int kConsentWide = 420;
 }  // namespace
 
 ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* parent)
-    : QDialog(parent), study_(study), code_(code), form_(new ParameterForm(this)), trouble_(new QLabel(this)) {
-    setObjectName("consentDialog");
-    setWindowTitle(tr("Consent of %1").arg(code));
+    : StudyDialog(study, "consentDialog", tr("Consent of %1").arg(code),
+                  tr("The signed form stays on paper, apart from the code. What you enter here is sealed."), parent),
+      code_(code),
+      form_(new ParameterForm(this)) {
     setMinimumWidth(scaledPx(kConsentWide));
-    auto* column = new QVBoxLayout(this);
-    column->addWidget(heading(tr("Consent of %1").arg(code), this));
-    column->addWidget(
-        explanation(tr("The signed form stays on paper, apart from the code. What you enter here is sealed."), this));
-    const auto* open = study_.study();
+    const auto* open = opened().study();
     ProtocolDeclaration fields;
     fields.parameters = {dialogField("version", tr("Version of the form that was signed"), ParameterType::Text,
                                      open == nullptr ? std::string() : open->settings().consentVersion),
@@ -36,25 +30,23 @@ ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* par
                                     std::pair("by", tr("The investigator’s initials, not the participant’s."))})
         form_->findChild<QWidget*>(name)->setToolTip(tip);
     form_->referencePart().hide();  // a consent has none
-    column->addWidget(form_);
-    trouble_->setObjectName("consentTrouble");
+    column().addWidget(form_);
     auto* note = new QPushButton(tr("Note the consent"), this);
     note->setObjectName("noteConsent");
     makePrimary(*note);
-    addFoot(*this, *column, *trouble_, note);
+    finish("consentTrouble", note);
     connect(note, &QPushButton::clicked, this, &ConsentDialog::note);
 }
 
 void ConsentDialog::note() {
-    auto* study = study_.study();
-    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nothing was noted."));
+    auto* study = openStudy(tr("Nothing was noted."));
+    if (study == nullptr) return;
     const auto date = parseDate(form_->text("date").toStdString());
-    if (!date) return trouble_->setText(tr("⚠ The day is missing. One as 2026-11-21 is expected."));
+    if (!date) return refuse(tr("The day is missing. One as 2026-11-21 is expected."));
     const auto noted = study->consent(code_.toStdString(),
                                       {form_->text("version").toStdString(), *date, form_->text("by").toStdString()});
-    if (!noted) return trouble_->setText("⚠ " + sentence(noted.error()));
-    study_.noteChange();
-    accept();
+    if (!noted) return refuse(noted.error());
+    noteAndClose();
 }
 
 }  // namespace tacto::gui

@@ -3,15 +3,12 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QDialog>
-#include <QLabel>
-
 #include "app/gui/runner/ParameterForm.h"
-#include "app/gui/study/OpenStudy.h"
+#include "app/gui/study/StudyDialog.h"
 
 namespace tacto::gui {
 
-class ConsentDialog final : public QDialog {
+class ConsentDialog final : public StudyDialog {
     Q_OBJECT
 public:
     /// `study` outlives it.
@@ -19,10 +16,8 @@ public:
 
 private:
     void note();
-    OpenStudy& study_;
     const QString code_;
     ParameterForm* form_;
-    QLabel* trouble_;
 };
 
 }  // namespace tacto::gui

@@ -1,9 +1,7 @@
 #include "app/gui/study/EndPartDialog.h"
 
 #include <QFormLayout>
-#include <QVBoxLayout>
 
-#include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -15,20 +13,19 @@ constexpr int kEndPartWide = 480;
 }
 
 EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWidget* parent)
-    : QDialog(parent), study_(study), how_(how), code_(code), trouble_(new QLabel(this)) {
+    : StudyDialog(study, how == How::Withdraw ? "withdrawDialog" : "leaveDialog",
+                  (how == How::Withdraw ? tr("%1 withdraws") : tr("%1 leaves the study")).arg(code), {}, parent),
+      how_(how),
+      code_(code) {
     const bool withdraws = how == How::Withdraw;
-    setObjectName(withdraws ? "withdrawDialog" : "leaveDialog");
-    setWindowTitle(withdraws ? tr("%1 withdraws").arg(code) : tr("%1 leaves the study").arg(code));
     setMinimumWidth(scaledPx(kEndPartWide));
-    auto* column = new QVBoxLayout(this);
-    column->addWidget(heading(windowTitle(), this));
     const auto say = [&](const QString& what, const char* name) {
         auto* label = new QLabel(what, this);
         label->setObjectName(name);
         label->setTextFormat(Qt::PlainText);
         label->setWordWrap(true);
         label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-        column->addWidget(label);
+        column().addWidget(label);
     };
     if (withdraws) {
         say(tr("The key to everything that %1 did and answered is destroyed. The data can never be opened again. The "
@@ -45,7 +42,7 @@ EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWi
         typed_->setPlaceholderText(code);
         typed_->setToolTip(tr("The participant’s code, typed once more."));
         form->addRow(tr("Type the &code"), typed_);
-        column->addLayout(form);
+        column().addLayout(form);
         connect(typed_, &QLineEdit::textChanged, this, &EndPartDialog::judge);
     } else {
         say(tr("%1 takes part in no further session. The collected data stay, and are part of results and exports. "
@@ -53,16 +50,15 @@ EndPartDialog::EndPartDialog(OpenStudy& study, How how, const QString& code, QWi
                 .arg(code),
             "leaveWhat");
     }
-    trouble_->setObjectName("endPartTrouble");
     end_ = new ConfirmButton(withdraws ? tr("Destroy the key") : tr("Leave the study"), this);
     end_->setObjectName("endPart");
-    addFoot(*this, *column, *trouble_, end_);
+    finish("endPartTrouble", end_);
     connect(end_, &QPushButton::clicked, this, &EndPartDialog::end);
     judge();
 }
 
 QString EndPartDialog::exportsText() const {
-    const auto* study = study_.study();
+    const auto* study = opened().study();
     const auto all = study == nullptr ? std::vector<StudyExport>() : study->exports();
     if (all.empty()) return tr("Nothing was exported from this study.");
     QStringList places;
@@ -75,13 +71,12 @@ void EndPartDialog::judge() {
 }
 
 void EndPartDialog::end() {
-    auto* study = study_.study();
-    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nothing was changed."));
+    auto* study = openStudy(tr("Nothing was changed."));
+    if (study == nullptr) return;
     const auto code = code_.toStdString();
     const auto done = how_ == How::Withdraw ? study->withdraw(code) : study->leave(code);
-    if (!done) return trouble_->setText("⚠ " + sentence(done.error()));
-    study_.noteChange();
-    accept();
+    if (!done) return refuse(done.error());
+    noteAndClose();
 }
 
 }  // namespace tacto::gui

@@ -4,16 +4,14 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QDialog>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 
-#include "app/gui/study/OpenStudy.h"
+#include "app/gui/study/StudyDialog.h"
 
 namespace tacto::gui {
 
-class EndPartDialog final : public QDialog {
+class EndPartDialog final : public StudyDialog {
     Q_OBJECT
 public:
     enum class How { Leave, Withdraw };
@@ -24,11 +22,9 @@ private:
     [[nodiscard]] QString exportsText() const;
     void judge();
     void end();
-    OpenStudy& study_;
     const How how_;
     const QString code_;
     QLineEdit* typed_ = nullptr;
-    QLabel* trouble_;
     QPushButton* end_;
 };
 

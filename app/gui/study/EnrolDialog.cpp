@@ -1,10 +1,8 @@
 #include "app/gui/study/EnrolDialog.h"
 
 #include <QFormLayout>
-#include <QVBoxLayout>
 #include <algorithm>
 
-#include "app/gui/study/DialogFoot.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -16,8 +14,10 @@ constexpr int kEnrolWide = 420;
 }  // namespace
 
 EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
-    : QDialog(parent),
-      study_(study),
+    : StudyDialog(study, "enrolDialog", tr("Enrol a participant"),
+                  tr("A participant is known here by a code alone. Never write a name, a birth date or a hospital "
+                     "number."),
+                  parent),
       form_(new QWidget(this)),
       who_(new QComboBox(form_)),
       seed_(new QSpinBox(form_)),
@@ -26,17 +26,9 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
       age_(new QLineEdit(form_)),
       sex_(new QComboBox(form_)),
       hand_(new QComboBox(form_)),
-      trouble_(new QLabel(this)),
       code_(new QLabel(this)),
       next_(new QLabel(this)) {
-    setObjectName("enrolDialog");
-    setWindowTitle(tr("Enrol a participant"));
     setMinimumWidth(scaledPx(kEnrolWide));
-    auto* column = new QVBoxLayout(this);
-    column->addWidget(heading(tr("Enrol a participant"), this));
-    column->addWidget(explanation(
-        tr("A participant is known here by a code alone. Never write a name, a birth date or a hospital number."),
-        this));
     auto* form = new QFormLayout(form_);
     form->setContentsMargins(0, 0, 0, 0);
     who_->setObjectName("enrolWho");
@@ -69,7 +61,7 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
     for (const auto word : kHandednesses) hand_->addItem(qtext(word), qtext(word));
     form->addRow(tr("Se&x"), sex_);
     form->addRow(tr("&Handedness"), hand_);
-    column->addWidget(form_);
+    column().addWidget(form_);
     code_->setObjectName("enrolledCode");
     code_->setAlignment(Qt::AlignCenter);
     code_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -78,13 +70,12 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
     for (auto* label : {code_, next_}) {
         label->setTextFormat(Qt::PlainText);
         label->hide();
-        column->addWidget(label);
+        column().addWidget(label);
     }
-    trouble_->setObjectName("enrolTrouble");
     enrol_ = new QPushButton(tr("Enrol"), this);
     enrol_->setObjectName("enrolNow");
     makePrimary(*enrol_);
-    close_ = addFoot(*this, *column, *trouble_, enrol_);
+    close_ = finish("enrolTrouble", enrol_);
     connect(enrol_, &QPushButton::clicked, this, &EnrolDialog::enrol);
     connect(who_, &QComboBox::currentIndexChanged, this, &EnrolDialog::judge);
     judge();
@@ -99,9 +90,8 @@ void EnrolDialog::judge() {
 }
 
 void EnrolDialog::enrol() {
-    auto* study = study_.study();
-    if (study == nullptr)
-        return trouble_->setText(tr("⚠ The study is not open any more. No participant was enrolled."));
+    auto* study = openStudy(tr("No participant was enrolled."));
+    if (study == nullptr) return;
     Participant participant;
     participant.code = own_->text().trimmed().toStdString();
     participant.group = ParticipantGroup(group_->currentData().toInt());
@@ -113,17 +103,13 @@ void EnrolDialog::enrol() {
         participant.handedness = hand_->currentData().toString().toStdString();
     }
     const auto enrolled = study->enrol(std::move(participant));
-    if (!enrolled) {
-        trouble_->setText("⚠ " + sentence(enrolled.error()));
-        resize(width(), std::max(height(), layout()->totalHeightForWidth(width())));
-        return;
-    }
+    if (!enrolled) return refuse(enrolled.error());
     showCode(*enrolled);
-    study_.noteChange();
+    opened().noteChange();
 }
 
 void EnrolDialog::showCode(const Participant& participant) {
-    trouble_->clear();
+    clearTrouble();
     form_->hide();
     enrol_->hide();
     code_->setText(qtext(participant.code));

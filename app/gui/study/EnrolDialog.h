@@ -4,17 +4,16 @@
 #pragma once
 
 #include <QComboBox>
-#include <QDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 
-#include "app/gui/study/OpenStudy.h"
+#include "app/gui/study/StudyDialog.h"
 
 namespace tacto::gui {
 
-class EnrolDialog final : public QDialog {
+class EnrolDialog final : public StudyDialog {
     Q_OBJECT
 public:
     /// `study` outlives it.
@@ -24,7 +23,6 @@ private:
     void judge();
     void enrol();
     void showCode(const Participant& participant);
-    OpenStudy& study_;
     QWidget* form_;
     QComboBox* who_;
     QSpinBox* seed_;
@@ -33,7 +31,6 @@ private:
     QLineEdit* age_;
     QComboBox* sex_;
     QComboBox* hand_;
-    QLabel* trouble_;
     QLabel* code_;
     QLabel* next_;
     QPushButton* enrol_;

@@ -5,9 +5,6 @@
 #include <QVBoxLayout>
 
 #include "app/gui/study/DialogField.h"
-#include "app/gui/study/DialogFoot.h"
-#include "app/gui/theme/ScrollingPage.h"
-#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -17,16 +14,13 @@ constexpr int kNextDayWide = 560, kNextDayHigh = 580, kLeastItems = 120;
 }
 
 NextDayDialog::NextDayDialog(OpenStudy& study, const QString& code, QWidget* parent)
-    : QDialog(parent), study_(study), form_(new ParameterForm), trouble_(new QLabel(this)) {
-    setObjectName("nextDayDialog");
-    setWindowTitle(tr("The day after a session"));
-    auto* column = new QVBoxLayout(this);
-    column->addWidget(heading(tr("The day after a session"), this));
-    column->addWidget(explanation(tr("Ask the participant on a later day. It is sealed; what is noted last counts. "
-                                     "Skin that scores 2 or more is noted as an adverse event."),
-                                  this));
+    : StudyDialog(study, "nextDayDialog", tr("The day after a session"),
+                  tr("Ask the participant on a later day. It is sealed; what is noted last counts. Skin that scores 2 "
+                     "or more is noted as an adverse event."),
+                  parent),
+      form_(new ParameterForm) {
     ProtocolDeclaration fields;
-    if (const auto* open = study_.study()) fields.parameters.push_back(sessionField(*open, code));
+    if (const auto* open = opened().study()) fields.parameters.push_back(sessionField(*open, code));
     const auto needed = tr("the site is not known to be well");
     fields.parameters.push_back(scoreField("erythema", tr("Redness of the skin"), kSkinScores, needed, 0));
     fields.parameters.push_back(scoreField("oedema", tr("Swelling of the skin"), kSkinScores, needed, 0));
@@ -38,17 +32,13 @@ NextDayDialog::NextDayDialog(OpenStudy& study, const QString& code, QWidget* par
     rows->addWidget(form_);
     rows->addWidget(buildItems());
     rows->addStretch();
-    auto* page = new ScrollingPage(this);
-    page->hold(inside);
-    column->addWidget(page, 1);
-    trouble_->setObjectName("nextDayTrouble");
+    scroll(inside, scaledPx(kLeastItems));
     auto* note = new QPushButton(tr("Note the answers"), this);
     note->setObjectName("noteDay");
     makePrimary(*note);
-    addFoot(*this, *column, *trouble_, note);
+    finish("nextDayTrouble", note);
     connect(note, &QPushButton::clicked, this, &NextDayDialog::note);
     resize(scaledPx(kNextDayWide), kNextDayHigh);
-    page->setMinimumHeight(scaledPx(kLeastItems));
 }
 
 QWidget* NextDayDialog::buildItems() {
@@ -90,11 +80,11 @@ QWidget* NextDayDialog::buildItems() {
 }
 
 void NextDayDialog::note() {
-    auto* study = study_.study();
-    if (study == nullptr) return trouble_->setText(tr("⚠ The study is not open any more. Nothing was noted."));
+    auto* study = openStudy(tr("Nothing was noted."));
+    if (study == nullptr) return;
     if (const auto open = form_->unanswered(); !open.isEmpty()) {
         form_->goToRefused();
-        return trouble_->setText("⚠ " + open);
+        return refuse(open);
     }
     NextDay said;
     said.erythema = form_->text("erythema").toInt();
@@ -103,16 +93,15 @@ void NextDayDialog::note() {
         if (items_[i].severity->currentIndex() == 0) continue;
         if (items_[i].relation->currentIndex() == 0) {
             items_[i].relation->setFocus();
-            return trouble_->setText(tr("⚠ How “%1” is related to the session is missing. 1 to 5 is expected.")
-                                         .arg(QCoreApplication::translate("SideEffect", kSideEffects[i].text)));
+            return refuse(tr("How “%1” is related to the session is missing. 1 to 5 is expected.")
+                              .arg(QCoreApplication::translate("SideEffect", kSideEffects[i].text)));
         }
         said.sideEffects.push_back(
             {kSideEffects[i].key, items_[i].severity->currentIndex(), items_[i].relation->currentIndex()});
     }
     const auto noted = study->nextDay(form_->text("session").toStdString(), said);
-    if (!noted) return trouble_->setText("⚠ " + sentence(noted.error()));
-    study_.noteChange();
-    accept();
+    if (!noted) return refuse(noted.error());
+    noteAndClose();
 }
 
 }  // namespace tacto::gui

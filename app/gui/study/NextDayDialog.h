@@ -4,16 +4,14 @@
 #pragma once
 
 #include <QComboBox>
-#include <QDialog>
-#include <QLabel>
 #include <vector>
 
 #include "app/gui/runner/ParameterForm.h"
-#include "app/gui/study/OpenStudy.h"
+#include "app/gui/study/StudyDialog.h"
 
 namespace tacto::gui {
 
-class NextDayDialog final : public QDialog {
+class NextDayDialog final : public StudyDialog {
     Q_OBJECT
 public:
     /// `code`: whose last session is chosen first; may be empty. `study` outlives it.
@@ -26,10 +24,8 @@ private:
         QComboBox* severity;
         QComboBox* relation;
     };
-    OpenStudy& study_;
     ParameterForm* form_;
     std::vector<Item> items_;  // as kSideEffects
-    QLabel* trouble_;
 };
 
 }  // namespace tacto::gui

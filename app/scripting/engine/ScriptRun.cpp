@@ -181,6 +181,8 @@ void ScriptRun::State::writeAbout() {
                               {"label", parameter.label},
                               {"value", request.parameters.value(parameter.name, parameter.value)},
                               {"unit", parameter.unit}});
+        for (const auto& [key, words] : parameter.choices)
+            if (parameters.back()["value"] == key) parameters.back()["shown"] = words;
     }
     (void)request.session->reportItem(session.now(), {{"kind", "about"},
                                                       {"title", declaration->title},
