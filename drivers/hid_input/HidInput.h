@@ -2,7 +2,8 @@
 //
 // Two that are plugged in with the same vendor, product and serial number (or none) cannot be told apart when one is
 // plugged in again, so neither can be used (H4). One that went is opened again when a device of its identity and its
-// very report descriptor is back. A device that types keys is a keyboard, and is not listed.
+// very report descriptor is back; one like it that was plugged in when it went stays another (H4). A device that types
+// keys is a keyboard, and is not listed.
 //
 // Thread-safety: as ButtonDevices.
 #pragma once
