@@ -228,7 +228,9 @@ Shown shownAs(const json& results) {
                                                     {StimulatorCalibration, {printCalibration}},
                                                     {Transitions, {printTransitions}},
                                                     {EncodingComparison, {printEncodingComparison}},
-                                                    {SensorCalibration, {printSensorCalibration}}};
+                                                    {SensorCalibration, {printSensorCalibration}},
+                                                    {PilotThresholds, {printPilotThresholds}},
+                                                    {PilotIdentification, {printPilotIdentification}}};
     const auto kind = results.is_object() ? results.find("kind") : results.end();
     if (kind == results.end() || !kind->is_string()) return {};
     const auto found = kKinds.find(resultTraits(kind->get<std::string>()).kind);

@@ -28,6 +28,9 @@ void printVariation(const nlohmann::json& results);
 void printTransitions(const nlohmann::json& results);
 void printEncodingComparison(const nlohmann::json& results);
 void printSensorCalibration(const nlohmann::json& results);
+/// A pilot session's: thresholds and range; the answers to each condition, and how well they were told apart.
+void printPilotThresholds(const nlohmann::json& results);
+void printPilotIdentification(const nlohmann::json& results);
 /// Any other protocol's results, a line each.
 void printResults(const nlohmann::json& results);
 /// The results of a separability run or analysis, as a table on stdout, without the verdict.

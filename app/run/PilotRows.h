@@ -22,6 +22,7 @@ struct PilotRows {
     std::vector<SessionRow> events;         ///< in order
     std::optional<std::uint64_t> seed;      ///< of the first part
     std::string chainHead;                  ///< of the last part
+    std::string runSha256;                  ///< of its plan: runHash(); empty where it was not kept yet
     std::optional<SessionDevice> delivers;  ///< the stimulator or massager of the first part
     /// When something was last presented or answered; else when the session began, however often it was gone on with.
     /// On a virtual clock a session's time runs ahead of the wall's, so a part counts from its beginning.

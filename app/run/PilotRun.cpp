@@ -238,6 +238,15 @@ Result<void> PilotRun::sameDevice(const DeviceSet& devices) const {
                 whatEnds());
 }
 
+/// Levels hold for one kind of train, and answers of two procedures are no result of either.
+Result<void> PilotRun::sameProcedure() const {
+    if (earlier_.runSha256.empty() || earlier_.runSha256 == settings_.runSha256) return {};
+    return fail(kGateRefused,
+                "session {} of {} was begun with a profile, method and settings that hash to {:.12}…, and those of now "
+                "hash to {:.12}…; it goes on with the former, or ends with {}",
+                unfinished_->number, who_.code, earlier_.runSha256, settings_.runSha256, whatEnds());
+}
+
 // The bench
 
 Result<VirtualObserver> PilotRun::observerFor(const RunOrder& order) const {
@@ -288,6 +297,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     if (!massager) fitProfile(profile, study);
 
     settings_.code = who_.code;
+    settings_.runSha256 = runHash(study, request_.procedure);
     settings_.isVirtual = who_.virtualSeed.has_value();
     settings_.session = unfinished_ ? unfinished_->number : who_.sessions + 1;
     if (earlier_.seed) order.seed = *earlier_.seed;  // The session's seed replaces the command's
@@ -320,6 +330,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
         if (auto holds = machineGate(study_->settings(), profile, limits, devices, utcToday()); !holds)
             return failure(holds);
         if (auto same = sameDevice(devices); !same) return failure(same);
+        if (auto same = sameProcedure(); !same) return failure(same);
         return makeSession(about, clock, devices);
     };
 

@@ -66,6 +66,7 @@ private:
     [[nodiscard]] std::string_view whatEnds() const;
     [[nodiscard]] std::string_view whatGoesOn() const;
     [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
+    [[nodiscard]] Result<void> sameProcedure() const;
     [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
     void fitOrder(RunOrder& order, const PilotOrder& pilot);
     void chooseEncoding();

@@ -60,6 +60,7 @@ Result<void> PilotIdentification::plan(bool withTrials) {
         nlohmann::json body{{"seed", settings.seed},
                             {"encoding", settings.encoding},
                             {"blocks", static_cast<std::uint64_t>(settings.blocks)},
+                            {"run_sha256", settings.runSha256},
                             {"trials", nullptr}};
         if (!withTrials) return body;
         TrialPlanSettings wanted;

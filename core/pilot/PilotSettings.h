@@ -31,6 +31,7 @@ struct PilotSettings {
     int blocks = 5;
     int perCondition = 4;   ///< of a block
     int catchTrials = 2;    ///< of a block
+    std::string runSha256;  ///< of what it is run with (runHash()); in the plan, so that it goes on with the same
     double adaptation = 0;  ///< noted only; the virtual participant has it
 
     /// What the participant feels it through, as the record says it.

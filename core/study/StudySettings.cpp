@@ -223,4 +223,9 @@ std::string protocolHash(const StudySettings& settings) {
     return sha256Hex(dumpJson(json));
 }
 
+std::string runHash(StudySettings settings, const StudyProcedure& procedure) {
+    settings.procedure = procedure;
+    return protocolHash(settings);
+}
+
 }  // namespace tacto

@@ -127,5 +127,7 @@ struct StudySettings {
 /// What an approval's protocol_sha256 stands for: SHA-256 over every setting but the approval itself and the
 /// license of exports, and the scripts. A procedure that is absent does not count.
 [[nodiscard]] std::string protocolHash(const StudySettings& settings);
+/// The same of settings and what a session is run with: a session that was interrupted goes on with no other.
+[[nodiscard]] std::string runHash(StudySettings settings, const StudyProcedure& procedure);
 
 }  // namespace tacto

@@ -121,6 +121,10 @@ private:
                 port_.reset();
                 buttons_.forget();
                 listener_.plugged(false);
+                for (const auto& one : look(*backend_)) {
+                    if (one.shown.identity == found_.shown.identity && one.hid.path != path_)
+                        others_.insert(one.hid.path);
+                }
                 continue;
             }
             for (const auto& change : buttons_.read(std::span(report).first(*came)))
@@ -133,12 +137,17 @@ private:
             std::unique_lock lock(mutex_);
             if (wake_.wait_for(lock, kLookAgain, [this] { return closing_; })) return;
         }
-        for (const auto& one : look(*backend_)) {
+        const auto there = look(*backend_);
+        std::erase_if(others_, [&](const std::string& path) {
+            return std::ranges::none_of(there, [&](const Found& one) { return one.hid.path == path; });
+        });
+        for (const auto& one : there) {
             if (one.shown.identity != found_.shown.identity || !one.shown.obstacle.empty()) continue;
-            if (one.descriptor != found_.descriptor) continue;
+            if (one.descriptor != found_.descriptor || others_.contains(one.hid.path)) continue;
             auto port = backend_->open(one.hid);
             if (!port) return;
             port_ = std::move(*port);
+            path_ = one.hid.path;
             listener_.plugged(true);
             return;
         }
@@ -146,8 +155,10 @@ private:
 
     const std::shared_ptr<const HidBackend> backend_;
     const Found found_;
-    HidButtons buttons_;             // of thread_
-    std::unique_ptr<HidPort> port_;  // of thread_; null while it is not plugged in
+    HidButtons buttons_;                  // of thread_
+    std::unique_ptr<HidPort> port_;       // of thread_; null while it is not plugged in
+    std::string path_ = found_.hid.path;  // of thread_; where it is, or was last
+    std::set<std::string> others_;        // of thread_; like it, and there since before it went
     const ButtonListener listener_;
     std::mutex mutex_;
     std::condition_variable wake_;

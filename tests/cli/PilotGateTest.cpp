@@ -101,6 +101,72 @@ TEST_F(PilotGates, OfParticipantConsentAndExclusionRefuseWithNothingChanged) {
     expectRefused(code, 3, "the study has no participant");
 }
 
+TEST_F(PilotGates, OfTheProcedureRefuseAProfileThatIsAnotherInAnythingThatIsFelt) {
+    RecordProperty("hazard", "H12");
+    consents();
+    const auto shipped = nlohmann::json::parse(contentOf(sourceDir() / "resources/encodings/default.json"));
+    const auto changed = [&](const char* pointer, const nlohmann::json& value) {
+        auto other = shipped;
+        other[nlohmann::json::json_pointer(pointer)] = value;
+        return desk.desk().write("other.json", other.dump());
+    };
+    const struct {
+        const char* pointer;
+        nlohmann::json value;
+        const char* says;
+    } kChanges[] = {{"/encoding/interval_min_s", 0.4, "shortest interval is 0.4 s"},
+                    {"/encoding/interval_max_s", 3, "longest interval is 3 s"},
+                    {"/encoding/conditions/0/R", 0.2, "conditions, assignment"},
+                    {"/encoding/conditions/3/P", 0.9, "conditions, assignment"},
+                    {"/encoding/conditions/1/name", "smooth-firm", "conditions, assignment"},
+                    {"/encoding/assignment", "swapped", "conditions, assignment"},
+                    {"/encoding/polarity", "negative", "conditions, assignment"},
+                    {"/encoding/rate_hz", 120, "conditions, assignment"},
+                    {"/safety/load_low_ohm", 600, "conditions, assignment"},
+                    {"/safety/load_high_ohm", 9000, "conditions, assignment"},
+                    {"/safety/ceilings", {{"peak_current", 12}}, "conditions, assignment"}};
+    for (const auto& each : kChanges) {
+        SCOPED_TRACE(each.pointer);
+        expectRefused(code, 4, each.says, {"--profile", changed(each.pointer, each.value)});
+    }
+    expectRefused(code, 4, "the method of detection is staircase", {"--set", "method=staircase"});
+    // Bytes of the same profile in another place, and what is not felt, are no other procedure.
+    const auto ran = desk.run("pilot-thresholds", {"--set", "participant=" + code, "--passphrase-file", passphrase,
+                                                   "--profile", changed("/name", "by another path")});
+    EXPECT_TRUE(ran.code == 0 || ran.code == 5) << ran.err;
+}
+
+TEST_F(PilotGates, OfTheProcedureRefuseASessionThatWouldGoOnAfterAnAmendmentOfWhatIsFelt) {
+    RecordProperty("hazard", "H6");
+    consents();
+    const Words words{"--set", "participant=" + code, "--passphrase-file", passphrase};
+    ASSERT_EQ(desk.runKilled(120, "pilot-thresholds", words), -9);
+    study({"amend", at(), "--reference", "EC-17 A1", "--set", "train.width_us=400"});
+    const auto before = jsonOf(study({"show", at()}));  // the ledger's head: a journal is taken up by whoever reads
+    const auto refused = desk.run("pilot-thresholds", words + Words{"--set", "unfinished=resume"});
+    EXPECT_EQ(refused.code, 4) << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("it goes on with the former, or ends with --set unfinished=end"));
+    EXPECT_EQ(jsonOf(study({"show", at()})), before);
+    study({"amend", at(), "--reference", "EC-17 A2", "--set", "train.width_us=200", "--expires", "2098-12-31"});
+    const auto ran = desk.run("pilot-thresholds", words + Words{"--set", "unfinished=resume"});
+    EXPECT_TRUE(ran.code == 0 || ran.code == 5) << ran.err << " a later day changes nothing that is felt";
+}
+
+TEST(PilotRehearsal, IsNotGoneOnWithUnderAnotherProfile) {
+    RecordProperty("hazard", "H6");
+    const PilotDesk desk;
+    ASSERT_EQ(desk.runKilled(120, "pilot-thresholds", {"--set", "participant=virtual:7"}), -9);
+    auto other = nlohmann::json::parse(contentOf(sourceDir() / "resources/encodings/default.json"));
+    other["encoding"]["interval_max_s"] = 3;  // no level of a threshold is presented at it
+    const auto shown = [&] { return desk.desk().run({"study", "show", desk.desk().at("study"), "--json"}).out; };
+    const auto before = shown();
+    const auto ran = desk.run("pilot-thresholds", {"--set", "participant=virtual:7", "--set", "unfinished=resume",
+                                                   "--profile", desk.desk().write("other.json", other.dump())});
+    EXPECT_EQ(ran.code, 4) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("was begun with a profile, method and settings that hash to"));
+    EXPECT_EQ(shown(), before);
+}
+
 TEST_F(PilotGates, OfThePassphraseRefuseWithNothingChanged) {
     RecordProperty("hazard", "H11");
     const auto before = desk.desk().files("study");

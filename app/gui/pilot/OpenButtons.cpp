@@ -16,13 +16,14 @@ bool OpenButtons::isOpen(const std::string& identity, quint64 number) const {
     return found != open_.end() && found->second.number == number;
 }
 
-Result<void> OpenButtons::open(const ButtonDeviceInfo& info) {
+Result<void> OpenButtons::open(const ButtonDeviceInfo& info, const ButtonListener& atOnce) {
     if (open_.contains(info.identity)) return {};
     if (!devices_) return fail(ErrorCode::NotFound, "{} ({}) is not plugged in any more.", info.name, info.identity);
     const auto number = ++number_;
     // On the device's thread: what it says is handed over, and never waited for.
     ButtonListener listener;
-    listener.moved = [this, number, identity = info.identity](const ButtonPress& press) {
+    listener.moved = [this, number, identity = info.identity, first = atOnce.moved](const ButtonPress& press) {
+        if (first) first(press);
         QMetaObject::invokeMethod(
             this,
             [this, number, identity, press] {
@@ -30,7 +31,8 @@ Result<void> OpenButtons::open(const ButtonDeviceInfo& info) {
             },
             Qt::QueuedConnection);
     };
-    listener.plugged = [this, number, identity = info.identity](bool there) {
+    listener.plugged = [this, number, identity = info.identity, first = atOnce.plugged](bool there) {
+        if (first) first(there);
         QMetaObject::invokeMethod(
             this,
             [this, number, identity, there] {

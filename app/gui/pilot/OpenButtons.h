@@ -1,6 +1,7 @@
 // OpenButtons.h - game pads and foot switches that are open, and what they say, brought to the window's thread.
 //
-// A press is told once, with the moment at which its report came.
+// A press is told once, with the moment at which its report came. What must not wait for the window's thread is told on
+// the device's as well, before.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -22,8 +23,9 @@ public:
     /// Sets where devices are opened from now on; null: there are none.
     void setDevices(std::shared_ptr<const ButtonDevices> devices);
     [[nodiscard]] const std::shared_ptr<const ButtonDevices>& devices() const { return devices_; }
+    /// `atOnce` is called on the device's own thread, before the signals are, and not after close().
     /// Errors: as ButtonDevices::open(). One that is open stays so.
-    [[nodiscard]] Result<void> open(const ButtonDeviceInfo& info);
+    [[nodiscard]] Result<void> open(const ButtonDeviceInfo& info, const ButtonListener& atOnce = {});
     /// All, or the one of this identity.
     void close();
     void close(const std::string& identity);

@@ -174,7 +174,14 @@ void ParticipantDesk::noteEarly(const std::string& key) {
     early_.push_back({key, clock_ ? clock_->now() : Instant(0)});
 }
 
-void ParticipantDesk::setHolding(bool holding) { holding_ = holding; }
+void ParticipantDesk::setHolding(bool holding, std::optional<int> button) {
+    holding_ = holding;
+    heldButton_ = holding ? button.value_or(kNoButton) : kNoButton;
+}
+
+bool ParticipantDesk::letGoOf(int button) noexcept {
+    return heldButton_.compare_exchange_strong(button, kNoButton) && holding_.exchange(false);
+}
 
 bool ParticipantDesk::testsStopOf(PromptTo whose) const {
     const std::scoped_lock lock(mutex_);
@@ -187,6 +194,7 @@ bool ParticipantDesk::stopBy(const char* by) {
         if (!listens_) return false;
         stop(by);
     }
+    heldButton_ = kNoButton;  // it is off already: letting go is no further stop
     {
         const std::scoped_lock lock(mutex_);
         stopped_ = true;

@@ -20,6 +20,8 @@
 
 namespace tacto::gui {
 
+inline constexpr const char* kOperatorsBreak = "the operator wants a break now";
+
 class ParticipantDesk final : public QObject, public PilotParticipant {
     Q_OBJECT
 public:
@@ -44,7 +46,7 @@ public:
     void setObstacle(const QString& why);
     /// The operator wants a break: no presentation starts until they want it no more, and the output is off. `why` is
     /// what the record says of it.
-    void setBreak(bool wanted, const std::string& why = "the operator wants a break now");
+    void setBreak(bool wanted, const std::string& why = kOperatorsBreak);
     [[nodiscard]] bool breakWanted() const;
     /// The screen is gone: a question that waits for it ends with Device, and so does the next.
     void setScreenThere(bool there);
@@ -55,7 +57,10 @@ public:
     void answerAsOperator(quint64 id, PilotAnswer answer);
     /// A press before the targets; `key` is what it would have been, or empty.
     void noteEarly(const std::string& key);
-    void setHolding(bool holding);
+    /// `button`: the code of the one that is held; by a key, the mouse or a finger none.
+    void setHolding(bool holding, std::optional<int> button = std::nullopt);
+    /// The button of that code came up. True where it was what is held, which ends that. Any thread.
+    [[nodiscard]] bool letGoOf(int button) noexcept;
     /// Output off, and the question that waits ends with Stopped; where none waits, the next one, unless the session
     /// shows something before. False where no session listens. Any thread.
     bool stopBy(const char* by);
@@ -90,7 +95,9 @@ private:
 
     std::mutex stopMutex_;  // held for moments: while `stop` is called, and to end
     bool listens_ = false;  // guarded by stopMutex_
+    static constexpr int kNoButton = -1;
     std::atomic<bool> holding_{false};
+    std::atomic<int> heldButton_{kNoButton};  ///< until it comes up or a stop comes
 };
 
 }  // namespace tacto::gui

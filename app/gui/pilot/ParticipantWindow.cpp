@@ -94,6 +94,7 @@ void ParticipantWindow::noteStop() {
     asking_ = false;
     heldKey_ = 0;
     ticking_.stop();
+    if (!desk_.holding()) face_->hold().hide();
     showState();
     repaint();
 }
@@ -223,7 +224,7 @@ void ParticipantWindow::give(PilotAnswer answer, SteadyTime at) {
 
 void ParticipantWindow::pressHold() {
     if (!asking_ || !shown_ || prompt_.kind != PromptKind::Hold) return;
-    desk_.setHolding(true);
+    desk_.setHolding(true, heldKey_ >= kFirstButton ? std::optional(heldKey_ - kFirstButton) : std::nullopt);
     PilotAnswer answer;
     answer.keys.emplace_back("held");
     give(std::move(answer), std::chrono::steady_clock::now());
@@ -275,8 +276,7 @@ void ParticipantWindow::moveButton(int code, const ButtonUse& use, bool down, St
     switch (use.does) {
         case ButtonUse::Does::Nothing:
             return;
-        case ButtonUse::Does::Stop:
-            stop_("participant (button)");
+        case ButtonUse::Does::Stop:  // its device's thread has stopped (SessionInputs.h)
             return noteStop();
         case ButtonUse::Does::Hold:
             if (face_->hold().isHidden()) return;

@@ -14,7 +14,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kOnePress_ms = 100;
+constexpr std::chrono::milliseconds kOnePress{100};
 constexpr const char* kScreenWent = "the participant's screen went";
 constexpr const char* kScreenClosed = "the participant's screen was closed";
 
@@ -44,6 +44,7 @@ SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, 
 }
 
 SessionConduct::~SessionConduct() {
+    inputs_.end();
     desk_.leave();  // answers what asker_ waits for
 }
 
@@ -66,21 +67,46 @@ void SessionConduct::connectInputs() {
                 if (window_) window_->moveButton(code, use, down, at);
             });
     connect(&inputs_, &SessionInputs::operatorPressed, this, [this](const ButtonUse& use) {
-        if (use.does == ButtonUse::Does::Stop) controller_.stop("operator (button)");
-        if (use.does != ButtonUse::Does::Answer) return;
+        if (use.does != ButtonUse::Does::Answer) return;  // STOP: atOnce()
         const bool atStrip = strip_ != nullptr && strip_->question().open();
         (atStrip ? strip_->question() : page_.question()).press(use.answer);
     });
     connect(&inputs_, &SessionInputs::lost, this, [this] {
         if (window_) window_->setInputGone(inputs_.gone());
-        if (confirming_) return;  // nothing is on, and no presentation starts
-        wantBreak(true);
-        desk_.setBreak(true, inputs_.gone().toStdString());
-        pauseFor(kOperatorPauses);
+        if (confirming_ || !running_) return;  // nothing is on, and no presentation starts
+        setBreak(true, inputs_.gone().toStdString());
+        if (window_) window_->noteStop();
     });
     connect(&inputs_, &SessionInputs::back, this, [this] {
         if (window_) window_->setInputGone(inputs_.gone());
     });
+}
+
+/// On the devices' threads: the output, whatever the window's thread does meanwhile.
+InputsAtOnce SessionConduct::atOnce() {
+    const auto participant = [this](const char* by) {
+        const auto stop = switchOff(by);
+        if (stop)
+            QMetaObject::invokeMethod(
+                this, [this, stop = *stop] { noteStop(stop); }, Qt::QueuedConnection);
+    };
+    InputsAtOnce all;
+    all.stop = [this, participant](PromptTo whose) {
+        if (whose == PromptTo::Participant)
+            participant("participant (button)");
+        else
+            controller_.stop("operator (button)");
+    };
+    all.letGo = [this, participant](int code) {
+        if (desk_.letGoOf(code)) participant("participant let go");
+    };
+    all.lost = [this](const std::string& which) {
+        if (confirming_) return;
+        desk_.setBreak(true, which);
+        if (!desk_.stopBy(kOperatorPauses)) controller_.stop(kOperatorPauses);
+        desk_.setHolding(false);  // no stop by the participant
+    };
+    return all;
 }
 
 void SessionConduct::connectStrip() {
@@ -131,7 +157,8 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     if (!made) return sentence(made.error());
     order_ = std::move(*made);
     if (start.person) {
-        if (const auto trouble = inputs_.begin(start.buttons, start.inputs); !trouble.isEmpty()) return trouble;
+        if (const auto trouble = inputs_.begin(start.buttons, start.inputs, atOnce()); !trouble.isEmpty())
+            return trouble;
     }
     if (screens_ != nullptr) screens_->disconnect(this);
     screens_ = &screens;
@@ -142,7 +169,7 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     screenPrompt_ = 0;
     participantStops_ = faults_ = 0;
     screen_ = {};
-    stoppedAt_.invalidate();
+    stoppedAt_ = SteadyTime();
     page_.begin(start);
     emit begun();
     if (start_.person) openWindow();
@@ -222,7 +249,7 @@ void SessionConduct::run() {
             if (!isPressOfStop(by)) return false;
             // StopKeys hears one press several times. What it tested is off already, and a question comes next.
             const auto since = std::chrono::steady_clock::now() - testedAt_.load();
-            if (since < std::chrono::milliseconds(kOnePress_ms)) return true;
+            if (since < kOnePress) return true;
             // In the test of the participant's it is a press of the wrong one: asked again, and no stop of the session.
             const bool tests = desk_.testsStopOf(PromptTo::Operator) || desk_.testsStopOf(PromptTo::Participant);
             heldTested_ = tests && desk_.stopBy(by);
@@ -251,22 +278,36 @@ bool SessionConduct::stopAsParticipant(const char* by) {
         controller_.stop(by);
         return false;
     }
-    // StopKeys hears one press several times. Nothing can be on again so soon: that takes their "go on".
-    if (stoppedAt_.isValid() && stoppedAt_.elapsed() < kOnePress_ms) return true;
-    stoppedAt_.start();
+    const auto stop = switchOff(by);
+    if (!stop) return true;
+    noteStop(*stop);
+    return stop->heard;
+}
+
+/// StopKeys hears one press several times, and a contact bounces. Nothing can be on again so soon: that takes their "go
+/// on".
+std::optional<SessionConduct::HeardStop> SessionConduct::switchOff(const char* by) {
+    auto last = stoppedAt_.load();
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last < kOnePress || !stoppedAt_.compare_exchange_strong(last, now)) return {};
     if (confirming_) {
         controller_.stop(by);
         desk_.cancel();
-        return true;
+        return HeardStop{true, true};
     }
-    const bool tested = desk_.testsStopOf(PromptTo::Participant) || desk_.testsStopOf(PromptTo::Operator);
-    const bool heard = desk_.stopBy(by);
-    if (!heard) controller_.stop(by);  // the session has not begun, or is over
+    HeardStop stop;
+    stop.tested = desk_.testsStopOf(PromptTo::Participant) || desk_.testsStopOf(PromptTo::Operator);
+    stop.heard = desk_.stopBy(by);
+    if (!stop.heard) controller_.stop(by);  // the session has not begun, or is over
+    return stop;
+}
+
+/// What the windows show of it.
+void SessionConduct::noteStop(const HeardStop& stop) {
     if (window_) window_->noteStop();
-    if (!tested) ++participantStops_;
+    if (!stop.tested) ++participantStops_;
     emit changed();
-    stoppedAt_.start();  // what was repainted meanwhile may have taken longer than a press does
-    return heard;
+    stoppedAt_ = std::chrono::steady_clock::now();  // what was repainted may have taken longer than a press does
 }
 
 void SessionConduct::show(const PilotScreen& screen) {
@@ -304,8 +345,10 @@ void SessionConduct::refresh(const Telemetry& telemetry) {
     seenFault_ = faulted;
 }
 
-void SessionConduct::wantBreak(bool due) {
-    desk_.setBreak(due);
+void SessionConduct::wantBreak(bool due) { setBreak(due, kOperatorsBreak); }
+
+void SessionConduct::setBreak(bool due, const std::string& why) {
+    desk_.setBreak(due, why);
     page_.setBreakDue(due);
     if (strip_ != nullptr) strip_->setBreakDue(due);
     if (window_) window_->showBreak(due);

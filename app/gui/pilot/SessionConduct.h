@@ -7,13 +7,14 @@
 // A game pad or foot switch that is unplugged switches the output off and begins a break of the operator's.
 // An abort switches the output off and then asks the operator for the reason.
 //
-// Thread-safety: the GUI thread.
+// Thread-safety: the GUI thread. What a pad's or a foot switch's STOP switches off goes from its own thread.
 #pragma once
 
-#include <QElapsedTimer>
 #include <QObject>
 #include <atomic>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/controller/SideWork.h"
@@ -71,6 +72,13 @@ signals:
     void runningChanged();
 
 private:
+    struct HeardStop {
+        bool heard = false;   ///< by a session
+        bool tested = false;  ///< their STOP, or the operator's: no stop of the session
+    };
+    /// A stop by the participant of a person's session: the output first, and that alone. Any thread. Nothing where
+    /// one press is heard again.
+    std::optional<HeardStop> switchOff(const char* by);
     [[nodiscard]] Result<RunOrder> order() const;
     void connectPage();
     void connectInputs();
@@ -87,6 +95,9 @@ private:
     void ask(const PilotPrompt& prompt, quint64 id);
     void keep(const QString& note);
     void giveKeys();
+    [[nodiscard]] InputsAtOnce atOnce();
+    void noteStop(const HeardStop& stop);
+    void setBreak(bool due, const std::string& why);
     void answerAsOperator(quint64 id, const PilotAnswer& answer);
     void pauseFor(const char* why);
     void seatTheirWindow();
@@ -103,13 +114,13 @@ private:
     PilotStart start_;
     RunOrder order_;
     StopMark mark_{};
-    SideWork asker_;  ///< waits for the answer to the code
-    bool confirming_ = false;
+    SideWork asker_;                       ///< waits for the answer to the code
+    std::atomic<bool> confirming_{false};  ///< the code is asked for
     bool codeConfirmed_ = false;
     bool running_ = false;
     std::uint64_t run_ = 0;
     bool seenFault_ = false;
-    QElapsedTimer stoppedAt_;              ///< by the participant
+    std::atomic<SteadyTime> stoppedAt_{};  ///< by the participant; any thread
     std::atomic<SteadyTime> testedAt_{};   ///< the operator's STOP; any thread
     std::atomic<bool> heldTested_{false};  ///< by a key of theirs that may be held still; any thread
     quint64 screenPrompt_ = 0;             ///< the question that the participant's window is seated again for

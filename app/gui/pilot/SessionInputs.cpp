@@ -9,7 +9,30 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kButtonsOfOne = 1000;  // codes of a device's buttons
+
+QString unpluggedText(const SeatedDevice& seat) {
+    const auto name = qtext(seat.device.name);
+    return seat.whose == PromptTo::Participant ? SessionInputs::tr("the participant's %1 is unplugged").arg(name)
+                                               : SessionInputs::tr("the operator's %1 is unplugged").arg(name);
 }
+
+/// What a device of that seat tells `atOnce`, on its own thread.
+ButtonListener listenerOf(const SeatedDevice& seat, int firstCode, const InputsAtOnce& atOnce) {
+    ButtonListener listener;
+    listener.moved = [seat, firstCode, atOnce](const ButtonPress& press) {
+        if (press.button >= seat.uses.size()) return;
+        const auto does = seat.uses[press.button].does;
+        if (does == ButtonUse::Does::Stop && press.down && atOnce.stop) atOnce.stop(seat.whose);
+        const bool holds = does == ButtonUse::Does::Hold && seat.whose == PromptTo::Participant;
+        if (holds && !press.down && atOnce.letGo) atOnce.letGo(firstCode + int(press.button));
+    };
+    listener.plugged = [which = unpluggedText(seat).toStdString(), lost = atOnce.lost](bool there) {
+        if (!there && lost) lost(which);
+    };
+    return listener;
+}
+
+}  // namespace
 
 SessionInputs::SessionInputs(QObject* parent) : QObject(parent) {
     connect(&open_, &OpenButtons::moved, this, &SessionInputs::move);
@@ -17,11 +40,18 @@ SessionInputs::SessionInputs(QObject* parent) : QObject(parent) {
 }
 
 QString SessionInputs::begin(const std::shared_ptr<const ButtonDevices>& devices,
-                             const std::vector<SeatedDevice>& seats) {
+                             const std::vector<SeatedDevice>& seats, const InputsAtOnce& atOnce) {
     end();
     open_.setDevices(devices);
     for (const auto& seat : seats) {
-        if (const auto opened = open_.open(seat.device); !opened) {
+        const bool again =
+            std::ranges::any_of(seats_, [&](const auto& one) { return one.device.identity == seat.device.identity; });
+        if (again) {
+            end();
+            return tr("%1 is assigned twice; a device is one person’s.").arg(qtext(seat.device.name));
+        }
+        const int firstCode = int(seats_.size()) * kButtonsOfOne;
+        if (const auto opened = open_.open(seat.device, listenerOf(seat, firstCode, atOnce)); !opened) {
             end();
             return sentence(opened.error());
         }
@@ -47,10 +77,7 @@ int SessionInputs::participantAnswers() const {
 QString SessionInputs::gone() const {
     QStringList words;
     for (const auto& seat : seats_) {
-        if (!gone_.contains(seat.device.identity)) continue;
-        const auto name = qtext(seat.device.name);
-        words << (seat.whose == PromptTo::Participant ? tr("the participant's %1 is unplugged").arg(name)
-                                                      : tr("the operator's %1 is unplugged").arg(name));
+        if (gone_.contains(seat.device.identity)) words << unpluggedText(seat);
     }
     return words.join(tr(", and "));
 }

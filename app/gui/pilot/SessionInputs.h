@@ -1,12 +1,14 @@
 // SessionInputs.h - the game pads and foot switches of a session: each press goes to the one person whom its device is
 // assigned to, and one that is unplugged is told.
 //
-// No other device is open, so none answers.
+// No other device is open, so none answers. What switches the output off is told on the device's own thread: it waits
+// neither for the window's thread nor for what that paints. The signals follow, for what the windows show.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -15,13 +17,22 @@
 
 namespace tacto::gui {
 
+/// Called on a device's own thread, each before the signal of the same event; none may block. `code` as in
+/// SessionInputs::participantMoved.
+struct InputsAtOnce {
+    std::function<void(PromptTo whose)> stop;            ///< that person's STOP went down
+    std::function<void(int code)> letGo;                 ///< a button of the participant's that holds came up
+    std::function<void(const std::string& which)> lost;  ///< an assigned device was unplugged, as gone() says it
+};
+
 class SessionInputs final : public QObject {
     Q_OBJECT
 public:
     explicit SessionInputs(QObject* parent = nullptr);
-    /// Opens all, or none; why not, a sentence.
+    /// Opens all, or none; why not, a sentence. A device that is given twice is refused: it is one person's.
     [[nodiscard]] QString begin(const std::shared_ptr<const ButtonDevices>& devices,
-                                const std::vector<SeatedDevice>& seats);
+                                const std::vector<SeatedDevice>& seats, const InputsAtOnce& atOnce);
+    /// `atOnce` is not called any more once this returns.
     void end();
     /// How many answers, from 1, the participant's devices reach.
     [[nodiscard]] int participantAnswers() const;
@@ -29,10 +40,10 @@ public:
     [[nodiscard]] QString gone() const;
 
 signals:
-    /// `code`: the same for the same button.
+    /// `code`: the same for the same button. Also of what `atOnce` was told.
     void participantMoved(int code, const tacto::gui::ButtonUse& use, bool down, tacto::gui::SteadyTime at);
-    void operatorPressed(const tacto::gui::ButtonUse& use);
-    void lost();  ///< an assigned device was unplugged: gone() names it
+    void operatorPressed(const tacto::gui::ButtonUse& use);  ///< likewise
+    void lost();                                             ///< an assigned device was unplugged: gone() names it
     void back();
 
 private:

@@ -148,6 +148,41 @@ TEST_F(HidInputTest, AnotherDeviceTakesNoPlaceOfOneThatWent) {
     EXPECT_EQ(other.openings(), 0);
 }
 
+TEST_F(HidInputTest, OneLikeItThatWasThereBesideItTakesNoPlaceOfIt) {
+    RecordProperty("hazard", "H4");
+    auto& pad = plug(0xC216, "", padDescriptor());
+    const auto opened = devices->open(devices->list().at(0), heard.listener());
+    ASSERT_TRUE(opened);
+    auto& spare = plug(0xC216, "", padDescriptor());  // for the next participant
+    pad.unplug();
+    ASSERT_IN_TIME(heard.wait(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // time in which nothing may happen
+    EXPECT_THAT(heard.all(), ElementsAre("gone"));
+    EXPECT_EQ(spare.openings(), 0);
+    pad.plug();
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // nothing tells the two apart
+    EXPECT_THAT(heard.all(), ElementsAre("gone"));
+    spare.unplug();
+    ASSERT_IN_TIME(heard.wait(2));
+    EXPECT_THAT(heard.all(), ElementsAre("gone", "back"));
+    EXPECT_EQ(pad.openNow(), 1);
+}
+
+TEST_F(HidInputTest, AReportThatIsTooShortChangesNothingAndOneThatIsTooLongCountsByItsBeginning) {
+    RecordProperty("hazard", "H4");
+    auto& pad = plug(0xC216, "", padDescriptor());
+    const auto opened = devices->open(devices->list().at(0), heard.listener());
+    ASSERT_TRUE(opened);
+    const auto report = padReport({5});
+    pad.send(Bytes(report.begin(), report.end() - 1));
+    pad.send(padReport({1}));
+    auto longer = padReport({1, 2});
+    longer.push_back(0xFF);
+    pad.send(longer);
+    ASSERT_IN_TIME(heard.wait(2));
+    EXPECT_THAT(heard.all(), ElementsAre("down 0", "down 1"));
+}
+
 TEST_F(HidInputTest, ClosingTakesNoLongerThanItSaysAndNothingIsHeardAfterwards) {
     auto& pad = plug(0xC216, "", padDescriptor());
     auto opened = devices->open(devices->list().at(0), heard.listener());

@@ -7,6 +7,8 @@
 #include <QToolButton>
 #include <algorithm>
 #include <filesystem>
+#include <future>
+#include <thread>
 
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantStop.h"
@@ -243,7 +245,15 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     ASSERT_IN_TIME(comesTrue(tests, 20'000));
 
     QTest::qWait(150);
-    plugged->press("pad", 6);  // and now it is tested
+    std::async(std::launch::async, [&] { plugged->press("pad", 6); }).get();  // and now it is tested
+    const auto tested = [&] {
+        const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
+        const auto rows = study ? study->events(study->sessions().at(0)) : failure(study);
+        return rows && std::ranges::count(*rows, std::string(row::kStopTest), &SessionRow::name) == 1;
+    };
+    bool seen = false;  // while the window's thread is held: no event of it is looked at
+    for (int i = 0; i < 500 && !(seen = tested()); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_IN_TIME(seen) << "a STOP waits for no window";
     const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
     ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
     QTest::qWait(150);

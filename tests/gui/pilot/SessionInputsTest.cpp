@@ -43,7 +43,7 @@ class SeatedWithPad : public Seated {
 protected:
     void begin(const std::vector<gui::SeatedDevice>& seats) {
         plugged->set({PluggedButtons::pad("theirs"), PluggedButtons::pad("spare"), PluggedButtons::pad("operators")});
-        ASSERT_EQ(inputs.begin(plugged, seats), QString());
+        ASSERT_EQ(inputs.begin(plugged, seats, atOnce()), QString());
         window.setButtonAnswers(inputs.participantAnswers());
         QObject::connect(&inputs, &gui::SessionInputs::participantMoved, &window, &gui::ParticipantWindow::moveButton);
         QObject::connect(&inputs, &gui::SessionInputs::operatorPressed, &window,
@@ -53,6 +53,17 @@ protected:
         plugged->press(name, button, true);
         plugged->press(name, button, false);
         QTest::qWait(20);
+    }
+    /// As the session's window does it.
+    [[nodiscard]] gui::InputsAtOnce atOnce() {
+        gui::InputsAtOnce all;
+        all.stop = [this](PromptTo whose) {
+            if (whose == PromptTo::Participant) press("participant (button)");
+        };
+        all.letGo = [this](int code) {
+            if (desk.letGoOf(code)) press("participant let go");
+        };
+        return all;
     }
     std::shared_ptr<PluggedButtons> plugged = std::make_shared<PluggedButtons>();
     gui::SessionInputs inputs;
@@ -165,9 +176,21 @@ TEST_F(SeatedWithPad, LettingGoOfTheButtonThatIsHeldIsAStop) {
     EXPECT_TRUE(desk.holding()) << "a button is theirs whichever window has the keys";
     EXPECT_THAT(stops, IsEmpty());
     plugged->press("theirs", 7, false);
-    ASSERT_IN_TIME(comesTrue([this] { return !stops.empty(); }));
-    EXPECT_THAT(stops, ElementsAre("participant let go"));
+    EXPECT_THAT(stops, ElementsAre("participant let go")) << "before any event of the window";
     EXPECT_FALSE(desk.holding());
+    QTest::qWait(50);
+    EXPECT_THAT(stops, ElementsAre("participant let go")) << "and once";
+}
+
+TEST_F(SeatedWithPad, WhatWasHeldWhenAStopCameIsLetGoWithoutAnother) {
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
+    ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+    plugged->press("theirs", 7);
+    ASSERT_TRUE(answered());
+    plugged->press("theirs", 5);
+    plugged->press("theirs", 7, false);
+    QTest::qWait(50);
+    EXPECT_THAT(stops, ElementsAre("participant (button)"));
 }
 
 TEST_F(SeatedWithPad, OneThatIsUnpluggedIsNamedAndNoPresentationStartsUntilItIsBack) {
@@ -197,42 +220,105 @@ TEST_F(SeatedWithPad, OneThatCannotBeOpenedIsASentenceAndNoneStaysOpen) {
     auto blocked = PluggedButtons::pad("blocked");
     blocked.obstacle = "Another program has it.";
     plugged->set({PluggedButtons::pad("theirs"), blocked});
-    EXPECT_EQ(inputs.begin(plugged, {seated("theirs", PromptTo::Participant), seated("blocked", PromptTo::Operator)}),
-              "Another program has it.");
+    EXPECT_EQ(
+        inputs.begin(plugged, {seated("theirs", PromptTo::Participant), seated("blocked", PromptTo::Operator)}, {}),
+        "Another program has it.");
     EXPECT_EQ(plugged->open("theirs"), 0U);
 }
 
-/// From the report of a real one's driver to the session's stop.
-TEST_F(SeatedWithPad, FromTheReportOfAPadToTheStopItTakesLessThan10Milliseconds) {
-    RecordProperty("hazard", "H2");
+TEST_F(SeatedWithPad, OneDeviceIsNotBothPeoples) {
+    RecordProperty("hazard", "H12");
+    plugged->set({PluggedButtons::pad("theirs")});
+    EXPECT_EQ(
+        inputs.begin(plugged, {seated("theirs", PromptTo::Participant), seated("theirs", PromptTo::Operator)}, {}),
+        "theirs is assigned twice; a device is one person’s.");
+    EXPECT_EQ(plugged->open("theirs"), 0U);
+}
+
+/// A pad over its real driver, and what it told on its own thread.
+class OwnThread : public testing::Test {
+protected:
+    OwnThread() {
+        const hid::HidDeviceInfo info{0x046D, 0xC216, "", "Pad", "/dev/hidraw0", 0x10004, true};
+        backend->plugged.push_back(std::make_shared<FakeHidDevice>(clock, info, padDescriptor()));
+        const auto devices = hid::makeHidInput(backend);
+        const auto list = devices->list();
+        EXPECT_EQ(list.size(), 1U);
+        gui::InputsAtOnce atOnce;
+        atOnce.stop = [this](PromptTo /*whose*/) { hear(stops); };
+        atOnce.letGo = [this](int /*code*/) { hear(releases); };
+        atOnce.lost = [this](const std::string& which) {
+            const std::scoped_lock lock(mutex);
+            lost = which;
+            changed.notify_all();
+        };
+        EXPECT_EQ(inputs.begin(devices, {{list.at(0), PromptTo::Participant, gui::usualUses(12)}}, atOnce), QString());
+    }
+    ~OwnThread() override { inputs.end(); }
+    void hear(std::vector<std::chrono::steady_clock::time_point>& at) {
+        const std::scoped_lock lock(mutex);
+        at.push_back(std::chrono::steady_clock::now());
+        changed.notify_all();
+    }
+    /// Without an event of this thread, which is the window's.
+    [[nodiscard]] bool heldUntil(const std::function<bool()>& heard) {
+        std::unique_lock lock(mutex);
+        return changed.wait_for(lock, std::chrono::seconds(5), heard);
+    }
+    FakeHidDevice& pad() { return *backend->plugged[0]; }
+
     const SteadyClock clock;
-    auto backend = std::make_shared<FakeHidBackend>();
-    const hid::HidDeviceInfo info{0x046D, 0xC216, "", "Pad", "/dev/hidraw0", 0x10004, true};
-    backend->plugged.push_back(std::make_shared<FakeHidDevice>(clock, info, padDescriptor()));
-    const auto devices = hid::makeHidInput(backend);
-    const auto list = devices->list();
-    ASSERT_EQ(list.size(), 1U);
-    ASSERT_EQ(inputs.begin(devices, {{list[0], PromptTo::Participant, gui::usualUses(12)}}), QString());
-    QObject::connect(&inputs, &gui::SessionInputs::participantMoved, &window, &gui::ParticipantWindow::moveButton);
+    std::shared_ptr<FakeHidBackend> backend = std::make_shared<FakeHidBackend>();
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::vector<std::chrono::steady_clock::time_point> stops, releases;  // guarded by mutex
+    std::string lost;                                                    // guarded by mutex
+    gui::SessionInputs inputs;
+};
+
+TEST_F(OwnThread, AStopTakesLessThan10MillisecondsWhileTheWindowsThreadIsHeld) {
+    RecordProperty("hazard", "H2");
     std::vector<double> took_ms;
-    for (int i = 0; i < 20; ++i) {
-        stops.clear();
-        desk.show(testScreen(ScreenState::Feel));
-        QTest::qWait(10);
-        QEventLoop waiting;  // as the program's: qWait() looks every 10 ms alone
-        QObject::connect(&inputs, &gui::SessionInputs::participantMoved, &waiting, &QEventLoop::quit);
-        QTimer::singleShot(5000, &waiting, &QEventLoop::quit);
+    for (std::size_t i = 0; i < 20; ++i) {
         const auto pressed = std::chrono::steady_clock::now();
-        backend->plugged[0]->send(padReport({6}));
-        waiting.exec();
-        ASSERT_IN_TIME(!stops.empty());
-        took_ms.push_back(std::chrono::duration<double, std::milli>(stoppedAt - pressed).count());
-        backend->plugged[0]->send(padReport({}));
-        QTest::qWait(10);
+        pad().send(padReport({6}));
+        ASSERT_IN_TIME(heldUntil([&] { return stops.size() == i + 1; }));
+        took_ms.push_back(std::chrono::duration<double, std::milli>(stops.back() - pressed).count());
+        pad().send(padReport({}));
     }
     std::ranges::sort(took_ms);
     RecordProperty("median_ms", std::to_string(took_ms[10]));
     EXPECT_IN_TIME(took_ms.back() <= 10) << took_ms.back() << " ms";
+}
+
+TEST_F(OwnThread, LettingGoAndUnpluggingDoNotWaitForTheWindowEither) {
+    RecordProperty("hazard", "H2");
+    pad().send(padReport({7}));
+    pad().send(padReport({}));
+    ASSERT_IN_TIME(heldUntil([&] { return releases.size() == 1; }));
+    pad().send(padReport({5}));
+    ASSERT_IN_TIME(heldUntil([&] { return stops.size() == 1; }));
+    pad().unplug();  // while STOP is held
+    ASSERT_IN_TIME(heldUntil([&] { return !lost.empty(); }));
+    EXPECT_EQ(lost, "the participant's Pad is unplugged");
+    EXPECT_EQ(stops.size(), 1U);
+}
+
+TEST_F(OwnThread, AStopHeldWhileTheDeviceWasOpenedCountsWithItsFirstReport) {
+    RecordProperty("hazard", "H2");
+    pad().send(padReport({5, 12}));  // 12 was pressed, 5 was down since before
+    ASSERT_IN_TIME(heldUntil([&] { return stops.size() == 1; }));
+}
+
+TEST_F(OwnThread, ABouncingContactAmongReportsOfEachMillisecondIsHeardAtItsFirstTouch) {
+    RecordProperty("hazard", "H2");
+    const auto pressed = std::chrono::steady_clock::now();
+    for (int i = 0; i < 200; ++i) {
+        pad().send(i % 2 == 0 ? padReport({5}) : padReport({}));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));  // as the device does it
+    }
+    ASSERT_IN_TIME(heldUntil([&] { return !stops.empty(); }));
+    EXPECT_IN_TIME(stops.front() - pressed <= std::chrono::milliseconds(10));
 }
 
 class Inputs : public testing::Test {

@@ -1,0 +1,169 @@
+// What pilot sessions print: thresholds and range, and who told what apart.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/ResultText.h"
+#include "app/cli/Say.h"
+#include "app/cli/TextTable.h"
+#include "app/cli/Verdicts.h"
+#include "core/base/QuantityText.h"
+
+namespace tacto::cli {
+
+using nlohmann::json;
+
+namespace {
+
+/// How the session's levels are read: of current, or of a massager's strength.
+struct LevelText {
+    explicit LevelText(const json& results) : isStrength(resultText(results, "modality") == "massager") {}
+    [[nodiscard]] std::string of(const json& object, const char* name) const {
+        const auto key = fmt::format("{}_{}", name, isStrength ? "intensity" : "ma");
+        return of(object, key);
+    }
+    [[nodiscard]] std::string of(const json& object, const std::string& key) const {
+        return with(resultValue(object, key.c_str()));
+    }
+    [[nodiscard]] std::string with(double level) const {
+        if (!std::isfinite(level)) return "–";
+        return isStrength ? decimalText(level, 2) : decimalText(level, 2) + " mA";
+    }
+    const bool isStrength;
+};
+
+std::string percentText(const json& estimate) {
+    const auto percent = [&](const char* key) { return decimalText(100 * resultValue(estimate, key), 0); };
+    return fmt::format("{} % ({} to {} %)", percent("value"), percent("low"), percent("high"));
+}
+
+std::string withReason(std::string text, const std::string& reason) {
+    return reason.empty() ? text : fmt::format("{}: {}", text, reason);
+}
+
+std::string rangeText(const json& range, const LevelText& levels) {
+    if (range.empty()) return "not measured";
+    if (range.value("usable", json()) != json(true))
+        return withReason("none that is usable", resultText(range, "reason"));
+    auto text = fmt::format("{} to {}", levels.of(range, "min"), levels.of(range, "max"));
+    if (!levels.isStrength)
+        text += fmt::format(", {} to {} V at {} Ω", decimalText(resultValue(range, "min_v"), 1),
+                            decimalText(resultValue(range, "max_v"), 1), resultNumber(range, "impedance_ohm"));
+    return fmt::format("{}, {} JND, limited by {}", text, decimalText(resultValue(range, "jnd"), 1),
+                       resultText(range, "limited_by"));
+}
+
+/// A line each; both protocols have them.
+void addThresholds(TextTable& table, const json& results, const LevelText& levels) {
+    table.add({"felt from", levels.of(results, "felt")});
+    table.add({"too strong from", results.value("said_too_strong", json()) == json(true)
+                                      ? levels.of(results, "too_strong")
+                                      : "never said; the highest was " + levels.of(results, "too_strong")});
+    const auto detection = resultObject(results, "detection");
+    const auto estimate = resultObject(detection, levels.isStrength ? "estimate_intensity" : "estimate_ma");
+    if (!estimate.empty())
+        table.add({"detection",
+                   fmt::format("{} ({} to {}), {} trials by {}", levels.with(resultValue(estimate, "value")),
+                               levels.with(resultValue(estimate, "low")), levels.with(resultValue(estimate, "high")),
+                               resultNumber(detection, "trials"), resultText(detection, "method"))});
+    table.add({"range", rangeText(resultObject(results, "range"), levels)});
+}
+
+void addParticipant(TextTable& table, const json& results) {
+    const auto participant = resultObject(results, "participant");
+    const bool isVirtual = participant.value("virtual", json()) == json(true);
+    table.add({"participant", resultText(participant, "code") + (isVirtual ? " (virtual)" : "")});
+    if (const auto parts = resultValue(results, "parts"); parts > 1)
+        table.add({"parts", fmt::format("{:.0f}: the session was interrupted and went on", parts)});
+}
+
+void printConfusion(const json& results) {
+    const auto labels = resultList(results, "labels"), columns = resultList(results, "columns");
+    const auto counts = resultList(results, "confusion");
+    if (counts.empty() || counts.size() != labels.size()) return;
+    std::vector<std::string> headings{"given, answered"};
+    for (const auto& column : columns) headings.push_back(">" + column.get<std::string>());
+    TextTable table(headings);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        std::vector<std::string> cells{labels[i].get<std::string>()};
+        for (const auto& count : counts[i]) cells.push_back(count.dump());
+        cells.resize(headings.size());
+        table.add(std::move(cells));
+    }
+    table.print();
+}
+
+void printTold(const json& results) {
+    TextTable table({"told apart", ">right", ">n", ">share, 95 %", ">by chance p", ">bits, corrected"});
+    const auto add = [&](const char* name, const json& one) {
+        if (resultObject(one, "accuracy").empty()) return;
+        table.add({name, resultNumber(one, "hits"), resultNumber(one, "n"), percentText(one["accuracy"]),
+                   fmt::format("{:.2g}", resultValue(one, "p_chance")),
+                   decimalText(resultValue(one, "it_corrected_bits"), 2)});
+    };
+    add("the four", results);
+    add("texture", resultObject(results, "texture"));
+    add("pressure", resultObject(results, "pressure"));
+    table.print();
+}
+
+void printVibration(const json& results, const LevelText& levels) {
+    const auto vibration = resultObject(results, "vibration");
+    if (vibration.empty()) return;
+    if (vibration.value("measured", json()) != json(true)) return say("  what the massager did was not measured\n");
+    TextTable table({"the massager", ">strength", ">m/s²", ">interval s", ">moved", ">missed"});
+    for (const auto& each : resultList(vibration, "conditions"))
+        table.add({resultText(each, "name"), levels.of(each, std::string("intensity")),
+                   decimalText(resultValue(each, "strength_m_s2"), 2),
+                   decimalText(resultValue(each, "measured_interval_s"), 3), resultNumber(each, "moved"),
+                   resultNumber(each, "missed")});
+    table.print();
+    say("  what it did: {}\n", resultText(vibration, "verdict"));
+}
+
+}  // namespace
+
+void printPilotThresholds(const json& results) {
+    const LevelText levels(results);
+    TextTable table({"", ""});
+    addParticipant(table, results);
+    addThresholds(table, results, levels);
+    say("\n");
+    table.print();
+    TextTable series({"series", ">felt from", ">too strong from", ">highest", "ended by"});
+    std::size_t number = 0;
+    for (const auto& each : resultList(results, "series"))
+        series.add({std::to_string(++number), levels.of(each, "felt"), levels.of(each, "too_strong"),
+                    levels.of(each, "highest"), resultText(each, "ended_by")});
+    if (number > 0) series.print();
+}
+
+void printPilotIdentification(const json& results) {
+    const LevelText levels(results);
+    TextTable table({"", ""});
+    addParticipant(table, results);
+    addThresholds(table, resultObject(results, "thresholds"), levels);
+    say("\n");
+    table.print();
+    const auto presented = resultList(results, "presented");
+    if (!presented.empty()) {
+        TextTable given({"condition", ">level", ">interval s"});
+        for (const auto& each : presented)
+            given.add({resultText(each, "name"),
+                       levels.of(each, std::string(levels.isStrength ? "intensity" : "current_ma")),
+                       resultNumber(each, "interval_s")});
+        given.print();
+    }
+    if (resultValue(results, "n") > 0) {
+        printConfusion(results);
+        printTold(results);
+    }
+    const auto empty = resultObject(results, "catch");
+    if (resultValue(empty, "n") > 0)
+        say("\n  nothing was given {} times and named as something {} times; no answer {} times\n",
+            resultNumber(empty, "n"), resultNumber(empty, "false_alarms"), resultNumber(results, "no_answer"));
+    printVibration(results, levels);
+    for (const auto& note : resultList(results, "notes"))
+        if (note.is_string()) say("  {}\n", note.get<std::string>());
+}
+
+}  // namespace tacto::cli
