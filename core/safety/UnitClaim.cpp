@@ -34,10 +34,10 @@ Result<std::unique_ptr<UnitClaim>> UnitClaim::open(const std::filesystem::path& 
     if (opened.error().why != LockedFile::Refusal::Held) return nullptr;
     Checked<Claim> claim;
     const int held = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    const bool told = held >= 0 && ::read(held, &claim, sizeof claim) == sizeof claim && claim.sound();
+    const bool known = held >= 0 && ::read(held, &claim, sizeof claim) == sizeof claim && claim.sound();
     if (held >= 0) ::close(held);
     return fail(ErrorCode::Device, "{} is driven by {}; end that first. Nothing was delivered here", unit,
-                told ? programOf(claim.content.process) : "another process");
+                known ? programOf(claim.content.process) : "another process");
 }
 
 UnitClaim::UnitClaim(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -148,7 +148,7 @@ TEST_F(CalibratedBenchTest, LeavesItAsideOnlyWhileDisarmedAndRecordsIt) {
 // Static: what a bench asks for the date has no context.
 std::chrono::sys_days pretended;
 
-TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenArmsNobodyAnyMore) {
+TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenPermitsNoArming) {
     RecordProperty("hazard", "H9");
     using namespace std::chrono_literals;
     calibration_ = StimulatorCalibration{{.gain = 1, .offset = 0, .lowest = 0.1, .highest = 40},

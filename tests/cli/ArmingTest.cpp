@@ -47,7 +47,7 @@ protected:
 function run(p) { bench.arm({ load: p.load }); bench.disarm(); return verdict({ verdict: "pass" }); })js");
 };
 
-TEST_F(RunOnHardware, DeliversNothingThatNobodyConfirmedAndSaysWhatToAnswer) {
+TEST_F(RunOnHardware, DeliversNothingUnconfirmedAndSaysWhatToAnswer) {
     const auto refused = desk_.run(words());
     EXPECT_EQ(putOut(), 0U);
     ASSERT_EQ(refused.code, 3) << refused.err;

@@ -290,7 +290,7 @@ TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
     EXPECT_EQ(putOut().size(), before);
 }
 
-TEST_F(ScienceModeCommand, WithoutATerminalNobodyIsAskedAndNothingIsDelivered) {
+TEST_F(ScienceModeCommand, WithoutATerminalThereIsNoQuestionAndNothingIsDelivered) {
     RecordProperty("hazard", "H12");
     expectRefused(run({"pulse", "--current", "5", "--width", "200", "--gap", "100", "--load", "1000"}), 2,
                   {"--yes-bench-load"});

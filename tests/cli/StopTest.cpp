@@ -200,7 +200,7 @@ TEST_F(UserScript, AQuestionWithoutAnAnswerNamesTheMissingSetting) {
     EXPECT_EQ(desk.run(answered).code, 0);
 }
 
-TEST_F(UserScript, ADeviceThatNobodyNamedIsAskedFor) {
+TEST_F(UserScript, ADeviceThatTheCommandLineDoesNotNameIsAskedFor) {
     script("", "[\"oscilloscope\"]");
     expectRefused(desk.run({"run", "mine", "--out", desk.at("out"), "--json"}), 3, {"oscilloscope", "sim:"});
     EXPECT_FALSE(sessionBegun());

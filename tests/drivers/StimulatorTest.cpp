@@ -205,7 +205,7 @@ TEST(SimulatedStimulator, ForceOffTruncatesThePulseInProgress) {
     });
 }
 
-TEST(SimulatedStimulator, DeadManEndsATrainThatNobodyKeepsAlive) {
+TEST(SimulatedStimulator, DeadManEndsATrainThatIsNotKeptAlive) {
     RecordProperty("hazard", "H2");
     for (const bool kept : {false, true}) {
         SimBench bench;

@@ -46,7 +46,7 @@ TEST(CaptureFormats, SkippedRowsAreNotAskedWhoseTheyAre) {
     EXPECT_EQ(read->formatId, "csv-keysight");
 }
 
-TEST(CaptureFormats, WhatNobodyRecognisesIsRefusedWithWhatIsKnown) {
+TEST(CaptureFormats, WhatNoFormatRecognisesIsRefusedWithWhatIsKnown) {
     const ScratchDir scratch;
     const auto read = ownCaptureFormats()->read(scratch.write("t.bin", std::string_view("\x01\0\x02", 3)));
     ASSERT_FALSE(read);

@@ -371,7 +371,7 @@ TEST_F(MachineGate, AProfileThatWasChangedAfterTheApprovalBeginsNoSession) {
     EXPECT_EQ(about.parameters["method"], "staircase") << "asked as approved";
 }
 
-TEST_F(MachineGate, AShapeThatIsNotBiphasicIsPresentedToNobody) {
+TEST_F(MachineGate, AShapeThatIsNotBiphasicIsNotPresented) {
     RecordProperty("hazard", "H12");
     calibrate();
     keep(CheckVerdict::Pass);

@@ -66,7 +66,7 @@ TEST(KnownReference, OfAnotherLoadOrOfNoneFailsWithItsReason) {
     EXPECT_THAT(refused.error->message, testing::HasSubstr("load is 0"));
 }
 
-TEST(Wiring, OfASimulatedBenchIsReportedAndNobodyAsked) {
+TEST(Wiring, OfASimulatedBenchIsReportedWithoutAQuestion) {
     RunBench rig(true, "sim:", 3, true);
     const auto outcome = rig.run(withRun("operator.wired(500); operator.wired();"));
     ASSERT_FALSE(outcome.error) << outcome.error->message;

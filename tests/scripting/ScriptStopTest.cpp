@@ -27,7 +27,7 @@ constexpr milliseconds kReported{1000};
 #endif
 
 /// Waits for an operator who never answers.
-class NobodyAtTheDesk final : public Operator {
+class EmptyDesk final : public Operator {
 public:
     Result<nlohmann::json> ask(const OperatorQuestion&) override {
         std::unique_lock lock(mutex_);
@@ -144,7 +144,7 @@ TEST(ScriptStop, WakesABlockedHostCall) {
 TEST(ScriptStop, WakesAQuestionThatTheOperatorDoesNotAnswer) {
     RecordProperty("hazard", "H10");
     RunBench rig;
-    NobodyAtTheDesk desk;
+    EmptyDesk desk;
     auto request = rig.request(withRun("operator.confirm('x', 'Well?');"));
     request.operatorDesk = &desk;
     auto run = ScriptRun::start(std::move(request)).value();

@@ -111,7 +111,7 @@ TEST(VariationProtocol, ThePapersFixedAmplitudesAreComparedWithPersonalOnes) {
     EXPECT_GT(outcome.results["other_levels"]["served"], 30);
 }
 
-TEST(VariationProtocol, NobodyWhoBearsTheAmplitudesIsAResultToo) {
+TEST(VariationProtocol, NoParticipantWhoBearsTheAmplitudesIsAResultToo) {
     RunBench rig(true, "sim:", 1, true, {});
     const auto outcome =
         runVariation(rig, {{"participants", "10"}, {"levels", "profile"}, {"detection", "0.1"}, {"discomfort", "0.2"}});

@@ -212,7 +212,7 @@ TEST(SessionRecorder, AMarkWaitsForNoDiskAndHoldsUpNeitherLoopNorStop) {
     EXPECT_EQ(marks, 100);
 }
 
-TEST(SessionRecorder, WithoutAThreadMarksAreWrittenByWhoeverTurnsTheBench) {
+TEST(SessionRecorder, WithoutAThreadMarksAreWrittenByTheCallerThatTurnsTheBench) {
     const ScratchDir dir;
     const auto path = dir.path() / "s.tacto";
     VirtualClock clock;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/load_safety/LoadSafetyTables.h"
 #include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
 #include "core/encoding/PulseTrain.h"

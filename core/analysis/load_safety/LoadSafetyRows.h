@@ -1,4 +1,4 @@
-// LoadSafetyRows.h - the rows of one load, of the trips and of the extrapolation. Private to core/analysis.
+// LoadSafetyRows.h - the rows of one load. Private to core/analysis.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -15,14 +15,5 @@ namespace tacto {
 
 /// What a step's reading says of a quantity; not measured for what only a command has, or without an area.
 [[nodiscard]] Reading readingOf(const LoadReading& reading, Quantity quantity, const LoadSafetyInput& input);
-
-/// Largest of the steps, quantity by quantity; not measured when one step was not.
-[[nodiscard]] LoadReading strongestOf(const LoadRecord& record);
-
-/// Limits on the voltage are judged on the open circuit, measured there, or not evaluated.
-[[nodiscard]] std::vector<SafetyRow> openCircuitRows(const LoadSafetyInput& input);
-[[nodiscard]] std::vector<SafetyRow> tripRows(const LoadSafetyInput& input);
-[[nodiscard]] LoadWorstCase worstCaseOf(const LoadSafetyInput& input);
-[[nodiscard]] std::vector<DisclosedOutput> disclosedOf(const LoadSafetyInput& input);
 
 }  // namespace tacto

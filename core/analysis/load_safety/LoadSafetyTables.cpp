@@ -1,4 +1,5 @@
-// Trips, the table of outputs to be stated, and the worst case over the permitted loads.
+#include "core/analysis/load_safety/LoadSafetyTables.h"
+
 #include <algorithm>
 #include <cmath>
 

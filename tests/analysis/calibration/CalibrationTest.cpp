@@ -242,7 +242,7 @@ TEST(CalibrationVerdict, SamplingCountsWhereTheScatterDoesNotShowIt) {
     EXPECT_NE(free->fullScale().budget.rows.back().name, "sampling");
 }
 
-TEST(Calibration, MoreReadingsThanAnybodyTakesAreRefusedAtOnce) {
+TEST(Calibration, MoreReadingsThanAnyRunTakesAreRefusedAtOnce) {
     RecordProperty("hazard", "H10");
     // A repeat is compared with every other: 400 000 in one level would take the memory and the stop's time.
     std::vector<CalibrationReading> many(kMaxReadings + 1);

@@ -171,7 +171,7 @@ TEST(LoadCoverage, NoViolationPassesWithAnInstrumentThatIsWrongByWhatItStates) {
     EXPECT_EQ(judgedOn(ordinary(), "amplitude_over"), RowVerdict::Pass);
 }
 
-TEST(LoadCoverage, WhatNobodyStatesIsNotEvaluated) {
+TEST(LoadCoverage, WhatIsNotStatedIsNotEvaluated) {
     RecordProperty("hazard", "H9");
     struct Silent {
         const char* what;

@@ -108,7 +108,7 @@ TEST(UncertaintyBudget, NothingUncertainHasNoFactor) {
     EXPECT_TRUE(std::isnan(budget->coverageFactor));
 }
 
-TEST(UncertaintyBudget, WithARowThatNobodyStatesThereIsNoU) {
+TEST(UncertaintyBudget, WithARowThatIsNotStatedThereIsNoU) {
     RecordProperty("hazard", "H9");
     const auto budget =
         combine({{"s", Distribution::Student, 1, 1, 1, 4}, {"gain", Distribution::Rectangular, kNaN, 1, 1}});

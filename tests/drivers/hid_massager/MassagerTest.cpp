@@ -255,7 +255,7 @@ TEST_F(HidMassagerTest, ARefusedReportIsAFaultAndTheStopIsTriedUntilItIsTaken) {
     EXPECT_EQ(device.last(), kOff);
 }
 
-TEST_F(HidMassagerTest, AStopThatFailsWhileNobodyAsksIsToldOnceAndSentWhenItCan) {
+TEST_F(HidMassagerTest, AStopThatFailsBetweenCallsIsReportedOnceAndSentWhenItCan) {
     RecordProperty("hazard", "H2");
     open();
     ASSERT_IN_TIME(vibrate(Seconds(0.02)));

@@ -161,7 +161,7 @@ TEST_F(PulsePal, AStopWhileItIsProgrammedKeepsTheTriggerBack) {
     EXPECT_TRUE(bench.line->phases().empty());
 }
 
-TEST_F(PulsePal, AContinuousModeThatSomebodyLeftOnEndsWithTheFirstStatus) {
+TEST_F(PulsePal, AContinuousModeThatWasLeftOnEndsWithTheFirstStatus) {
     RecordProperty("hazard", "H2");
     ASSERT_TRUE(bench.deliver(pulseTrain(2, 2)));
     bench.wait(Seconds(0.1));

@@ -192,7 +192,7 @@ TEST(ScienceModeDecoder, LengthAndCrcMayThemselvesLookLikeStartAndEnd) {
     }
 }
 
-TEST(ScienceModeDecoder, RefusesStuffingThatNobodyMakes) {
+TEST(ScienceModeDecoder, RefusesStuffingThatNoEncoderMakes) {
     // A sound CRC over a body in which an ordinary byte is escaped, and one that ends in an escape.
     for (const auto* stuffed : {"04 00 81 54", "04 00 81"}) {
         auto body = bytesOf(stuffed);

@@ -45,7 +45,7 @@ TEST_F(UsbBulk, AnAnswerOfExactlyOneFullPacketArrivesAtOnce) {
     EXPECT_EQ(readAll(*transport, 64), full);
 }
 
-TEST_F(UsbBulk, ASerialPortIsToldItsLineCodingAndThatSomebodyListens) {
+TEST_F(UsbBulk, ASerialPortGetsItsLineCodingAndThatTheHostListens) {
     std::vector<UsbBytes> codings;
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x2341, 0x003E, "S"),
                              {.onRequest = [&](const UsbSetup& setup, auto data) -> std::optional<UsbBytes> {

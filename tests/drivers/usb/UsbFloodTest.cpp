@@ -32,7 +32,7 @@ TEST_F(UsbFlood, TenThousandFramesComeThroughWithNothingLost) {
     EXPECT_EQ(transport->dropped(), 0u);
 }
 
-TEST_F(UsbFlood, GarbageThatNobodyReadsStaysBoundedAndIsCounted) {
+TEST_F(UsbFlood, GarbageThatIsNotReadStaysBoundedAndIsCounted) {
     RecordProperty("hazard", "H10");
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S", 64), {});
     const auto transport = open(device, {.function = UsbFunction::Vendor, .ringBytes = 1000});
