@@ -113,9 +113,9 @@ void printVibration(const json& results, const LevelText& levels) {
     TextTable table({"the massager", ">strength", ">m/s²", ">interval s", ">moved", ">missed"});
     for (const auto& each : resultList(vibration, "conditions"))
         table.add({resultText(each, "name"), levels.of(each, std::string("intensity")),
-                   decimalText(resultValue(each, "strength_m_s2"), 2),
-                   decimalText(resultValue(each, "measured_interval_s"), 3), resultNumber(each, "moved"),
-                   resultNumber(each, "missed")});
+                   decimalText(resultValue(resultObject(each, "strength_m_s2"), "mean"), 2),
+                   decimalText(resultValue(resultObject(each, "measured_interval_s"), "mean"), 3),
+                   resultNumber(each, "moved"), resultNumber(each, "missed")});
     table.print();
     say("  what it did: {}\n", resultText(vibration, "verdict"));
 }

@@ -9,6 +9,7 @@
 #include "app/run/PilotRows.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/pilot/PilotRecord.h"
+#include "core/study/ProcedureWords.h"
 #include "core/study/Study.h"
 
 namespace tacto::cli {
@@ -56,8 +57,19 @@ Json toJson(const StudyAmendment& amendment) {
     return {{"reference", amendment.reference}, {"date", dayOf(amendment)}, {"changed", amendment.changed}};
 }
 
-std::string changesText(const StudyAmendment& amendment) {
-    return amendment.changed.empty() ? "no setting" : fmt::format("{}", fmt::join(amendment.changed, ", "));
+std::string changesText(const StudyAmendment& amendment, Modality modality) {
+    std::vector<std::string> words;
+    for (const auto& key : amendment.changed) words.push_back(amendedWords(key, modality));
+    return words.empty() ? "no setting" : fmt::format("{}", fmt::join(words, ", "));
+}
+
+Json procedureJson(const StudySettings& settings) {
+    if (!settings.procedure) return nullptr;
+    const auto& procedure = *settings.procedure;
+    return {{"interval_min_s", procedure.intervalMin_s},
+            {"interval_max_s", procedure.intervalMax_s},
+            {"method", nameOf(procedure.method)},
+            {"conditions_sha256", procedure.conditionsSha256}};
 }
 
 Json toJson(const Study& study) {
@@ -83,6 +95,7 @@ Json toJson(const Study& study) {
               {"from", dateText(approval.from)},
               {"expires", dateText(approval.expires)},
               {"valid", approvalGate(settings, study.today()).has_value()}}},
+            {"procedure", procedureJson(settings)},
             {"amendments", std::move(amendments)},
             {"consent_version", settings.consentVersion},
             {"participants", std::move(participants)},
@@ -103,8 +116,10 @@ int show(const Study& study, const QCommandLineParser& parser) {
     say("  approval {}, {} to {}{}\n  consent form {}\n", settings.approval.reference, dateText(settings.approval.from),
         dateText(settings.approval.expires), all["approval"]["valid"] == true ? "" : ": not valid today",
         settings.consentVersion);
+    for (const auto& fact : approvedProcedure(settings)) say("    {}: {}\n", fact.what, fact.words);
     for (const auto& amendment : study.amendments())
-        say("  amendment {} of {}: changed {}\n", amendment.reference, dayOf(amendment), changesText(amendment));
+        say("  amendment {} of {}: changed {}\n", amendment.reference, dayOf(amendment),
+            changesText(amendment, settings.modality));
     for (const auto& participant : study.participants()) {
         if (participant.state == ParticipantState::Withdrawn) continue;
         const auto name = participant.readable ? participant.code : std::string("(sealed)");
@@ -155,7 +170,7 @@ int amend(Study& study, const QCommandLineParser& parser, const QStringList&) {
     if (parser.isSet("json"))
         printJson(toJson(made));
     else
-        say("{}: changed {}\n", made.reference, changesText(made));
+        say("{}: changed {}\n", made.reference, changesText(made, study.settings().modality));
     return kDone;
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/JsonFields.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/sharing/BidsFiles.h"
+#include "core/study/ProcedureWords.h"
 
 namespace tacto {
 
@@ -69,7 +70,7 @@ FactsBlock approvalFacts(const StudyRecord& study) {
     QStringList amended;
     for (const auto& amendment : study.amendments) {
         QStringList changed;
-        for (const auto& key : amendment.changed) changed << shown(key);
+        for (const auto& key : amendment.changed) changed << shown(amendedWords(key, study.settings.modality));
         const auto day = std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(amendment.at));
         amended << QString("%1 of %2: %3")
                        .arg(shown(amendment.reference), shown(dateText(day)),
@@ -93,6 +94,14 @@ FactsBlock approvalFacts(const StudyRecord& study) {
          QString("%1 enrolled of at most %2").arg(study.participants.size()).arg(study.settings.participantsMax)},
         massager ? ReportFact{"Highest strength permitted", "1, the whole of the massager's"}
                  : ReportFact{"Highest current permitted", QString("%1 mA").arg(study.settings.cap_mA)}};
+    return block;
+}
+
+FactsBlock procedureFacts(const StudyRecord& study) {
+    FactsBlock block;
+    block.oneColumn = true;
+    for (const auto& fact : approvedProcedure(study.settings))
+        block.facts.push_back({shown(fact.what), shown(fact.words)});
     return block;
 }
 

@@ -334,6 +334,8 @@ ReportContent committeeReport(const StudyRecord& study) {
     Captions captions(content.simulated);
     blocks.emplace_back(captions.heading("Approval and consent"));
     blocks.emplace_back(approvalFacts(study));
+    blocks.emplace_back(captions.heading("What the approval covers"));
+    blocks.emplace_back(procedureFacts(study));
     blocks.emplace_back(captions.heading("Flow of participants"));
     blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
     blocks.emplace_back(captions.heading("Sessions"));

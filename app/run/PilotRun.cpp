@@ -238,7 +238,7 @@ Result<void> PilotRun::sameDevice(const DeviceSet& devices) const {
                 whatEnds());
 }
 
-/// Levels hold for one kind of train, and answers of two procedures are no result of either.
+/// Levels hold for one kind of train, and answers of two procedures do not make one result.
 Result<void> PilotRun::sameProcedure() const {
     if (earlier_.runSha256.empty() || earlier_.runSha256 == settings_.runSha256) return {};
     return fail(kGateRefused,

@@ -142,7 +142,7 @@ TEST_F(PilotGates, OfTheProcedureRefuseASessionThatWouldGoOnAfterAnAmendmentOfWh
     const Words words{"--set", "participant=" + code, "--passphrase-file", passphrase};
     ASSERT_EQ(desk.runKilled(120, "pilot-thresholds", words), -9);
     study({"amend", at(), "--reference", "EC-17 A1", "--set", "train.width_us=400"});
-    const auto before = jsonOf(study({"show", at()}));  // the ledger's head: a journal is taken up by whoever reads
+    const auto before = jsonOf(study({"show", at()}));  // rows, not bytes: reading takes up the journal
     const auto refused = desk.run("pilot-thresholds", words + Words{"--set", "unfinished=resume"});
     EXPECT_EQ(refused.code, 4) << refused.err;
     EXPECT_THAT(refused.err, HasSubstr("it goes on with the former, or ends with --set unfinished=end"));

@@ -185,6 +185,14 @@ TEST_F(StudyCli, AProfileThatWasNotApprovedBeginsNoSessionUntilItIsAmended) {
     const auto amended = study({"amend", at(), "--reference", "EC-18", "--profile", other});
     ASSERT_EQ(amended.code, 0) << amended.err;
     EXPECT_EQ(jsonOf(amended)["changed"], Json::array({"procedure.interval_max_s"}));
+    const auto shown = jsonOf(study({"show", at()}))["procedure"];
+    EXPECT_EQ(shown["interval_max_s"], 3);
+    EXPECT_EQ(shown["method"], "staircase");
+    const auto words = desk.run({"study", "show", at()}).out;
+    EXPECT_THAT(words, HasSubstr("Train: biphasic, 1 pulse of 200 µs a phase, 50 µs between the phases"));
+    EXPECT_THAT(words, HasSubstr("Intervals: 0.5 to 3 s from onset to onset"));
+    EXPECT_THAT(words, HasSubstr("Detection: weighted staircase"));
+    EXPECT_THAT(words, HasSubstr("changed longest interval"));
     expectRefused(run({}), 4, {"longest interval is 2 s, and approval EC-18 is for 3 s"});
     const auto ran = run({"--profile", other});
     EXPECT_THAT(ran.code, testing::AnyOf(0, 5)) << ran.err;

@@ -107,6 +107,20 @@ std::string textOf(const ReportContent& content) {
     return all.join('\n').toStdString();
 }
 
+TEST(StudyReport, TheCommitteesSaysWhatTheApprovalCoversAndWhatAnAmendmentChangedOfIt) {
+    auto study = studyOfThree();
+    study.settings.procedure = StudyProcedure{0.5, 3, DetectionMethod::Staircase, std::string(64, 'e')};
+    study.amendments.front().changed = {"procedure.interval_max_s", "cap_ma"};
+    const auto text = textOf(committeeReport(study));
+    EXPECT_THAT(text, HasSubstr("EK 2026/117 A1 of 2026-11-24: longest interval, highest current"));
+    EXPECT_THAT(text, HasSubstr("Train: biphasic, 1 pulse of 200 µs a phase"));
+    EXPECT_THAT(text, HasSubstr("Intervals: 0.5 to 3 s from onset to onset"));
+    EXPECT_THAT(text, HasSubstr("Detection: weighted staircase"));
+    EXPECT_THAT(text, HasSubstr("Test: 5 blocks, each 4 times each condition and 2 times nothing"));
+    study.settings.procedure.reset();
+    EXPECT_THAT(textOf(committeeReport(study)), HasSubstr("not kept by this approval"));
+}
+
 TEST(StudyReport, EachPersonsResultComesFirst) {
     const auto content = studyReport(studyOfThree());
     ASSERT_TRUE(content) << content.error().message;
@@ -154,7 +168,7 @@ TEST(StudyReport, DriftAndExposureStandInBothReports) {
     EXPECT_THAT(textOf(*content), HasSubstr(std::string("P-7K3M | 1 | ") + course));
     const auto committees = textOf(committeeReport(studyOfThree()));
     EXPECT_THAT(committees, HasSubstr(std::string(" | 1 | ") + course));
-    EXPECT_THAT(committees, HasSubstr("EK 2026/117 A1 of 2026-11-24: cap_ma"));
+    EXPECT_THAT(committees, HasSubstr("EK 2026/117 A1 of 2026-11-24: highest current"));
 }
 
 TEST(StudyReport, APredictionFromThePersonsThresholdsStandsBesideTheAnswersAndJudgesNothing) {

@@ -194,7 +194,7 @@ bool ParticipantDesk::stopBy(const char* by) {
         if (!listens_) return false;
         stop(by);
     }
-    heldButton_ = kNoButton;  // it is off already: letting go is no further stop
+    heldButton_ = kNoButton;  // it is off already: letting go does not stop again
     {
         const std::scoped_lock lock(mutex_);
         stopped_ = true;
