@@ -214,6 +214,44 @@ TEST_F(Plots, AFaultIsALineInEveryLaneWithItsCauseInTheTrains) {
     EXPECT_FALSE(history.fault()) << "another bench";
 }
 
+TEST_F(Plots, WhileAFaultHoldsTheOutputOffTheTrainsAreShadedAndNoneIsCalledNotDelivered) {
+    RecordProperty("hazard", "H12");
+    const auto ask = [&](double at_s) {
+        TrainReport train;
+        train.onset = toInstant(at_s);
+        train.amplitude = 20;
+        train.outcome = TrainOutcome::Voided;
+        tap.trains.push(train);
+    };
+    ask(4.5);
+    feel(5);
+    draw();
+    EXPECT_FALSE(plots.trains().shownOff());
+    EXPECT_EQ(plots.trains().shownFailures(), QVector<double>{4.5}) << "no fault holds it off";
+    Telemetry telemetry;
+    telemetry.state = InterlockState::Faulted;
+    telemetry.at = toInstant(5);
+    history.take(tap, telemetry);
+    ask(5.5);
+    telemetry.at = toInstant(6);
+    history.take(tap, telemetry);
+    t_s = 6;
+    draw();
+    ASSERT_TRUE(plots.trains().shownOff());
+    EXPECT_NEAR(plots.trains().shownOff()->lower, 5, 1e-9);
+    EXPECT_NEAR(plots.trains().shownOff()->upper, plots.shownTime().upper, 1e-9);
+    EXPECT_EQ(plots.trains().shownFailures(), QVector<double>{4.5});
+    telemetry.state = InterlockState::Disarmed;
+    telemetry.at = toInstant(6.5);
+    history.take(tap, telemetry);
+    ask(7);
+    feel(7.5);
+    draw();
+    ASSERT_TRUE(plots.trains().shownOff());
+    EXPECT_NEAR(plots.trains().shownOff()->upper, 6.5, 1e-9) << "up to its reset";
+    EXPECT_EQ(plots.trains().shownFailures(), (QVector<double>{4.5, 7.0}));
+}
+
 TEST_F(Plots, NumbersOfALowStripDoNotLieOnEachOther) {
     feel(2);
     for (const int height : {1000, 700, 420, 330}) {
