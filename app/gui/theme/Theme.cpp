@@ -210,7 +210,9 @@ protected:
             QTransform().rotate(mRotation).mapRect(QRectF(QFontMetrics(mFont).boundingRect(mText))).size();
         const double fits = kRoomUsed * std::min(room.width() / needed.width(), room.height() / needed.height());
         if (fits > 0 && fits < 1) mFont.setPointSizeF(std::max(1.0, mFont.pointSizeF() * fits));
+        painter->save();  // it leaves the painter where the word stands
         QCPItemText::draw(painter);
+        painter->restore();
         if (outlined_) outline(*painter);
         mFont = whole;
     }

@@ -101,7 +101,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
 }
 
 void DeviceDock::list() {
-    // A recording or a folder of captures, whose name the user has to give, is no device that is present.
+    // Without recordings and folders of captures: the user has to give their names first.
     auto present = controller_.watch().devices();
     std::erase_if(present, [](const DeviceIdentity& device) { return device.placeholder; });
     const auto open = controller_.open();

@@ -151,6 +151,25 @@ TEST_F(Plots, TheSpectrumIsBrightAtTheTone) {
     EXPECT_TRUE(std::isnan(spectrum.densityAt_db(9, 250)));
 }
 
+TEST_F(Plots, ASpectrumThatFillsItsLaneSaysSimulatedInFront) {
+    RecordProperty("hazard", "H9");
+    const auto lightOverIt = [&] {
+        const auto image = plots.toPixmap().toImage();
+        const auto middle = plots.axisRects()[3]->center();
+        int light = 0;
+        for (int x = middle.x() - 60; x < middle.x() + 60; ++x)
+            for (int y = middle.y() - 15; y < middle.y() + 15; ++y) light += qGray(image.pixel(x, y)) > 180;
+        return light;
+    };
+    feel(11);
+    draw();
+    EXPECT_GT(lightOverIt(), 50) << "the outline of the word, over the darkest of the scale";
+    plots.begin(false, false, "V");
+    feel(22);
+    draw();
+    EXPECT_EQ(lightOverIt(), 0) << "nothing but the spectrum";
+}
+
 TEST_F(Plots, TheSpectrumSaysNothingOfAGap) {
     feel(2);
     idle(4);
