@@ -2,7 +2,7 @@
 //
 // Two devices of the same vendor, product and serial number (or none) that are plugged in cannot be told apart when one
 // is plugged in again, so neither can be used (H4). A device that was unplugged is opened again when one of the same
-// identity and report descriptor is plugged in; one like it that was there when it went stays another (H4). A device that
+// identity and report descriptor is plugged in; one like it that was there when it went stays another (H4). One that
 // types keys is a keyboard, and is not listed.
 //
 // Thread-safety: as ButtonDevices.

@@ -1,5 +1,6 @@
 #include "app/gui/calibrate/CalibrationPlot.h"
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/PlotSheet.h"
@@ -38,12 +39,17 @@ CalibrationPlot::CalibrationPlot(Kind kind, QWidget* parent) : QCustomPlot(paren
     // Stated, or the legend in one row would say how narrow the window may become.
     setMinimumSize(fontMetrics().averageCharWidth() * kMinChars, fontMetrics().height() * kMinLines);
     clear();
+    onLookChange(*this, [this] {
+        colour();
+        replot(QCustomPlot::rpQueuedReplot);
+    });
 }
 
 void CalibrationPlot::build() {
     bandBottom_ = addGraph();
     bandTop_ = addGraph();
     bandTop_->setChannelFillGraph(bandBottom_);
+    for (auto* edge : {bandTop_, bandBottom_}) edge->setLayer("background");  // below grid and watermark
     for (auto** graph : {&line_, &nominal_, &up_, &down_, &marked_, &means_}) *graph = addGraph();
     for (auto* graph : {up_, down_, marked_, means_}) graph->setLineStyle(QCPGraph::lsNone);
     bars_ = new QCPErrorBars(xAxis, yAxis);
@@ -58,7 +64,6 @@ void CalibrationPlot::build() {
     if (kind_ == Kind::Errors) addLegend();
     watermark_ = addWatermark(*axisRect());
     watermark_->setVisible(false);
-    watermark_->setLayer("legend");  // the band would cover it
     nearest_ = new QCPItemRect(this);
     nearestText_ = new QCPItemText(this);
     nearestText_->setTextAlignment(Qt::AlignLeft);
@@ -115,12 +120,18 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
         y.include(level.mean - level.commanded - of.uncertainty[k]);
     }
     const AxisUnit across = axisUnit(x.magnitude(), of.unit), upward = axisUnit(y.magnitude(), of.unit);
+    xAxis->setRange(rangeOf(x, across.factor));
     if (kind_ == Kind::Errors) {
+        // The band goes on to the plot's edges.
+        for (const double edge : {xAxis->range().lower, xAxis->range().upper}) {
+            const double band = bandAt(of, edge / across.factor);
+            y.include(band);
+            y.include(-band);
+        }
         drawBand(of, across, upward);
         drawMeans(of, across, upward);
     }
     drawLine(of, across, upward);
-    xAxis->setRange(rangeOf(x, across.factor));
     yAxis->setRange(rangeOf(y, upward.factor));
     drawReadings(of, across, upward);
     if (kind_ == Kind::Errors) nameNearest(of, across, upward);
@@ -161,10 +172,13 @@ void CalibrationPlot::drawLine(const CalibrationReadings& of, const AxisUnit& ac
 
 void CalibrationPlot::drawBand(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward) {
     if (!(of.tolerance_pct > 0)) return;
-    for (const auto& reading : of.readings) {
-        const double band = bandAt(of, reading.commanded) * upward.factor;
-        bandTop_->addData(reading.commanded * across.factor, band);
-        bandBottom_->addData(reading.commanded * across.factor, -band);
+    const auto range = xAxis->range();
+    QVector<double> at{range.lower, range.upper};
+    if (range.contains(0)) at.insert(1, 0);  // it is narrowest there
+    for (const double command : at) {
+        const double band = bandAt(of, command / across.factor) * upward.factor;
+        bandTop_->addData(command, band);
+        bandBottom_->addData(command, -band);
     }
 }
 
@@ -235,14 +249,6 @@ void CalibrationPlot::colour() {
     legend->setBrush(Qt::NoBrush);
     legend->setBorderPen(Qt::NoPen);
     legend->setFont(textFont(TextSize::Small));
-}
-
-void CalibrationPlot::changeEvent(QEvent* event) {
-    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && empty_ != nullptr) {
-        colour();
-        replot(QCustomPlot::rpQueuedReplot);
-    }
-    QCustomPlot::changeEvent(event);
 }
 
 }  // namespace tacto::gui

@@ -27,12 +27,13 @@ public:
     [[nodiscard]] int drawnMarked() const { return marked_->dataCount(); }
     [[nodiscard]] int drawnMeans() const { return means_->dataCount(); }
     [[nodiscard]] bool hasBand() const { return bandTop_->dataCount() > 0; }
+    /// From where to where it is drawn, in the unit of the axis.
+    [[nodiscard]] QCPRange bandReach() const {
+        return {bandTop_->data()->at(0)->key, bandTop_->data()->at(bandTop_->dataCount() - 1)->key};
+    }
     [[nodiscard]] bool hasLine() const { return line_->dataCount() > 0; }
     /// "Nearest to the tolerance: 10 V, …"; empty before the result.
     [[nodiscard]] QString nearestShown() const { return nearestText_->visible() ? nearestText_->text() : QString(); }
-
-protected:
-    void changeEvent(QEvent* event) override;
 
 private:
     void build();

@@ -1,10 +1,10 @@
 #include "app/gui/calibrate/CalibrationTrendView.h"
 
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -59,6 +59,10 @@ CalibrationTrendView::CalibrationTrendView(QWidget* parent)
     buildPlot();
     column->addWidget(plot_, 1);
     connect(quantity_, &QComboBox::currentIndexChanged, this, &CalibrationTrendView::draw);
+    onLookChange(*this, [this] {
+        colour();
+        plot_->replot(QCustomPlot::rpQueuedReplot);
+    });
 }
 
 void CalibrationTrendView::buildPlot() {
@@ -296,14 +300,6 @@ void CalibrationTrendView::colour() {
     dueWord_->setColor(overdue ? c.amberText : c.text);
     todayWord_->setColor(c.quiet);
     for (auto* word : {dueWord_, todayWord_}) word->setFont(textFont(TextSize::Small));
-}
-
-void CalibrationTrendView::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
-    if (watermark_ == nullptr) return;
-    colour();
-    plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
 }  // namespace tacto::gui

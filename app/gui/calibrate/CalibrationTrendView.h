@@ -24,9 +24,6 @@ public:
     /// Points of the quantity that is shown.
     [[nodiscard]] const std::vector<TrendPoint>& points() const { return points_; }
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     struct Lane {
         QCPAxisRect* axes = nullptr;

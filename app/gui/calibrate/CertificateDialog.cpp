@@ -29,7 +29,7 @@ enum CertificateColumn {
     kCertificateColumns = kFirstU + 4
 };
 
-constexpr int kWide = 960;
+constexpr int kWide = 1020;   // all columns
 constexpr int kMostRows = 8;  // in sight; more scroll
 constexpr int kIndexRole = Qt::UserRole;
 constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
@@ -87,6 +87,9 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     table_->setHorizontalHeaderLabels(titles);
     for (int c = 0; c < kCertificateColumns; ++c) table_->horizontalHeaderItem(c)->setTextAlignment(alignmentOf(c));
     setTextSize(*table_->horizontalHeader(), TextSize::Small);
+    // Two lines: a title and its unit.
+    table_->horizontalHeader()->setMinimumHeight(2 * QFontMetrics(textFont(TextSize::Small)).lineSpacing() +
+                                                 scaledPx(8));
     // As high as its rows are, and no higher than a few.
     table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     table_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);

@@ -1,9 +1,9 @@
 #include "app/gui/calibrate/ToleranceCard.h"
 
-#include <QEvent>
 #include <QPainter>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
@@ -24,6 +24,7 @@ ToleranceCard::ToleranceCard(const QString& title, QWidget* parent) : QAbstractB
     setAutoExclusive(true);
     setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    onFontChange(*this, [this] { updateGeometry(); });
 }
 
 void ToleranceCard::setLow(bool low) {
@@ -56,11 +57,6 @@ QSize ToleranceCard::sizeHint() const {
 }
 
 QSize ToleranceCard::minimumSizeHint() const { return {scaledPx(kNarrowCard), sizeHint().height()}; }
-
-void ToleranceCard::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::FontChange) updateGeometry();
-    QAbstractButton::changeEvent(event);
-}
 
 void ToleranceCard::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);

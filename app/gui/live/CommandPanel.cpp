@@ -88,7 +88,6 @@ HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, std::uint64_
                                         : QObject::tr("none lost"));
     if (missedByPicture > 0) words << QObject::tr("%1 not drawn, but recorded").arg(missedByPicture);
     for (const auto& flag : telemetry.flags.texts()) words << QString::fromStdString(flag);
-    if (telemetry.uncalibratedStimulator) words << QObject::tr("stimulator not calibrated");
     health.text = words.join(" · ");
     return health;
 }

@@ -76,6 +76,8 @@ DrivePanel::Index DrivePanel::addIndex(QGridLayout& grid, int row, const QString
     index.slider->setAccessibleName(name);
     index.box->setRange(0, 1);
     index.box->setDecimals(2);
+    index.box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // the slider is beside it
+    index.box->setAlignment(Qt::AlignRight);
     index.box->setSingleStep(0.01);
     index.box->setToolTip(tip);
     index.box->setAccessibleName(name);

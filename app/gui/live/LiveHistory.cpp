@@ -101,7 +101,8 @@ void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry) {
     }
     missed_ = tap.samples.dropped();
     const bool faulted = telemetry.state == InterlockState::Faulted;
-    if (faulted && !faulted_) fault_ = Fault{now_s_, telemetry.reason};
+    if (faulted && !faulted_) fault_ = Fault{.at_s = now_s_, .why = telemetry.reason};
+    if (!faulted && faulted_) fault_->until_s = now_s_;
     faulted_ = faulted;
 }
 

@@ -113,9 +113,10 @@ public:
     void addMark(PlotMark mark);
     /// Time of the bench at the last take().
     [[nodiscard]] double now_s() const noexcept { return now_s_; }
-    /// When the last fault came, and why; nothing without one since begin().
+    /// The last fault; nothing without one since begin(). Nothing is delivered from `at_s` to `until_s`.
     struct Fault {
         double at_s = 0;
+        double until_s = std::numeric_limits<double>::infinity();  ///< its reset
         FixedText<200> why;
     };
     [[nodiscard]] const std::optional<Fault>& fault() const noexcept { return fault_; }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "core/encoding/Encoder.h"
@@ -56,6 +57,7 @@ ProfilePreview::ProfilePreview(QWidget* parent)
     wave_ = graphIn(pulse_);
     setMinimumSize(fontMetrics().height() * 20, fontMetrics().height() * 22);
     colour();
+    onLookChange(*this, [this] { colour(); });
 }
 
 void ProfilePreview::show(const EncodingProfile& profile, Ohms smallestLoad) {
@@ -167,11 +169,6 @@ void ProfilePreview::colour() {
     for (auto* point : {amplitudePoint_, intervalPoint_})
         point->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, c.text, c.text, 9));
     wave_->setPen(QPen(c.voltage, 1));
-}
-
-void ProfilePreview::changeEvent(QEvent* event) {
-    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && wave_ != nullptr) colour();
-    QCustomPlot::changeEvent(event);
 }
 
 }  // namespace tacto::gui

@@ -26,9 +26,6 @@ public:
     /// The command that is marked on the curves.
     [[nodiscard]] std::optional<QPointF> marked() const;
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     void colour();
     void showCurves();

@@ -45,20 +45,13 @@ Strip::Strip(QCustomPlot& plot, int row, const QString& title, const StripAxis& 
     axes_->setMinimumSize(50, 24);
     axes_->setRangeDrag(Qt::Horizontal);
     axes_->setRangeZoom(Qt::Horizontal);
-    for (const auto side : {QCPAxis::atTop, QCPAxis::atRight}) {
-        auto* edge = axes_->axis(side);  // of the frame, and no more
-        edge->setVisible(true);
-        edge->setTicks(false);
-        edge->setTickLabels(false);
-        edge->grid()->setVisible(false);
-    }
     time().setTickLabels(false);
     time().ticker()->setTickCount(8);
     values().setTicker(ticker_);
     values().setNumberFormat("gb");
     values().setNumberPrecision(4);
     for (auto* each : {&time(), &values()}) each->setLayer("axes");
-    watermark_ = addWatermark(*axes_);
+    watermark_ = addWatermark(*axes_, axis.filled ? WatermarkPlace::InFront : WatermarkPlace::Behind);
     watermark_->setRotation(0);
     hatch_ = new QCPItemRect(&plot);
     for (auto* corner : {hatch_->topLeft, hatch_->bottomRight}) {
@@ -88,8 +81,9 @@ void Strip::layOut() {
     for (const auto side : {QCPAxis::atTop, QCPAxis::atRight}) axes_->axis(side)->setVisible(present_);
     axes_->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
     const int line = caption_->lineHeight();
+    const int below = time().tickLabels() ? 2 : 0;  // lines: the numbers and what they count
     axes_->setMinimumMargins(present_ ? QMargins(4, line + 2, 8, 2) : QMargins());
-    axes_->setMinimumSize(present_ ? 50 : 0, present_ ? line * 3 : 0);
+    axes_->setMinimumSize(present_ ? 50 : 0, present_ ? line * (3 + below) : 0);
     axes_->setMaximumSize(QWIDGETSIZE_MAX, present_ ? QWIDGETSIZE_MAX : 1);
     caption_->setVisible(present_);
     watermark_->setVisible(present_ && simulated_);

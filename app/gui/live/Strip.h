@@ -17,7 +17,8 @@ namespace tacto::gui {
 struct StripAxis {
     double least = 0;  ///< it never shows a smaller span
     bool fromZero = false;
-    int ticks = 3;  ///< at most
+    int ticks = 3;        ///< at most
+    bool filled = false;  ///< by what it shows: its watermark is an outline in front
 };
 
 /// The range that `wanted` needs in whole steps; the one `before` stays as long as it fits and is not too wide.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -61,8 +62,8 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
     auto* unused = axisRect();
     const std::tuple<QString, StripAxis> kinds[kStripCount] = {
-        {tr("Acceleration"), {1, false, 3}}, {tr("Force"), {0.5, true, 2}}, {tr("Taxels"), {0, false, 3}},
-        {tr("Spectrum"), {0, true, 3}},      {tr("Indices"), {1, true, 2}}, {tr("Trains"), {0, true, 3}}};
+        {tr("Acceleration"), {1, false, 3}},  {tr("Force"), {0.5, true, 2}}, {tr("Taxels"), {0, false, 3}},
+        {tr("Spectrum"), {0, true, 3, true}}, {tr("Indices"), {1, true, 2}}, {tr("Trains"), {0, true, 3}}};
     for (const auto& [title, axis] : kinds) strips_.emplace_back(*this, int(strips_.size()) + 1, title, axis);
     plotLayout()->remove(unused);
     plotLayout()->simplify();
@@ -99,6 +100,10 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     fault_->setPadding(QMargins(8, 2, 8, 2));
     fault_->setVisible(false);
     begin(false, false, "V");
+    onLookChange(*this, [this] {
+        colour();
+        layOut();
+    });
 }
 
 void StripPlots::begin(bool simulatedTouch, bool simulatedSource, const QString& commandUnit) {
@@ -309,14 +314,6 @@ QString StripPlots::taxelText(const Series& taxels) const {
     for (std::size_t c = 0; c < taxels.channels(); ++c) sum += double(taxels.value(taxels.size() - 1, c));
     const auto unit = strips_[kTaxels].unit() == "kPa" ? QString("Pa") : strips_[kTaxels].unit();
     return tr("%1 taxels, mean %2").arg(taxels.channels()).arg(quantityText(sum / double(taxels.channels()), unit, 2));
-}
-
-void StripPlots::changeEvent(QEvent* event) {
-    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && spectrogram_) {
-        colour();
-        layOut();
-    }
-    QCustomPlot::changeEvent(event);
 }
 
 }  // namespace tacto::gui

@@ -55,9 +55,6 @@ signals:
     /// Another part of a frozen picture is shown, or it is frozen no more.
     void viewChanged();
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     [[nodiscard]] const LiveHistory& shown() const { return frozen_ ? *frozen_ : history_; }
     void rememberView();

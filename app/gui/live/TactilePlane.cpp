@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 
@@ -35,6 +36,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     setMinimumSize(fontMetrics().height() * 10, fontMetrics().height() * 9);
     setOrigin(false, true);
     colour();
+    onLookChange(*this, [this] { colour(); });
 }
 
 QSize TactilePlane::sizeHint() const { return {fontMetrics().height() * 15, fontMetrics().height() * 14}; }
@@ -85,11 +87,6 @@ void TactilePlane::colour() {
     watermark_->setFont(textFont(TextSize::Large, QFont::Bold));
     trail_->setPen(QPen(c.frame, 1.5));
     now_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(c.base, 2), QBrush(c.text), 11));
-}
-
-void TactilePlane::changeEvent(QEvent* event) {
-    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && now_ != nullptr) colour();
-    QCustomPlot::changeEvent(event);
 }
 
 void TactilePlane::show(const Series& frames, double now_s, double roughness, double pressure, bool byHand) {

@@ -24,9 +24,6 @@ public:
     [[nodiscard]] std::optional<QPointF> point() const;
     [[nodiscard]] QSize sizeHint() const override;
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     void colour();
     std::vector<Condition> conditions_;

@@ -85,18 +85,29 @@ void TaxelMap::paintEvent(QPaintEvent*) {
     }
     const int columns = gridFor(values_.size()).width(), rows = gridFor(values_.size()).height();
     const double w = double(width()) / columns, h = double(height()) / rows;
-    painter.setFont(textFont(TextSize::Small));
+    const auto cellOf = [&](std::size_t i) {
+        return QRectF((int(i) % columns) * w + 1, double(int(i) / columns) * h + 1, w - 2, h - 2);
+    };
+    std::vector<QColor> grounds;
     for (std::size_t i = 0; i < values_.size(); ++i) {
-        const QRectF cell((int(i) % columns) * w + 1, double(int(i) / columns) * h + 1, w - 2, h - 2);
         const float value = values_[i];
         const double share = most_ > 0 && std::isfinite(value) ? std::clamp(double(value / most_), 0.0, 1.0) : 0;
         // From the ground to the pressure colour: even steps in lightness in both themes.
         const QColor from = palette().color(QPalette::Midlight), to = c.voltage;
         const auto mix = [&](int a, int b) { return int(a + (b - a) * share); };
-        painter.setPen(Qt::NoPen);
-        const QColor ground(mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue()));
-        painter.setBrush(ground);
-        painter.drawRect(cell);
+        grounds.emplace_back(mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue()));
+        painter.fillRect(cellOf(i), grounds.back());
+    }
+    if (simulated_) {
+        painter.setFont(textFont(TextSize::Large, QFont::Bold));
+        painter.setPen(c.watermark);
+        painter.drawText(rect(), Qt::AlignCenter, tr("SIMULATED"));
+    }
+    painter.setFont(textFont(TextSize::Small));
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        const auto cell = cellOf(i);
+        const float value = values_[i];
+        const auto& ground = grounds[i];
         painter.setPen(contrast(ground, c.base) > contrast(ground, c.text) ? c.base : c.text);
         // With its unit, or where that does not fit the number alone; the tool tip has the unit.
         const bool counts = unit_ == "count" && std::isfinite(value);
@@ -104,11 +115,6 @@ void TaxelMap::paintEvent(QPaintEvent*) {
         const auto width = painter.fontMetrics().horizontalAdvance(number);
         painter.drawText(cell, Qt::AlignCenter,
                          width <= int(cell.width()) ? number : number.section(QChar(0x202f), 0, 0));
-    }
-    if (simulated_) {
-        painter.setFont(textFont(TextSize::Large, QFont::Bold));
-        painter.setPen(c.watermark);
-        painter.drawText(rect(), Qt::AlignCenter, tr("SIMULATED"));
     }
     if (!stale_) return;
     auto veil = c.quiet;

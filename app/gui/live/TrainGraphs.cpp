@@ -30,6 +30,22 @@ TrainGraphs::TrainGraphs(Strip& strip)
         (*graph)->setLineStyle(QCPGraph::lsNone);
     }
     readings_.reserve(kReadings);
+    auto* plot = strip.time().parentPlot();
+    off_ = new QCPItemRect(plot);
+    offSays_ = new QCPItemText(plot);
+    offSays_->setText(QObject::tr("output off"));
+    for (auto* place : {off_->topLeft, off_->bottomRight, offSays_->position}) {
+        place->setAxisRect(&strip.axes());
+        place->setAxes(&strip.time(), &strip.values());
+        place->setTypeX(QCPItemPosition::ptPlotCoords);
+        place->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    }
+    for (QCPAbstractItem* item : {static_cast<QCPAbstractItem*>(off_), static_cast<QCPAbstractItem*>(offSays_)}) {
+        item->setClipAxisRect(&strip.axes());
+        item->setVisible(false);
+    }
+    off_->setLayer("grid");
+    off_->setPen(Qt::NoPen);
 }
 
 void TrainGraphs::begin() {
@@ -47,6 +63,25 @@ void TrainGraphs::addScopeReading(double t_s, double amplitude) {
 void TrainGraphs::draw(const LiveHistory& history, const QCPRange& time) {
     drawCommand(history, time);
     drawTrains(history, time);
+    drawOff(history, time);
+}
+
+void TrainGraphs::drawOff(const LiveHistory& history, const QCPRange& time) {
+    const auto& fault = history.fault();
+    const double from = fault ? std::max(fault->at_s, time.lower) : time.upper;
+    const double to = fault ? std::min(fault->until_s, time.upper) : time.upper;
+    off_->setVisible(to > from);
+    const auto pixels = strip_.axes().width() * (to - from) / time.size();
+    offSays_->setVisible(to > from && QFontMetrics(offSays_->font()).horizontalAdvance(offSays_->text()) < pixels);
+    if (!off_->visible()) return;
+    off_->topLeft->setCoords(from, 0);
+    off_->bottomRight->setCoords(to, 1);
+    offSays_->position->setCoords((from + to) / 2, 0.5);
+}
+
+std::optional<QCPRange> TrainGraphs::shownOff() const {
+    if (!off_->visible()) return {};
+    return QCPRange(off_->topLeft->key(), off_->bottomRight->key());
 }
 
 void TrainGraphs::drawCommand(const LiveHistory& history, const QCPRange& time) {
@@ -80,6 +115,8 @@ void TrainGraphs::drawTrains(const LiveHistory& history, const QCPRange& time) {
         const double t = toSeconds(train.onset);
         if (!time.contains(t) || train.isCheck) continue;
         if (train.outcome != TrainOutcome::Delivered) {
+            const auto& fault = history.fault();
+            if (fault && t >= fault->at_s && t <= fault->until_s) continue;
             failedAt_ << t;
             failedValue_ << train.amplitude;
             continue;
@@ -117,6 +154,9 @@ void TrainGraphs::colour() {
     measured_->setScatterStyle(points(QCPScatterStyle::ssCircle, c.text, 1, 7));
     scoped_->setScatterStyle(points(QCPScatterStyle::ssDiamond, c.third, 1.5, 9));
     failed_->setScatterStyle(points(QCPScatterStyle::ssCross, c.amber, 1.5, 8));
+    off_->setBrush(c.sunken);
+    offSays_->setColor(c.text);
+    offSays_->setFont(textFont(TextSize::Small, QFont::DemiBold));
     auto& keys = strip_.caption();
     keys.setSample(0, command_->pen());
     keys.setSample(1, QPen(c.voltage, 3));

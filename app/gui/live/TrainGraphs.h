@@ -1,9 +1,11 @@
 // TrainGraphs.h - what is drawn of the trains: the command as a line, each train as delivered, what the source read
-// back and the oscilloscope measured of it, and those that were not delivered.
+// back and the oscilloscope measured of it, and those that were not delivered. While a fault holds the output off, the
+// ground is shaded and says so, and what was asked for is not drawn.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <optional>
 #include <qcustomplot.h>
 #include <vector>
 
@@ -30,10 +32,15 @@ public:
     /// Corners of the command's line, and the oscilloscope's readings within the window; in the source's unit.
     [[nodiscard]] std::vector<double> shownCommand() const;
     [[nodiscard]] std::vector<double> scopeReadings() const;
+    /// Onsets of the trains drawn as not delivered.
+    [[nodiscard]] QVector<double> shownFailures() const { return failedAt_; }
+    /// What is shaded as off, in seconds; nothing where no fault is in sight.
+    [[nodiscard]] std::optional<QCPRange> shownOff() const;
 
 private:
     void drawCommand(const LiveHistory& history, const QCPRange& time);
     void drawTrains(const LiveHistory& history, const QCPRange& time);
+    void drawOff(const LiveHistory& history, const QCPRange& time);
 
     Strip& strip_;
     QCPGraph* command_;
@@ -41,6 +48,8 @@ private:
     QCPGraph* measured_ = nullptr;
     QCPGraph* scoped_ = nullptr;
     QCPGraph* failed_ = nullptr;
+    QCPItemRect* off_ = nullptr;
+    QCPItemText* offSays_ = nullptr;
     static constexpr std::size_t kReadings = 256;
     std::vector<QCPGraphData> readings_;  // of the oscilloscope, a ring
     std::size_t nextReading_ = 0;

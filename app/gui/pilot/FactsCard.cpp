@@ -1,10 +1,10 @@
 #include "app/gui/pilot/FactsCard.h"
 
-#include <QEvent>
 #include <QVBoxLayout>
 
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -33,6 +33,7 @@ FactsCard::FactsCard(const QString& title, const QString& iconName, QWidget* par
     grid_->setColumnStretch(1, 1);
     column_->addLayout(grid_);
     dress();
+    onLookChange(*this, [this] { dress(); });
 }
 
 void FactsCard::setFacts(const std::vector<Fact>& facts) {
@@ -69,11 +70,6 @@ void FactsCard::setWords(const QString& words) {
         column_->addWidget(words_);
     }
     words_->setText(words);
-}
-
-void FactsCard::changeEvent(QEvent* event) {
-    QFrame::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) dress();
 }
 
 void FactsCard::dress() { picture_->setPixmap(iconPixmap(icon_, colours().text, kCardIcon, devicePixelRatioF())); }

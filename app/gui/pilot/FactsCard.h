@@ -24,9 +24,6 @@ public:
     void setPicture(QWidget* picture);
     void setWords(const QString& words);
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     void dress();
     QString icon_;

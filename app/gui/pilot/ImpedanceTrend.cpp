@@ -1,10 +1,10 @@
 #include "app/gui/pilot/ImpedanceTrend.h"
 
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 
@@ -51,6 +51,7 @@ ImpedanceTrend::ImpedanceTrend(QWidget* parent)
     addPlotMenu(*plot_, "impedance-of-the-session");
     setPlan(90, 5);
     clear();
+    onLookChange(*this, [this] { draw(); });
 }
 
 void ImpedanceTrend::clear() {
@@ -152,11 +153,6 @@ void ImpedanceTrend::draw() {
     now_->setText(ohms_.empty() ? tr("not measured yet")
                                 : tr("now %1").arg(quantityText(ohms_.rbegin()->second, "ohm", 3)));
     plot_->replot(QCustomPlot::rpQueuedReplot);
-}
-
-void ImpedanceTrend::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) draw();
 }
 
 }  // namespace tacto::gui

@@ -23,9 +23,6 @@ public:
     /// What was read back last in that trial, from 1; the first sets the band. NaN is left out.
     void note(int trial, double ohm);
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     void draw();
     QLabel* title_;

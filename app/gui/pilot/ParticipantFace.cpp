@@ -1,12 +1,12 @@
 #include "app/gui/pilot/ParticipantFace.h"
 
-#include <QEvent>
 #include <algorithm>
 #include <cmath>
 
 #include "app/gui/pilot/ParticipantField.h"
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/ShareBars.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -67,6 +67,7 @@ ParticipantFace::ParticipantFace(std::function<void()> stop, QWidget* parent)
     hold_->setObjectName("hold");
     hold_->hide();
     line_->hide();
+    onFontChange(*this, [this] { arrange(); });
 }
 
 void ParticipantFace::setNote(const QString& note) {
@@ -275,11 +276,6 @@ void ParticipantFace::arrange() {
 void ParticipantFace::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     arrange();
-}
-
-void ParticipantFace::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::FontChange) arrange();
 }
 
 }  // namespace tacto::gui

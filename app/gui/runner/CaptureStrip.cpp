@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
@@ -35,6 +36,10 @@ CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
     addPlotMenu(*this, "train");
     setMinimumHeight(fontMetrics().height() * 10);
     show(nullptr);
+    onLookChange(*this, [this] {
+        colour();
+        replot(QCustomPlot::rpQueuedReplot);
+    });
 }
 
 void CaptureStrip::show(const std::shared_ptr<const Capture>& capture, const QString& title) {
@@ -90,16 +95,8 @@ void CaptureStrip::thinTicks() {
 }
 
 void CaptureStrip::resizeEvent(QResizeEvent* event) {
+    thinTicks();  // before it draws
     QCustomPlot::resizeEvent(event);
-    thinTicks();
-}
-
-void CaptureStrip::changeEvent(QEvent* event) {
-    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && empty_ != nullptr) {
-        colour();
-        replot(QCustomPlot::rpQueuedReplot);
-    }
-    QCustomPlot::changeEvent(event);
 }
 
 }  // namespace tacto::gui

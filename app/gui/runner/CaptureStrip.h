@@ -21,7 +21,6 @@ public:
     [[nodiscard]] bool empty() const { return empty_->visible(); }
 
 protected:
-    void changeEvent(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
 
 private:

@@ -9,7 +9,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kBelow = 2, kBeside = 12;  // between its parts
+constexpr int kBelow = 4, kBeside = 12;  // between its parts
 }
 
 ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)

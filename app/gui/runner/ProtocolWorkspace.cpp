@@ -19,6 +19,7 @@
 #include "app/gui/runner/StepList.h"
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstPage.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -81,6 +82,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     previewLater_.setInterval(kPreviewAfter_ms);
     connect(&previewLater_, &QTimer::timeout, this, &ProtocolWorkspace::preview);
     fillChooser({});
+    onFontChange(*this, [this] { arrange(); });
 }
 
 void ProtocolWorkspace::arrange() {
@@ -107,11 +109,6 @@ void ProtocolWorkspace::showPath() {
 void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     arrange();
-}
-
-void ProtocolWorkspace::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::FontChange) arrange();
 }
 
 void ProtocolWorkspace::connectPath() {
@@ -198,7 +195,7 @@ void ProtocolWorkspace::judge() {
     const auto devices = pages_->wiring().devices();
     const auto state = [](bool troubled) { return troubled ? State::Troubled : State::Done; };
     steps_->setState(kWiring, state(!devicesOf(devices)));
-    steps_->setNote(kWiring, devices);
+    steps_->setNote(kWiring, devices == "sim:" ? tr("simulated bench") : devices);
     steps_->setState(kReference, state(form.refused(true) > 0));
     const auto load = form.text("reference").isEmpty() ? form.text("load") : form.text("reference");
     bool isNumber = false;

@@ -1,7 +1,6 @@
 #include "app/gui/runner/ResultHead.h"
 
 #include <QHBoxLayout>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "app/gui/theme/Text.h"
@@ -21,6 +20,7 @@ QString whyAndWhere(const QString& error, const QString& meaning) {
 }
 
 constexpr int kBesideBlock = 16;
+constexpr int kMostBlocks = 3;  // height of the reasons: more scroll
 
 /// A script's words: one line each, as plain text.
 QLabel* wordsLabel(const char* name, QWidget* parent) {
@@ -40,13 +40,10 @@ ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
     row->setSpacing(kBesideBlock);
     verdict_ = new VerdictBlock(this);
     row->addWidget(verdict_, 0, Qt::AlignTop);
-    // As high as the block: reasons may be many, and the plot keeps its room.
-    auto* area = new QScrollArea(this);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    area->setFixedHeight(verdict_->sizeHint().height());
-    auto* page = new QWidget(area);
+    // Laid out whole up to a few lines; of more the rest scrolls, and the plot keeps its room.
+    area_ = new ScrollingPage(this);
+    area_->setObjectName("verdictReasons");
+    auto* page = new QWidget(area_->viewport());
     auto* column = new QVBoxLayout(page);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(2);
@@ -63,9 +60,9 @@ ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
     column->addWidget(why_);
     column->addWidget(more_);
     column->addStretch();
-    area->setWidget(page);
-    for (auto* ground : {page, area->viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
-    row->addWidget(area, 1);
+    area_->hold(page);
+    for (auto* ground : {page, area_->viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
+    row->addWidget(area_, 1, Qt::AlignTop);
     row->addWidget(toScript_, 0, Qt::AlignTop);
     clear();
 }
@@ -104,12 +101,27 @@ void ResultHead::show(const FinishedRun& run) {
             "Output is off. Restart the program when you can.");
     }
     if (why.isEmpty()) why << tr("The protocol ran to its end; it judges nothing.");
-    why_->setText(titled(why.takeFirst()));
-    for (const auto& mark : run.result.marks) why << QString::fromStdString(flagSentence(mark));
-    more_->setText(why.join("\n"));
+    why_->setText(keptTogether(titled(why.takeFirst())));
+    QStringList marks;
+    for (const auto& mark : run.result.marks) marks << QString::fromStdString(flagSentence(mark));
+    if (!marks.isEmpty()) why << marks.join(' ');
+    more_->setText(keptTogether(why.join("\n")));
     more_->setVisible(!why.isEmpty());
+    giveRoom();
     errorLine_ = outcome.line;
     toScript_->setVisible(outcome.error && outcome.line > 0);
+}
+
+void ResultHead::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    giveRoom();
+}
+
+void ResultHead::giveRoom() {
+    const int block = verdict_->sizeHint().height();
+    const auto* page = area_->widget();
+    const int needed = page->layout()->totalHeightForWidth(area_->width());
+    area_->setFixedHeight(std::clamp(needed, block, kMostBlocks * block));
 }
 
 }  // namespace tacto::gui

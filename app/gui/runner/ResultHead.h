@@ -8,6 +8,7 @@
 #include <QWidget>
 
 #include "app/gui/controller/BenchController.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Verdict.h"
 
 namespace tacto::gui {
@@ -24,8 +25,14 @@ public:
 signals:
     void scriptErrorChosen(int line, const QString& why);  ///< the operator wants to see the line
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
+    void giveRoom();
+
     VerdictBlock* verdict_;
+    ScrollingPage* area_;
     QLabel* why_;
     QLabel* more_;
     QPushButton* toScript_;

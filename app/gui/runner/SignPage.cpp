@@ -73,7 +73,7 @@ QString SignPage::state() const {
     if (!fault_.isEmpty()) return fault_;
     if (maker_.busy()) return tr("Drawing the report…");
     if (!printed_.isEmpty()) return printed_;
-    return view_->report().isEmpty() ? QString() : tr("The report is written, as PDF and HTML.");
+    return view_->report().isEmpty() ? QString() : tr("Written as PDF and HTML.");
 }
 
 void SignPage::showState() {

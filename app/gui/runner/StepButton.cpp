@@ -1,9 +1,9 @@
 #include "app/gui/runner/StepButton.h"
 
-#include <QEvent>
 #include <QPainter>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -23,6 +23,7 @@ StepButton::StepButton(const QString& name, int number, Place place, QWidget* pa
     setFocusPolicy(Qt::TabFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setName(name);
+    onFontChange(*this, [this] { updateGeometry(); });
 }
 
 void StepButton::setName(const QString& name) {
@@ -89,11 +90,6 @@ QSize StepButton::sizeHint() const {
     const int words =
         QFontMetrics(textFont(TextSize::Body)).height() + (low_ ? 0 : QFontMetrics(textFont(TextSize::Small)).height());
     return {scaledPx(kStepWidth), std::max(scaledPx(low_ ? kStepLow : kStepHeight), words + 8)};
-}
-
-void StepButton::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::FontChange) updateGeometry();
-    QAbstractButton::changeEvent(event);
 }
 
 /// ✔ done, a disc under way, ⚠ needs attention, a ring to do. In a row disc and ring have the step's number.

@@ -1,9 +1,9 @@
 #include "app/gui/runner/StepList.h"
 
-#include <QEvent>
 #include <utility>
 
 #include "app/gui/runner/StepButton.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -28,6 +28,7 @@ StepList::StepList(const QStringList& steps, QWidget* parent)
         buttons_.push_back(button);
     }
     setShown(0);
+    onFontChange(*this, [this] { fit(); });
 }
 
 void StepList::setState(int step, State state) { buttons_.at(std::size_t(step))->setState(state); }
@@ -109,11 +110,6 @@ QSize StepList::minimumSizeHint() const {
 void StepList::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     placeAcross();
-}
-
-void StepList::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::FontChange) fit();
 }
 
 }  // namespace tacto::gui

@@ -42,7 +42,6 @@ signals:
     void chosen(int step);
 
 protected:
-    void changeEvent(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
 
 private:

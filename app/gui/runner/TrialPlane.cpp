@@ -1,5 +1,6 @@
 #include "app/gui/runner/TrialPlane.h"
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
@@ -21,6 +22,10 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     empty_->position->setCoords(0.5, 0.5);
     setMinimumHeight(fontMetrics().height() * 12);
     begin(false);
+    onLookChange(*this, [this] {
+        colour();
+        replot(QCustomPlot::rpQueuedReplot);
+    });
 }
 
 void TrialPlane::begin(bool simulated, Features features) {
@@ -120,14 +125,6 @@ void TrialPlane::resizeEvent(QResizeEvent* event) {
         fitLegend(*this);
     }
     QCustomPlot::resizeEvent(event);
-}
-
-void TrialPlane::changeEvent(QEvent* event) {
-    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && empty_ != nullptr) {
-        colour();
-        replot(QCustomPlot::rpQueuedReplot);
-    }
-    QCustomPlot::changeEvent(event);
 }
 
 }  // namespace tacto::gui

@@ -26,7 +26,6 @@ public:
     [[nodiscard]] int drawn() const { return drawn_; }
 
 protected:
-    void changeEvent(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
 
 private:

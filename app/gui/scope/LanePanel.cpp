@@ -14,6 +14,7 @@
 #include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/scope/StepBox.h"
 #include "app/gui/scope/Steps.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
@@ -52,6 +53,7 @@ LanePanel::LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent)
     connect(&model_, &ScopeModel::viewChanged, this, &LanePanel::follow);
     connect(&model_, &ScopeModel::activeLaneChanged, this, &LanePanel::follow);
     build();
+    onLookChange(*this, [this] { follow(); });
 }
 
 void LanePanel::build() {
@@ -162,11 +164,6 @@ void LanePanel::follow() {
         }
     }
     store_->setEnabled(canStore && !model_.roll());
-}
-
-void LanePanel::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) follow();
 }
 
 }  // namespace tacto::gui

@@ -26,9 +26,6 @@ public:
     /// Both outlive this.
     LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent);
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     struct Row {
         QToolButton* letter = nullptr;

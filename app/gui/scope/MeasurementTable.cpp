@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -74,6 +75,7 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     layout->addStretch();  // takes the room of a table that is not there yet
     restyle();
     refill();
+    onLookChange(*this, [this] { restyle(); });
 }
 
 void MeasurementTable::add(const ShownPtr& shown) {
@@ -197,11 +199,6 @@ void MeasurementTable::keyPressEvent(QKeyEvent* event) {
         return;
     }
     QWidget::keyPressEvent(event);
-}
-
-void MeasurementTable::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) restyle();
 }
 
 void MeasurementTable::restyle() {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/scope/Steps.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -80,7 +81,7 @@ QString laneScalesText(const ScopeModel& model) {
 QString scalesText(const ScopeModel& model) {
     QStringList parts;
     if (const auto lanes = laneScalesText(model); !lanes.isEmpty()) parts << lanes;
-    parts << QObject::tr("%1/div").arg(settingText(model.viewport().perDivision_s, "s"));
+    parts << QObject::tr("%1/div").arg(settingText(stepNotBelow(model.viewport().perDivision_s), "s"));
     if (const auto& shown = model.shown()) {
         parts << QObject::tr("%1 samples at %2")
                      .arg(shown->capture->samples())

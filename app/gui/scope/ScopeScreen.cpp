@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
@@ -78,6 +79,10 @@ ScopeScreen::ScopeScreen(const ScopeModel& model, QWidget* parent)
     takeTraces();
     restyle();
     apply();
+    onLookChange(*this, [this] {
+        restyle();
+        apply();
+    });
 }
 
 double ScopeScreen::timeAt(double x) const {
@@ -169,13 +174,6 @@ void ScopeScreen::restyle() {
             graphs.behind[i]->setPen(QPen(mixed(colour, c.base, 0.5 + 0.35 * age), 1));
         }
     }
-}
-
-void ScopeScreen::changeEvent(QEvent* event) {
-    QCustomPlot::changeEvent(event);
-    if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
-    restyle();
-    apply();
 }
 
 void ScopeScreen::focusInEvent(QFocusEvent* event) {

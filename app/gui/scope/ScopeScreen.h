@@ -45,7 +45,6 @@ public:
     [[nodiscard]] const OverlayState& overlay() const { return overlay_->state; }
 
 protected:
-    void changeEvent(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;

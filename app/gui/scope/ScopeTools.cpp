@@ -157,9 +157,8 @@ void ScopeTools::showRunning(bool running, bool possible) {
 }
 
 void ScopeTools::showTimeBase(double perDivision_s) {
-    const auto text = tr("%1/div").arg(quantityText(perDivision_s, "s", 3));
-    const auto exact = tr("%1/div").arg(settingText(perDivision_s, "s"));
-    base_->setText(exact.size() <= text.size() ? exact : text);
+    // What lies between two lines of the grid, which stand at round numbers.
+    base_->setText(tr("%1/div").arg(settingText(stepNotBelow(perDivision_s), "s")));
     base_->setAccessibleName(tr("Time base tool"));
     base_->setMinimumWidth(base_->fontMetrics().horizontalAdvance("00.00 µs/div") + scaledPx(24));
 }

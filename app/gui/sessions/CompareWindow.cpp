@@ -79,7 +79,13 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     for (const auto& info : sessions_[0]->streams) {
         const auto same = std::any_of(sessions_[1]->streams.begin(), sessions_[1]->streams.end(),
                                       [&](const auto& other) { return other.stream == info.stream; });
-        if (same) stream_->addItem(qtext(info.stream.name));
+        for (std::size_t c = 0; same && c < info.stream.columns.size(); ++c) {
+            const auto name = titled(qtext(info.stream.name));
+            const auto title = columnTitle(info.stream, c);
+            const bool only = info.stream.columns.size() == 1;
+            stream_->addItem(only ? name : QString("%1: %2").arg(name, title), QVariant::fromValue(drawn_.size()));
+            drawn_.push_back({info.stream, c, axisTitle(only ? name : title, columnUnit(info.stream, c))});
+        }
     }
     column->addWidget(stream_);
     streams_ = new QCustomPlot(page);
@@ -152,15 +158,12 @@ void CompareWindow::drawTrials() {
 
 void CompareWindow::drawStream() {
     if (stream_->count() == 0) return;
-    const auto name = stream_->currentText().toStdString();
+    const auto& drawn = drawn_[stream_->currentData().toULongLong()];
     auto samples = std::make_shared<std::array<SampleBlock, 2>>();
     std::array<std::pair<std::filesystem::path, int>, 2> where;
-    std::size_t columns = 1;
     for (std::size_t s = 0; s < 2; ++s) {
         for (const auto& info : sessions_[s]->streams) {
-            if (info.stream.name != name) continue;
-            where[s] = {sessions_[s]->path, info.id};
-            columns = info.stream.columns.size();
+            if (info.stream == drawn.stream) where[s] = {sessions_[s]->path, info.id};
         }
     }
     background_.start(
@@ -174,13 +177,13 @@ void CompareWindow::drawStream() {
             }
             return {};
         },
-        [this, samples, columns, label = stream_->currentText()](const Result<void>& done) {
-            if (done) overlay((*samples)[0], (*samples)[1], columns, label);
+        [this, samples, drawn](const Result<void>& done) {
+            if (done) overlay((*samples)[0], (*samples)[1], drawn);
         });
 }
 
 /// Both from their own beginning; the difference below, where the second has a sample at the same time.
-void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, std::size_t columns, const QString& label) {
+void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn) {
     streams_->clearGraphs();
     const auto shown = [&](const std::vector<double>& t, const std::vector<double>& values, const QString& name,
                            const QPen& pen) {
@@ -196,7 +199,8 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, std::siz
     };
     const auto column = [&](const SampleBlock& block) {
         std::vector<double> values(block.samples());
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = block.values[i * columns];
+        const auto columns = drawn.stream.columns.size();
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = block.values[i * columns + drawn.column];
         return values;
     };
     if (a.samples() == 0 || b.samples() == 0) return;
@@ -219,7 +223,7 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, std::siz
     streams_->legend->setVisible(true);
     fitLegend(*streams_);
     streams_->xAxis->setLabel(tr("time from the first sample (s)"));
-    streams_->yAxis->setLabel(label);
+    streams_->yAxis->setLabel(drawn.label);
     begins_s_ = {a.t_s.front(), b.t_s.front()};
     streams_->rescaleAxes();
     drawMarks();

@@ -27,11 +27,18 @@ private:
     void drawTrials();
     void drawStream();
     void drawMarks();
-    void overlay(const SampleBlock& a, const SampleBlock& b, std::size_t columns, const QString& label);
+    /// A column of a stream that both have, and what its axis says.
+    struct Drawn {
+        SessionStream stream;
+        std::size_t column = 0;
+        QString label;
+    };
+    void overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn);
     std::shared_ptr<const ReadSession> sessions_[2];
     QCustomPlot* plane_;
     QCustomPlot* streams_;
     QComboBox* stream_;
+    std::vector<Drawn> drawn_;          // as stream_ lists them
     std::array<double, 2> begins_s_{};  // of the streams that are drawn, each on its own time base
     std::unique_ptr<MarkLines> marks_;
     Background background_;

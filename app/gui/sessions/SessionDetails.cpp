@@ -103,6 +103,7 @@ void SessionDetails::say(const QString& why) {
 
 void SessionDetails::clearStream() {
     plot_->clearGraphs();
+    removeAxes();
     drawMarks();
     plot_->replot();
 }
@@ -169,7 +170,7 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
                           {"condition", conditionText(trial.condition).toStdString()},
                           {"measured", trial.measured}});
     for (const auto& stream : session_->streams)
-        streams.push_back({{"name", stream.stream.name},
+        streams.push_back({{"name", titled(qtext(stream.stream.name)).toStdString()},
                            {"unit", shownUnitText(stream.stream.unit)},
                            {"rate", known(stream.stream.rate_hz)},
                            {"samples", stream.samples},
@@ -214,8 +215,31 @@ std::optional<std::int64_t> SessionDetails::chosenCapture() const {
     return session_->captures[std::size_t(row)].seq;
 }
 
+/// Columns of one unit share an axis: the first unit's at the left, each further one's at the right.
+QCPAxis& SessionDetails::axisFor(const QString& unit) {
+    for (const auto& [of, axis] : axes_)
+        if (of == unit) return *axis;
+    auto* axis = axes_.empty()       ? plot_->yAxis
+                 : axes_.size() == 1 ? plot_->yAxis2
+                                     : plot_->axisRect()->addAxis(QCPAxis::atRight);
+    axis->setVisible(true);
+    axis->setTicks(true);
+    axis->setTickLabels(true);
+    axes_.emplace_back(unit, axis);
+    return *axis;
+}
+
+void SessionDetails::removeAxes() {
+    for (std::size_t i = 2; i < axes_.size(); ++i) plot_->axisRect()->removeAxis(axes_[i].second);
+    axes_.clear();
+    plot_->yAxis->setLabel({});
+    plot_->yAxis2->setLabel({});
+    plot_->yAxis2->setTicks(false);  // an edge of the frame
+    plot_->yAxis2->setTickLabels(false);
+}
+
 void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock& samples) {
-    plot_->clearGraphs();
+    clearStream();
     const auto columns = info.stream.columns.size();
     for (std::size_t c = 0; c < columns; ++c) {
         std::vector<double> values(samples.samples());
@@ -225,15 +249,15 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
             x << samples.t_s[i];
             y << values[i];
         }
-        auto* graph = plot_->addGraph();
+        auto& axis = axisFor(columnUnit(info.stream, c));
+        auto* graph = plot_->addGraph(plot_->xAxis, &axis);
         graph->setData(x, y, true);
-        graph->setName(qtext(info.stream.columns[c]));
+        graph->setName(columnTitle(info.stream, c));
+        const bool shared = !axis.label().isEmpty();
+        axis.setLabel(axisTitle(shared ? titled(qtext(info.stream.name)) : graph->name(), columnUnit(info.stream, c)));
     }
     watermark_->setVisible(session_ && session_->about.simulated);
     plot_->legend->setVisible(columns > 1);
-    plot_->yAxis->setLabel(info.stream.unit.empty()
-                               ? qtext(info.stream.name)
-                               : QString("%1 (%2)").arg(qtext(info.stream.name), qtext(info.stream.unit)));
     plot_->rescaleAxes();
     drawMarks();
     colour();
@@ -250,7 +274,8 @@ void SessionDetails::colour() {
     stylePlot(*plot_);
     marks_->colour();
     const QColor of[] = {colours().voltage, colours().current, colours().third, colours().amber};
-    for (int i = 0; i < plot_->graphCount(); ++i) plot_->graph(i)->setPen(QPen(of[i % 4]));
+    const Qt::PenStyle styles[] = {Qt::SolidLine, Qt::DashLine, Qt::DotLine};
+    for (int i = 0; i < plot_->graphCount(); ++i) plot_->graph(i)->setPen(QPen(of[i % 4], 1, styles[i / 4 % 3]));
 }
 
 void SessionDetails::changeEvent(QEvent* event) {

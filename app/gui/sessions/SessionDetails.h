@@ -42,6 +42,8 @@ protected:
 private:
     [[nodiscard]] QString aboutHtml() const;
     void clearStream();
+    [[nodiscard]] QCPAxis& axisFor(const QString& unit);
+    void removeAxes();
     void drawMarks();
     void colour();
     std::shared_ptr<const ReadSession> session_;
@@ -52,6 +54,7 @@ private:
     QTableWidget* streams_;
     QCustomPlot* plot_;
     QCPItemText* watermark_ = nullptr;
+    std::vector<std::pair<QString, QCPAxis*>> axes_;  // of the units that are drawn; owned by the plot
     std::unique_ptr<MarkLines> marks_;
     QTableWidget* captures_;
 };

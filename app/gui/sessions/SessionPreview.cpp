@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/gui/runner/TrialPlane.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
@@ -89,6 +90,7 @@ SessionPreview::SessionPreview(QWidget* parent)
     connect(course_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SessionPreview::drawMarks);
     for (auto* page : std::initializer_list<QWidget*>{nothing_, plane_, sheet_, course_}) stack_->addWidget(page);
     clear();
+    onLookChange(*this, [this] { colour(); });
 }
 
 void SessionPreview::clear() {
@@ -172,12 +174,6 @@ void SessionPreview::colour() {
     }
     marks_->colour();
     course_->replot(QCustomPlot::rpQueuedReplot);
-}
-
-void SessionPreview::changeEvent(QEvent* event) {
-    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && watermark_ != nullptr)
-        colour();
-    QWidget::changeEvent(event);
 }
 
 }  // namespace tacto::gui

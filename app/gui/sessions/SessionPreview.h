@@ -43,9 +43,6 @@ public:
     /// The operator's marks over time, as they are drawn now.
     [[nodiscard]] const MarkLines& marks() const { return *marks_; }
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     void drawCourse(const ReadSession& session);
     void drawMarks();

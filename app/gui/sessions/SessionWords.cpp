@@ -8,7 +8,9 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
+#include "app/report/NumberText.h"
 #include "core/base/JsonFields.h"
+#include "core/base/QuantityText.h"
 #include "core/dsp/RoughnessFlags.h"
 
 namespace tacto::gui {
@@ -236,6 +238,20 @@ QList<SessionMoment> whatHappened(const ReadSession& session) {
     count();
     all << SessionMoment{toSeconds(session.length), momentText(session, session.length), ending(session), false};
     return all;
+}
+
+QString columnTitle(const SessionStream& stream, std::size_t column) {
+    const auto key = qtext(stream.columns.at(column));
+    return key.size() == 1 ? key : columnName(key).title;
+}
+
+QString columnUnit(const SessionStream& stream, std::size_t column) {
+    const auto own = columnName(qtext(stream.columns.at(column))).unit;
+    return own.isEmpty() ? qtext(writtenUnit(stream.unit)) : own;
+}
+
+QString axisTitle(const QString& title, const QString& unit) {
+    return unit.isEmpty() ? title : QString("%1 (%2)").arg(title, unit);
 }
 
 }  // namespace tacto::gui

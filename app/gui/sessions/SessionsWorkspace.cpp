@@ -15,6 +15,7 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/SessionReader.h"
@@ -79,6 +80,7 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     showBusy();
     chosen();
     actions_.dress();
+    onFontChange(*this, [this] { actions_.dress(); });
 }
 
 /// A pane of the page: what it shows, and below it what can be done with that.
@@ -140,10 +142,12 @@ QWidget* SessionsWorkspace::buildSessionActions() {
 QWidget* SessionsWorkspace::buildNews() {
     auto* holder = new QWidget(this);
     auto* below = new QHBoxLayout(holder);
-    below->setContentsMargins(kListMargin, 0, kListMargin, kListMargin / 2);
+    below->setContentsMargins(kListMargin, 0, kListMargin, 0);  // without news no height
     says_ = new QLabel(holder);
     says_->setObjectName("sessionsSay");
     says_->setWordWrap(true);
+    says_->setContentsMargins(0, 0, 0, kListMargin / 2);
+    says_->hide();
     says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     progress_ = new QProgressBar(holder);
     progress_->setMaximumWidth(fontMetrics().averageCharWidth() * 30);
@@ -196,12 +200,10 @@ void SessionsWorkspace::chosen() {
         });
 }
 
-void SessionsWorkspace::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::FontChange) actions_.dress();
+void SessionsWorkspace::say(const QString& what) {
+    says_->setText(what);
+    says_->setVisible(!what.isEmpty());
 }
-
-void SessionsWorkspace::say(const QString& what) { says_->setText(what); }
 
 bool SessionsWorkspace::openSession(const QString& path) {
     const auto file = std::filesystem::absolute(path.toStdString()).lexically_normal();

@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QStyledItemDelegate>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/safety/TrainExposure.h"
@@ -133,6 +134,7 @@ ExposureTable::ExposureTable(QWidget* parent) : QTableWidget(0, 4, parent) {
     header->setHighlightSections(false);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     measure();
+    onFontChange(*this, [this] { measure(); });
 }
 
 void ExposureTable::measure() {
@@ -146,11 +148,6 @@ void ExposureTable::resizeEvent(QResizeEvent* event) {
     measure();
     if (was != compact_) fill();
     QTableWidget::resizeEvent(event);
-}
-
-void ExposureTable::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::FontChange) measure();
-    QTableWidget::changeEvent(event);
 }
 
 QTableWidgetItem* ExposureTable::cell(int line, int column, const QString& shown) {

@@ -29,7 +29,7 @@ void fitLegend(QCustomPlot& plot) {
     legend->setBrush(QBrush(c.base));
     legend->setBorderPen(Qt::NoPen);
     legend->setFont(textFont(TextSize::Small));
-    legend->setIconSize(scaledPx(24), scaledPx(10));
+    legend->setIconSize(scaledPx(24), QFontMetrics(legend->font()).height());  // its mark beside the word's middle
     legend->setColumnSpacing(scaledPx(14));
     legend->setRowSpacing(0);
     legend->setMargins(QMargins(scaledPx(8), 2, scaledPx(8), 2));

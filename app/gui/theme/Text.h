@@ -34,6 +34,13 @@ namespace tacto::gui {
     return words.replace(unit, QStringLiteral("\\1Ω"));
 }
 
+/// No line breaks between a number and its unit.
+[[nodiscard]] inline QString keptTogether(QString words) {
+    static const QRegularExpression between(
+        R"((?<=\d) (?=(?:[kMmµnp]?(?:V|A|Ω|ohm|Hz|s|J|C|N|Pa|W)|%|min|cm²|m[AW]/cm²)(?![\w/])))");
+    return words.replace(between, QStringLiteral("\u202f"));
+}
+
 /// "The load is open." of "the load is open".
 [[nodiscard]] inline QString sentence(const QString& words) {
     const auto whole = titled(withOhmSigns(words));

@@ -164,9 +164,27 @@ void styleAxis(QCPAxis& axis) {
     axis.grid()->setSubGridVisible(false);
 }
 
+namespace {
+
+/// The sides that have no scale of their own are edges, so that the frame is closed.
+void closeFrame(QCPAxisRect& rect) {
+    if (!rect.visible() || !rect.axis(QCPAxis::atLeft)->visible() || !rect.axis(QCPAxis::atBottom)->visible()) return;
+    for (const auto side : {QCPAxis::atTop, QCPAxis::atRight}) {
+        auto* edge = rect.axis(side);
+        if (edge == nullptr || edge->visible()) continue;
+        edge->setVisible(true);
+        edge->setTicks(false);
+        edge->setTickLabels(false);
+        edge->grid()->setVisible(false);
+    }
+}
+
+}  // namespace
+
 void stylePlot(QCustomPlot& plot) {
     plot.setBackground(QBrush(colours().base));
     for (auto* rect : plot.axisRects()) {
+        closeFrame(*rect);
         for (auto* axis : rect->axes()) styleAxis(*axis);
     }
     for (int i = 0; i < plot.itemCount(); ++i) {
@@ -192,7 +210,9 @@ protected:
             QTransform().rotate(mRotation).mapRect(QRectF(QFontMetrics(mFont).boundingRect(mText))).size();
         const double fits = kRoomUsed * std::min(room.width() / needed.width(), room.height() / needed.height());
         if (fits > 0 && fits < 1) mFont.setPointSizeF(std::max(1.0, mFont.pointSizeF() * fits));
+        painter->save();  // it leaves the painter where the word stands
         QCPItemText::draw(painter);
+        painter->restore();
         if (outlined_) outline(*painter);
         mFont = whole;
     }
@@ -227,11 +247,12 @@ private:
 QCPItemText* addWatermark(QCPAxisRect& axes, WatermarkPlace place) {
     auto* plot = axes.parentPlot();
     const bool inFront = place == WatermarkPlace::InFront;
-    if (plot->layer("watermark") == nullptr)
-        plot->addLayer("watermark", plot->layer(inFront ? "main" : "grid"), QCustomPlot::limAbove);
+    const QString layer = inFront ? "watermark in front" : "watermark";
+    if (plot->layer(layer) == nullptr)
+        plot->addLayer(layer, plot->layer(inFront ? "main" : "grid"), QCustomPlot::limAbove);
     auto* item = new Watermark(plot, inFront);
     item->setObjectName("watermark");
-    item->setLayer("watermark");
+    item->setLayer(layer);
     item->setClipAxisRect(&axes);
     item->position->setAxisRect(&axes);
     item->position->setType(QCPItemPosition::ptAxisRectRatio);

@@ -65,12 +65,13 @@ struct StateStyle {
 /// The word that is read from two metres, times the size of text: 28 pt where text has 10.5 pt.
 constexpr double kDisplayText = 28 / 10.5;
 
-/// Quiet axes of the current theme: call again on a PaletteChange. Fonts follow the application's.
+/// Quiet axes of the current theme in a closed frame: call again on a PaletteChange. Fonts follow the application's.
 void styleAxis(QCPAxis& axis);
 void stylePlot(QCustomPlot& plot);
 
-/// "SIMULATED" across an axis rect. Returns the item, to be hidden where nothing is simulated. It stands behind the
-/// data; or, where they fill the plot, in front as an outline that covers a pixel's width of them.
+/// "SIMULATED" across an axis rect. Returns the item, to be hidden where nothing is simulated. It stands above grid and
+/// fills (layers "grid" and "background") and below the data; or, where they fill the plot, in front as an outline that
+/// covers a pixel's width of them.
 enum class WatermarkPlace { Behind, InFront };
 QCPItemText* addWatermark(QCPAxisRect& axes, WatermarkPlace place = WatermarkPlace::Behind);
 

@@ -1,9 +1,9 @@
 #include "app/gui/theme/Verdict.h"
 
-#include <QEvent>
 #include <QPainter>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -41,6 +41,7 @@ QString verdictText(const QString& key) { return verdictStyle(key).shape + " " +
 VerdictBlock::VerdictBlock(QWidget* parent) : QLabel(parent) {
     setObjectName("verdict");
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+    onFontChange(*this, [this] { updateGeometry(); });
 }
 
 void VerdictBlock::setVerdict(const QString& key) {
@@ -54,11 +55,6 @@ QSize VerdictBlock::sizeHint() const {
     const QFontMetrics word(textFont(TextSize::Display, QFont::Bold));
     return {std::max(scaledPx(kWidth), word.horizontalAdvance(text()) + scaledPx(kIcon) + 3 * kPadding),
             std::max(scaledPx(kHeight), word.height())};
-}
-
-void VerdictBlock::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::FontChange) updateGeometry();
-    QLabel::changeEvent(event);
 }
 
 void VerdictBlock::paintEvent(QPaintEvent* /*event*/) {

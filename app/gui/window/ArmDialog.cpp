@@ -113,7 +113,7 @@ void ArmDialog::judge() {
                                                 : sentence(parsed.error()));
     trouble_->setVisible(!parsed);
     text_ = parsed ? controller_.confirmationOf(*parsed) : std::string();
-    confirmed_->setText(withOhmSigns(qtext(text_)));
+    confirmed_->setText(keptTogether(titled(withOhmSigns(qtext(text_)))));
     arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
 }
 

@@ -22,9 +22,6 @@ constexpr int kRoleRole = Qt::UserRole + 3;  // of those that can be ticked
 constexpr int kSerialRole = Qt::UserRole + 4;
 constexpr qint64 kDescribeEvery_ms = 500;  // what a device reports on itself
 
-/// Not so a recording or a folder of captures, whose name the user has to give.
-bool opensByItself(const DeviceIdentity& device) { return device.obstacle.empty() && !device.placeholder; }
-
 }  // namespace
 
 DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent)
@@ -104,7 +101,9 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
 }
 
 void DeviceDock::list() {
-    const auto& present = controller_.watch().devices();
+    // Without recordings and folders of captures: the user has to give their names first.
+    auto present = controller_.watch().devices();
+    std::erase_if(present, [](const DeviceIdentity& device) { return device.placeholder; });
     const auto open = controller_.open();
     if (!open) seen_.clear();
     std::vector<std::string> keys;
@@ -154,7 +153,7 @@ void DeviceDock::list() {
             open && std::ranges::any_of(open->about.devices, [&](const auto& one) { return isSame(one, device); });
         if (alreadyOpen) continue;
         add(QString::fromStdString(device.name), qtext(nameOf(device.role)), QString::fromStdString(device.uri), false,
-            opensByItself(device) ? &device : nullptr, QString::fromStdString(device.obstacle));
+            device.obstacle.empty() ? &device : nullptr, QString::fromStdString(device.obstacle));
         tree_->topLevelItem(tree_->topLevelItemCount() - 1)
             ->setData(0, kSerialRole, QString::fromStdString(device.serial));
     }

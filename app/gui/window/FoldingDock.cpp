@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -51,6 +52,7 @@ FoldingDock::FoldingDock(const QString& title, const QString& iconName, const QS
     setTextSize(*title_, TextSize::Body, true);
     setTitleBarWidget(header_);
     dress();
+    onLookChange(*this, [this] { dress(); });
 }
 
 void FoldingDock::setContent(QWidget* content, Room room) {
@@ -127,11 +129,6 @@ bool FoldingDock::eventFilter(QObject* watched, QEvent* event) {
     if (watched == inside_ && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
         noteContent();
     return QDockWidget::eventFilter(watched, event);
-}
-
-void FoldingDock::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) dress();
-    QDockWidget::changeEvent(event);
 }
 
 void FoldingDock::dress() {

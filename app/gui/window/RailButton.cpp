@@ -2,10 +2,10 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QEvent>
 #include <QPainter>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -36,17 +36,13 @@ RailButton::RailButton(QAction* action, QString iconName, QWidget* parent)
     setFocusPolicy(Qt::TabFocus);
     setAccessibleName(action->text());
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+    onFontChange(*this, [this] { updateGeometry(); });
 }
 
 QSize RailButton::sizeHint() const {
     if (isNarrow(*this)) return {kRailNarrow, kRailLowCell};
     const QFontMetrics words(textFont(TextSize::Small));
     return {std::max(kRailWidth, words.horizontalAdvance("Safety check") + kRailLeft + kRailBar), scaledPx(kRailCell)};
-}
-
-void RailButton::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::FontChange) updateGeometry();
-    QToolButton::changeEvent(event);
 }
 
 void RailButton::paintEvent(QPaintEvent* /*event*/) {

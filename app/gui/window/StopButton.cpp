@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <QWindow>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -32,6 +33,7 @@ StopButton::StopButton(std::function<void()> stop, QWidget* parent)
     // When it goes down: the output does not wait for the finger to come up again.
     connect(this, &QPushButton::pressed, this, [this] { stop_(); });
     qApp->installEventFilter(this);
+    onFontChange(*this, [this] { updateGeometry(); });
 }
 
 bool StopButton::eventFilter(QObject* watched, QEvent* event) {
@@ -50,11 +52,6 @@ QSize StopButton::sizeHint() const {
     const QFontMetrics word(wordFont()), small(keysFont());
     const int words = std::max(word.horizontalAdvance(text()), small.horizontalAdvance(keys())) + 2 * kStopPadding;
     return {std::max(scaledPx(kStopWidth), words), std::max(scaledPx(kStopHeight), word.height() + small.height())};
-}
-
-void StopButton::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::FontChange) updateGeometry();
-    QPushButton::changeEvent(event);
 }
 
 void StopButton::paintEvent(QPaintEvent*) {

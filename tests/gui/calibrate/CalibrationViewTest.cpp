@@ -58,7 +58,8 @@ TEST_F(View, WaysAreToldApartAndWhatStandsOutIsMarkedAndKept) {
         EXPECT_EQ(plot->drawnDown(), 15);
         EXPECT_EQ(plot->drawnMarked(), 1);
     }
-    EXPECT_TRUE(errors().hasBand());
+    ASSERT_TRUE(errors().hasBand());
+    EXPECT_EQ(errors().bandReach(), errors().xAxis->range()) << "to the plot's edges";
     EXPECT_TRUE(measured().hasLine());
     EXPECT_THAT(says(), HasSubstr("marked and kept"));
     QTest::qWait(20);  // drawn with the next event

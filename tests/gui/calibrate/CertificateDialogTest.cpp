@@ -1,6 +1,7 @@
 // The certificates of oscilloscopes in the window: entered, refused in place, expired ones shown as such, withdrawn.
 #include <QAbstractItemView>
 #include <QCalendarWidget>
+#include <QHeaderView>
 #include <QLineEdit>
 #include <QMenu>
 #include <QScrollBar>
@@ -217,6 +218,8 @@ TEST_F(CertificateWindow, LooksRightInBothThemes) {
         writeAll("K-2026-19", -1, 364);
         shot(*dialog, theme == gui::Theme::Dark ? "certificates-dark" : "certificates-light");
         EXPECT_LE(dialog->width(), 1024);
+        EXPECT_EQ(table().horizontalScrollBar()->maximum(), 0) << "every column is seen";
+        EXPECT_GE(table().horizontalHeader()->height(), 2 * table().horizontalHeader()->fontMetrics().lineSpacing());
         EXPECT_EQ(faultsOf(*dialog), "");
     }
     gui::applyTheme(gui::Theme::Light);

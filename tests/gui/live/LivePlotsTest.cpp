@@ -151,6 +151,25 @@ TEST_F(Plots, TheSpectrumIsBrightAtTheTone) {
     EXPECT_TRUE(std::isnan(spectrum.densityAt_db(9, 250)));
 }
 
+TEST_F(Plots, ASpectrumThatFillsItsLaneSaysSimulatedInFront) {
+    RecordProperty("hazard", "H9");
+    const auto lightOverIt = [&] {
+        const auto image = plots.toPixmap().toImage();
+        const auto middle = plots.axisRects()[3]->center();
+        int light = 0;
+        for (int x = middle.x() - 60; x < middle.x() + 60; ++x)
+            for (int y = middle.y() - 15; y < middle.y() + 15; ++y) light += qGray(image.pixel(x, y)) > 180;
+        return light;
+    };
+    feel(11);
+    draw();
+    EXPECT_GT(lightOverIt(), 50) << "the outline of the word, over the darkest of the scale";
+    plots.begin(false, false, "V");
+    feel(22);
+    draw();
+    EXPECT_EQ(lightOverIt(), 0) << "nothing but the spectrum";
+}
+
 TEST_F(Plots, TheSpectrumSaysNothingOfAGap) {
     feel(2);
     idle(4);
@@ -212,6 +231,44 @@ TEST_F(Plots, AFaultIsALineInEveryLaneWithItsCauseInTheTrains) {
     }
     history.begin(kPlotted);
     EXPECT_FALSE(history.fault()) << "another bench";
+}
+
+TEST_F(Plots, WhileAFaultHoldsTheOutputOffTheTrainsAreShadedAndNoneIsCalledNotDelivered) {
+    RecordProperty("hazard", "H12");
+    const auto ask = [&](double at_s) {
+        TrainReport train;
+        train.onset = toInstant(at_s);
+        train.amplitude = 20;
+        train.outcome = TrainOutcome::Voided;
+        tap.trains.push(train);
+    };
+    ask(4.5);
+    feel(5);
+    draw();
+    EXPECT_FALSE(plots.trains().shownOff());
+    EXPECT_EQ(plots.trains().shownFailures(), QVector<double>{4.5}) << "no fault holds it off";
+    Telemetry telemetry;
+    telemetry.state = InterlockState::Faulted;
+    telemetry.at = toInstant(5);
+    history.take(tap, telemetry);
+    ask(5.5);
+    telemetry.at = toInstant(6);
+    history.take(tap, telemetry);
+    t_s = 6;
+    draw();
+    ASSERT_TRUE(plots.trains().shownOff());
+    EXPECT_NEAR(plots.trains().shownOff()->lower, 5, 1e-9);
+    EXPECT_NEAR(plots.trains().shownOff()->upper, plots.shownTime().upper, 1e-9);
+    EXPECT_EQ(plots.trains().shownFailures(), QVector<double>{4.5});
+    telemetry.state = InterlockState::Disarmed;
+    telemetry.at = toInstant(6.5);
+    history.take(tap, telemetry);
+    ask(7);
+    feel(7.5);
+    draw();
+    ASSERT_TRUE(plots.trains().shownOff());
+    EXPECT_NEAR(plots.trains().shownOff()->upper, 6.5, 1e-9) << "up to its reset";
+    EXPECT_EQ(plots.trains().shownFailures(), (QVector<double>{4.5, 7.0}));
 }
 
 TEST_F(Plots, NumbersOfALowStripDoNotLieOnEachOther) {

@@ -45,6 +45,20 @@ int touching(QCustomPlot& plot, QCPAxis& axis) {
     return found;
 }
 
+TEST(CaptureStrip, GrownItHasTheNumbersThatItHasRoomFor) {
+    gui::CaptureStrip strip;
+    strip.resize(120, 120);
+    static_cast<QWidget&>(strip).show();
+    strip.show(captureOf(1e-3, 40));
+    QTest::qWait(20);
+    strip.resize(400, 560);
+    QTest::qWait(20);
+    for (auto* axis : {strip.xAxis, strip.yAxis, strip.yAxis2}) {
+        const auto labels = axis->tickVectorLabels();
+        EXPECT_GE(labels.size(), 3) << axis->label().toStdString();
+    }
+}
+
 TEST(CaptureStrip, TheNumbersAtItsAxesNeverTouch) {
     for (const int percent : {100, 200}) {
         gui::applyTextSize(percent);

@@ -257,6 +257,13 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
     EXPECT_IN_TIME(comesTrue([&] { return both->marks().words().size() == 1; }));
     EXPECT_THAT(both->marks().words().join(" ").toStdString(), testing::EndsWith(": lead off"))
         << "and of which of both";
+    auto* which = both->findChild<QComboBox*>();
+    which->setCurrentIndex(which->findText("Roughness frames: Pressure"));
+    const auto axisSays = [&](const QString& label) {
+        const auto plots = both->findChildren<QCustomPlot*>();
+        return std::any_of(plots.begin(), plots.end(), [&](const auto* plot) { return plot->yAxis->label() == label; });
+    };
+    EXPECT_IN_TIME(comesTrue([&] { return axisSays("Pressure (Pa)"); }));
     both->close();
 }
 
@@ -278,6 +285,14 @@ TEST_F(Recorded, AStreamOfASimulatedSessionSaysSoAndNamesItsTraces) {
         EXPECT_TRUE(saysSimulated(*plot));
         EXPECT_EQ(plot->legend->visible(), plot->graphCount() > 1);
         EXPECT_EQ(details->marks().words(), QStringList{"table bumped"}) << "row " << row;
+        EXPECT_FALSE(plot->yAxis->label().isEmpty());
+        for (int g = 0; g < plot->graphCount(); ++g) {
+            const auto* graph = plot->graph(g);
+            EXPECT_FALSE(graph->name().contains('_')) << graph->name().toStdString();
+            const bool pressure = graph->name() == "Pressure";
+            EXPECT_EQ(pressure, graph->valueAxis()->label() == "Pressure (Pa)") << graph->name().toStdString();
+            EXPECT_EQ(pressure, graph->valueAxis() != plot->yAxis) << "no pascal on the axis of 0 to 1";
+        }
     }
     shot(workspace, "sessions-stream");
 }

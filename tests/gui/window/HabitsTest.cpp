@@ -166,6 +166,12 @@ TEST_F(Habits, ABenchIsMadeOfWhatIsTicked) {
             EXPECT_EQ(item->checkState(0), Qt::Checked);
         }
     };
+    for (int i = 0; i < list->topLevelItemCount(); ++i)
+        EXPECT_TRUE(list->topLevelItem(i)->data(0, Qt::CheckStateRole).isValid())
+            << "what cannot be opened from here is not listed: " << list->topLevelItem(i)->text(0).toStdString();
+    for (int i = 0; i < list->topLevelItemCount(); ++i)
+        EXPECT_TRUE(list->topLevelItem(i)->data(0, Qt::CheckStateRole).isValid())
+            << "what cannot be opened from here is not listed: " << list->topLevelItem(i)->text(0).toStdString();
     tick("simulated stimulator");
     tick("simulated oscilloscope");
     auto* opens = window.findChild<QPushButton*>("openBench");

@@ -91,7 +91,7 @@ TEST_F(HardwareWindow, OnlyTheOperatorSaysWhatIsConnected) {
     shot(*second->window(), "arm_which_load");
     QTest::keyClicks(load, "470 ohm");
     EXPECT_TRUE(second->isEnabled());
-    EXPECT_THAT(second->window()->findChild<QLabel*>("armingText")->text(), Says("into 470 Ω"));
+    EXPECT_THAT(second->window()->findChild<QLabel*>("armingText")->text(), Says("into 470\u202fΩ"));
     click(*second);
     EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted || !banner().isEmpty(); }))
         << "1 kohm is connected";

@@ -3,6 +3,8 @@
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
+#include <QScrollArea>
+#include <QScrollBar>
 
 #include "app/gui/scope/ScopeModel.h"
 #include "app/gui/scope/ScopeWorkspace.h"
@@ -29,6 +31,9 @@ protected:
                     QString("%1-%2-%3").arg(name, theme == gui::Theme::Dark ? "dark" : "light").arg(size.width());
                 shot(window, file);
                 EXPECT_EQ(faultsOf(window), "") << file.toStdString();
+                if (const auto* reasons = find<QScrollArea>(window, "verdictReasons")) {
+                    EXPECT_EQ(reasons->verticalScrollBar()->maximum(), 0) << "laid out whole: " << file.toStdString();
+                }
             }
         }
         gui::applyTheme(gui::Theme::Light);
@@ -107,6 +112,7 @@ TEST_F(ResultsInTheWindow, TheArmDialogLooksRight) {
         ASSERT_NE(&dialog, &window);
         const QString file = theme == gui::Theme::Dark ? "arm-dark" : "arm-light";
         EXPECT_IN_TIME(comesTrue([&] { return faultsOf(dialog).empty(); })) << faultsOf(dialog);
+        EXPECT_TRUE(dialog.findChild<QLabel*>("armingText")->text().contains("40\u202fV")) << "on one line";
         shot(dialog, file);
         dialog.close();
         // It is deleted once it is closed: the next one has another button.

@@ -56,7 +56,7 @@ TEST_F(Window, CheckingTheImpedanceTakesTwoStepsAndEndsDisarmed) {
     ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     const auto* text = window.findChild<QLabel*>("armingText");
     ASSERT_NE(text, nullptr);
-    EXPECT_THAT(text->text().toStdString(), HasSubstr("into 1 kΩ, up to 40 V"));
+    EXPECT_THAT(text->text().toStdString(), HasSubstr("into 1\u202fkΩ, up to 40\u202fV"));
     EXPECT_TRUE(std::isnan(window.controller().telemetry().impedance_ohm));
     click(*second);
     ASSERT_IN_TIME(comesTrue([this] {

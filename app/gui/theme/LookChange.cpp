@@ -1,0 +1,32 @@
+#include "app/gui/theme/LookChange.h"
+
+#include <QEvent>
+#include <utility>
+
+namespace tacto::gui {
+
+namespace {
+
+class LookChange final : public QObject {
+public:
+    LookChange(QWidget& widget, bool withPalette, std::function<void()> follow)
+        : QObject(&widget), withPalette_(withPalette), follow_(std::move(follow)) {
+        widget.installEventFilter(this);
+    }
+    bool eventFilter(QObject*, QEvent* event) override {
+        const auto type = event->type();
+        if (type == QEvent::FontChange || (withPalette_ && type == QEvent::PaletteChange)) follow_();
+        return false;
+    }
+
+private:
+    const bool withPalette_;
+    const std::function<void()> follow_;
+};
+
+}  // namespace
+
+void onLookChange(QWidget& widget, std::function<void()> follow) { new LookChange(widget, true, std::move(follow)); }
+void onFontChange(QWidget& widget, std::function<void()> follow) { new LookChange(widget, false, std::move(follow)); }
+
+}  // namespace tacto::gui

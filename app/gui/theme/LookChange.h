@@ -1,0 +1,16 @@
+// LookChange.h - what a widget does when the theme or the size of text changes.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QWidget>
+#include <functional>
+
+namespace tacto::gui {
+
+/// Calls `follow` from now on whenever `widget` has another palette or another font.
+void onLookChange(QWidget& widget, std::function<void()> follow);
+/// The same for another font alone.
+void onFontChange(QWidget& widget, std::function<void()> follow);
+
+}  // namespace tacto::gui
