@@ -66,6 +66,10 @@ void addThresholds(TextTable& table, const json& results, const LevelText& level
                                levels.with(resultValue(estimate, "low")), levels.with(resultValue(estimate, "high")),
                                resultNumber(detection, "trials"), resultText(detection, "method"))});
     table.add({"range", rangeText(resultObject(results, "range"), levels)});
+    const auto weber = resultObject(resultObject(results, "comparison"), "amplitude_weber");
+    if (weber.empty()) return;
+    const auto figure = [&](const char* key) { return decimalText(resultValue(weber, key), 2); };
+    table.add({"Weber fraction", fmt::format("{} ({} to {})", figure("value"), figure("low"), figure("high"))});
 }
 
 void addParticipant(TextTable& table, const json& results) {
@@ -85,7 +89,7 @@ void printConfusion(const json& results) {
     TextTable table(headings);
     for (std::size_t i = 0; i < labels.size(); ++i) {
         std::vector<std::string> cells{labels[i].get<std::string>()};
-        for (const auto& count : counts[i]) cells.push_back(count.dump());
+        for (const auto& count : counts[i]) cells.push_back(std::to_string(count.get<std::size_t>()));
         cells.resize(headings.size());
         table.add(std::move(cells));
     }

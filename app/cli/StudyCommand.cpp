@@ -69,7 +69,8 @@ Json procedureJson(const StudySettings& settings) {
     return {{"interval_min_s", procedure.intervalMin_s},
             {"interval_max_s", procedure.intervalMax_s},
             {"method", nameOf(procedure.method)},
-            {"conditions_sha256", procedure.conditionsSha256}};
+            {"conditions_sha256", procedure.conditionsSha256},
+            {"comparison", procedure.comparison}};
 }
 
 Json toJson(const Study& study) {

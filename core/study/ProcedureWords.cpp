@@ -14,11 +14,12 @@ struct SettingName {
 
 constexpr std::string_view kShortest = "shortest interval", kLongest = "longest interval",
                            kMethod = "method of detection", kTrials = "trials of each condition in a block",
-                           kEmpty = "empty trials in a block";
+                           kEmpty = "empty trials in a block", kComparison = "Weber fraction of strength";
 constexpr SettingName kNames[] = {
     {"procedure.interval_min_s", kShortest, kShortest},
     {"procedure.interval_max_s", kLongest, kLongest},
     {"procedure.method", kMethod, kMethod},
+    {"procedure.comparison", kComparison, kComparison},
     {"procedure.conditions_sha256", "conditions, assignment, polarity, pulse rate, load range or ceilings",
      "conditions or their assignment"},
     {"per_condition", kTrials, kTrials},
@@ -65,6 +66,8 @@ std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings) {
             {"Conditions", fmt::format("texture and pressure, {}; with {} as hashed: {:.12}…",
                                        fmt::join(settings.encodings, " and "), hashed, procedure->conditionsSha256)});
         all.push_back({"Detection", methodWords(procedure->method)});
+        all.push_back({"Weber fraction of strength",
+                       procedure->comparison ? "measured with the thresholds, 40 trials" : "not measured"});
     } else {
         all.push_back({"Intervals, conditions, detection",
                        "not kept by this approval, so a session is not held to them; an amendment names them"});

@@ -192,6 +192,7 @@ TEST_F(StudyCli, AProfileThatWasNotApprovedBeginsNoSessionUntilItIsAmended) {
     EXPECT_THAT(words, HasSubstr("Train: biphasic, 1 pulse of 200 µs a phase, 50 µs between the phases"));
     EXPECT_THAT(words, HasSubstr("Intervals: 0.5 to 3 s from onset to onset"));
     EXPECT_THAT(words, HasSubstr("Detection: weighted staircase"));
+    EXPECT_THAT(words, HasSubstr("Weber fraction of strength: not measured"));
     EXPECT_THAT(words, HasSubstr("changed longest interval"));
     expectRefused(run({}), 4, {"longest interval is 2 s, and approval EC-18 is for 3 s"});
     const auto ran = run({"--profile", other});

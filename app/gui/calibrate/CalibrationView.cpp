@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLowLines = 30;  // below this height the cards lose a line, so that the plot keeps its own
+constexpr int kLowLines = 30;  // below this height the cards lose their lines, so that the plot keeps its own
 
 }  // namespace
 

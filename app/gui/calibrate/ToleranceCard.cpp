@@ -51,7 +51,7 @@ void ToleranceCard::show(const CalibrationReadings& of) {
 QSize ToleranceCard::sizeHint() const {
     const int small = QFontMetrics(textFont(TextSize::Small)).height();
     const int height = QFontMetrics(textFont(TextSize::Body)).height() +
-                       QFontMetrics(textFont(TextSize::Large)).height() + scaledPx(kCardBar) + (low_ ? 1 : 2) * small +
+                       QFontMetrics(textFont(TextSize::Large)).height() + scaledPx(kCardBar) + (low_ ? 0 : 2) * small +
                        2 * kCardPad + 4;
     return {scaledPx(kCardWidth), height};
 }
@@ -113,10 +113,11 @@ void ToleranceCard::paintEvent(QPaintEvent* /*event*/) {
     painter.drawRect(bar);
     painter.setBrush(share_ > 1 ? c.fail : share_ >= kNearTolerance ? c.amber : c.bar);
     painter.drawRect(QRect(bar.topLeft(), QSize(int(bar.width() * std::clamp(share_, 0.0, 1.0)), bar.height())));
+    if (low_) return;
     line.setTop(bar.bottom() + 4);
     write(textFont(TextSize::Small), c.text, where_);
     line.setTop(line.top() + QFontMetrics(textFont(TextSize::Small)).height());
-    if (!low_) write(textFont(TextSize::Small), c.quiet, tolerance_);
+    write(textFont(TextSize::Small), c.quiet, tolerance_);
 }
 
 }  // namespace tacto::gui

@@ -15,7 +15,7 @@ class ToleranceCard final : public QAbstractButton {
 public:
     explicit ToleranceCard(const QString& title, QWidget* parent = nullptr);
     void show(const CalibrationReadings& of);
-    /// Without the last line, where there is little room.
+    /// Without the lines below the bar, where there is little room: the reasons of the verdict say the same.
     void setLow(bool low);
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
