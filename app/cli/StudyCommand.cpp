@@ -45,7 +45,7 @@ Json toJson(const StudySession& session) {
             {"code", session.code.empty() ? Json() : Json(session.code)},
             {"number", session.number},
             {"protocol", session.protocol},
-            {"state", wordFor(tacto::Words<StudySessionState>(kStudySessionStates), session.state)},
+            {"state", nameOf(session.state)},
             {"answered", session.answered}};
 }
 
@@ -134,8 +134,8 @@ int show(const Study& study, const QCommandLineParser& parser) {
     if (all["withdrawn"] != 0) say("  withdrawn: {}\n", all["withdrawn"].get<int>());
     for (const auto& session : study.sessions()) {
         say("  session {} of {}: {}, {}, answered {}\n", session.number,
-            session.code.empty() ? std::string("(sealed)") : session.code, session.protocol,
-            wordFor(tacto::Words<StudySessionState>(kStudySessionStates), session.state), session.answered);
+            session.code.empty() ? std::string("(sealed)") : session.code, session.protocol, nameOf(session.state),
+            session.answered);
     }
     if (const auto events = study.adverseEventCount(); events > 0) say("  adverse events: {}\n", events);
     say("  ledger head {}\n", study.ledgerHead());

@@ -183,14 +183,14 @@ TableBlock careTable(const StudyRecord& study, const QString& caption) {
     for (const auto& participant : study.participants) {
         for (const auto& session : participant.sessions) {
             const double most = highestLevel(session, massager ? "intensity" : "current_ma");
-            table.rows.push_back(
-                {shown(labelOf(shared, participant.about)), QString::number(session.about.number),
-                 shown(std::string(wordFor<StudySessionState>(kStudySessionStates, session.about.state))),
-                 std::isfinite(most) ? QString::number(most, 'f', massager ? 2 : 1) : QString("–"),
-                 QString::number(rowsOf(session, row::kTrialBegin)),
-                 QString::number(rowsOf(session, row::kParticipantStop)),
-                 QString::number(rowsOf(session, row::kOperatorStop)), QString::number(rowsOf(session, row::kFault)),
-                 score(session.results.skinBefore), score(session.results.skinAfter)});
+            table.rows.push_back({shown(labelOf(shared, participant.about)), QString::number(session.about.number),
+                                  shown(std::string(nameOf(session.about.state))),
+                                  std::isfinite(most) ? QString::number(most, 'f', massager ? 2 : 1) : QString("–"),
+                                  QString::number(rowsOf(session, row::kTrialBegin)),
+                                  QString::number(rowsOf(session, row::kParticipantStop)),
+                                  QString::number(rowsOf(session, row::kOperatorStop)),
+                                  QString::number(rowsOf(session, row::kFault)), score(session.results.skinBefore),
+                                  score(session.results.skinAfter)});
         }
     }
     return table;

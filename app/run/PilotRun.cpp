@@ -194,12 +194,11 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
                     "session {} of {} ({}) is unfinished; --set unfinished=resume or unfinished=end is expected",
                     unfinished_->number, who_.code, unfinished_->protocol);
     auto rows = pilotRows(*study_, *unfinished_);
-    if (wanted == "end" && rows && rows->ended == PilotEnd::Complete)
-        return fail(ErrorCode::NotFound,
-                    "session {} of {} is complete, and the program was ended before the study knew; {} is expected",
-                    unfinished_->number, who_.code, whatGoesOn());
     if (wanted == "end") {  // also one that can no longer be read
-        toEnd_ = std::exchange(unfinished_, std::nullopt);
+        // Complete where the program was ended before the study knew.
+        const bool complete = rows && rows->ended == PilotEnd::Complete;
+        toEnd_ = SessionToEnd{*std::exchange(unfinished_, std::nullopt),
+                              complete ? StudySessionState::Complete : StudySessionState::Stopped};
         return {};
     }
     if (unfinished_->protocol != order.script.name)
@@ -209,8 +208,6 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
     earlier_ = std::move(*rows);
     return mayResume();
 }
-
-std::string_view PilotRun::whatGoesOn() const { return inWindow_ ? "“Go on”" : "--set unfinished=resume"; }
 
 std::string_view PilotRun::whatEnds() const { return inWindow_ ? "“End it as stopped”" : "--set unfinished=end"; }
 
@@ -347,8 +344,9 @@ Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock&
     request_.devicesSimulated = std::ranges::all_of(devices.identities(), &DeviceIdentity::simulated);
     if (toEnd_) {  // Not before every gate lets another begin: until then it can be continued
         if (auto may = study_->mayBegin(request_); !may) return failure(may);
-        if (auto ended = study_->endSession(toEnd_->id, StudySessionState::Stopped, ""); !ended) return failure(ended);
-        remarks_.push_back(fmt::format("Session {} of {} was ended as stopped.", toEnd_->number, who_.code));
+        const auto& [session, state] = *toEnd_;
+        if (auto ended = study_->endSession(session.id, state, ""); !ended) return failure(ended);
+        remarks_.push_back(fmt::format("Session {} of {} was ended as {}.", session.number, who_.code, nameOf(state)));
     }
     auto begun = unfinished_ ? study_->continueSession(unfinished_->id, request_) : study_->beginSession(request_);
     if (!begun) return failure(begun);

@@ -55,6 +55,11 @@ public:
     [[nodiscard]] const std::vector<std::string>& remarks() const noexcept { return remarks_; }
 
 private:
+    /// An unfinished session, and as what it ends.
+    struct SessionToEnd {
+        StudySession session;
+        StudySessionState state;
+    };
     PilotRun() = default;
     [[nodiscard]] Result<void> openStudy(const RunOrder& order, const PilotOrder& pilot);
     [[nodiscard]] Result<void> chooseSession(const RunOrder& order);
@@ -64,7 +69,6 @@ private:
     [[nodiscard]] Result<void> noteSkin(const std::string& moment, int score);
     /// What ends an unfinished session, for messages: an option, or what the window offers.
     [[nodiscard]] std::string_view whatEnds() const;
-    [[nodiscard]] std::string_view whatGoesOn() const;
     [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
     [[nodiscard]] Result<void> sameProcedure() const;
     [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
@@ -76,7 +80,7 @@ private:
     std::optional<Study> study_;
     Participant who_;
     bool inWindow_ = false;
-    std::optional<StudySession> toEnd_;       // To be ended once another may begin
+    std::optional<SessionToEnd> toEnd_;       // once another may begin
     std::optional<StudySession> unfinished_;  // The one that is continued
     std::optional<BegunSession> begun_;
     SessionRequest request_;

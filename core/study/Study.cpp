@@ -327,7 +327,7 @@ Result<BegunSession> Study::continueSession(std::string_view id, const SessionRe
         return fail(ErrorCode::NotFound, "{} has no session {}", participant->code, id);
     if (before->state != StudySessionState::Unfinished) {
         return fail(kGateRefused, "session {} of {} is {}; only an unfinished one goes on", before->number,
-                    participant->code, wordFor(Words<StudySessionState>(kStudySessionStates), before->state));
+                    participant->code, nameOf(before->state));
     }
     if (auto holds = state_->gates(request, *participant, true); !holds) return failure(holds);
     const auto& last = before->parts.back().file;
@@ -345,7 +345,7 @@ namespace {
 nlohmann::json endedBody(const StudySession& session, StudySessionState ended, const std::string& head) {
     return {{"session", session.id},
             {"participant", session.participant},
-            {"state", wordFor(Words<StudySessionState>(kStudySessionStates), ended)},
+            {"state", nameOf(ended)},
             {"file", session.parts.back().file},
             {"head", head}};
 }
@@ -368,9 +368,8 @@ Result<void> Study::endSession(std::string_view id, StudySessionState ended, std
     const auto* session = state_->known.session(id);
     if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", id);
     if (ended == StudySessionState::Unfinished || session->state != StudySessionState::Unfinished) {
-        return fail(ErrorCode::InvalidArgument, "session {} is {} and cannot become {}", id,
-                    wordFor(Words<StudySessionState>(kStudySessionStates), session->state),
-                    wordFor(Words<StudySessionState>(kStudySessionStates), ended));
+        return fail(ErrorCode::InvalidArgument, "session {} is {} and cannot become {}", id, nameOf(session->state),
+                    nameOf(ended));
     }
     const auto head = chainHead.empty() ? headOf(pathOf(session->parts.back().file)) : std::string(chainHead);
     return state_->append(ledger::kSessionEnded, endedBody(*session, ended, head));

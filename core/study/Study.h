@@ -40,6 +40,9 @@ enum class StudySessionState { Unfinished, Complete, Stopped };
 inline constexpr Word<StudySessionState> kStudySessionStates[] = {{"unfinished", StudySessionState::Unfinished},
                                                                   {"complete", StudySessionState::Complete},
                                                                   {"stopped", StudySessionState::Stopped}};
+[[nodiscard]] constexpr std::string_view nameOf(StudySessionState state) noexcept {
+    return wordFor(Words<StudySessionState>(kStudySessionStates), state);
+}
 
 /// One file of a session. A session that crashed goes on in a new one.
 struct StudyPart {

@@ -202,6 +202,38 @@ TEST(Pilot, AnUnfinishedSessionAsksWhatToDoWithItAndCanBeEnded) {
     EXPECT_EQ(shown["sessions"][1]["state"], "complete");
 }
 
+TEST(Pilot, ASessionThatIsCompleteEndsAsCompleteThoughTheStudyDidNotKnow) {
+    RecordProperty("hazard", "H8");
+    const PilotDesk desk;
+    const Words words{"--set", "participant=virtual:7"};
+    const auto isKilled = [&](long sync, const std::string& study) {
+        return desk.runKilled(sync, "pilot-thresholds", words, study) == -9;
+    };
+    long killed = 100, whole = 4000;  // the last row lies between
+    while (whole - killed > 1) {
+        const long middle = (killed + whole) / 2;
+        (isKilled(middle, "at " + std::to_string(middle)) ? killed : whole) = middle;
+    }
+    const auto statesIn = [&](const std::string& study) {
+        const auto shown = jsonOf(desk.desk().run({"study", "show", desk.desk().at(study), "--json"}));
+        std::string all;
+        for (const auto& each : shown["sessions"]) all += each["state"].get<std::string>() + ' ';
+        return all;
+    };
+    bool found = false;
+    for (long sync = killed; !found && sync > killed - 10; --sync) {
+        const auto study = "complete " + std::to_string(sync);
+        ASSERT_TRUE(isKilled(sync, study));
+        if (desk.run("pilot-thresholds", words, study).code != 3) continue;  // the ledger knew
+        const auto other = desk.run("pilot-thresholds", words + Words{"--set", "unfinished=end"}, study);
+        ASSERT_EQ(other.code, 0) << other.err;
+        found = other.err.find("was ended as complete") != std::string::npos;
+        EXPECT_EQ(statesIn(study), found ? "complete complete " : "stopped complete ");
+        EXPECT_EQ(desk.desk().run({"verify", desk.desk().at(study)}).code, 0);
+    }
+    EXPECT_TRUE(found) << "no row between the session's end and the ledger's in the last ten";
+}
+
 TEST(Pilot, AFullDiskEndsTheSessionWithoutOutputAndItGoesOnOnceThereIsRoom) {
     RecordProperty("hazard", "H8");
     const PilotDesk desk;

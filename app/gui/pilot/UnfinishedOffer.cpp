@@ -48,8 +48,6 @@ UnfinishedOffer::UnfinishedOffer(QWidget* parent)
     column->addWidget(says_);
     goOn_->setObjectName("goOnWithIt");
     end_->setObjectName("endIt");
-    end_->setText(tr("End it as stopped, and begin another"));
-    end_->setToolTip(tr("The answers so far are kept, and the session counts as stopped."));
     auto* both = new QButtonGroup(this);
     for (auto* choice : {goOn_, end_}) {
         both->addButton(choice);
@@ -83,7 +81,10 @@ void UnfinishedOffer::offer(const std::optional<Unfinished>& unfinished) {
                        : tr("on %1").arg(offered_->brokenOff.toString("yyyy-MM-dd HH:mm")))
             .arg(offered_->answered));
     goOn_->setEnabled(offered_->mayGoOn);
-    end_->setEnabled(!offered_->complete);
+    end_->setText(offered_->complete ? tr("Leave it as it is, complete, and begin another")
+                                     : tr("End it as stopped, and begin another"));
+    end_->setToolTip(offered_->complete ? tr("The study notes that it is complete.")
+                                        : tr("The answers so far are kept, and the session counts as stopped."));
     goOn_->setText(offered_->complete  ? tr("Go on: nothing is presented or asked any more")
                    : offered_->mayGoOn ? tr("Go on: nothing is asked twice")
                                        : tr("Go on: only within 2 h of the last answer"));
