@@ -11,6 +11,8 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr int kApart = 8, kApartWithoutIcons = 4;
+
 struct NextStepWords {
     QString text, icon, tip;
 };
@@ -74,7 +76,7 @@ NextStepBar::NextStepBar(QWidget* parent) : QWidget(parent), row_(new QHBoxLayou
     setObjectName("nextSteps");
     setAccessibleName(tr("What comes next"));
     row_->setContentsMargins(0, 0, 0, 0);
-    row_->setSpacing(8);
+    row_->setSpacing(kApart);
 }
 
 void NextStepBar::show(const std::vector<NextStep>& steps) {
@@ -103,15 +105,15 @@ void NextStepBar::show(const std::vector<NextStep>& steps) {
     fit();
 }
 
-QSize NextStepBar::room(int Button::*width) const {
-    int all = row_->spacing() * std::max(0, int(buttons_.size()) - 1);
+QSize NextStepBar::room(int Button::*width, int apart) const {
+    int all = apart * std::max(0, int(buttons_.size()) - 1);
     for (const auto& each : buttons_) all += each.*width;
     return {all, QWidget::minimumSizeHint().height()};
 }
 
-QSize NextStepBar::sizeHint() const { return room(&Button::whole); }
+QSize NextStepBar::sizeHint() const { return room(&Button::whole, kApart); }
 
-QSize NextStepBar::minimumSizeHint() const { return room(&Button::bare); }
+QSize NextStepBar::minimumSizeHint() const { return room(&Button::bare, kApartWithoutIcons); }
 
 void NextStepBar::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
@@ -120,6 +122,7 @@ void NextStepBar::resizeEvent(QResizeEvent* event) {
 
 void NextStepBar::fit() {
     const bool icons = width() >= sizeHint().width();
+    row_->setSpacing(icons ? kApart : kApartWithoutIcons);
     for (const auto& each : buttons_) each.button->setIcon(icons ? each.icon : QIcon());
     updateGeometry();
 }

@@ -26,7 +26,8 @@ enum class NextStep {
 /// The first one is what goes on from here. Nothing that would need a session where the run left none.
 [[nodiscard]] std::vector<NextStep> nextStepsAfter(const FinishedRun& run);
 
-/// As buttons in a row, the first one filled. Where the row is too narrow for their icons they have none.
+/// As buttons in a row, the first one filled. Where the row is too narrow for their icons they have none, and stand
+/// closer.
 class NextStepBar final : public QWidget {
     Q_OBJECT
 public:
@@ -47,7 +48,7 @@ private:
         QIcon icon;
         int bare, whole;  ///< widths without and with it
     };
-    [[nodiscard]] QSize room(int Button::*width) const;
+    [[nodiscard]] QSize room(int Button::*width, int apart) const;
     void fit();
     QHBoxLayout* row_;
     std::vector<Button> buttons_;
