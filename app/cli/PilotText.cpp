@@ -17,12 +17,9 @@ namespace {
 /// How the session's levels are read: of current, or of a massager's strength.
 struct LevelText {
     explicit LevelText(const json& results) : isStrength(resultText(results, "modality") == "massager") {}
+    /// That of "min": "min_ma" or "min_intensity".
     [[nodiscard]] std::string of(const json& object, const char* name) const {
-        const auto key = fmt::format("{}_{}", name, isStrength ? "intensity" : "ma");
-        return of(object, key);
-    }
-    [[nodiscard]] std::string of(const json& object, const std::string& key) const {
-        return with(resultValue(object, key.c_str()));
+        return with(resultValue(object, fmt::format("{}_{}", name, isStrength ? "intensity" : "ma").c_str()));
     }
     [[nodiscard]] std::string with(double level) const {
         if (!std::isfinite(level)) return "–";
@@ -116,7 +113,7 @@ void printVibration(const json& results, const LevelText& levels) {
     if (vibration.value("measured", json()) != json(true)) return say("  what the massager did was not measured\n");
     TextTable table({"the massager", ">strength", ">m/s²", ">interval s", ">moved", ">missed"});
     for (const auto& each : resultList(vibration, "conditions"))
-        table.add({resultText(each, "name"), levels.of(each, std::string("intensity")),
+        table.add({resultText(each, "name"), levels.with(resultValue(each, "intensity")),
                    decimalText(resultValue(resultObject(each, "strength_m_s2"), "mean"), 2),
                    decimalText(resultValue(resultObject(each, "measured_interval_s"), "mean"), 3),
                    resultNumber(each, "moved"), resultNumber(each, "missed")});
@@ -153,7 +150,7 @@ void printPilotIdentification(const json& results) {
         TextTable given({"condition", ">level", ">interval s"});
         for (const auto& each : presented)
             given.add({resultText(each, "name"),
-                       levels.of(each, std::string(levels.isStrength ? "intensity" : "current_ma")),
+                       levels.with(resultValue(each, levels.isStrength ? "intensity" : "current_ma")),
                        resultNumber(each, "interval_s")});
         given.print();
     }

@@ -56,9 +56,10 @@ PilotPrompt intervalPrompt() {
 }
 
 PilotPrompt comparisonPrompt() {
-    return prompt(PromptKind::Interval, "comparison",
-                  "Was it stronger in the first or in the second interval? Guess if unsure.",
-                  {{"first", "First"}, {"second", "Second"}});
+    auto made = intervalPrompt();
+    made.name = "comparison";
+    made.text = "Was it stronger in the first or in the second interval? Guess if unsure.";
+    return made;
 }
 
 PilotPrompt conditionPrompt(const std::vector<std::string>& names) {
