@@ -27,12 +27,10 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
     PilotRows rows;
     rows.answeredAt = session.parts.front().begun;
     for (const auto& part : session.parts) {
-        const auto path = study.pathOf(part.file);
-        if (!std::filesystem::exists(path)) continue;
-        const auto seal = study.sealOf(part.file);
-        if (!seal) return failure(seal);
-        const auto reader = SessionReader::open(path, *seal);
-        if (!reader) return failure(reader);
+        const auto file = study.part(part.file);
+        if (!file) return failure(file);
+        const auto& reader = *file;
+        if (!reader) continue;
         auto events = reader->events();
         if (!events) return failure(events);
         const auto& about = reader->about();

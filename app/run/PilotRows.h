@@ -35,8 +35,7 @@ struct PilotRows {
     }
 };
 
-/// A part that was booked and never made holds none. Errors: Unsupported without the participant's key; as
-/// SessionReader.
+/// A part that was booked and never made holds none. Errors: as Study::part().
 [[nodiscard]] Result<PilotRows> pilotRows(const Study& study, const StudySession& session);
 
 }  // namespace tacto

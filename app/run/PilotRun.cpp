@@ -213,7 +213,10 @@ std::string_view PilotRun::whatEnds() const { return inWindow_ ? "“End it as s
 
 Result<void> PilotRun::mayResume() const {
     const auto now = SystemTime::real().wall();
-    if (earlier_.mayGoOn(now)) return {};
+    if (earlier_.mayGoOn(now)) {
+        if (auto approved = study_->stillApproved(); !approved) return approved;
+        return clockGate(earlier_.answeredAt, now, "what was last presented or answered");
+    }
     return fail(kGateRefused,
                 "session {} of {} was interrupted {:.1f} h ago; it can go on within 2 h, and ends with {}",
                 unfinished_->number, who_.code,

@@ -170,6 +170,8 @@ Result<InsideRow> openedRow(const RowSeal* seal, std::int64_t seq, std::string_v
     const auto exact = valueOr(*inside, "t_ns");
     if (!exact.is_number_integer() || wholeSecond(Instant(exact.get<std::int64_t>())) != at)
         return fail(ErrorCode::ParseError, "row {} of the session states another time inside than outside", seq);
+    if (!name.empty() && textOr(*inside, "name") != name)
+        return fail(ErrorCode::ParseError, "row {} of the session states another name inside than outside", seq);
     return InsideRow{Instant(exact.get<std::int64_t>()), textOr(*inside, "name"), valueOr(*inside, "body"), false};
 }
 

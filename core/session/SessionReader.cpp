@@ -1,11 +1,15 @@
 #include "core/session/SessionReader.h"
 
+#include <algorithm>
+#include <cstring>
 #include <limits>
+#include <optional>
 
 #include "core/base/JsonFields.h"
 #include "core/base/JsonText.h"
 #include "core/session/AboutJson.h"
 #include "core/session/CaptureBlob.h"
+#include "core/session/Chain.h"
 #include "core/session/Chunk.h"
 #include "core/session/Digest.h"
 #include "core/session/Schema.h"
@@ -190,6 +194,33 @@ const SessionAbout& SessionReader::about() const noexcept { return state_->about
 bool SessionReader::closed() const noexcept { return state_->closed; }
 const std::string& SessionReader::chainHead() const noexcept { return state_->head; }
 Instant SessionReader::lastAt() const noexcept { return state_->lastAt; }
+
+Result<void> SessionReader::checkChain() const {
+    auto rows = state_->source.database().prepare(
+        "SELECT seq, kind, t_ns, name, body, digest, prev, hash FROM entries ORDER BY seq");
+    if (!rows) return failure(rows);
+    const auto isDigest = [&](int column, const Digest& digest) {
+        const auto stored = rows->blob(column);
+        return std::ranges::equal(stored, std::as_bytes(std::span(digest)));
+    };
+    Digest previous{};
+    for (std::int64_t expected = 1;; ++expected) {
+        auto more = rows->step();
+        if (!more) return failure(more);
+        if (!*more) return {};
+        std::optional<Digest> bulk;
+        if (const auto stored = rows->blob(5); stored.size() == std::tuple_size_v<Digest>)
+            std::memcpy(bulk.emplace().data(), stored.data(), stored.size());
+        const auto hash = chainHash(
+            previous, {rows->integer(0), rows->text(1), rows->integer(2), rows->text(3), rows->text(4), bulk});
+        if (rows->integer(0) != expected || !isDigest(6, previous) || !isDigest(7, hash)) {
+            return fail(ErrorCode::ParseError,
+                        "the record {} was changed: its row {} is missing or altered; put it back from your copy",
+                        state_->path.filename().string(), expected);
+        }
+        previous = hash;
+    }
+}
 
 Result<SessionLabels> SessionReader::labels() const {
     SessionLabels labels;

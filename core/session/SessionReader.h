@@ -44,6 +44,9 @@ public:
     /// The hash of the recording's last row, 64 hexadecimal digits. Annotations, which come after its end, leave it as
     /// it is.
     [[nodiscard]] const std::string& chainHead() const noexcept;
+    /// Follows the chain over all rows. What samples hold is for verifySession(). Errors: ParseError naming the row
+    /// that is missing or was altered; Io.
+    [[nodiscard]] Result<void> checkChain() const;
     /// When the recording's last row was written: how long the session is.
     [[nodiscard]] Instant lastAt() const noexcept;
     /// As entered before it began, with what was changed since; the note reads "sealed" where they are. Errors: as the

@@ -118,7 +118,12 @@ Result<SessionSource> SessionSource::openCopy(const std::filesystem::path& path)
 
 Result<SessionSource> SessionSource::open(const std::filesystem::path& path) {
     std::error_code error;
-    if (!std::filesystem::exists(path, error)) return fail(ErrorCode::NotFound, "there is no file {}", path.string());
+    if (std::filesystem::symlink_status(path, error).type() == std::filesystem::file_type::not_found)
+        return fail(ErrorCode::NotFound, "there is no file {}", path.string());
+    if (!std::filesystem::exists(path, error)) {
+        return fail(ErrorCode::Io, "{} cannot be read: {}", path.string(),
+                    error ? error.message() : "it is a link that leads nowhere");
+    }
     if (!std::filesystem::is_regular_file(path, error)) return refuse(path, "it is not a file");
     if (std::filesystem::file_size(path, error) == 0) return refuse(path, "it is empty");
 

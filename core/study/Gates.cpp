@@ -169,10 +169,9 @@ Result<void> consentGate(const StudySettings& settings, const Participant& parti
     return {};
 }
 
-Result<void> clockGate(std::chrono::sys_seconds ledgerLast, std::chrono::sys_seconds now) {
-    if (now + kClockTolerance >= ledgerLast) return {};
-    return fail(kGateRefused, "the clock says {}, and the ledger's last row is of {}; set the clock", utcText(now),
-                utcText(ledgerLast));
+Result<void> clockGate(std::chrono::sys_seconds last, std::chrono::sys_seconds now, std::string_view of) {
+    if (now + kClockTolerance >= last) return {};
+    return fail(kGateRefused, "the clock says {}, and {} is of {}; set the clock", utcText(now), of, utcText(last));
 }
 
 Result<void> simulationGate(const StudySettings& settings, const Participant& participant, bool devicesSimulated) {

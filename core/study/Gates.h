@@ -56,8 +56,9 @@ struct ExclusionAnswer {
 /// Consent to the version in force, dated no later than today, with the initials of who took it.
 [[nodiscard]] Result<void> consentGate(const StudySettings& settings, const Participant& participant,
                                        CalibrationDate today);
-/// The clock is not more than 5 min behind the ledger's last row.
-[[nodiscard]] Result<void> clockGate(std::chrono::sys_seconds ledgerLast, std::chrono::sys_seconds now);
+/// The clock is not more than 5 min behind the last of what was noted, which is `of`.
+[[nodiscard]] Result<void> clockGate(std::chrono::sys_seconds last, std::chrono::sys_seconds now,
+                                     std::string_view of = "the ledger's last row");
 /// A virtual participant, and a rehearsal with electrodes, on simulated devices only; a person on a simulated one in a
 /// rehearsal only.
 [[nodiscard]] Result<void> simulationGate(const StudySettings& settings, const Participant& participant,

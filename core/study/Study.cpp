@@ -30,6 +30,11 @@ int answersIn(const fs::path& file) {
     return static_cast<int>(std::ranges::count(*events, std::string("answer"), &SessionRow::name));
 }
 
+std::string lettersAndDigits(std::string code) {
+    std::erase(code, '-');
+    return code;
+}
+
 fs::path withoutEnd(const fs::path& folder) {
     return folder.has_filename() ? folder : folder.parent_path();  // "study/" is "study"
 }
@@ -113,7 +118,7 @@ Result<Study> Study::open(const fs::path& folder, const Passphrase* passphrase, 
     const auto first = parseStudy(*text, files.settings().string());
     if (!first) return failure(first);
     if (access == Access::Change) {
-        auto lock = lockStudy(files);
+        auto lock = StudyLock::take(files);
         if (!lock) return failure(lock);
         state->lock.emplace(std::move(*lock));
     }
@@ -199,9 +204,10 @@ Result<Participant> Study::enrol(Participant participant) {
         return fail(ErrorCode::Unsupported, "virtual:{} is enrolled already; another seed is expected",
                     *participant.virtualSeed);
     }
-    const auto taken = [&](const std::string& code) {
-        return std::ranges::find(state_->known.participants, code, &Participant::code) !=
-               state_->known.participants.end();
+    const auto taken = [&](const std::string& code) {  // with or without its hyphens
+        return std::ranges::any_of(state_->known.participants, [&](const Participant& each) {
+            return lettersAndDigits(each.code) == lettersAndDigits(code);
+        });
     };
     if (participant.code.empty()) {
         do participant.code = newCode();
@@ -330,6 +336,9 @@ Result<BegunSession> Study::continueSession(std::string_view id, const SessionRe
                     participant->code, nameOf(before->state));
     }
     if (auto holds = state_->gates(request, *participant, true); !holds) return failure(holds);
+    for (const auto& each : before->parts) {
+        if (auto whole = part(each.file); !whole) return failure(whole);
+    }
     const auto& last = before->parts.back().file;
     auto noted = state_->append(ledger::kSessionPart, {{"session", before->id},
                                                        {"file", randomHex(kIdDigits)},
@@ -381,15 +390,34 @@ Result<std::shared_ptr<const RowSeal>> Study::sealOf(std::string_view file) cons
     return state_->sealFor(*session, file);
 }
 
+Result<std::optional<SessionReader>> Study::part(std::string_view file) const {
+    auto seal = sealOf(file);
+    if (!seal) return failure(seal);
+    const auto noted = state_->known.heads.find(std::string(file));
+    const auto head = noted != state_->known.heads.end() ? noted->second : std::string();
+    auto reader = SessionReader::open(pathOf(file), std::move(*seal));
+    if (!reader && reader.error().code == ErrorCode::NotFound && head.empty()) return std::nullopt;
+    if (!reader) return failure(reader);
+    if (auto whole = reader->checkChain(); !whole) return failure(whole);
+    if (!reader->sealed()) {
+        return fail(ErrorCode::ParseError, "the record {} is not sealed, and those of a study are: it is another file",
+                    pathOf(file).filename().string());
+    }
+    if (!head.empty() && reader->chainHead() != head) {
+        return fail(ErrorCode::ParseError,
+                    "the record {} is not the one that the ledger notes; put it back from your copy",
+                    pathOf(file).filename().string());
+    }
+    return std::optional(std::move(*reader));
+}
+
 Result<std::vector<SessionRow>> Study::events(const StudySession& session) const {
     std::vector<SessionRow> all;
-    for (const auto& part : session.parts) {
-        auto seal = state_->sealFor(session, part.file);
-        if (!seal) return failure(seal);
-        const auto reader = SessionReader::open(pathOf(part.file), std::move(*seal));
-        if (!reader && reader.error().code == ErrorCode::NotFound) continue;
+    for (const auto& each : session.parts) {
+        const auto reader = part(each.file);
         if (!reader) return failure(reader);
-        auto rows = reader->events();
+        if (!*reader) continue;
+        auto rows = (*reader)->events();
         if (!rows) return failure(rows);
         std::ranges::move(*rows, std::back_inserter(all));
     }

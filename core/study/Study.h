@@ -36,6 +36,8 @@
 
 namespace tacto {
 
+class SessionReader;
+
 enum class StudySessionState { Unfinished, Complete, Stopped };
 inline constexpr Word<StudySessionState> kStudySessionStates[] = {{"unfinished", StudySessionState::Unfinished},
                                                                   {"complete", StudySessionState::Complete},
@@ -202,8 +204,11 @@ public:
     /// What opens the file of a part. Errors: NotFound for an unknown part; Unsupported once withdrawn or without key.
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealOf(std::string_view file) const;
     [[nodiscard]] std::filesystem::path pathOf(std::string_view file) const;
-    /// The events of all parts of a session, in order, opened: what resuming, results and exports go by. A part whose
-    /// file was never made has none. Errors: as sealOf() and SessionReader.
+    /// What a part of a session recorded, opened: what resuming, results and exports go by. Nothing for one whose file
+    /// was never made. Errors: as sealOf() and SessionReader; ParseError for one that is not whole or not sealed,
+    /// or is gone or another since the ledger noted it.
+    [[nodiscard]] Result<std::optional<SessionReader>> part(std::string_view file) const;
+    /// The events of all parts of a session, in order. Errors: as part().
     [[nodiscard]] Result<std::vector<SessionRow>> events(const StudySession& session) const;
 
     /// Under the study's key: survives a withdrawal.

@@ -6,6 +6,7 @@
 #include "core/base/JsonFields.h"
 #include "core/seal/SealedText.h"
 #include "core/session/SessionReader.h"
+#include "core/study/LedgerEnd.h"
 #include "core/study/NewStudy.h"
 #include "core/study/SessionSeal.h"
 
@@ -21,7 +22,20 @@ CalibrationDate localDay(std::chrono::sys_seconds at) {
 
 std::string headOf(const std::filesystem::path& file) {
     const auto reader = SessionReader::open(file);
-    return reader ? reader->chainHead() : std::string();
+    return reader && reader->checkChain() ? reader->chainHead() : std::string();
+}
+
+Result<std::vector<std::string>> strangersIn(const StudyFiles& files, const LedgerState& known) {
+    std::error_code error;
+    std::vector<std::string> strangers;
+    for (const auto& entry : std::filesystem::directory_iterator(files.sessions(), error)) {
+        if (entry.path().extension() != ".tacto") continue;
+        if (known.sessionOfFile(entry.path().stem().string()) == nullptr)
+            strangers.push_back(entry.path().filename().string());
+    }
+    if (error) return fail(ErrorCode::Io, "{} cannot be read: {}", files.sessions().string(), error.message());
+    std::ranges::sort(strangers);
+    return strangers;
 }
 
 std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files, const StudySession& session) {
@@ -31,7 +45,7 @@ std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files, co
     for (const auto& part : session.parts) {
         const auto reader = SessionReader::open(files.session(part.file));
         const auto events = reader ? reader->events() : Result<std::vector<SessionRow>>(failure(reader));
-        if (!events) {  // gone or unreadable: unknown is not none
+        if (!events || !reader->checkChain()) {  // gone, unreadable or changed: unknown is not none
             last = part.begun;
             continue;
         }
@@ -71,6 +85,7 @@ Result<void> StudyBook::append(const char* name, nlohmann::json body, const Secr
     if (key != nullptr) body["sealed"] = sealedInLedger(settings.id, *key, ledger->next(), name, content);
     auto row = ledger->append(now(), name, body);
     if (!row) return failure(row);
+    if (const auto end = endFile(); !end.empty()) noteLedgerEnd(end, {*row, ledger->head()});
     return read();
 }
 
@@ -190,7 +205,23 @@ Result<std::uint64_t> StudyBook::labelSeed() const {
     return seed;
 }
 
+std::filesystem::path StudyBook::endFile() const {
+    if (settings.kind == StudyKind::Rehearsal) return {};
+    return around.keyFolder / (settings.id + ".end");
+}
+
 Result<void> StudyBook::recordGate() const {
+    if (const auto end = endFile(); !end.empty()) {
+        if (auto whole = reachesEnd({known.rows, known.head}, end); !whole) return whole;
+    }
+    const auto strangers = strangersIn(files, known);
+    if (!strangers) return fail(kGateRefused, "{}", strangers.error().message);
+    if (!strangers->empty()) {
+        return fail(kGateRefused,
+                    "sessions/{} is not in the ledger: the ledger is an older one, or the file is another study's; put "
+                    "the ledger back from your copy, or the file where it belongs",
+                    strangers->front());
+    }
     for (const auto& [file, head] : known.heads) {
         if (head.empty() || headOf(files.session(file)) == head) continue;
         return fail(kGateRefused,
@@ -225,7 +256,7 @@ Result<void> StudyBook::gates(const SessionRequest& request, Participant partici
         return fail(kGateRefused, "the participant has not confirmed that the code {} is theirs", participant.code);
     }
     if (const auto yes = known.excluded.find(participant.id);
-        yes != known.excluded.end() && localDay(yes->second) == today()) {
+        yes != known.excluded.end() && !(localDay(yes->second) < today())) {
         return fail(kGateRefused,
                     "{} answered yes to the exclusion checklist today; a session begins tomorrow at the "
                     "earliest",

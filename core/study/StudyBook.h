@@ -11,12 +11,12 @@
 #include <string_view>
 
 #include "core/base/Result.h"
-#include "core/safety/LockedFile.h"
 #include "core/session/Ledger.h"
 #include "core/study/LedgerRows.h"
 #include "core/study/Study.h"
 #include "core/study/StudyFiles.h"
 #include "core/study/StudyKeys.h"
+#include "core/study/StudyLock.h"
 
 namespace tacto {
 
@@ -26,7 +26,7 @@ struct StudyBook {
     StudyFiles files;
     Study::Surroundings around;
     StudySettings settings;
-    std::optional<LockedFile> lock;
+    std::optional<StudyLock> lock;
     std::optional<StudyKeys> keys;  ///< nothing without the passphrase
     std::optional<Ledger> ledger;   ///< nothing when opened for reading
     LedgerState known;
@@ -56,7 +56,10 @@ struct StudyBook {
     [[nodiscard]] Result<void> nextDay(std::string_view session, const NextDay& said);
     [[nodiscard]] Result<std::uint64_t> labelSeed() const;
 
-    /// The chains of the sessions that ended are those that the ledger noted, and the clock was not set back.
+    /// Where this account notes how far the ledger goes (LedgerEnd.h); empty for a rehearsal.
+    [[nodiscard]] std::filesystem::path endFile() const;
+    /// The ledger goes as far as it was written and knows every session's file, the chains of the sessions that ended
+    /// are those that it noted, and the clock was not set back.
     [[nodiscard]] Result<void> recordGate() const;
     [[nodiscard]] Result<void> stillApproved() const;
     /// Every gate of the study; `again`: of a session that goes on.
@@ -76,7 +79,9 @@ struct StudyBook {
 /// were. A part that cannot be read counts from its beginning.
 [[nodiscard]] std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files,
                                                                    const StudySession& session);
-/// The chain head of a session's file; empty for one that was never made or cannot be read.
+/// The chain head of a session's file; empty for one that was never made, cannot be read or was changed.
 [[nodiscard]] std::string headOf(const std::filesystem::path& file);
+/// Session files that the ledger does not know. Errors: Io.
+[[nodiscard]] Result<std::vector<std::string>> strangersIn(const StudyFiles& files, const LedgerState& known);
 
 }  // namespace tacto

@@ -1,8 +1,12 @@
 #include "core/study/StudyLock.h"
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <optional>
+#include <sys/file.h>
 #include <sys/stat.h>
 
 namespace tacto {
@@ -29,17 +33,27 @@ std::optional<std::int64_t> holderOf(const fs::path& file) {
 
 }  // namespace
 
-Result<LockedFile> lockStudy(const StudyFiles& files) {
+Result<StudyLock> StudyLock::take(const StudyFiles& files) {
     constexpr std::size_t kLockBytes = 1;
+    const auto isOpen = [&](const fs::path& held) {
+        const auto holder = holderOf(held);
+        return fail(ErrorCode::Io, "the study in {} is open in {}; end that first. Nothing was changed",
+                    files.folder.string(), holder ? programOf(*holder) : "another program");
+    };
+    const int folder = ::open(files.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const auto closed = [folder](tl::unexpected<Error> error) {
+        if (folder >= 0) ::close(folder);
+        return error;
+    };
+    if (folder >= 0 && ::flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        return closed(isOpen(files.folder));
     auto locked = LockedFile::open(files.lock(), kLockBytes, 0600);
-    if (locked) return std::move(*locked);
-    if (locked.error().why != LockedFile::Refusal::Held) {
-        return fail(ErrorCode::Io, "the study in {} cannot be opened for changes: its lock {} cannot be taken",
-                    files.folder.string(), files.lock().string());
-    }
-    const auto holder = holderOf(files.lock());
-    return fail(ErrorCode::Io, "the study in {} is open in {}; end that first. Nothing was changed",
-                files.folder.string(), holder ? programOf(*holder) : "another program");
+    if (locked) return StudyLock(folder, std::move(*locked));
+    if (locked.error().why == LockedFile::Refusal::Held) return closed(isOpen(files.lock()));
+    const bool failed = locked.error().why == LockedFile::Refusal::Failed;
+    return closed(fail(ErrorCode::Io, "the study in {} cannot be opened for changes: its lock {} cannot be taken: {}",
+                       files.folder.string(), files.lock().string(),
+                       failed ? std::strerror(locked.error().error) : "it is a link, a pipe or has a second name"));
 }
 
 }  // namespace tacto

@@ -1,9 +1,14 @@
 // StudyLock.h - one program at a time changes a study.
 //
-// Nothing is written to say who holds it: a program that changes nothing leaves the folder as it was.
+// Both the folder and a file in it are held: the file may be removed by someone who takes it for a left-over, and not
+// every file system holds folders. Nothing is written to say who holds it: a program that changes nothing leaves the
+// folder as it was.
 //
 // Thread-safety: any thread.
 #pragma once
+
+#include <unistd.h>
+#include <utility>
 
 #include "core/base/Result.h"
 #include "core/safety/LockedFile.h"
@@ -11,7 +16,21 @@
 
 namespace tacto {
 
-/// Held as long as the value lives. Errors: Io naming the program that holds it, or that the lock cannot be taken.
-[[nodiscard]] Result<LockedFile> lockStudy(const StudyFiles& files);
+/// Held as long as the value lives.
+class StudyLock {
+public:
+    /// Errors: Io naming the program that holds it, or that the lock cannot be taken.
+    [[nodiscard]] static Result<StudyLock> take(const StudyFiles& files);
+    StudyLock(StudyLock&& other) noexcept : folder_(std::exchange(other.folder_, -1)), file_(std::move(other.file_)) {}
+    StudyLock& operator=(StudyLock&&) = delete;
+    ~StudyLock() {
+        if (folder_ >= 0) ::close(folder_);  // and with it the lock
+    }
+
+private:
+    StudyLock(int folder, LockedFile file) noexcept : folder_(folder), file_(std::move(file)) {}
+    int folder_;
+    LockedFile file_;
+};
 
 }  // namespace tacto

@@ -1,12 +1,10 @@
 #include "core/study/StudyVerify.h"
 
 #include <algorithm>
-#include <set>
 
 #include "core/base/Csv.h"
 #include "core/session/SessionReader.h"
-#include "core/study/LedgerRows.h"
-#include "core/study/StudyFiles.h"
+#include "core/study/StudyBook.h"
 
 namespace tacto {
 
@@ -40,22 +38,25 @@ public:
             return {};
         }
         if (auto current = readStudy(files_, state->settingsSha256); !current) problem(current.error().message);
-        for (const auto& session : state->sessions) {
-            if (auto checked = check(session, *state); !checked) return checked;
+        for (const auto& session : state->sessions) check(session, *state);
+        if (const auto strangers = strangersIn(files_, *state)) {
+            for (const auto& name : *strangers) problem(fmt::format("sessions/{} is not in the ledger", name));
+        } else {
+            problem(strangers.error().message);
         }
-        return checkStrangers(*state);
+        return {};
     }
 
 private:
     void problem(std::string text) { report_.problems.push_back(std::move(text)); }
 
-    [[nodiscard]] Result<void> check(const StudySession& session, const LedgerState& state) {
+    void check(const StudySession& session, const LedgerState& state) {
         for (const auto& part : session.parts) {
             const auto path = files_.session(part.file);
             const auto noted = state.heads.find(part.file);
             const bool hasHead = noted != state.heads.end() && !noted->second.empty();
             std::error_code error;
-            if (!fs::exists(path, error)) {
+            if (fs::symlink_status(path, error).type() == fs::file_type::not_found) {
                 if (hasHead)
                     problem(fmt::format("session {} is missing", part.file));
                 else
@@ -64,7 +65,10 @@ private:
                 continue;
             }
             auto verified = verifySession(path);
-            if (!verified) return failure(verified);
+            if (!verified) {
+                problem(fmt::format("session {}: {}", part.file, verified.error().message));
+                continue;
+            }
             if (verified->status != SessionStatus::Intact) problem(fmt::format("session {} is damaged", part.file));
             if (hasHead && verified->head != noted->second)
                 problem(fmt::format("session {} has another chain head than the ledger notes", part.file));
@@ -72,21 +76,6 @@ private:
                 problem(fmt::format("session {} is not sealed", part.file));
             report_.sessions.push_back({part.file, std::move(*verified)});
         }
-        return {};
-    }
-
-    /// Files that the ledger does not know.
-    [[nodiscard]] Result<void> checkStrangers(const LedgerState& state) {
-        std::error_code error;
-        std::set<std::string> strangers;
-        for (const auto& entry : fs::directory_iterator(files_.sessions(), error)) {
-            if (entry.path().extension() != ".tacto") continue;
-            if (state.sessionOfFile(entry.path().stem().string()) == nullptr)
-                strangers.insert(entry.path().filename().string());
-        }
-        if (error) problem(fmt::format("{} cannot be read: {}", files_.sessions().string(), error.message()));
-        for (const auto& name : strangers) problem(fmt::format("sessions/{} is not in the ledger", name));
-        return {};
     }
 
     const StudyFiles& files_;

@@ -105,6 +105,63 @@ TEST(Pilot, ComparesStrengthsWithinTheRangeWhereItIsAskedTo) {
     }
 }
 
+/// Each key of these that is not in `object`.
+std::string missingIn(const json& object, std::initializer_list<const char*> keys) {
+    std::string missing;
+    for (const char* key : keys)
+        if (!object.contains(key)) missing += std::string(key) + " ";
+    return missing;
+}
+
+TEST(Pilot, ItsJsonHasTheKeysOfTheContract) {
+    const PilotDesk desk;
+    const Words compares{"--set", "participant=virtual:8", "--set", "comparison=yes"};
+    const auto thresholds = jsonOf(desk.run("pilot-thresholds", compares, "a"));
+    EXPECT_TRUE(thresholds["verdict"].is_null());
+    const auto& found = thresholds["results"];
+    EXPECT_EQ(missingIn(found, {"participant", "modality", "felt_ma", "too_strong_ma", "series", "detection", "range",
+                                "comparison", "truth"}),
+              "");
+    EXPECT_EQ(missingIn(found["participant"], {"code", "virtual"}), "");
+    EXPECT_EQ(missingIn(found["series"][0], {"felt_ma", "too_strong_ma", "highest_ma", "ended_by"}), "");
+    EXPECT_EQ(missingIn(found["detection"], {"method", "estimate_ma", "trials", "history"}), "");
+    EXPECT_EQ(missingIn(found["detection"]["estimate_ma"], {"value", "low", "high"}), "");
+    EXPECT_EQ(missingIn(found["detection"]["history"][0], {"current_ma", "correct"}), "");
+    EXPECT_EQ(missingIn(found["range"], {"usable", "reason", "min_ma", "max_ma", "min_v", "max_v", "jnd",
+                                         "impedance_ohm", "limited_by"}),
+              "");
+    EXPECT_EQ(missingIn(found["comparison"], {"amplitude_weber", "at_edge", "trials", "history"}), "");
+    EXPECT_EQ(missingIn(found["comparison"]["history"][0], {"weaker_ma", "stronger_ma", "correct"}), "");
+    const auto session = jsonOf(desk.run("pilot-identification", shortSession(), "b"));
+    EXPECT_TRUE(session["verdict"].is_null());
+    const auto& results = session["results"];
+    EXPECT_EQ(
+        missingIn(results,
+                  {"participant", "parts",    "resumed",  "range",     "labels",  "columns",      "confusion",
+                   "n",           "hits",     "accuracy", "p_chance",  "it_bits", "it_bias_bits", "it_corrected_bits",
+                   "texture",     "pressure", "catch",    "no_answer", "blocks",  "drift",        "presented",
+                   "predicted",   "fit",      "truth",    "plan",      "trials"}),
+        "");
+    for (const char* feature : {"texture", "pressure"})
+        EXPECT_EQ(missingIn(results[feature], {"n", "hits", "accuracy", "p_chance", "it_corrected_bits"}), "");
+    EXPECT_EQ(missingIn(results["catch"], {"n", "false_alarms", "rate"}), "");
+    EXPECT_EQ(missingIn(results["blocks"][0], {"block", "n", "hits"}), "");
+    EXPECT_EQ(missingIn(results["presented"][0], {"name", "current_ma", "interval_s"}), "");
+    EXPECT_EQ(missingIn(results["fit"], {"g", "p"}), "");
+    EXPECT_EQ(missingIn(results["truth"],
+                        {"detection_ma", "too_strong_ma", "amplitude_weber", "interval_weber", "lapse", "noise_jnd"}),
+              "");
+    EXPECT_EQ(missingIn(results["plan"][0], {"number", "phase", "block", "condition"}), "");
+    EXPECT_EQ(missingIn(results["trials"][0], {"number", "phase", "block", "condition", "response", "attempt", "rt_s"}),
+              "");
+    const auto shown = jsonOf(desk.desk().run({"study", "show", desk.desk().at("b"), "--json"}));
+    EXPECT_EQ(
+        missingIn(shown, {"title", "rehearsal", "modality", "approval", "procedure", "amendments", "consent_version",
+                          "participants", "withdrawn", "sessions", "adverse_events", "ledger_head"}),
+        "");
+    EXPECT_EQ(missingIn(shown["sessions"][0], {"id", "code", "number", "protocol", "state", "answered"}), "");
+}
+
 TEST(Pilot, TheSameSeedGivesTheSameAnswersAndAnotherOtherOnes) {
     const PilotDesk desk;
     const auto answers = [&](const char* study, const char* seed) {

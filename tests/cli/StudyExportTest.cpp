@@ -77,6 +77,20 @@ TEST_F(StudyExport, NothingIsPutIntoTheStudyFolder) {
     expectRefused(desk_.run({"export", at("nowhere"), "--format", "bids", "--out", at("x")}), 3, {"no study"});
 }
 
+TEST_F(StudyExport, ASessionWhoseRecordIsGoneIsNotExportedAsOneWithoutAnswers) {
+    RecordProperty("hazard", "H9");
+    for (const auto& session : desk_.named("study/sessions", ".tacto")) fs::remove(desk_.path() / session);
+    for (const Words& words : {Words{"export", study(), "--format", "bids", "--out", at("bids")},
+                               Words{"report", study(), "--out", at("report.pdf")}}) {
+        const auto ran = desk_.run(words);
+        EXPECT_EQ(ran.code, 3) << ran.err;
+        EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
+        EXPECT_THAT(ran.err, HasSubstr(".tacto"));
+    }
+    EXPECT_FALSE(fs::exists(at("bids")));
+    EXPECT_FALSE(fs::exists(at("report.pdf")));
+}
+
 TEST_F(StudyExport, AnAdverseEventIsCountedByEverybodyAndReadByTheCommittee) {
     RecordProperty("hazard", "H12");
     const auto session =

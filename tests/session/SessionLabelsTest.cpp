@@ -1,9 +1,11 @@
 // What people say of a session after it ended: kept in it without touching what was recorded, or refused with a reason.
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <random>
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/session/SessionLabels.h"
@@ -146,6 +148,50 @@ TEST_F(Labels, ThatDoNotFitOnTheDiskLeaveTheSessionAsItWas) {
     EXPECT_EQ(verifySession(path)->status, SessionStatus::Intact);
     EXPECT_EQ(kept(), SessionLabels{});
     signal(SIGXFSZ, SIG_DFL);
+}
+
+TEST_F(Labels, OfAProgramThatIsKilledAreWholeOrNotThere) {
+    const auto recorded = SessionReader::open(path)->chainHead();
+    std::mt19937 random(12);
+    int kept = 0;
+    for (int round = 0; round < 40; ++round) {
+        SCOPED_TRACE(round);
+        int ends[2];
+        ASSERT_EQ(pipe(ends), 0);
+        const pid_t child = fork();
+        if (child == 0) {
+            close(ends[0]);
+            for (int number = kept + 1;; ++number) {
+                SessionLabels changed;
+                changed.note = fmt::format("note {}", number);
+                if (!saveLabels(path, {}, changed) || write(ends[1], "k", 1) != 1) _exit(1);
+            }
+        }
+        close(ends[1]);
+        const auto told = static_cast<int>(random() % 3);
+        char said = 0;
+        for (int i = 0; i < told; ++i) ASSERT_EQ(read(ends[0], &said, 1), 1);
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 8000));  // the moment is drawn
+        ASSERT_EQ(kill(child, SIGKILL), 0);
+        int acknowledged = kept + told;
+        while (read(ends[0], &said, 1) == 1) ++acknowledged;
+        close(ends[0]);
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, 0), child);
+        ASSERT_TRUE(WIFSIGNALED(status)) << "the child ended by itself";
+        const auto reader = SessionReader::open(path);
+        ASSERT_TRUE(reader) << reader.error().message;
+        EXPECT_TRUE(reader->closed());
+        EXPECT_EQ(reader->chainHead(), recorded);
+        EXPECT_TRUE(reader->checkChain());
+        EXPECT_EQ(verifySession(path)->status, SessionStatus::Intact);
+        const auto note = reader->labels()->note;
+        if (note == fmt::format("note {}", acknowledged + 1)) ++acknowledged;  // killed before it could say so
+        EXPECT_EQ(note, acknowledged == 0 ? "" : fmt::format("note {}", acknowledged));
+        kept = acknowledged;
+    }
+    EXPECT_GT(kept, 10);
+    EXPECT_TRUE(saveLabels(path, {}, labels)) << "a program that was killed holds nothing";
 }
 
 TEST_F(Labels, ThatAreNotAcceptedAreNamedWithTheirValue) {

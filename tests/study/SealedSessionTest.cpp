@@ -92,6 +92,21 @@ TEST_F(SealedSession, ShowsWithoutAKeyWhatAReviewerNeedsAndSaysThatTheRestIsSeal
     EXPECT_EQ(deliveredIn(*reader).error().code, ErrorCode::Unsupported);  // and not: nothing
 }
 
+TEST_F(SealedSession, ShowsTheLengthOfARowOrChunkToABlockAlone) {
+    RecordProperty("hazard", "H11");
+    const auto row = [&](std::size_t size) { return seal()->sealText(1, "event", std::string(size, 'x')).size(); };
+    EXPECT_EQ(row(4), row(10)) << "\"none\" is as long as \"rough-high\"";
+    EXPECT_EQ(row(0), row(255));
+    EXPECT_LT(row(255), row(256));
+    const auto chunk = [&](std::size_t size) {
+        const std::vector<std::byte> bytes(size);
+        const std::span<const std::byte> parts[] = {bytes};
+        return seal()->sealBytes(1, "chunk", parts).size();
+    };
+    EXPECT_EQ(chunk(1), chunk(4095));
+    EXPECT_LT(chunk(4095), chunk(4096));
+}
+
 TEST_F(SealedSession, OpensWithItsOwnKeyInItsOwnFileOnly) {
     RecordProperty("hazard", "H11");
     EXPECT_EQ(SessionReader::open(path, seal("fedcba9876543210")).error().code, ErrorCode::ParseError);

@@ -3,6 +3,7 @@
 
 #include "core/seal/Passphrase.h"
 #include "core/seal/SealedText.h"
+#include "core/study/Study.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -54,6 +55,8 @@ TEST(Passphrase, MakesTheSameKeyFromTheSameSaltOnly) {
     EXPECT_FALSE(std::ranges::equal(one.bytes(), words.keyFor(other.bytes(), PassphraseCost::least())->bytes()));
     EXPECT_FALSE(Passphrase::from(""));
     EXPECT_GT(PassphraseCost::moderate().bytes(), 200'000'000U);
+    EXPECT_EQ(Study::Surroundings().cost.bytes(), PassphraseCost::moderate().bytes());
+    EXPECT_EQ(Study::Surroundings().cost.passes(), PassphraseCost::moderate().passes());
 }
 
 TEST(Passphrase, IsTheFirstLineOfItsFile) {

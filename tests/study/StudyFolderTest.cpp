@@ -1,5 +1,4 @@
 // What lies in a study's folder: nothing that tells who or what outside the seals, and damage is found.
-#include <sqlite3.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -7,6 +6,7 @@
 #include "core/seal/SealedText.h"
 #include "core/study/StudyKeys.h"
 #include "core/study/StudyVerify.h"
+#include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
 
 namespace tacto {
@@ -16,7 +16,7 @@ class StudyFolder : public test::StudyDesk {
 protected:
     [[nodiscard]] std::filesystem::path keyFile() const {
         for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "home" / "keys"))
-            return entry.path();
+            if (entry.path().extension() == ".json") return entry.path();
         return {};
     }
     static void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
@@ -84,6 +84,18 @@ TEST_F(StudyFolder, TheKeyFileIsItsOwnersAloneAndSealed) {
     EXPECT_EQ(text.find("limit"), std::string::npos);  // the cost of a guess is not a file's business
 }
 
+TEST_F(StudyFolder, TheKeyFileOfBeforeAWithdrawalIsOverwritten) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto before = textOf(keyFile()), kept = (scratch.path() / "still has a name").string();
+    ASSERT_NE(before.find("sealed"), std::string::npos);
+    std::filesystem::create_hard_link(keyFile(), kept);
+    ASSERT_TRUE(study.withdraw(code));
+    EXPECT_EQ(textOf(kept), std::string(before.size(), '\0'));
+    EXPECT_NE(textOf(keyFile()), before);
+}
+
 TEST_F(StudyFolder, KeysInsideItAreRefused) {
     RecordProperty("hazard", "H11");
     auto inside = around();
@@ -130,6 +142,131 @@ TEST_F(StudyFolder, ASecondProgramIsRefusedByName) {
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     EXPECT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST_F(StudyFolder, ASecondProgramIsRefusedAlsoWhenTheLockFileWasRemoved) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    ASSERT_TRUE(std::filesystem::remove(folder() / "study.lock"));
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto second = open();
+        const bool refused = !second && second.error().code == ErrorCode::Io &&
+                             second.error().message.find("is open in test_study (process") != std::string::npos;
+        ::_exit(refused && !std::filesystem::exists(folder() / "study.lock") ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST_F(StudyFolder, ALedgerThatWasCutShortOrIsAnOlderCopyBeginsNoSession) {
+    RecordProperty("hazard", "H12");
+    std::string code;
+    {
+        auto study = make();
+        code = study.enrol({}).value().code;
+        ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
+    }
+    auto request = test::someRequest(code);
+    request.devicesSimulated = false;
+    const auto older = scratch.path() / "older", whole = scratch.path() / "whole", ledger = folder() / "ledger.tacto";
+    std::filesystem::copy_file(ledger, older);
+    {
+        auto study = open();
+        ASSERT_TRUE(study) << study.error().message;
+        auto yes = request;
+        yes.exclusions.front().yes = true;
+        ASSERT_TRUE(study->noteExclusions(yes));
+        EXPECT_NE(study->mayBegin(request).error().message.find("answered yes"), std::string::npos);
+    }
+    std::filesystem::copy_file(ledger, whole);
+    const auto expectRefused = [&](const char* what) {
+        SCOPED_TRACE(what);
+        const auto study = open();
+        ASSERT_TRUE(study) << "what is there can be read: " << study.error().message;
+        const auto may = study->mayBegin(request);
+        ASSERT_FALSE(may);
+        EXPECT_EQ(may.error().code, kGateRefused);
+        EXPECT_NE(may.error().message.find("row 5 of it was written on this computer"), std::string::npos)
+            << may.error().message;
+    };
+    std::filesystem::copy_file(older, ledger, std::filesystem::copy_options::overwrite_existing);
+    expectRefused("an older copy");
+    std::filesystem::copy_file(whole, ledger, std::filesystem::copy_options::overwrite_existing);
+    test::forge(ledger, "DELETE FROM entries WHERE seq=(SELECT max(seq) FROM entries)");
+    expectRefused("cut short");
+    {
+        std::filesystem::copy_file(older, ledger, std::filesystem::copy_options::overwrite_existing);
+        const auto study = open();
+        ASSERT_TRUE(study);
+        auto elsewhere = Study::open(folder(), nullptr, Study::Access::Read, around());
+        ASSERT_TRUE(elsewhere);
+        EXPECT_FALSE(elsewhere->stillApproved()) << "also for what a window shows";
+    }
+    {
+        auto study = open();  // as many rows, and another
+        ASSERT_TRUE(study);
+        for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "home" / "keys")) {
+            if (entry.path().extension() != ".end") continue;
+            const auto kept = textOf(entry.path());
+            ASSERT_TRUE(study->adverseEvent("none", {}).error().code == ErrorCode::NotFound);
+            ASSERT_TRUE(study->exported("/media/stick", "bids"));
+            write(entry.path(), kept);
+        }
+    }
+    expectRefused("another row in its place");
+    std::filesystem::copy_file(whole, ledger, std::filesystem::copy_options::overwrite_existing);
+    time.now += std::chrono::hours(24);
+    EXPECT_TRUE(open()->mayBegin(request)) << "as it was";
+}
+
+TEST_F(StudyFolder, ASessionThatTheLedgerDoesNotKnowBeginsNoOther) {
+    RecordProperty("hazard", "H12");
+    std::string code;
+    const auto ledger = folder() / "ledger.tacto", older = scratch.path() / "older";
+    {
+        auto study = make();
+        code = enrolled(study);
+    }
+    std::filesystem::copy_file(ledger, older);
+    {
+        auto study = open();
+        ASSERT_TRUE(study) << study.error().message;
+        const auto begun = study->beginSession(test::someRequest(code)).value();
+        ASSERT_TRUE(study->endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+    }
+    // An older ledger, on a computer that never wrote a newer one.
+    std::filesystem::copy_file(older, ledger, std::filesystem::copy_options::overwrite_existing);
+    for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "home" / "keys"))
+        if (entry.path().extension() == ".end") std::filesystem::remove(entry.path());
+    const auto study = open();
+    ASSERT_TRUE(study) << study.error().message;
+    const auto may = study->mayBegin(test::someRequest(code));
+    ASSERT_FALSE(may);
+    EXPECT_EQ(may.error().code, kGateRefused);
+    EXPECT_NE(may.error().message.find("is not in the ledger"), std::string::npos) << may.error().message;
+}
+
+TEST_F(StudyFolder, ASessionThatIsALinkIsNotOneThatWasNeverMade) {
+    RecordProperty("hazard", "H8");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    for (const auto& target : {begun.path.filename(), std::filesystem::path("/nowhere/session.tacto")}) {
+        std::filesystem::remove(begun.path);
+        std::filesystem::create_symlink(target, begun.path);
+        const auto rows = study.events(begun.session);
+        ASSERT_FALSE(rows) << target;
+        EXPECT_EQ(rows.error().code, ErrorCode::Io);
+        EXPECT_FALSE(study.continueSession(begun.session.id, test::someRequest(code)));
+        const auto report = verifyStudy(folder());
+        ASSERT_TRUE(report) << report.error().message;
+        EXPECT_EQ(report->status, SessionStatus::Damaged);
+    }
+    std::filesystem::remove(begun.path);
+    EXPECT_TRUE(study.events(begun.session)) << "killed before it was made";
 }
 
 TEST_F(StudyFolder, ANewerProgramsStudyIsNotOpened) {

@@ -1,4 +1,7 @@
+#include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
+#include "tests/support/Comes.h"
+#include "tests/support/InTime.h"
 
 namespace tacto {
 namespace {
@@ -154,6 +157,21 @@ TEST_F(GateOfASession, AYesEndsThePersonsDayWhateverIsAnsweredLater) {
     EXPECT_TRUE(study.beginSession(request));
 }
 
+TEST_F(GateOfASession, AYesHoldsWhenTheClockIsSetBackOverMidnight) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = study.enrol({}).value().code;
+    ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
+    auto request = test::someRequest(code);
+    request.devicesSimulated = false;
+    for (const auto today = study.today(); study.today() == today;) time.now += std::chrono::minutes(1);
+    request.exclusions.front().yes = true;
+    ASSERT_TRUE(study.noteExclusions(request));
+    request.exclusions = nothingExcludes();
+    time.now -= std::chrono::minutes(4);
+    expectRefused(study, request, "answered yes to the exclusion checklist today");
+}
+
 TEST_F(Desk, APartOfAResumedSessionIsWhatItWasWhenItWasGoneOnWith) {
     RecordProperty("hazard", "H8");
     auto study = make();
@@ -189,6 +207,58 @@ TEST_F(Desk, TheNextSessionWaitsForTheGap) {
     const auto next = study.beginSession(test::someRequest(code));
     ASSERT_TRUE(next) << next.error().message;
     EXPECT_EQ(next->session.number, 2);
+}
+
+TEST_F(Desk, TheGapIsCountedFromTheFirstTrainAndNotFromTheChecklist) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    test::HandClock clock;  // as on a real bench, an event's time is that of the wall
+    auto writer = SessionWriter::create(begun.path, {}, clock, begun.seal);
+    ASSERT_TRUE(writer) << writer.error().message;
+    clock.advance(std::chrono::minutes(18));
+    ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
+    clock.advance(std::chrono::minutes(30));
+    ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "test 90"}}));
+    ASSERT_TRUE((*writer)->close());
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, (*writer)->chainHead()));
+    time.now += std::chrono::hours(20) + std::chrono::minutes(17);
+    EXPECT_NE(study.mayBegin(test::someRequest(code)).error().message.find("20.0 h ago; at least 20 h"),
+              std::string::npos);
+    time.now += std::chrono::minutes(1);
+    EXPECT_TRUE(study.beginSession(test::someRequest(code)));
+}
+
+TEST_F(Desk, OnTheComputersOwnClockSessionsWaitForTheGapAndOneThatWasCancelledForNothing) {
+    RecordProperty("hazard", "H12");
+    auto settings = test::someStudy();
+    settings.approval.from = std::chrono::year(2026) / 1 / 1;
+    settings.approval.expires = std::chrono::year(2099) / 12 / 31;
+    settings.gapMin_h = 1.0 / 3600;
+    auto real = around();
+    real.time = &SystemTime::real();
+    auto study = Study::create(folder(), settings, test::somePassphrase(), real).value();
+    const auto code = enrolled(study);
+    const auto cancelled = study.beginSession(test::someRequest(code)).value();
+    ASSERT_TRUE(study.cancelSession(cancelled.session.id));
+    const auto begun = study.beginSession(test::someRequest(code));
+    ASSERT_TRUE(begun) << begun.error().message;
+    const SteadyClock clock;
+    auto writer = SessionWriter::create(begun->path, {}, clock, begun->seal);
+    ASSERT_TRUE(writer) << writer.error().message;
+    ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
+    ASSERT_TRUE((*writer)->close());
+    ASSERT_TRUE(study.endSession(begun->session.id, StudySessionState::Stopped, (*writer)->chainHead()));
+    auto amended = study.settings();
+    amended.gapMin_h = 20;
+    ASSERT_TRUE(study.amend(amended, "EC-2026-18"));
+    EXPECT_EQ(study.mayBegin(test::someRequest(code)).error().code, kGateRefused);
+    amended.gapMin_h = settings.gapMin_h;
+    ASSERT_TRUE(study.amend(amended, "EC-2026-19"));
+    EXPECT_IN_TIME(test::comes([&] { return study.mayBegin(test::someRequest(code)).has_value(); }));
+    ASSERT_EQ(study.sessions().size(), 2U);
+    EXPECT_FALSE(study.sessions().front().opened);
 }
 
 TEST_F(Desk, ASessionInWhichNothingWasPresentedCostsNoDay) {
@@ -233,6 +303,85 @@ TEST_F(Desk, ARecordThatWasExchangedBarsTheNextSession) {
     ASSERT_FALSE(next);
     EXPECT_EQ(next.error().code, kGateRefused);
     EXPECT_NE(next.error().message.find("is not the one that the ledger notes"), std::string::npos);
+}
+
+TEST_F(Desk, ARecordThatWasChangedAmongItsRowsBarsTheNextSession) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+    ASSERT_TRUE(study.stillApproved());
+    ASSERT_TRUE(study.events(begun.session));
+    // The head of its chain stays: nothing was presented, it says now, and the gap would be none.
+    test::forge(begun.path, "UPDATE entries SET name='note' WHERE name='trial-begin'");
+    const auto next = study.beginSession(test::someRequest(code));
+    ASSERT_FALSE(next);
+    EXPECT_NE(next.error().message.find("is not the one that the ledger notes"), std::string::npos)
+        << next.error().message;
+    EXPECT_FALSE(study.events(begun.session));
+}
+
+TEST_F(Desk, NothingGoesOnFromARecordThatIsNotWholeAndNothingIsReadFromIt) {
+    RecordProperty("hazard", "H6");
+    const std::pair<const char*, const char*> changes[] = {
+        {"an answer is gone",
+         "DELETE FROM entries WHERE name='answer' AND seq="
+         "(SELECT max(seq) FROM entries WHERE name='answer')"},
+        {"its plan is gone", "DELETE FROM entries WHERE name='plan'"},
+        {"another name", "UPDATE entries SET name='note' WHERE name='trial-begin'"},
+        {"another time", "UPDATE entries SET t_ns=t_ns+1000000000 WHERE name='answer'"},
+        {"another number",
+         "UPDATE entries SET seq=seq+100 WHERE name='answer' AND seq="
+         "(SELECT max(seq) FROM entries WHERE name='answer')"}};
+    for (const auto& [what, sql] : changes) {
+        SCOPED_TRACE(what);
+        std::filesystem::remove_all(folder());
+        std::filesystem::remove_all(scratch.path() / "home");
+        auto study = make();
+        const auto code = enrolled(study);
+        const auto begun = study.beginSession(test::someRequest(code)).value();
+        record(begun);
+        test::forge(begun.path, sql);
+        EXPECT_EQ(study.events(begun.session).error().code, ErrorCode::ParseError);
+        const auto before = study.ledgerHead();
+        const auto again = study.continueSession(begun.session.id, test::someRequest(code));
+        ASSERT_FALSE(again);
+        EXPECT_EQ(again.error().code, ErrorCode::ParseError) << again.error().message;
+        EXPECT_EQ(study.ledgerHead(), before);
+        // It can be ended; what was presented in it is not known, so the gap counts.
+        ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, ""));
+        EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
+        time.now += std::chrono::hours(20);
+        EXPECT_TRUE(study.beginSession(test::someRequest(code)));
+        time.now -= std::chrono::hours(20);
+    }
+}
+
+TEST_F(Desk, ARecordThatIsNotSealedIsNotOneOfAStudy) {
+    RecordProperty("hazard", "H8");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    auto unsealed = begun;
+    unsealed.seal = nullptr;  // anyone can make one, with any answers
+    record(unsealed);
+    EXPECT_EQ(study.events(begun.session).error().code, ErrorCode::ParseError);
+    EXPECT_EQ(study.continueSession(begun.session.id, test::someRequest(code)).error().code, ErrorCode::ParseError);
+}
+
+TEST_F(Desk, ARecordThatIsGoneOrCutShortGivesNoResults) {
+    RecordProperty("hazard", "H9");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+    ASSERT_TRUE(study.events(begun.session));
+    // Its chain is whole in itself.
+    test::forge(begun.path, "DELETE FROM entries WHERE seq > (SELECT min(seq) FROM entries WHERE name='answer')");
+    EXPECT_EQ(study.events(begun.session).error().code, ErrorCode::ParseError);
+    std::filesystem::remove(begun.path);
+    EXPECT_FALSE(study.events(begun.session)) << "gone is not without answers";
 }
 
 TEST_F(Desk, AnUnfinishedSessionGoesOnInANewPartUnderTheSameNumber) {
@@ -329,6 +478,10 @@ TEST_F(Desk, ACodeAndASeedAreEnrolledOnce) {
     Participant twin;
     twin.virtualSeed = 5;
     EXPECT_EQ(study.enrol(twin).error().code, ErrorCode::Unsupported);
+    for (const char* same : {"P7K3D", "P-7-K3D", "p7k3-d"}) {  // who forgets a hyphen is no other person
+        named.code = same;
+        EXPECT_EQ(study.enrol(named).error().code, ErrorCode::Unsupported) << same;
+    }
     EXPECT_EQ(study.participants().size(), 2U);
 }
 

@@ -24,17 +24,13 @@ Result<SessionRecord> readSession(const Study& study, const StudySession& about)
     record.about = about;
     std::vector<SessionRow> commands;
     for (const auto& part : about.parts) {
-        const auto path = study.pathOf(part.file);
-        std::error_code gone;
-        if (!std::filesystem::exists(path, gone)) continue;  // booked, and never begun
-        const auto seal = study.sealOf(part.file);
-        if (!seal) return failure(seal);
-        const auto file = SessionReader::open(path, *seal);
+        const auto file = study.part(part.file);
         if (!file) return failure(file);
-        auto rows = file->events();
+        if (!*file) continue;  // booked, and never begun
+        auto rows = (*file)->events();
         if (!rows) return failure(rows);
         std::ranges::move(*rows, std::back_inserter(record.rows));
-        auto given = file->commands();
+        auto given = (*file)->commands();
         if (!given) return failure(given);
         std::ranges::move(*given, std::back_inserter(commands));
     }

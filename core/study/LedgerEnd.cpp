@@ -1,0 +1,47 @@
+#include "core/study/LedgerEnd.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/base/Csv.h"
+#include "core/base/JsonFields.h"
+#include "core/session/Durable.h"
+#include "core/study/Gates.h"
+
+namespace tacto {
+
+namespace fs = std::filesystem;
+
+void noteLedgerEnd(const fs::path& file, const LedgerEnd& end) noexcept {
+    auto draft = file;
+    draft += ".new";
+    {
+        std::ofstream out(draft, std::ios::binary | std::ios::trunc);
+        out << dumpJson({{"row", end.row}, {"head", end.head}}) << '\n';
+        out.flush();
+        if (!out) return;
+    }
+    std::error_code error;
+    if (syncFile(draft)) fs::rename(draft, file, error);
+    syncFolderOf(file);
+}
+
+Result<void> reachesEnd(const LedgerEnd& now, const fs::path& file) {
+    std::error_code error;
+    if (fs::symlink_status(file, error).type() == fs::file_type::not_found) return {};
+    const auto text = readTextFile(file);
+    const auto json = text ? parseJson(*text, file.string()) : failure(text);
+    const auto row = json ? static_cast<std::int64_t>(countOr(*json, "row")) : 0;
+    const auto head = json ? textOr(*json, "head") : std::string();
+    if (row < 1 || head.empty()) {
+        return fail(kGateRefused, "{} does not say how far the study's ledger goes; put it back from your copy",
+                    file.string());
+    }
+    if (row < now.row || (row == now.row && head == now.head)) return {};
+    return fail(kGateRefused,
+                "the study's ledger ends with row {}, and row {} of it was written on this computer: it was cut short, "
+                "or is an older copy; put back the newest",
+                now.row, row);
+}
+
+}  // namespace tacto
