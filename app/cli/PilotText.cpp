@@ -1,11 +1,14 @@
 // What pilot sessions print: thresholds and range, and who told what apart.
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/ResultText.h"
 #include "app/cli/Say.h"
 #include "app/cli/TextTable.h"
 #include "app/cli/Verdicts.h"
+#include "core/analysis/identification/IdentificationText.h"
+#include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/base/QuantityText.h"
 
 namespace tacto::cli {
@@ -13,6 +16,27 @@ namespace tacto::cli {
 using nlohmann::json;
 
 namespace {
+
+/// What people read for the keys of results that are no sentences; another text as it is.
+std::string wordsOf(const std::string& key) {
+    static const std::map<std::string, std::string, std::less<>> kWords{{"too-strong", "too strong"},
+                                                                        {"ceiling", "the highest level"},
+                                                                        {"stop", "STOP"},
+                                                                        {"open", "not ended"},
+                                                                        {"none", "nothing"},
+                                                                        {"not-sure", "not sure"},
+                                                                        {"quest", "QUEST+"},
+                                                                        {"staircase", "the weighted staircase"},
+                                                                        {"rough-high", "rough, firm"},
+                                                                        {"rough-low", "rough, light"},
+                                                                        {"smooth-high", "smooth, firm"},
+                                                                        {"smooth-low", "smooth, light"}};
+    const auto found = kWords.find(key);
+    return found != kWords.end() ? found->second : key;
+}
+
+/// GUM writes no such figures with an e.
+std::string chanceText(double p) { return !std::isfinite(p) ? "–" : p < 0.001 ? "< 0.001" : decimalText(p, 3); }
 
 /// How the session's levels are read: of current, or of a massager's strength.
 struct LevelText {
@@ -43,10 +67,12 @@ std::string rangeText(const json& range, const LevelText& levels) {
         return withReason("none that is usable", resultText(range, "reason"));
     auto text = fmt::format("{} to {}", levels.of(range, "min"), levels.of(range, "max"));
     if (!levels.isStrength)
-        text += fmt::format(", {} to {} V at {} Ω", decimalText(resultValue(range, "min_v"), 1),
-                            decimalText(resultValue(range, "max_v"), 1), resultNumber(range, "impedance_ohm"));
+        text += fmt::format(", {} at {}",
+                            voltageRangeText(Volts(resultValue(range, "min_v")), Volts(resultValue(range, "max_v"))),
+                            scaledText(resultValue(range, "impedance_ohm"), "ohm", 3));
+    const auto limit = valueFor(kLevelLimits, resultText(range, "limited_by"));
     return fmt::format("{}, {} JND, limited by {}", text, decimalText(resultValue(range, "jnd"), 1),
-                       resultText(range, "limited_by"));
+                       limit ? inWords(*limit) : resultText(range, "limited_by"));
 }
 
 /// A line each; both protocols have them.
@@ -57,11 +83,14 @@ void addThresholds(TextTable& table, const json& results, const LevelText& level
                                       : "never said; the highest was " + levels.of(results, "too_strong")});
     const auto detection = resultObject(results, "detection");
     const auto estimate = resultObject(detection, levels.isStrength ? "estimate_intensity" : "estimate_ma");
-    if (!estimate.empty())
-        table.add({"detection",
-                   fmt::format("{} ({} to {}), {} trials by {}", levels.with(resultValue(estimate, "value")),
-                               levels.with(resultValue(estimate, "low")), levels.with(resultValue(estimate, "high")),
-                               resultNumber(detection, "trials"), resultText(detection, "method"))});
+    if (!estimate.empty()) {
+        const double low = resultValue(estimate, "low"), high = resultValue(estimate, "high");
+        const bool isInterval = std::isfinite(low) && std::isfinite(high);  // a staircase gives none
+        table.add(
+            {"detection", fmt::format("{}{}, {} trials by {}", levels.with(resultValue(estimate, "value")),
+                                      isInterval ? fmt::format(" ({} to {})", levels.with(low), levels.with(high)) : "",
+                                      resultNumber(detection, "trials"), wordsOf(resultText(detection, "method")))});
+    }
     table.add({"range", rangeText(resultObject(results, "range"), levels)});
     const auto weber = resultObject(resultObject(results, "comparison"), "amplitude_weber");
     if (weber.empty()) return;
@@ -82,10 +111,10 @@ void printConfusion(const json& results) {
     const auto counts = resultList(results, "confusion");
     if (counts.empty() || counts.size() != labels.size()) return;
     std::vector<std::string> headings{"given, answered"};
-    for (const auto& column : columns) headings.push_back(">" + column.get<std::string>());
+    for (const auto& column : columns) headings.push_back(">" + wordsOf(column.get<std::string>()));
     TextTable table(headings);
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        std::vector<std::string> cells{labels[i].get<std::string>()};
+        std::vector<std::string> cells{wordsOf(labels[i].get<std::string>())};
         for (const auto& count : counts[i]) cells.push_back(std::to_string(count.get<std::size_t>()));
         cells.resize(headings.size());
         table.add(std::move(cells));
@@ -98,8 +127,7 @@ void printTold(const json& results) {
     const auto add = [&](const char* name, const json& one) {
         if (resultObject(one, "accuracy").empty()) return;
         table.add({name, resultNumber(one, "hits"), resultNumber(one, "n"), percentText(one["accuracy"]),
-                   fmt::format("{:.2g}", resultValue(one, "p_chance")),
-                   decimalText(resultValue(one, "it_corrected_bits"), 2)});
+                   chanceText(resultValue(one, "p_chance")), decimalText(resultValue(one, "it_corrected_bits"), 2)});
     };
     add("the four", results);
     add("texture", resultObject(results, "texture"));
@@ -113,7 +141,7 @@ void printVibration(const json& results, const LevelText& levels) {
     if (vibration.value("measured", json()) != json(true)) return say("  what the massager did was not measured\n");
     TextTable table({"the massager", ">strength", ">m/s²", ">interval s", ">moved", ">missed"});
     for (const auto& each : resultList(vibration, "conditions"))
-        table.add({resultText(each, "name"), levels.with(resultValue(each, "intensity")),
+        table.add({wordsOf(resultText(each, "name")), levels.with(resultValue(each, "intensity")),
                    decimalText(resultValue(resultObject(each, "strength_m_s2"), "mean"), 2),
                    decimalText(resultValue(resultObject(each, "measured_interval_s"), "mean"), 3),
                    resultNumber(each, "moved"), resultNumber(each, "missed")});
@@ -134,7 +162,7 @@ void printPilotThresholds(const json& results) {
     std::size_t number = 0;
     for (const auto& each : resultList(results, "series"))
         series.add({std::to_string(++number), levels.of(each, "felt"), levels.of(each, "too_strong"),
-                    levels.of(each, "highest"), resultText(each, "ended_by")});
+                    levels.of(each, "highest"), wordsOf(resultText(each, "ended_by"))});
     if (number > 0) series.print();
 }
 
@@ -149,7 +177,7 @@ void printPilotIdentification(const json& results) {
     if (!presented.empty()) {
         TextTable given({"condition", ">level", ">interval s"});
         for (const auto& each : presented)
-            given.add({resultText(each, "name"),
+            given.add({wordsOf(resultText(each, "name")),
                        levels.with(resultValue(each, levels.isStrength ? "intensity" : "current_ma")),
                        resultNumber(each, "interval_s")});
         given.print();

@@ -41,6 +41,10 @@ void declareRun(QCommandLineParser& parser) {
     parser.addOption({"out", "Folder for the session, its reports and its captures.", "DIR"});
     parser.addOption(
         {"passphrase-file", "File whose first line is the study's passphrase, for sessions of a study.", "F"});
+    parser.addOption({"markers",
+                      "Of a pilot session: where recorders of EEG or EMG connect for its markers, a port of this "
+                      "computer or ADDRESS:PORT.",
+                      "PORT"});
     parser.addOption({"report", "Which report is written: none, html or pdf; both where left out.", "KIND"});
     parser.addOption({"json", "Prints one JSON value."});
 }
@@ -170,6 +174,9 @@ struct Running {
 Result<Running> prepareRun(RunOrder order, const QCommandLineParser& parser, Registry& registry) {
     Running running;
     if (!resultTraits(order.declaration.kind).ofStudy || !order.script.shipped) {
+        if (parser.isSet("markers"))
+            return fail(ErrorCode::InvalidArgument, "run: --markers is given for {}; only pilot sessions send markers",
+                        order.script.name);
         auto alone = ProtocolRun::prepare(std::move(order), registry);
         if (!alone) return failure(alone);
         running.alone = std::move(*alone);
@@ -181,6 +188,11 @@ Result<Running> prepareRun(RunOrder order, const QCommandLineParser& parser, Reg
         auto passphrase = Passphrase::fromFile(parser.value("passphrase-file").toStdString());
         if (!passphrase) return failure(passphrase);
         pilot.passphrase = std::move(*passphrase);
+    }
+    if (parser.isSet("markers")) {
+        const auto at = MarkerAddress::parse(parser.value("markers").toStdString());
+        if (!at) return failure(at);
+        pilot.markers = *at;
     }
     auto session = PilotRun::prepare(std::move(order), std::move(pilot), registry);
     if (!session) return failure(session);
@@ -321,18 +333,20 @@ int runRun(const QCommandLineParser& parser) {
     interrupts.onStop([session = result.session.string()] { endBeforeReports(session); });
     const int exitCode = exitFor(result);
     const auto verdict = result.verdict();
-    const json value{{"protocol", protocol},
-                     {"script_from", origin},
-                     {"verdict", verdict.empty() ? json(nullptr) : json(verdict)},
-                     {"simulated", result.simulated},
-                     {"marks", result.marks},
-                     {"devices", devicesJson(result.devices)},
-                     {"seed", running.session ? running.session->session().stage().settings().seed : seed},
-                     {"session", result.session.string()},
-                     {"report", running.session ? json(nullptr) : writeReports(running.run().files(), *reports)},
-                     {"results", outcome.results},
-                     {"reasons", outcome.reasons},
-                     {"error", outcome.error ? json(outcome.error->message) : json(nullptr)}};
+    if (result.markers) say(stderr, "{}\n", markersSentence(*result.markers));
+    json value{{"protocol", protocol},
+               {"script_from", origin},
+               {"verdict", verdict.empty() ? json(nullptr) : json(verdict)},
+               {"simulated", result.simulated},
+               {"marks", result.marks},
+               {"devices", devicesJson(result.devices)},
+               {"seed", running.session ? running.session->session().stage().settings().seed : seed},
+               {"session", result.session.string()},
+               {"report", running.session ? json(nullptr) : writeReports(running.run().files(), *reports)},
+               {"results", outcome.results},
+               {"reasons", outcome.reasons},
+               {"error", outcome.error ? json(outcome.error->message) : json(nullptr)}};
+    if (running.session) value["markers"] = result.markers ? toJson(*result.markers) : json(nullptr);
     if (parser.isSet("json"))
         printJson(value);
     else
@@ -349,8 +363,8 @@ int runRun(const QCommandLineParser& parser) {
 const Command kRun{
     "run",
     "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--profile F] [--realtime] [--reset-fault] "
-    "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--out DIR] [--passphrase-file F] [--report "
-    "none|html|pdf] [--json]",
+    "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--out DIR] [--passphrase-file F] [--markers "
+    "[ADDRESS:]PORT] [--report none|html|pdf] [--json]",
     "Runs a protocol script, records it and writes its report",
     true,
     declareRun,

@@ -367,6 +367,11 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
                                                     std::shared_ptr<BenchTap> tap) {
     std::unique_ptr<PilotRun> made(new PilotRun());
     made->inWindow_ = pilot.people != nullptr;
+    if (pilot.markers) {
+        auto listens = MarkerServer::listen(*pilot.markers);
+        if (!listens) return failure(listens);
+        made->markers_ = std::move(*listens);
+    }
     const auto answers = simulatedAnswers(order);
     if (!answers) return failure(answers);
     if (textOf(order, "participant").starts_with(kVirtual)) {  // Before a rehearsal is made for it
@@ -399,6 +404,10 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     made->run_ = std::move(*run);
     const auto& opened = made->run_->opened();
     made->record_ = std::make_unique<PilotRecord>(*opened.session, *opened.clock, made->earlier_.events);
+    if (made->markers_) {
+        made->markers_->begin(opened.clock);
+        made->record_->onMarker = [to = made->markers_](const PilotMarker& each) { to->send(each.at, each.name); };
+    }
     const auto parts = static_cast<int>(made->begun_->session.parts.size());
     made->session_ =
         std::make_unique<PilotSession>(made->run_->bench(), *people, *made->record_, made->settings_, truth, parts);
@@ -454,9 +463,23 @@ Result<void> PilotRun::start(RunRequest hooks) {
     return run_->start(std::move(hooks));
 }
 
+/// Once no row with a marker is written any more.
+std::optional<MarkerTally> PilotRun::endMarkers() {
+    if (!markers_) return std::nullopt;
+    const bool ended = run_->script() == nullptr || !run_->script()->wait().abandoned;
+    const auto tally = markers_->end();
+    if (ended) {
+        const auto& opened = run_->opened();  // a row that cannot be written is found when the session is closed
+        static_cast<void>(opened.session->event(opened.clock->now(), "markers", toJson(tally)));
+    }
+    return tally;
+}
+
 RunResult PilotRun::finish() {
     session_->stage().participant().leave();  // their STOP must not find a bench that is gone
+    const auto markers = endMarkers();
     auto result = run_->finish();
+    result.markers = markers;
     const auto ended = session_->stage().ended();
     if (result.outcome.abandoned || ended == PilotEnd::Unfinished) return result;
     std::string head;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run/MarkerServer.h"
 #include "app/run/PilotRows.h"
 #include "app/run/ProtocolRun.h"
 #include "core/pilot/PilotSession.h"
@@ -29,6 +30,7 @@ struct PilotOrder {
     bool codeConfirmed = false;  ///< a person read the code on their screen
     /// Empty: a virtual participant's, who answers no to each but those of `--set exclusions`.
     std::vector<ExclusionAnswer> exclusions;
+    std::optional<MarkerAddress> markers;  ///< nothing: none are sent
 };
 
 class PilotRun {
@@ -36,7 +38,8 @@ public:
     /// The participant, `unfinished` and the rest are settings of `order`. Where `pilot.study` holds no study and the
     /// participant is virtual, a rehearsal is made there.
     /// Errors: NotFound for a study, code or passphrase that cannot be used, a person without a window, and an
-    /// unfinished session that the settings say nothing of; Stopped for a gate; as ProtocolRun::prepare().
+    /// unfinished session that the settings say nothing of; Stopped for a gate; as MarkerServer::listen(), before
+    /// anything else is looked at, and ProtocolRun::prepare().
     [[nodiscard]] static Result<std::unique_ptr<PilotRun>> prepare(RunOrder order, PilotOrder pilot, Registry& registry,
                                                                    std::shared_ptr<BenchTap> tap = nullptr);
     ~PilotRun();
@@ -45,7 +48,8 @@ public:
 
     /// As ProtocolRun::start().
     [[nodiscard]] Result<void> start(RunRequest hooks);
-    /// As ProtocolRun::finish(); then the ledger says how the session ended.
+    /// As ProtocolRun::finish(), with the session's last row saying what became of the markers; then the ledger says
+    /// how the session ended.
     [[nodiscard]] RunResult finish();
 
     [[nodiscard]] ProtocolRun& run() noexcept { return *run_; }
@@ -71,6 +75,7 @@ private:
     [[nodiscard]] std::string_view whatEnds() const;
     [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
     [[nodiscard]] Result<void> sameProcedure() const;
+    [[nodiscard]] std::optional<MarkerTally> endMarkers();
     [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
     void fitOrder(RunOrder& order, const PilotOrder& pilot);
     void chooseEncoding();
@@ -88,6 +93,7 @@ private:
     PilotSettings settings_;
     std::vector<std::string> remarks_;
 
+    std::shared_ptr<MarkerServer> markers_;  // null: none are sent
     std::unique_ptr<VirtualPilotParticipant> virtual_;
     std::unique_ptr<ProtocolRun> run_;
     std::unique_ptr<PilotRecord> record_;  // Written to by the script: ends after it, see ~PilotRun

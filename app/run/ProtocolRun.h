@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/run/LoadSafetyRecord.h"
+#include "app/run/MarkerServer.h"
 #include "app/run/OpenedBench.h"
 #include "app/scripting/engine/ScriptRun.h"
 
@@ -37,7 +38,8 @@ struct RunResult {
     std::vector<std::string> marks;  ///< of sessionMarks(): origin, calibration, the flags of R
     std::vector<SessionDevice> devices;
     std::filesystem::path session;
-    std::vector<Error> troubles;  ///< beside the outcome: closing the session
+    std::vector<Error> troubles;         ///< beside the outcome: closing the session
+    std::optional<MarkerTally> markers;  ///< of a pilot session with markers
     /// pass, fail, indeterminate, stopped; empty for a protocol that judges nothing or ended by an error.
     [[nodiscard]] std::string verdict() const;
 };

@@ -246,7 +246,8 @@ Result<void> Bench::wait(Seconds duration) {
     return {};
 }
 
-Result<Presented> Bench::present(const Presentation& presentation, const std::function<void(Seconds since)>& passing) {
+Result<Presented> Bench::present(const Presentation& presentation,
+                                 const std::function<void(Seconds since, Instant began)>& passing) {
     auto& s = *state_;
     if (const auto valid = validate(presentation); !valid) return failure(valid);
     for (std::size_t train = 0; train < presentation.onsets.size(); ++train) {
@@ -265,7 +266,7 @@ Result<Presented> Bench::present(const Presentation& presentation, const std::fu
         ended = s.loop->presented();
         if (ended) return true;
         const auto began = passing ? s.loop->presentationBegan() : std::nullopt;
-        if (const Instant at = s.time.now(); began && at >= *began) passing(Seconds(at - *began));
+        if (const Instant at = s.time.now(); began && at >= *began) passing(Seconds(at - *began), *began);
         return false;
     };
     const Instant until = std::max(now, presentation.notBefore) + toInstant(presentation.duration);

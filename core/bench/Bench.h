@@ -148,12 +148,12 @@ public:
     /// is approved by the gate, delivered, read back and judged as any other. Where the last impedance reading would be
     /// more than 5 s old by the last onset, one check pulse comes first, also before an empty one.
     /// Nothing else may drive the output. A stop, a pause or a fault ends it (see Presented::end) and makes it void.
-    /// `passing` is called repeatedly, on the caller's thread, with the time since it began, for a screen to show.
-    /// It depends on nothing else, least of all on when a train comes. May be empty.
+    /// `passing` is called repeatedly, on the caller's thread, with the time since it began and when that was, for a
+    /// screen to show. It depends on nothing else, least of all on when a train comes. May be empty.
     /// Errors, with which nothing was begun: InvalidArgument as validate(), and for a current that is not on the
     /// device's grid; Unsupported where the output takes no such level; NotArmed unless armed; Stopped; Device; Io.
     [[nodiscard]] Result<Presented> present(const Presentation& presentation,
-                                            const std::function<void(Seconds since)>& passing = {});
+                                            const std::function<void(Seconds since, Instant began)>& passing = {});
 
     /// The participant accepted the level that was presented last: without it the next may not rise (hazard H6).
     /// Recorded as `level-accepted`. Errors: InvalidArgument unless the last presentation was complete, not empty and

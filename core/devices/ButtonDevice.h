@@ -21,6 +21,7 @@ struct ButtonDeviceInfo {
     std::string name;                  ///< as the device says
     std::vector<std::string> buttons;  ///< their numbers: "1", "2"; of a second pad in one device "2-1"
     std::string obstacle;              ///< why it cannot be used, and what helps, a sentence; empty where it can
+    bool hasSerial = false;            ///< the identity is that of this one device; else each of its model has it
 
     bool operator==(const ButtonDeviceInfo&) const = default;
 };

@@ -4,8 +4,9 @@
 // The session calls show() and ask() from its own thread (a script's). An implementation with a window hands them to
 // the window's thread and waits there; a virtual one answers at once from what was delivered.
 //
-// Thread-safety: show(), ask(), delivered() and takeEarly() have one caller, the session's thread; cancel(), holding(),
-// hindrance() and hasScreen() may be called from any thread; `stop` is called from any thread.
+// Thread-safety: show(), ask(), delivered() and takeEarly() have one caller, the session's thread, and so has
+// letGoWasBounce(); cancel(), holding(), hindrance() and hasScreen() may be called from any thread; `stop` is called
+// from any thread.
 #pragma once
 
 #include <functional>
@@ -43,6 +44,7 @@ struct Hindrance {
 inline constexpr const char* kScreenGone = "the participant's screen";
 inline constexpr const char* kOperatorPauses = "operator (break now)";
 inline constexpr const char* kOperatorAborts = "operator (abort)";
+inline constexpr const char* kParticipantLetGo = "participant let go";
 
 /// How often `waiting` is called while a person is asked.
 inline constexpr Seconds kWaitingLook{0.1};
@@ -68,8 +70,11 @@ public:
     virtual void leave() noexcept {}
 
     /// While levels rise: whether the participant still holds the key, pedal or target. From Hold's answer on until
-    /// the session shows Rest, letting go also calls `stop("participant let go")`.
+    /// the session shows Rest, letting go also calls `stop(kParticipantLetGo)`.
     [[nodiscard]] virtual bool holding() const noexcept = 0;
+    /// After a stop by kParticipantLetGo: whether it was the contact and not the participant, since what was held went
+    /// down again sooner than a finger can. Waits until that is known, 20 ms at most. The output is off either way.
+    [[nodiscard]] virtual bool letGoWasBounce() { return false; }
     /// Why no presentation may start now: the operator's break, a participant's window without the keys. Nothing is
     /// in the way of one without a window.
     [[nodiscard]] virtual std::optional<Hindrance> hindrance() const { return {}; }
@@ -79,7 +84,7 @@ public:
     /// answer's `after` pass on the bench's clock.
     [[nodiscard]] virtual bool answersInRealTime() const noexcept = 0;
 
-    /// Output off at once; by: "participant", "participant let go", "operator", kOperatorAborts, kOperatorPauses, and
+    /// Output off at once; by: "participant", kParticipantLetGo, "operator", kOperatorAborts, kOperatorPauses, and
     /// kScreenGone where the participant's window was closed or its screen went. Set by the session before the first
     /// show(); any thread may call it, at any time until the session ends. Does not block.
     std::function<void(const char* by)> stop;

@@ -400,6 +400,8 @@ Result<void> PilotOutput::noteStop(const std::string& during, const Error& why) 
 
 Result<void> PilotOutput::noteParticipantStop(const std::string& during, const char* by) {
     auto& record = stage_.record();
+    if (std::string_view(by) == kParticipantLetGo && stage_.participant().letGoWasBounce())
+        return record.write(row::kPause, during, {{"why", "the contact of the button that is held bounced"}});
     if (auto kept = record.write(row::kParticipantStop, during, {{"by", by}}); !kept) return kept;
     if (record.count(row::kParticipantStop) < kMaxParticipantStops) return {};
     return stage_.end(PilotEnd::Stopped, kThirdStop);

@@ -9,6 +9,18 @@
 
 namespace tacto {
 
+namespace {
+
+constexpr std::string_view kMarked[] = {
+    row::kPlan,       row::kResumed,         row::kPhase,        row::kStopTest,  row::kImpedance,
+    row::kTrialBegin, row::kPresentation,    row::kAnswer,       row::kNoAnswer,  row::kAnswerEarly,
+    row::kRating,     row::kBreakBegin,      row::kBreakEnd,     row::kFocusLost, row::kPause,
+    row::kContinue,   row::kParticipantStop, row::kOperatorStop, row::kFault,     row::kSessionEnd};
+
+}  // namespace
+
+bool hasMarker(std::string_view kind) noexcept { return std::ranges::find(kMarked, kind) != std::end(kMarked); }
+
 PilotRecord::PilotRecord(SessionWriter& writer, const Clock& clock, const std::vector<SessionRow>& earlier)
     : writer_(writer), clock_(clock), resumed_(!earlier.empty()) {
     for (const auto& each : earlier) keep(each.name, each.body);
@@ -27,11 +39,16 @@ const PilotRecord::Json* PilotRecord::find(std::string_view kind, const std::str
 }
 
 Result<void> PilotRecord::write(std::string_view kind, const std::string& name, Json body) {
+    return writeAt(clock_.now(), kind, name, std::move(body));
+}
+
+Result<void> PilotRecord::writeAt(Instant at, std::string_view kind, const std::string& name, Json body) {
     if (!body.is_object()) body = Json{{"value", std::move(body)}};
     body["name"] = name;
-    if (auto kept = writer_.event(clock_.now(), kind, body); !kept) return failure(kept);
+    if (auto kept = writer_.event(at, kind, body); !kept) return failure(kept);
     keep(kind, body);
     ++written_;
+    if (onMarker && hasMarker(kind)) onMarker({at, kind});
     if (onWritten) onWritten(written_);
     return {};
 }

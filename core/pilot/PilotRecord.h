@@ -32,6 +32,7 @@ class SessionWriter;
 namespace row {
 inline constexpr const char* kPlan = "plan";
 inline constexpr const char* kTrialBegin = "trial-begin";
+inline constexpr const char* kPresentation = "presentation";  // it has begun; where a recorder is told
 inline constexpr const char* kAnswer = "answer";
 inline constexpr const char* kNoAnswer = "no-answer";
 inline constexpr const char* kAnswerEarly = "answer-early";
@@ -70,6 +71,15 @@ inline constexpr const char* kMoreLikeTouch = "more-like-touch";
 inline constexpr const char* kNoDifference = "no-difference";
 }  // namespace row
 
+/// What an EEG or EMG recorder is told of a row that is on disk (resources/design/pilot.md, section 5).
+struct PilotMarker {
+    Instant at{0};          ///< as the row says
+    std::string_view name;  ///< the row's kind; nothing of what it says
+};
+/// Whether a row of that kind has a marker: it says where the session is, and neither how the participant answers, nor
+/// what is found of them.
+[[nodiscard]] bool hasMarker(std::string_view kind) noexcept;
+
 class PilotRecord {
 public:
     using Json = nlohmann::json;
@@ -82,6 +92,9 @@ public:
     [[nodiscard]] const Json* find(std::string_view kind, const std::string& name) const;
     /// Appends a row. `body` is an object; its member "name" becomes `name`. Errors: Io.
     [[nodiscard]] Result<void> write(std::string_view kind, const std::string& name, Json body = Json::object());
+    /// The same for what happened at `at`, a moment ago.
+    [[nodiscard]] Result<void> writeAt(Instant at, std::string_view kind, const std::string& name,
+                                       Json body = Json::object());
     /// What the row says; where there is none, what `make` returns, written first. Errors: as `make` and write().
     [[nodiscard]] Result<Json> once(std::string_view kind, const std::string& name,
                                     const std::function<Result<Json>()>& make);
@@ -98,6 +111,8 @@ public:
 
     /// Called after each row is on disk with the number of rows written by this part; tests end the program there.
     std::function<void(std::size_t)> onWritten;
+    /// Called after a row with a marker is on disk; may be empty, and must not block.
+    std::function<void(const PilotMarker&)> onMarker;
 
 private:
     void keep(std::string_view kind, const Json& body);

@@ -198,7 +198,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     const auto earliest = lastAnswer_ + toInstant(kMinPause) + toInstant(pauses.uniform());
     presentation.notBefore = std::max(earliest, bench_.clock().now() + toInstant(kDot));
     if (trial.screen.state != ScreenState::Rest) participant_.show(trial.screen);
-    auto presented = present(presentation, trial.screen);
+    auto presented = present(presentation, trial);
     if (!presented) {  // paused before it began, or something is wrong
         if (presented.error().code != ErrorCode::NotArmed || !output_.isPaused()) return failure(presented);
         if (auto goesOn = output_.afterThePause(trial); !goesOn) return failure(goesOn);
@@ -254,22 +254,27 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
 }
 
 /// Marks follow the time since the beginning alone: they are the same whichever interval holds the train.
-Result<Presented> PilotStage::present(const Presentation& presentation, const PilotScreen& screen) {
+Result<Presented> PilotStage::present(const Presentation& presentation, const StageTrial& trial) {
     vibration_.begin();
-    auto presented = bench_.present(presentation, passing(screen));
+    auto presented = bench_.present(presentation, passing(trial));
     vibration_.end();
     return presented;
 }
 
-std::function<void(Seconds)> PilotStage::passing(const PilotScreen& screen) {
-    const bool marks = screen.state == ScreenState::Interval;
-    if (!marks && !vibration_.canLook()) return {};
-    return [this, marks, passing = screen](Seconds since) mutable {
+/// A recorder is told of each presentation in the same way, also of an empty one: when it began. A row of it that
+/// cannot be written is the error of the answer's row.
+std::function<void(Seconds, Instant)> PilotStage::passing(const StageTrial& trial) {
+    const bool marks = trial.screen.state == ScreenState::Interval;
+    bool tells = record_.onMarker != nullptr;
+    if (!marks && !tells && !vibration_.canLook()) return {};
+    return [this, marks, tells, name = trial.name, passing = trial.screen](Seconds since, Instant began) mutable {
         vibration_.look();
         const int interval = marks ? detectionIntervalAt(since) : passing.interval;
-        if (interval == passing.interval || output_.stopped()) return;
-        passing.interval = interval;
-        participant_.show(passing);
+        if (interval != passing.interval && !output_.stopped()) {
+            passing.interval = interval;
+            participant_.show(passing);
+        }
+        if (std::exchange(tells, false)) static_cast<void>(record_.writeAt(began, row::kPresentation, name));
     };
 }
 

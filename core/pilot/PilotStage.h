@@ -148,8 +148,8 @@ private:
     [[nodiscard]] Result<std::optional<StageAnswer>> attempt(const StageTrial& trial, std::size_t number,
                                                              std::size_t& late);
     [[nodiscard]] Result<StageAnswer> stoppedAnswer(const StageTrial& trial);
-    [[nodiscard]] Result<Presented> present(const Presentation& presentation, const PilotScreen& screen);
-    [[nodiscard]] std::function<void(Seconds)> passing(const PilotScreen& screen);
+    [[nodiscard]] Result<Presented> present(const Presentation& presentation, const StageTrial& trial);
+    [[nodiscard]] std::function<void(Seconds, Instant)> passing(const StageTrial& trial);
     [[nodiscard]] Result<void> writeEarly(const StageTrial& trial);
     void feel(const StageTrial& trial);
     void given(const StageTrial& trial) noexcept;

@@ -50,6 +50,7 @@ std::vector<Found> look(const HidBackend& backend) {
         Found one;
         one.shown.address = info.path;
         one.shown.identity = identityOf(info);
+        one.shown.hasSerial = !info.serial.empty();
         one.shown.name = info.name.empty() ? "HID device" : info.name;
         auto bytes = backend.descriptor(info);
         const auto parsed = bytes ? parseHidDescriptor(*bytes) : Result<HidDescriptor>(failure(bytes));

@@ -143,6 +143,46 @@ TEST_F(PilotStageTest, TheirThirdStopEndsTheSession) {
     EXPECT_NE(state(), InterlockState::Armed);
 }
 
+TEST_F(PilotStageTest, AContactThatBouncesSwitchesOffAndIsNoneOfTheirStops) {
+    RecordProperty("hazard", "H2");
+    someone_.stoppedBy = kParticipantLetGo;
+    someone_.stops = 5;
+    someone_.bounces = true;
+    int off = 0;
+    someone_.onAsk = [&](const PilotPrompt& prompt) {
+        if (prompt.kind != PromptKind::GoOn) return;
+        ++off;
+        EXPECT_NE(state(), InterlockState::Armed) << "it is off until they go on";
+        someone_.bounces = off < 5;
+    };
+    const auto answer = stage_->trial(trial());
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(off, 5);
+    EXPECT_EQ(record_->count(row::kParticipantStop), 0U);
+    EXPECT_EQ(record_->count(row::kPause), 5U);
+    EXPECT_EQ(record_->begun("test 1"), 6U) << "each presentation was void";
+    for (const auto& row : rows()) {
+        if (row.name != row::kPause) continue;
+        EXPECT_EQ(row.body["why"], "the contact of the button that is held bounced");
+    }
+
+    // Where it is no contact's doing it is a stop as any other, and the third ends the session.
+    someone_.onAsk = {};
+    someone_.stops = 3;
+    EXPECT_FALSE(stage_->trial(trial("test 2")));
+    EXPECT_EQ(record_->count(row::kParticipantStop), 3U);
+    EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
+}
+
+TEST_F(PilotStageTest, AStopThatIsPressedIsNoBounceWhateverItsContactDoes) {
+    RecordProperty("hazard", "H2");
+    someone_.stops = 1;
+    someone_.bounces = true;  // of another button
+    ASSERT_TRUE(stage_->trial(trial()));
+    EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
+    EXPECT_EQ(record_->count(row::kPause), 0U);
+}
+
 TEST_F(PilotStageTest, ASecondPressWhileNothingIsOnCountsAndTheyAreAskedAgain) {
     RecordProperty("hazard", "H2");
     someone_.stops = 1;

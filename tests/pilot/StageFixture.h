@@ -56,6 +56,7 @@ public:
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
     void cancel() noexcept override {}
     [[nodiscard]] bool holding() const noexcept override { return holds; }
+    [[nodiscard]] bool letGoWasBounce() override { return std::exchange(bounces, false); }
     [[nodiscard]] std::optional<Hindrance> hindrance() const override {
         return onHindrance ? onHindrance() : std::nullopt;
     }
@@ -83,7 +84,8 @@ public:
     int testPresses = 0;  // of `testedBy`, in tests of a STOP, before it is pressed by who is asked
     const char* testedBy = "participant";
     bool holds = true;
-    bool letsGo = false;  // as soon as they may
+    bool bounces = false;  // what they let go next is their button's contact
+    bool letsGo = false;   // as soon as they may
 
 private:
     bool stopped_ = false;

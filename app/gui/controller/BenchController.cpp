@@ -215,6 +215,7 @@ std::uint64_t BenchController::runPilot(const RunOrder& order, const PilotSeats&
             pilot.people = seats.people;
             pilot.codeConfirmed = seats.codeConfirmed;
             pilot.exclusions = seats.exclusions;
+            pilot.markers = seats.markers;
             auto made = PilotRun::prepare(marked, std::move(pilot), registry, std::move(tap));
             if (!made) return failure(made);
             const std::shared_ptr<PilotRun> run(std::move(*made));

@@ -54,6 +54,7 @@ struct PilotSeats {
     PilotParticipant* people = nullptr;
     bool codeConfirmed = false;
     std::vector<ExclusionAnswer> exclusions = {};
+    std::optional<MarkerAddress> markers = {};  ///< nothing: none are sent
     /// On the bench's thread, before anything is asked, with the session's clock and how often the participant stopped
     /// in its earlier parts. May be empty.
     std::function<void(std::shared_ptr<const Clock> clock, int stops)> begun = {};

@@ -14,6 +14,7 @@ namespace {
 constexpr double kRadius = 8, kKeyRadius = 4, kEdge = 2;
 constexpr double kIconShare = 1.75;  // of the words' size
 constexpr double kPadShare = 0.9;
+constexpr double kBetweenCaps = 0.4;  // of the key's size
 constexpr int kLeast_px = 11;
 
 }  // namespace
@@ -23,11 +24,15 @@ AnswerTarget::AnswerTarget(QWidget* parent) : QAbstractButton(parent) {
     setAttribute(Qt::WA_AcceptTouchEvents);
 }
 
-void AnswerTarget::setContent(const QString& words, const QStringList& icons, const QString& key, Shape shape) {
+void AnswerTarget::setContent(const QString& words, const QStringList& icons, const QString& key, const QString& button,
+                              Shape shape) {
     setText(words);
-    setAccessibleName(key.isEmpty() ? words : tr("%1, key %2").arg(words, key));
+    auto name = key.isEmpty() ? words : tr("%1, key %2").arg(words, key);
+    if (!button.isEmpty()) name = tr("%1, button %2").arg(name, button);
+    setAccessibleName(name);
     icons_ = icons;
     key_ = key;
+    button_ = button;
     shape_ = shape;
     update();
 }
@@ -46,6 +51,20 @@ QFont AnswerTarget::wordFont(int px) const {
 
 int AnswerTarget::keyPx() const { return std::max(kLeast_px, std::min(key_px_, height() / 5)); }
 
+/// Of a key's cap or a button's circle.
+int AnswerTarget::capWide(const QString& of) const {
+    auto font = textFont(TextSize::Body);
+    font.setPixelSize(keyPx());
+    return of.isEmpty() ? 0 : std::max(int(keyPx() * 1.6), QFontMetrics(font).horizontalAdvance(of) + keyPx() / 2);
+}
+
+/// With the margin beside them; 0 where there is neither.
+int AnswerTarget::capsWide() const {
+    if (key_.isEmpty() && button_.isEmpty()) return 0;
+    const int between = key_.isEmpty() || button_.isEmpty() ? 0 : int(keyPx() * kBetweenCaps);
+    return capWide(key_) + between + capWide(button_) + keyPx() * 7 / 10;
+}
+
 int AnswerTarget::leastPx() const { return std::max(kLeast_px, int(words_px_ * 0.3)); }
 
 /// The words' size, or the largest at which they have room beside the key.
@@ -56,11 +75,11 @@ int AnswerTarget::fittingPx() const {
         const int pad = int(px * kPadShare);
         const bool row = shape_ == Shape::Row;
         const int icons = icons_.isEmpty() || !row ? 0 : int(px * kIconShare) + pad / 2;
-        const int cap = row && !key_.isEmpty() ? int(keyPx() * 2.3) : 0;
+        const int cap = row ? capsWide() : 0;
         const int high = metrics.height() + (row || icons_.isEmpty() ? 0 : int(px * (kIconShare + 0.9)));
         // Words that reach down to the key stand beside it, not under it.
-        const bool low = !row && !key_.isEmpty() && (height() + high) / 2 > height() - int(keyPx() * 2.3);
-        const int beside = low ? 2 * int(keyPx() * 2.4) : 2 * pad;
+        const bool low = !row && capsWide() > 0 && (height() + high) / 2 > height() - int(keyPx() * 2.3);
+        const int beside = low ? 2 * (capsWide() + keyPx() / 10) : 2 * pad;
         const bool wide = metrics.horizontalAdvance(text()) + icons + cap + beside <= width();
         if (wide && high <= height() - 8) return px;
         // Beside the key there may be two lines: one target in small letters would be chosen less.
@@ -123,7 +142,7 @@ void AnswerTarget::paintEvent(QPaintEvent* /*event*/) {
             put(name, x, (height() - icon) / 2);
             x += icon + pad / 2;
         }
-        const int cap = key_.isEmpty() ? 0 : int(keyPx() * 2.3);
+        const int cap = capsWide();
         const bool oneLine = words.horizontalAdvance(text()) + cap <= width() - x;
         painter.drawText(QRect(x, 0, width() - x - (oneLine ? 0 : cap), height()),
                          int(Qt::AlignLeft | Qt::AlignVCenter) | (oneLine ? 0 : int(Qt::TextWordWrap)), text());
@@ -142,20 +161,31 @@ void AnswerTarget::paintEvent(QPaintEvent* /*event*/) {
         }
         painter.drawText(QRect(0, y, width(), words.height()), Qt::AlignCenter, text());
     }
-    if (key_.isEmpty()) return;
+    paintCaps(painter);
+}
+
+/// At the right below: the key, and the button left of it.
+void AnswerTarget::paintCaps(QPainter& painter) const {
+    const auto& c = colours();
     auto font = textFont(TextSize::Body);
     const int key_px = keyPx();
     font.setPixelSize(key_px);
-    const QFontMetrics metrics(font);
-    const int side = std::max(int(key_px * 1.6), metrics.horizontalAdvance(key_) + key_px / 2);
-    const int margin = key_px * 7 / 10;
-    const QRectF cap(width() - margin - side + 0.5, height() - margin - key_px * 1.6 + 0.5, side, key_px * 1.6);
-    painter.setPen(QPen(c.edge, 1));
-    painter.setBrush(c.base);
-    painter.drawRoundedRect(cap, kKeyRadius, kKeyRadius);
     painter.setFont(font);
-    painter.setPen(c.quiet);
-    painter.drawText(cap, Qt::AlignCenter, key_);
+    double right = width() - key_px * 7 / 10 + 0.5;
+    const double high = key_px * 1.6;
+    const auto put = [&](const QString& label, double radius) {
+        if (label.isEmpty()) return;
+        const int wide = capWide(label);
+        const QRectF cap(right - wide, height() - key_px * 7 / 10 - high + 0.5, wide, high);
+        painter.setPen(QPen(c.edge, 1));
+        painter.setBrush(c.base);
+        painter.drawRoundedRect(cap, radius, radius);
+        painter.setPen(c.quiet);
+        painter.drawText(cap, Qt::AlignCenter, label);
+        right -= wide + int(key_px * kBetweenCaps);
+    };
+    put(key_, kKeyRadius);
+    put(button_, high / 2);
 }
 
 }  // namespace tacto::gui

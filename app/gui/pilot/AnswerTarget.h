@@ -1,5 +1,5 @@
-// AnswerTarget.h - one answer on the participant's screen: large, with its key, taken the moment a press goes down on
-// it, by mouse or finger.
+// AnswerTarget.h - one answer on the participant's screen: large, with its key and, in a circle, the button of a pad,
+// taken the moment a press goes down on it, by mouse or finger.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -10,6 +10,8 @@
 
 #include "app/gui/pilot/InputTime.h"
 
+class QPainter;
+
 namespace tacto::gui {
 
 class AnswerTarget final : public QAbstractButton {
@@ -18,8 +20,10 @@ public:
     /// Words below their icons, or to the right of them.
     enum class Shape { Stacked, Row };
     explicit AnswerTarget(QWidget* parent);
-    /// `key` may be empty. Sizes are those of setType().
-    void setContent(const QString& words, const QStringList& icons, const QString& key, Shape shape);
+    /// `key` and `button` may be empty. Sizes are those of setType().
+    void setContent(const QString& words, const QStringList& icons, const QString& key, const QString& button,
+                    Shape shape);
+    [[nodiscard]] const QString& button() const { return button_; }
     /// Pixels of the words and of the key; words shrink where the target is too narrow for them.
     void setType(int words_px, int key_px);
     /// As small as the words may get.
@@ -41,12 +45,15 @@ protected:
 private:
     [[nodiscard]] QFont wordFont(int px) const;
     [[nodiscard]] int keyPx() const;
+    [[nodiscard]] int capWide(const QString& of) const;
+    [[nodiscard]] int capsWide() const;
+    void paintCaps(QPainter& painter) const;
     [[nodiscard]] int leastPx() const;
     [[nodiscard]] int fittingPx() const;
     /// The words' size where lines are as long as `room`.
     [[nodiscard]] QSize wrapped(const QFontMetrics& metrics, int room) const;
     QStringList icons_;
-    QString key_;
+    QString key_, button_;
     Shape shape_ = Shape::Stacked;
     int words_px_ = 28;
     int key_px_ = 20;

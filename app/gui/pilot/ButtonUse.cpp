@@ -21,6 +21,22 @@ std::vector<ButtonUse> usualUses(std::size_t buttons) {
     return uses;
 }
 
+ButtonLabels labelsOf(const std::vector<SeatedDevice>& seats) {
+    ButtonLabels labels;
+    const auto buttonFor = [](const SeatedDevice& seat, const ButtonUse& use) {
+        const auto found = std::size_t(std::ranges::find(seat.uses, use) - seat.uses.begin());
+        return found < seat.device.buttons.size() ? QString::fromStdString(seat.device.buttons[found]) : QString();
+    };
+    for (const auto& seat : seats) {
+        if (seat.whose != PromptTo::Participant) continue;
+        if (labels.hold.isEmpty()) labels.hold = buttonFor(seat, {ButtonUse::Does::Hold, 0});
+        if (seat.answers() <= int(labels.answers.size())) continue;
+        labels.answers.clear();
+        for (int i = 1; i <= seat.answers(); ++i) labels.answers << buttonFor(seat, {ButtonUse::Does::Answer, i});
+    }
+    return labels;
+}
+
 int SeatedDevice::answers() const {
     int reached = 0;
     while (std::ranges::find(uses, ButtonUse{ButtonUse::Does::Answer, reached + 1}) != uses.end()) ++reached;

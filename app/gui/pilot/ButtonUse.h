@@ -3,6 +3,7 @@
 // Thread-safety: values and pure functions.
 #pragma once
 
+#include <QStringList>
 #include <vector>
 
 #include "core/devices/ButtonDevice.h"
@@ -33,5 +34,13 @@ struct SeatedDevice {
     /// Answers 1 to n are all on the device.
     [[nodiscard]] int answers() const;
 };
+
+/// What is written on the targets that a device of the participant's reaches: the numbers of its buttons.
+struct ButtonLabels {
+    QStringList answers;  ///< of answer 1 to n, all of which it reaches
+    QString hold;         ///< empty where none holds
+};
+/// Of the participant's device that reaches the most answers; what holds may be on another.
+[[nodiscard]] ButtonLabels labelsOf(const std::vector<SeatedDevice>& seats);
 
 }  // namespace tacto::gui

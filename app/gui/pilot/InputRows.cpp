@@ -2,8 +2,10 @@
 
 #include <QGridLayout>
 #include <QHBoxLayout>
+#include <QPushButton>
 #include <algorithm>
 
+#include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -53,6 +55,20 @@ void InputRows::setDevices(std::shared_ptr<const ButtonDevices> devices) {
     if (isVisible()) look();
 }
 
+void InputRows::setPlace(const QString& place) {
+    place_ = place;
+    open_.close();
+    rows_.clear();
+    build();
+    if (isVisible()) look();
+}
+
+void InputRows::seatAsBefore(Row& row) {
+    row.assigned = true;
+    row.seat.whose = row.before->whose;
+    row.seat.uses = row.before->uses;
+}
+
 void InputRows::showEvent(QShowEvent* event) {
     QWidget::showEvent(event);
     looking_.start();
@@ -91,7 +107,11 @@ void InputRows::list(const std::vector<ButtonDeviceInfo>& found) {
         if (before != nullptr && before->seat.device.buttons == info.buttons) row = *before;
         row.seat.device = info;
         row.there = true;
-        if (row.seat.uses.size() != info.buttons.size()) row.seat.uses = usualUses(info.buttons.size());
+        if (row.seat.uses.size() != info.buttons.size()) {
+            row.seat.uses = usualUses(info.buttons.size());
+            if (!place_.isEmpty() && info.obstacle.empty()) row.before = rememberedInput(place_, info);
+            if (row.before && info.hasSerial) seatAsBefore(row);
+        }
         now.push_back(std::move(row));
     }
     for (const auto& row : rows_) {
@@ -169,9 +189,42 @@ QWidget* InputRows::build(Row& row) {
         setTone(*why, Tone::Warning);
         column->addWidget(why);
     }
+    buildBefore(row, *column);
     row.lamps.clear();
     buildButtons(row, *column);
     return row.widget;
+}
+
+/// Where it is as in the last session, that; where one of its model was used there, a button that makes it so.
+void InputRows::buildBefore(Row& row, QVBoxLayout& column) {
+    if (!row.before || !row.there || !row.trouble.isEmpty()) return;
+    const bool same = row.assigned && row.seat.whose == row.before->whose && row.seat.uses == row.before->uses;
+    if (!same && row.assigned) return;
+    const auto whose = row.before->whose == PromptTo::Participant ? tr("the participant’s") : tr("the operator’s");
+    auto* told = new QLabel(row.widget);
+    told->setObjectName("asLastTime");
+    told->setTextFormat(Qt::PlainText);
+    told->setWordWrap(true);
+    setTone(*told, Tone::Quiet);
+    told->setText(same ? tr("As in the last session.")
+                  : row.seat.device.hasSerial
+                      ? tr("In the last session it was %1.").arg(whose)
+                      : tr("In the last session one of this model was %1. It states no serial number, so this may be "
+                           "another: press a button of it first.")
+                            .arg(whose));
+    column.addWidget(told);
+    if (same) return;
+    auto* again = new QPushButton(tr("As in the last session"), row.widget);
+    again->setObjectName("seatAsBefore " + qtext(row.seat.device.identity));
+    again->setAutoDefault(false);
+    column.addWidget(again, 0, Qt::AlignLeft);
+    connect(again, &QPushButton::clicked, this, [this, identity = row.seat.device.identity] {
+        auto* mine = find(identity);
+        if (mine == nullptr || !mine->before) return;
+        seatAsBefore(*mine);
+        build();
+        emit changed();
+    });
 }
 
 /// A device that is not used shows one line: it names the button that is pressed, so which of several it is.

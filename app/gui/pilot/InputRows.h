@@ -1,6 +1,9 @@
 // InputRows.h - rows of a form: the game pads and foot switches that are plugged in, whom each is assigned to, and what
 // each of its buttons does. A button that is pressed lights up, so the operator sees that it works and which it is.
 //
+// What a device was in the last session of the same study is shown and taken where its serial number tells it from
+// others; where it states none it is offered, since any of its model may be the one.
+//
 // While they are shown the devices are looked for and opened, but never those of a session that runs.
 //
 // Thread-safety: the GUI thread.
@@ -27,6 +30,8 @@ public:
     /// Null: there are none.
     void setDevices(std::shared_ptr<const ButtonDevices> devices);
     [[nodiscard]] const std::shared_ptr<const ButtonDevices>& devices() const { return open_.devices(); }
+    /// Of which study: its id, or kRehearsals. What was chosen before is forgotten.
+    void setPlace(const QString& place);
     /// Those that are assigned to a person and do something.
     [[nodiscard]] std::vector<SeatedDevice> seats() const;
     /// Why a session cannot begin with these, a sentence; empty where it can.
@@ -44,7 +49,8 @@ private:
         SeatedDevice seat;
         bool assigned = false;
         bool there = true;
-        QString trouble;  ///< why it cannot be opened
+        std::optional<SeatedDevice> before{};  ///< how it, or one of its model, was seated in the last session
+        QString trouble;                       ///< why it cannot be opened
         QWidget* widget = nullptr;
         std::vector<QLabel*> lamps{};
     };
@@ -53,6 +59,8 @@ private:
     void tryOpen(Row& row);
     void build();
     [[nodiscard]] QWidget* build(Row& row);
+    void buildBefore(Row& row, QVBoxLayout& column);
+    void seatAsBefore(Row& row);
     void buildButtons(Row& row, QVBoxLayout& column);
     void light(const std::string& identity, std::size_t button, bool down);
     [[nodiscard]] Row* find(const std::string& identity);
@@ -61,6 +69,7 @@ private:
     SideWork looker_;
     QTimer looking_;
     bool looks_ = false;  ///< looker_ is at it
+    QString place_;
     std::vector<Row> rows_;
     QLabel* none_;
     QVBoxLayout* column_;

@@ -176,11 +176,46 @@ void ParticipantDesk::noteEarly(const std::string& key) {
 
 void ParticipantDesk::setHolding(bool holding, std::optional<int> button) {
     holding_ = holding;
-    heldButton_ = holding ? button.value_or(kNoButton) : kNoButton;
+    const int before = heldButton_.exchange(holding ? button.value_or(kNoButton) : kNoButton);
+    if (!holding) letGo_ = before;
 }
 
 bool ParticipantDesk::letGoOf(int button) noexcept {
-    return heldButton_.compare_exchange_strong(button, kNoButton) && holding_.exchange(false);
+    int held = button;
+    if (!heldButton_.compare_exchange_strong(held, kNoButton) || !holding_.exchange(false)) return false;
+    letGo_ = button;
+    return true;
+}
+
+void ParticipantDesk::noteHoldButton(int button, bool down, SteadyTime at) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (!down) {
+            cameUp_ = button;
+            cameUpAt_ = at;
+            downAgain_ = false;
+        } else if (cameUp_ == button && at - cameUpAt_ < kBounces) {
+            downAgain_ = true;
+        }
+    }
+    changed_.notify_all();
+}
+
+void ParticipantDesk::notePressed() {
+    const std::scoped_lock lock(mutex_);
+    cameUp_.reset();
+    downAgain_ = false;
+}
+
+bool ParticipantDesk::letGoWasBounce() {
+    const int button = letGo_.exchange(kNoButton);
+    if (button == kNoButton) return false;  // a key, the mouse, a finger
+    std::unique_lock lock(mutex_);
+    const bool bounce = changed_.wait_for(lock, kBounces, [&] { return downAgain_ && cameUp_ == button; });
+    downAgain_ = false;
+    lock.unlock();
+    if (bounce) emit bounced();
+    return bounce;
 }
 
 bool ParticipantDesk::testsStopOf(PromptTo whose) const {

@@ -20,6 +20,10 @@
 
 namespace tacto::gui {
 
+/// A contact that comes back sooner has bounced: switches bounce for up to 6 ms, a pad reports every 1 to 10 ms, and a
+/// finger that lets go and presses again takes over 40 ms (resources/design/pilot.md, section 5).
+inline constexpr std::chrono::milliseconds kBounces{20};
+
 inline constexpr const char* kOperatorsBreak = "the operator wants a break now";
 
 class ParticipantDesk final : public QObject, public PilotParticipant {
@@ -38,6 +42,7 @@ public:
     void cancel() noexcept override;
     void leave() noexcept override;
     [[nodiscard]] bool holding() const noexcept override { return holding_; }
+    [[nodiscard]] bool letGoWasBounce() override;
     [[nodiscard]] std::optional<Hindrance> hindrance() const override;
     [[nodiscard]] bool hasScreen() const noexcept override;
     [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
@@ -61,6 +66,10 @@ public:
     void setHolding(bool holding, std::optional<int> button = std::nullopt);
     /// The button of that code came up. True where it was what is held, which ends that. Any thread.
     [[nodiscard]] bool letGoOf(int button) noexcept;
+    /// A button that holds went down or came up, whoever held what; after letGoOf(). Any thread.
+    void noteHoldButton(int button, bool down, SteadyTime at);
+    /// Someone pressed a STOP too: what was let go is no bounce. Any thread.
+    void notePressed();
     /// Output off, and the question that waits ends with Stopped; where none waits, the next one, unless the session
     /// shows something before. False where no session listens. Any thread.
     bool stopBy(const char* by);
@@ -72,6 +81,7 @@ signals:
     void asked(const tacto::PilotPrompt& prompt, quint64 id);
     void closed(quint64 id);  ///< answered, out of time, stopped or cancelled
     void obstacleChanged(const QString& why);
+    void bounced();  ///< what was a stop is none
 
 private:
     [[nodiscard]] bool answered() const;
@@ -92,12 +102,16 @@ private:
     bool cancelled_ = false;
     bool stopped_ = false;  ///< by a person; ends one question
     bool there_ = true;
+    std::optional<int> cameUp_;  ///< the button that holds that came up last
+    SteadyTime cameUpAt_{};
+    bool downAgain_ = false;  ///< and went down again within kBounces
 
     std::mutex stopMutex_;  // held for moments: while `stop` is called, and to end
     bool listens_ = false;  // guarded by stopMutex_
     static constexpr int kNoButton = -1;
     std::atomic<bool> holding_{false};
     std::atomic<int> heldButton_{kNoButton};  ///< until it comes up or a stop comes
+    std::atomic<int> letGo_{kNoButton};       ///< that was held last
 };
 
 }  // namespace tacto::gui

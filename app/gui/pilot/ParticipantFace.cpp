@@ -133,7 +133,7 @@ void ParticipantFace::show(const ParticipantView& view) {
     }
     if (asked_) {
         if (asked_->kind == PromptKind::Hold) {
-            hold_->setContent(tr("hold this"), {"hand"}, view.holdKey, AnswerTarget::Shape::Row);
+            hold_->setContent(tr("hold this"), {"hand"}, view.holdKey, view.holdButton, AnswerTarget::Shape::Row);
             hold_->show();
             field_->clear();
         } else if (isStopTestPrompt(*asked_)) {
@@ -143,7 +143,7 @@ void ParticipantFace::show(const ParticipantView& view) {
             line_->setFocus();
             field_->clear();
         } else {
-            field_->showTargets(*asked_, view.keys);
+            field_->showTargets(*asked_, view.keys, view.buttons);
         }
         const auto below = asked_->kind == PromptKind::Hold   ? tr("Letting go stops the output.")
                            : isStopTestPrompt(*asked_)        ? tr("Press STOP, or Esc.")

@@ -30,6 +30,8 @@ struct ParticipantView {
     std::optional<PilotPrompt> asked;  ///< with its targets as they stand
     const AnswerKeys& keys;
     QString holdKey;
+    QStringList buttons{};  ///< that answer it, one for each target; or none
+    QString holdButton{};
     bool stopped = false;
     bool pause = false;  ///< the operator's break
 };

@@ -95,7 +95,7 @@ void ParticipantField::showIntervals(int passing) {
     update();
 }
 
-void ParticipantField::showTargets(const PilotPrompt& prompt, const AnswerKeys& keys) {
+void ParticipantField::showTargets(const PilotPrompt& prompt, const AnswerKeys& keys, const QStringList& buttons) {
     drop();
     content_ = Content::Targets;
     kind_ = prompt.kind;
@@ -110,7 +110,7 @@ void ParticipantField::showTargets(const PilotPrompt& prompt, const AnswerKeys& 
         auto* target = new AnswerTarget(this);
         target->setObjectName(told != nullptr ? qtext(told->key) : words);
         const bool row = (condition && i >= 4) || count > 4;
-        target->setContent(words, icons, keys.text(i),
+        target->setContent(words, icons, keys.text(i), buttons.value(i),
                            scale || (row && !condition && icons.isEmpty() && count <= 6) ? AnswerTarget::Shape::Stacked
                            : condition && i < 4                                          ? AnswerTarget::Shape::Stacked
                            : row                                                         ? AnswerTarget::Shape::Row

@@ -42,7 +42,8 @@ public:
     /// The intervals of a detection trial, where the targets "first" and "second" will stand; `passing` is filled: 1,
     /// 2, or 0 for neither.
     void showIntervals(int passing);
-    void showTargets(const PilotPrompt& prompt, const AnswerKeys& keys);
+    /// `buttons`: of a pad, written on the targets; fewer than these, or none.
+    void showTargets(const PilotPrompt& prompt, const AnswerKeys& keys, const QStringList& buttons = {});
     /// Pixels of words, keys, and between targets.
     void setType(int words_px, int key_px, int gap_px);
     /// Chosen of Several.

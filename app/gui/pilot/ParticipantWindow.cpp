@@ -182,6 +182,8 @@ void ParticipantWindow::showState() {
                  .asked = asking_ ? std::optional(prompt_) : std::nullopt,
                  .keys = keys_,
                  .holdKey = QKeySequence(holdKey()).toString(),
+                 .buttons = asking_ ? buttonsOfTargets() : QStringList(),
+                 .holdButton = buttonLabels_.hold,
                  .stopped = stopped_,
                  .pause = break_ && !feels()});
 }
@@ -234,7 +236,7 @@ void ParticipantWindow::letGo() {
     heldKey_ = 0;
     if (!desk_.holding()) return;
     desk_.setHolding(false);
-    stop_("participant let go");
+    stop_(kParticipantLetGo);
     face_->hold().hide();
     noteStop();
 }
@@ -267,6 +269,13 @@ std::optional<int> ParticipantWindow::targetOfAnswer(int answer) const {
     return answer >= 1 && answer <= count && count <= buttonAnswers_ ? std::optional(answer - 1) : std::nullopt;
 }
 
+QStringList ParticipantWindow::buttonsOfTargets() const {
+    QStringList buttons;
+    for (int i = 0; i < targetCount(prompt_) && targetOfAnswer(i + 1) == i; ++i)
+        buttons << buttonLabels_.answers.value(i);
+    return buttons;
+}
+
 void ParticipantWindow::moveButton(int code, const ButtonUse& use, bool down, SteadyTime at) {
     const int key = kFirstButton + code;
     if (!down) {
@@ -281,7 +290,12 @@ void ParticipantWindow::moveButton(int code, const ButtonUse& use, bool down, St
         case ButtonUse::Does::Hold:
             if (face_->hold().isHidden()) return;
             heldKey_ = key;
-            return pressHold();
+            heldAt_ = at;
+            // Held once its contact has settled: what bounces until then lets nothing go.
+            QTimer::singleShot(kBounces, Qt::PreciseTimer, this, [this, key, at] {
+                if (heldKey_ == key && heldAt_ == at) pressHold();
+            });
+            return;
         case ButtonUse::Does::Answer:
             break;
     }

@@ -37,6 +37,8 @@ public:
     /// buttons only where they reach each of its targets: see setButtonAnswers().
     void moveButton(int code, const ButtonUse& use, bool down, SteadyTime at);
     void setButtonAnswers(int reached) { buttonAnswers_ = reached; }
+    /// Written on the targets of questions that buttons answer, and on what is held.
+    void setButtonLabels(const ButtonLabels& labels) { buttonLabels_ = labels; }
     /// Half a sentence: a device of either person is unplugged, so no presentation starts; empty: all are there.
     void setInputGone(const QString& why);
     /// At the right above: "rehearsal · simulated".
@@ -84,6 +86,7 @@ private:
     void choose(int target, SteadyTime at);
     [[nodiscard]] bool takesPress(int code, SteadyTime at, bool repeated, std::optional<int> would);
     [[nodiscard]] std::optional<int> targetOfAnswer(int answer) const;
+    [[nodiscard]] QStringList buttonsOfTargets() const;
     void give(PilotAnswer answer, SteadyTime at);
     void pressHold();
     void letGo();
@@ -106,7 +109,9 @@ private:
     bool break_ = false;
     bool painted_ = false;
     int heldKey_ = 0;  ///< or button
+    SteadyTime heldAt_{};
     int buttonAnswers_ = 0;
+    ButtonLabels buttonLabels_;
     QString inputGone_;
     /// Keys and buttons that went down while no target was there, and their last press.
     std::map<int, SteadyTime> pressed_;

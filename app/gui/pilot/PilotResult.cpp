@@ -10,6 +10,7 @@
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/analysis/identification/IdentificationText.h"
 #include "core/base/JsonFields.h"
 #include "core/session/ResultKind.h"
 
@@ -41,8 +42,8 @@ QString rangeWords(const nlohmann::json& range) {
     const double low_v = numberIn(range, "min_v"), high_v = numberIn(range, "max_v");
     const double ohm = numberIn(range, "impedance_ohm");
     if (std::isfinite(low_v) && std::isfinite(high_v) && std::isfinite(ohm))
-        words += QObject::tr(", %1 to %2 V at %3")
-                     .arg(decimalText(low_v, 0), decimalText(high_v, 0), quantityText(ohm, "ohm", 3));
+        words += QObject::tr(", %1 at %2")
+                     .arg(qtext(voltageRangeText(Volts(low_v), Volts(high_v))), quantityText(ohm, "ohm", 3));
     return words;
 }
 
@@ -101,6 +102,7 @@ PilotResult::PilotResult(QWidget* parent)
     column->setSpacing(8);
     head_->setObjectName("pilotHeadline");
     why_->setObjectName("pilotReason");
+    note_->setObjectName("pilotNote");
     for (auto* label : {head_, why_, more_, blocks_, note_}) {
         label->setWordWrap(true);
         label->setTextFormat(Qt::PlainText);
@@ -197,7 +199,8 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
     }
     blocks_->setText(blocks.isEmpty() ? QString() : tr("Right in ") + blocks.join(", ") + '.');
     blocks_->setVisible(!blocks.isEmpty());
-    note_->setText((run.result.simulated ? tr("Simulated. ") : QString()) + tr("In the study at %1.").arg(folder));
+    note_->setText((run.result.simulated ? tr("Simulated. ") : QString()) + tr("In the study at %1.").arg(folder) +
+                   (run.result.markers ? ' ' + qtext(markersSentence(*run.result.markers)) : QString()));
     goOn_->setVisible(outcome.error.has_value() && !ofStudy);
     another_->setText(ofStudy ? tr("Back to the study") : tr("Another rehearsal"));
     makePrimary(*another_, !outcome.error || ofStudy);

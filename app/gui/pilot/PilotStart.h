@@ -12,6 +12,7 @@
 
 #include "app/gui/pilot/AnswerKeys.h"
 #include "app/gui/pilot/ButtonUse.h"
+#include "app/run/MarkerServer.h"
 #include "core/devices/DeviceUri.h"
 #include "core/seal/Secret.h"
 #include "core/study/Gates.h"
@@ -39,6 +40,9 @@ struct PilotStart {
     KeySet keys = KeySet::Figures;
     std::vector<SeatedDevice> inputs{};              ///< game pads and foot switches, each assigned to one person
     std::shared_ptr<const ButtonDevices> buttons{};  ///< opens them; null where there are none
+
+    QString inputsOf{};                      ///< where their assignment is remembered (RememberedInputs.h)
+    std::optional<MarkerAddress> markers{};  ///< nothing: none are sent
 
     [[nodiscard]] bool simulated() const {
         return std::ranges::all_of(devices, [](const DeviceUri& uri) { return uri.scheme == "sim"; });

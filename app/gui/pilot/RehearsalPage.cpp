@@ -7,6 +7,7 @@
 #include <QStandardPaths>
 #include <QVBoxLayout>
 
+#include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
@@ -131,6 +132,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     blocks_->setToolTip(tr("Each block has 18 trials: four per condition and two empty."));
     form->addRow(tr("Blocks of the test"), blocks_);
     seats_ = std::make_unique<SeatRows>(*form, *holder);
+    seats_->inputs().setPlace(kRehearsals);
     setTabOrder(folder_, choose);
     setTabOrder(seats_->last(), begin_);
     column->addWidget(holder);
@@ -160,6 +162,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     connect(protocol_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
     connect(offer_, &UnfinishedOffer::changed, this, &RehearsalPage::judge);
     connect(&seats_->inputs(), &InputRows::changed, this, &RehearsalPage::judge);
+    connect(&seats_->markers(), &QLineEdit::textChanged, this, &RehearsalPage::judge);
     judge();
 }
 
@@ -176,6 +179,7 @@ PilotStart RehearsalPage::rehearsal() const {
     made.massager = modality_->currentData() == qtext(nameOf(Modality::Massager));
     if (modality_->isEnabled()) made.modality = modality_->currentData().toString().toStdString();
     if (made.unfinished != "resume") made.blocks = blocks_->value();
+    made.inputsOf = kRehearsals;
     seats_->writeTo(made);
     return made;
 }
@@ -196,7 +200,7 @@ void RehearsalPage::judge() {
     for (auto* field : {protocol_, method_}) field->setEnabled(!goesOn);
     blocks_->setEnabled(!goesOn && tests);
     const bool chosen = !offer_->asks() || !offer_->chosen().empty();
-    const auto lacks = who_->currentData().toBool() ? seats_->inputs().missing() : QString();
+    const auto lacks = seats_->missing(who_->currentData().toBool());
     begin_->setEnabled(chosen && lacks.isEmpty() && !folder_->text().trimmed().isEmpty());
     begin_->setToolTip(
         !lacks.isEmpty() ? lacks : tr("Opens both windows. Nothing is delivered before the checklist is answered."));

@@ -1,15 +1,33 @@
 #include "app/gui/pilot/SeatRows.h"
 
+#include <QSettings>
+
 #include "app/gui/pilot/ScreenChoice.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
+
+namespace {
+
+constexpr const char* kMarkersKey = "pilot/markers";
+constexpr const char* kNoMarkers = "off";
+
+/// Nothing where none are wanted.
+std::optional<Result<MarkerAddress>> markersFrom(const QLineEdit& line) {
+    const auto text = line.text().trimmed();
+    if (text.isEmpty() || text == kNoMarkers) return std::nullopt;
+    return MarkerAddress::parse(text.toStdString());
+}
+
+}  // namespace
 
 SeatRows::SeatRows(QFormLayout& form, QWidget& parent)
     : form_(form),
       screen_(new ScreenChoice(&parent)),
       keys_(new QComboBox(&parent)),
       inputs_(new InputRows(&parent)),
+      markers_(new QLineEdit(QSettings().value(kMarkersKey, kNoMarkers).toString(), &parent)),
       blind_(new QCheckBox(QObject::tr("Blind: conditions and answers are hidden"), &parent)),
       about_(new QLabel(&parent)) {
     form.addRow(QObject::tr("Their screen"), screen_);
@@ -20,6 +38,16 @@ SeatRows::SeatRows(QFormLayout& form, QWidget& parent)
     keys_->setToolTip(QObject::tr("Touch and mouse work with each of them."));
     form.addRow(QObject::tr("Their keys"), keys_);
     form.addRow(QObject::tr("Game pads, pedals"), inputs_);
+    markers_->setObjectName("markers");
+    markers_->setAccessibleName(QObject::tr("Markers: off, or the TCP port"));
+    markers_->setPlaceholderText(kNoMarkers);
+    markers_->setToolTip(
+        QObject::tr("“off”, or the port at which a recorder of EEG or EMG on this computer connects: 5005. For one on "
+                    "another computer an address of this one too: 192.168.1.20:5005. A line for each event with its "
+                    "time, and nothing of conditions, answers or people."));
+    QObject::connect(markers_, &QLineEdit::editingFinished, markers_,
+                     [this] { QSettings().setValue(kMarkersKey, markers_->text().trimmed()); });
+    form.addRow(QObject::tr("Markers, TCP port"), markers_);
     blind_->setObjectName("blind");
     setBlind(false);
     blind_->setChecked(true);
@@ -34,6 +62,13 @@ void SeatRows::writeTo(PilotStart& start) const {
     start.blind = blind_->isChecked();
     start.inputs = inputs_->seats();
     start.buttons = inputs_->devices();
+    const auto to = markersFrom(*markers_);
+    start.markers = to && *to ? std::optional(**to) : std::nullopt;
+}
+
+QString SeatRows::missing(bool person) const {
+    if (const auto to = markersFrom(*markers_); to && !*to) return sentence(to->error());
+    return person ? inputs_->missing() : QString();
 }
 
 void SeatRows::setBlind(bool study) {

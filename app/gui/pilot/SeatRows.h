@@ -8,6 +8,7 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QLabel>
+#include <QLineEdit>
 
 #include "app/gui/pilot/InputRows.h"
 #include "app/gui/pilot/PilotStart.h"
@@ -23,6 +24,10 @@ public:
     [[nodiscard]] ScreenChoice& screens() const { return *screen_; }
     [[nodiscard]] InputRows& inputs() const { return *inputs_; }
     void writeTo(PilotStart& start) const;
+    /// Where recorders connect for markers; "off" or empty: none are sent. Remembered.
+    [[nodiscard]] QLineEdit& markers() const { return *markers_; }
+    /// Why a session cannot begin with these rows, a sentence; empty where it can.
+    [[nodiscard]] QString missing(bool person) const;
     /// Screen, keys and buttons are a person's.
     void showFor(bool person);
     /// A blind study's sessions are blind: that is part of its approval.
@@ -37,6 +42,7 @@ private:
     ScreenChoice* screen_;
     QComboBox* keys_;
     InputRows* inputs_;
+    QLineEdit* markers_;
     QCheckBox* blind_;
     QLabel* about_;
 };

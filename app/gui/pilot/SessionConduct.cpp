@@ -6,6 +6,7 @@
 #include "app/gui/pilot/OperatorPage.h"
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantWindow.h"
+#include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/pilot/ScreenChoice.h"
 #include "app/gui/theme/Text.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
@@ -36,6 +37,10 @@ SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, 
     connect(&desk_, &ParticipantDesk::closed, this, [this](quint64 id) {
         page_.closeQuestion(id);
         if (strip_ != nullptr) strip_->question().close();
+        emit changed();
+    });
+    connect(&desk_, &ParticipantDesk::bounced, this, [this] {
+        --participantStops_;
         emit changed();
     });
     connect(&desk_, &ParticipantDesk::obstacleChanged, this,
@@ -98,8 +103,9 @@ InputsAtOnce SessionConduct::atOnce() {
             controller_.stop("operator (button)");
     };
     all.letGo = [this, participant](int code) {
-        if (desk_.letGoOf(code)) participant("participant let go");
+        if (desk_.letGoOf(code)) participant(kParticipantLetGo);
     };
+    all.heldMoved = [this](int code, bool down, SteadyTime at) { desk_.noteHoldButton(code, down, at); };
     all.lost = [this](const std::string& which) {
         if (confirming_) return;
         desk_.setBreak(true, which);
@@ -159,6 +165,7 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     if (start.person) {
         if (const auto trouble = inputs_.begin(start.buttons, start.inputs, atOnce()); !trouble.isEmpty())
             return trouble;
+        if (!start.inputsOf.isEmpty()) rememberInputs(start.inputsOf, start.inputs);
     }
     if (screens_ != nullptr) screens_->disconnect(this);
     screens_ = &screens;
@@ -189,6 +196,7 @@ void SessionConduct::openWindow() {
     window_ = std::make_unique<ParticipantWindow>(desk_, [this](const char* by) { stopAsParticipant(by); });
     window_->setKeys(start_.keys);
     window_->setButtonAnswers(inputs_.participantAnswers());
+    window_->setButtonLabels(inputs_.labels());
     QStringList notes;
     if (start_.rehearsal) notes << tr("rehearsal");
     if (start_.simulated()) notes << tr("simulated");
@@ -232,6 +240,7 @@ void SessionConduct::run() {
     seats.study = start_.folder.toStdString();
     seats.passphrase = start_.passphrase;
     seats.exclusions = start_.exclusions;
+    seats.markers = start_.markers;
     if (start_.person) {
         seats.people = &desk_;
         seats.codeConfirmed = codeConfirmed_;
@@ -289,7 +298,10 @@ bool SessionConduct::stopAsParticipant(const char* by) {
 std::optional<SessionConduct::HeardStop> SessionConduct::switchOff(const char* by) {
     auto last = stoppedAt_.load();
     const auto now = std::chrono::steady_clock::now();
-    if (now - last < kOnePress || !stoppedAt_.compare_exchange_strong(last, now)) return {};
+    if (now - last < kOnePress || !stoppedAt_.compare_exchange_strong(last, now)) {
+        if (std::string_view(by) != kParticipantLetGo) desk_.notePressed();
+        return {};
+    }
     if (confirming_) {
         controller_.stop(by);
         desk_.cancel();

@@ -25,6 +25,7 @@ ButtonListener listenerOf(const SeatedDevice& seat, int firstCode, const InputsA
         if (does == ButtonUse::Does::Stop && press.down && atOnce.stop) atOnce.stop(seat.whose);
         const bool holds = does == ButtonUse::Does::Hold && seat.whose == PromptTo::Participant;
         if (holds && !press.down && atOnce.letGo) atOnce.letGo(firstCode + int(press.button));
+        if (holds && atOnce.heldMoved) atOnce.heldMoved(firstCode + int(press.button), press.down, press.at);
     };
     listener.plugged = [which = unpluggedText(seat).toStdString(), lost = atOnce.lost](bool there) {
         if (!there && lost) lost(which);

@@ -20,8 +20,10 @@ namespace tacto::gui {
 /// Called on a device's own thread, each before the signal of the same event; none may block. `code` as in
 /// SessionInputs::participantMoved.
 struct InputsAtOnce {
-    std::function<void(PromptTo whose)> stop;            ///< that person's STOP went down
-    std::function<void(int code)> letGo;                 ///< a button of the participant's that holds came up
+    std::function<void(PromptTo whose)> stop;  ///< that person's STOP went down
+    std::function<void(int code)> letGo;       ///< a button of the participant's that holds came up
+    /// A button of the participant's that holds came up, after letGo, or went down.
+    std::function<void(int code, bool down, SteadyTime at)> heldMoved;
     std::function<void(const std::string& which)> lost;  ///< an assigned device was unplugged, as gone() says it
 };
 
@@ -34,6 +36,7 @@ public:
                                 const std::vector<SeatedDevice>& seats, const InputsAtOnce& atOnce);
     /// `atOnce` is not called any more once this returns.
     void end();
+    [[nodiscard]] ButtonLabels labels() const { return labelsOf(seats_); }
     /// How many answers, from 1, the participant's devices reach.
     [[nodiscard]] int participantAnswers() const;
     /// Which devices are unplugged, half a sentence; empty for none.

@@ -116,6 +116,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     connect(devices_, &DeviceRows::changed, this, &SessionStartPage::judge);
     connect(offer_, &UnfinishedOffer::changed, this, &SessionStartPage::judge);
     connect(&seats_->inputs(), &InputRows::changed, this, &SessionStartPage::judge);
+    connect(&seats_->markers(), &QLineEdit::textChanged, this, &SessionStartPage::judge);
 }
 
 void SessionStartPage::prepare(const Study& study, const Participant& participant) {
@@ -127,6 +128,8 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     asks_->setVisible(!virtual_);
     seats_->showFor(!virtual_);
     seats_->setBlind(study.settings().blind);
+    study_ = qtext(study.settings().id);
+    seats_->inputs().setPlace(study_);
     if (const auto& approved = study.settings().procedure)
         method_->setCurrentIndex(method_->findData(qtext(nameOf(approved->method))));
     const auto unfinished = unfinishedOf(study, participant);
@@ -155,6 +158,7 @@ PilotStart SessionStartPage::start() const {
     made.protocol = protocol_->currentData().toString().toStdString();
     made.method = method_->currentData().toString().toStdString();
     made.unfinished = offer_->chosen();
+    made.inputsOf = study_;
     made.seed = std::uint64_t(QRandomGenerator::system()->bounded(1, kMaxPlanSeed));
     seats_->writeTo(made);
     return made;
@@ -168,7 +172,7 @@ void SessionStartPage::judge() {
     const bool whole = virtual_ || checklist_->whole();
     const bool chosen = !offer_->asks() || !offer_->chosen().empty();
     auto lacks = devices_->missing();
-    if (lacks.isEmpty() && !virtual_) lacks = seats_->inputs().missing();
+    if (lacks.isEmpty()) lacks = seats_->missing(!virtual_);
     begin_->setEnabled(whole && chosen && lacks.isEmpty());
     begin_->setToolTip(!chosen            ? tr("First choose what happens to the interrupted session.")
                        : !lacks.isEmpty() ? lacks

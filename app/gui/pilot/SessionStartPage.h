@@ -47,6 +47,7 @@ protected:
 private:
     void judge();
     std::string code_;
+    QString study_;  ///< its id
     bool virtual_ = false;
     bool rehearsal_ = false;
     bool massager_ = false;

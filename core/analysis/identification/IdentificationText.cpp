@@ -1,8 +1,10 @@
 #include "core/analysis/identification/IdentificationText.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/analysis/statistics/Binomial.h"
+#include "core/base/QuantityText.h"
 
 namespace tacto {
 
@@ -22,7 +24,7 @@ std::string rangeText(const PresentedRange& range) {
     auto text = fmt::format(" between {:.1f} and {:.1f} mA", range.low->value(), range.high->value());
     const double low_v = range.lowVoltage.value(), high_v = range.highVoltage.value();
     if (!std::isfinite(low_v) || !std::isfinite(high_v)) return text;
-    text += fmt::format(", {:.0f} to {:.0f} V", low_v, high_v);
+    text += ", " + voltageRangeText(range.lowVoltage, range.highVoltage);
     const double ohm = range.impedance.value();
     if (std::isfinite(ohm))
         text += ohm < 1000 ? fmt::format(" at {:.0f} Ω", ohm) : fmt::format(" at {:.1f} kΩ", ohm / 1000);
@@ -36,6 +38,11 @@ double reach_pct(std::size_t n, double share) {
 }
 
 }  // namespace
+
+std::string voltageRangeText(Volts low, Volts high) {
+    const int decimals = std::clamp(1 - decimalExponent(std::min(low, high).value(), 2), 0, 3);
+    return fmt::format("{:.{}f} to {:.{}f} V", low.value(), decimals, high.value(), decimals);
+}
 
 std::string headline(const std::string& name, const Identification& found, const PresentedRange& range) {
     const auto& all = found.all;

@@ -20,6 +20,9 @@ struct PresentedRange {
     std::optional<double> lowIntensity, highIntensity;  ///< 0 to 1
 };
 
+/// "14 to 22 V", "2.5 to 4.5 V", "0.62 to 0.95 V": both with as many decimals as the smaller needs for two digits.
+[[nodiscard]] std::string voltageRangeText(Volts low, Volts high);
+
 /// "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA,
 /// 14 to 22 V at 3.4 kΩ." What is not known is left out. Without trials: "P-7K3M answered no test trial."
 [[nodiscard]] std::string headline(const std::string& name, const Identification& found, const PresentedRange& range);

@@ -44,6 +44,16 @@ inline constexpr double kIntensityStep = 0.05;
     return std::string(what) + (unit == LevelUnit::Current ? "_ma" : "_intensity");
 }
 [[nodiscard]] constexpr std::string_view nameOf(LevelLimit limit) noexcept { return wordFor(kLevelLimits, limit); }
+/// What people read for it: "what was too strong".
+inline constexpr Word<LevelLimit> kLevelLimitsInWords[] = {
+    {"the device's largest level", LevelLimit::Device},
+    {"the safety gate", LevelLimit::Gate},
+    {"the study's cap", LevelLimit::Cap},
+    {"what was too strong", LevelLimit::TooStrong},
+    {"what they would feel for half an hour", LevelLimit::Confirmation}};
+[[nodiscard]] constexpr std::string_view inWords(LevelLimit limit) noexcept {
+    return wordFor(kLevelLimitsInWords, limit);
+}
 
 /// Levels above `level` are not presented.
 struct LevelCeiling {

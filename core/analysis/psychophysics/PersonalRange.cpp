@@ -71,14 +71,14 @@ PersonalRangeResult PersonalRange::result() const {
     if (out.usable) out.jnd = justNoticeableDifferences(out.max, out.min, settings_.weber);
     if (wideEnough()) return out;
     if (!min_) {
-        out.reason = fmt::format("the lowest level would be {}, above the highest of {} ({})",
+        out.reason = fmt::format("the lowest level would be {}, above the highest of {}, limited by {}",
                                  grid_.textOf(settings_.aboveDetection * settings_.detection),
-                                 grid_.textOf(grid_.highest()), nameOf(grid_.limitedBy()));
+                                 grid_.textOf(grid_.highest()), inWords(grid_.limitedBy()));
     } else {
         out.reason = fmt::format(
-            "from the lowest level of {} to the highest of {} ({}) there are {} steps of the "
-            "device; {} or more are needed",
-            grid_.textOf(out.min), grid_.textOf(grid_.level(max_)), nameOf(limitedBy_), out.steps,
+            "from the lowest level of {} to the highest of {}, limited by {}, there are {} steps of the device; {} or "
+            "more are needed",
+            grid_.textOf(out.min), grid_.textOf(grid_.level(max_)), inWords(limitedBy_), out.steps,
             settings_.leastSteps);
     }
     return out;

@@ -28,6 +28,15 @@ TEST(IdentificationText, HeadlineIsThatOfTheDesign) {
               "and 6.5 mA, 14 to 22 V at 3.4 kΩ.");
 }
 
+TEST(IdentificationText, SmallVoltagesKeepTwoDigits) {
+    EXPECT_EQ(voltageRangeText(Volts(2.47), Volts(4.45)), "2.5 to 4.5 V");
+    EXPECT_EQ(voltageRangeText(Volts(9.96), Volts(22.14)), "10 to 22 V");
+    EXPECT_EQ(voltageRangeText(Volts(9.9), Volts(22.14)), "9.9 to 22.1 V");
+    EXPECT_EQ(voltageRangeText(Volts(0.62), Volts(0.949)), "0.62 to 0.95 V");
+    EXPECT_EQ(voltageRangeText(Volts(120), Volts(204.6)), "120 to 205 V");
+    EXPECT_EQ(voltageRangeText(Volts(0), Volts(3)), "0.0 to 3.0 V");
+}
+
 TEST(IdentificationText, WhatIsNotKnownIsLeftOut) {
     RecordProperty("hazard", "H9");
     PresentedRange range;

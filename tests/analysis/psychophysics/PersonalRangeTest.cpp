@@ -55,7 +55,8 @@ TEST(PersonalRange, IsNotUsableWithFewerThanTwoSteps) {
     EXPECT_EQ(result.steps, 1U);
     EXPECT_EQ(
         result.reason,
-        "from the lowest level of 4 mA to the highest of 4.5 mA (confirmation) there are 1 steps of the device; 2 "
+        "from the lowest level of 4 mA to the highest of 4.5 mA, limited by what they would feel for half an hour, "
+        "there are 1 steps of the device; 2 "
         "or more are needed");
     EXPECT_FALSE(range.answer(true));
     EXPECT_TRUE(rangeOf(3.1, 5.6).done()) << "asked nothing: 4 to 4 mA";
@@ -75,7 +76,7 @@ TEST(PersonalRange, NamesWhatLimitsIt) {
     const auto above = rangeOf(6, 9, grid).result();
     EXPECT_FALSE(above.usable);
     EXPECT_TRUE(std::isnan(above.min));
-    EXPECT_EQ(above.reason, "the lowest level would be 7.5 mA, above the highest of 6 mA (gate)");
+    EXPECT_EQ(above.reason, "the lowest level would be 7.5 mA, above the highest of 6 mA, limited by the safety gate");
 }
 
 TEST(PersonalRange, ServesMassagers) {

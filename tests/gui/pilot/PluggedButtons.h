@@ -15,7 +15,7 @@ namespace tacto::test {
 class PluggedButtons final : public ButtonDevices {
 public:
     static ButtonDeviceInfo pad(const std::string& name, std::size_t buttons = 12) {
-        ButtonDeviceInfo info{"/dev/" + name, name, name, {}, {}};
+        ButtonDeviceInfo info{"/dev/" + name, name, name, {}, {}, false};
         for (std::size_t i = 1; i <= buttons; ++i) info.buttons.push_back(std::to_string(i));
         return info;
     }
@@ -24,10 +24,11 @@ public:
         plugged_ = std::move(plugged);
     }
     /// Nothing happens where no program has it open. `button`: from 1.
-    void press(const std::string& name, std::size_t button, bool down = true) const {
+    void press(const std::string& name, std::size_t button, bool down = true,
+               std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now()) const {
         const std::scoped_lock lock(mutex_);
         for (const auto& [number, one] : listeners_) {
-            if (one.name == name) one.listener.moved({button - 1, down, std::chrono::steady_clock::now()});
+            if (one.name == name) one.listener.moved({button - 1, down, at});
         }
     }
     void plug(const std::string& name, bool there) const {

@@ -21,6 +21,7 @@
 #include "tests/gui/pilot/PluggedButtons.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
+#include "tests/support/MarkerRecorder.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -83,6 +84,28 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     shot(window, "pilot-virtual-result");
     window.showWorkspace(0);
     EXPECT_EQ(window.workspace(), 0) << "the session has ended";
+}
+
+TEST_F(RehearsalInTheWindow, ItsMarkersReachARecorderAndTheResultSaysSo) {
+    HeldPort held;
+    pilot = window.findChild<gui::PilotWorkspace*>();
+    auto* markers = pilot->findChild<QLineEdit*>("markers");
+    markers->setText(QString::number(held.port()));
+    begin(false);
+    const auto* trouble = pilot->findChild<QLabel*>("rehearsalTrouble");
+    ASSERT_IN_TIME(comesTrue([&] { return !pilot->running(); }));
+    EXPECT_TRUE(trouble->text().contains("another program has that port")) << trouble->text().toStdString();
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "study")) << "nothing was begun";
+    held.letGo();
+    const MarkerRecorder recorder(held.port());
+    begin(false);
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 100'000));
+    ASSERT_IN_TIME(headline().find("told the four apart in") != std::string::npos);
+    EXPECT_IN_TIME(comesTrue([&] { return recorder.ended(); }));
+    EXPECT_GT(recorder.lines().size(), 100U);
+    EXPECT_TRUE(pilot->findChild<QLabel*>("pilotNote")->text().contains("markers were made"));
+    EXPECT_EQ(faultsOf(window), "");
+    markers->setText("off");
 }
 
 TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator) {

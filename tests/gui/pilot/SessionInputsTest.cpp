@@ -2,10 +2,13 @@
 // time.
 #include <QComboBox>
 #include <QEventLoop>
+#include <QPushButton>
+#include <QSettings>
 #include <QTimer>
 #include <gmock/gmock.h>
 
 #include "app/gui/pilot/InputRows.h"
+#include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/pilot/SessionInputs.h"
 #include "app/gui/theme/Theme.h"
 #include "drivers/hid_input/HidInput.h"
@@ -61,8 +64,9 @@ protected:
             if (whose == PromptTo::Participant) press("participant (button)");
         };
         all.letGo = [this](int code) {
-            if (desk.letGoOf(code)) press("participant let go");
+            if (desk.letGoOf(code)) press(kParticipantLetGo);
         };
+        all.heldMoved = [this](int code, bool down, gui::SteadyTime at) { desk.noteHoldButton(code, down, at); };
         return all;
     }
     std::shared_ptr<PluggedButtons> plugged = std::make_shared<PluggedButtons>();
@@ -236,6 +240,121 @@ TEST_F(SeatedWithPad, OneDeviceIsNotBothPeoples) {
 }
 
 /// A pad over its real driver, and what it told on its own thread.
+TEST_F(SeatedWithPad, TheBounceOfAHeldContactSwitchesOffAndIsNoStopOfTheirs) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
+    const auto hold = [this] {
+        ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+        plugged->press("theirs", 7);
+        ASSERT_TRUE(answered());
+        ASSERT_TRUE(desk.holding());
+    };
+    ASSERT_NO_FATAL_FAILURE(hold());
+    const auto moment = std::chrono::steady_clock::now();
+    const auto move = [&](bool down, int after_ms) {
+        plugged->press("theirs", 7, down, moment + std::chrono::milliseconds(after_ms));
+    };
+    move(false, 0);
+    EXPECT_THAT(stops, ElementsAre(kParticipantLetGo)) << "off at once, whatever comes next";
+    EXPECT_FALSE(desk.holding());
+    move(true, 5);
+    EXPECT_TRUE(desk.letGoWasBounce());
+    EXPECT_FALSE(desk.letGoWasBounce()) << "once";
+    EXPECT_FALSE(desk.holding()) << "they let go and hold again before anything goes on";
+    move(false, 6);
+
+    // A finger that lets go and presses again, and one that stays away.
+    for (const int back_ms : {25, 40, -1}) {
+        stops.clear();
+        desk.show(testScreen(ScreenState::Rest));
+        QCoreApplication::processEvents();
+        ASSERT_NO_FATAL_FAILURE(hold());
+        move(false, 0);
+        EXPECT_THAT(stops, ElementsAre(kParticipantLetGo));
+        if (back_ms > 0) move(true, back_ms);
+        EXPECT_FALSE(desk.letGoWasBounce()) << back_ms;
+        move(false, 50);
+    }
+    // Another STOP beside it.
+    desk.show(testScreen(ScreenState::Rest));
+    QCoreApplication::processEvents();
+    ASSERT_NO_FATAL_FAILURE(hold());
+    move(false, 0);
+    move(true, 5);
+    desk.notePressed();
+    EXPECT_FALSE(desk.letGoWasBounce());
+}
+
+TEST_F(SeatedWithPad, AContactThatBouncesWhenItIsPressedLetsNothingGo) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
+    ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+    for (const bool down : {true, false, true, false}) plugged->press("theirs", 7, down);
+    QTest::qWait(60);
+    EXPECT_FALSE(isAnswered()) << "it is not down";
+    for (const bool down : {true, false, true}) plugged->press("theirs", 7, down);
+    const auto said = answered();
+    ASSERT_TRUE(said);
+    EXPECT_THAT(said->keys, ElementsAre("held"));
+    EXPECT_THAT(stops, IsEmpty());
+    plugged->press("theirs", 7, false);
+    EXPECT_THAT(stops, ElementsAre(kParticipantLetGo)) << "and its release is one";
+}
+
+TEST_F(SeatedWithPad, EachTargetShowsTheButtonThatAnswersIt) {
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
+    window.setButtonLabels(inputs.labels());
+    for (const auto& target : {"smooth-high", "rough-high", "smooth-low", "rough-low", "none", "not-sure"}) {
+        desk.show(testScreen(ScreenState::Feel));
+        ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+        const auto written = this->target(target).button();
+        ASSERT_FALSE(written.isEmpty()) << target;
+        EXPECT_TRUE(this->target(target).accessibleName().endsWith("button " + written));
+        click("theirs", written.toULong());
+        const auto said = answered();
+        ASSERT_TRUE(said);
+        EXPECT_THAT(said->keys, ElementsAre(target));
+    }
+    ASSERT_NO_FATAL_FAILURE(ask(scalePrompt("pain", "How painful was it?", 0, 3)));
+    for (const auto* each : window.field().targets()) EXPECT_TRUE(each->button().isEmpty()) << "no button answers it";
+    key(Qt::Key_2);
+    ASSERT_TRUE(answered());
+    ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+    EXPECT_EQ(target("hold").button(), "7");
+}
+
+TEST_F(SeatedWithPad, ButtonsAreNotShownOnAQuestionThatTheyDoNotReach) {
+    RecordProperty("hazard", "H9");
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant, 8)}));  // four answers
+    window.setButtonLabels(inputs.labels());
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    for (const auto* each : window.field().targets()) EXPECT_TRUE(each->button().isEmpty());
+}
+
+TEST_F(SeatedWithPad, ButtonsOnTheTargetsLookRightAndAreTheSameForEveryCondition) {
+    RecordProperty("hazard", "H9");
+    ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
+    window.setButtonLabels(inputs.labels());
+    std::vector<QImage> seen;
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (const int trial : {27, 27}) {  // of one condition and of another
+            desk.show(testScreen(ScreenState::Feel, trial));
+            ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+            QTest::qWait(60);
+            seen.push_back(window.grab().toImage());
+            shot(window, QString("buttons-%1").arg(theme == gui::Theme::Dark ? "dark" : "light"));
+            EXPECT_EQ(faultsOf(window), "");
+            click("theirs", 1);
+            ASSERT_TRUE(answered());
+        }
+    }
+    EXPECT_EQ(seen[0], seen[1]);
+    EXPECT_EQ(seen[2], seen[3]);
+    EXPECT_NE(seen[0], seen[2]);
+    gui::applyTheme(gui::Theme::Light);
+}
+
 class OwnThread : public testing::Test {
 protected:
     OwnThread() {
@@ -400,6 +519,101 @@ TEST_F(Inputs, OneThatIsGoneOrIdleIsInTheWayAndOneThatCannotBeUsedSaysWhy) {
     EXPECT_IN_TIME(comesTrue([&] { return rows.missing().isEmpty(); }));
     ASSERT_EQ(rows.seats().size(), 1U);
     EXPECT_EQ(rows.seats()[0].uses[0].does, Stop) << "it keeps its person and its uses";
+}
+
+class RememberedInputs : public Inputs {
+protected:
+    RememberedInputs() { gui::rememberInputs(kStudy, {}); }
+    ~RememberedInputs() override { gui::rememberInputs(kStudy, {}); }
+    static ButtonDeviceInfo numbered(const std::string& name) {
+        auto info = PluggedButtons::pad(name);
+        info.hasSerial = true;
+        return info;
+    }
+    static gui::SeatedDevice theirs(const ButtonDeviceInfo& device) {
+        gui::SeatedDevice seat{device, PromptTo::Participant, gui::usualUses(12)};
+        seat.uses[11] = {Stop, 0};
+        return seat;
+    }
+    [[nodiscard]] QLabel* asLastTime() { return rows.findChild<QLabel*>("asLastTime"); }
+    static constexpr const char* kStudy = "0123456789abcdef";
+};
+
+TEST_F(RememberedInputs, OneWithASerialNumberIsSeatedAsBeforeAndThatIsShown) {
+    RecordProperty("hazard", "H12");
+    const auto known = numbered("046d:c216 17"), other = numbered("046d:c216 18");
+    gui::rememberInputs(kStudy, {theirs(known)});
+    rows.setPlace(kStudy);
+    ASSERT_NO_FATAL_FAILURE(show({known, other}));
+    ASSERT_IN_TIME(comesTrue([this] { return rows.seats().size() == 1; }));
+    EXPECT_EQ(rows.seats()[0].device.identity, "046d:c216 17");
+    EXPECT_EQ(rows.seats()[0].whose, PromptTo::Participant);
+    EXPECT_EQ(rows.seats()[0].uses, theirs(known).uses);
+    ASSERT_NE(asLastTime(), nullptr);
+    EXPECT_EQ(asLastTime()->text(), "As in the last session.");
+    choose(*box("use 12"), 0);
+    choose(*box("inputOf 046d:c216 17"), 0);
+    EXPECT_TRUE(rows.seats().empty()) << "the operator's choice counts";
+    rows.setPlace("fedcba9876543210");
+    ASSERT_IN_TIME(comesTrue([this] { return box("inputOf 046d:c216 18") != nullptr; }));
+    EXPECT_TRUE(rows.seats().empty()) << "another study has its own";
+}
+
+TEST_F(RememberedInputs, OneWithoutIsOfferedAndNeverAssumed) {
+    RecordProperty("hazard", "H12");
+    const auto pad = PluggedButtons::pad("046d:c216");
+    gui::rememberInputs(kStudy, {theirs(pad)});
+    rows.setPlace(kStudy);
+    ASSERT_NO_FATAL_FAILURE(show({pad}));
+    ASSERT_IN_TIME(comesTrue([this] { return asLastTime() != nullptr; }));
+    EXPECT_TRUE(rows.seats().empty());
+    EXPECT_TRUE(asLastTime()->text().contains("no serial number"));
+    rows.findChild<QPushButton*>("seatAsBefore 046d:c216")->click();
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    ASSERT_EQ(rows.seats().size(), 1U);
+    EXPECT_EQ(rows.seats()[0].uses, theirs(pad).uses);
+    EXPECT_EQ(asLastTime()->text(), "As in the last session.");
+    rows.setPlace(kStudy);  // the next session
+    ASSERT_IN_TIME(comesTrue([this] { return box("inputOf 046d:c216") != nullptr; }));
+    EXPECT_TRUE(rows.seats().empty());
+}
+
+TEST_F(RememberedInputs, TwinsOtherButtonsAndBrokenSettingsSeatNone) {
+    RecordProperty("hazard", "H12");
+    auto twin = numbered("046d:c216 1");
+    gui::rememberInputs(kStudy, {theirs(twin)});
+    twin.obstacle = "2 devices are 046d:c216 1 and nothing tells them apart; one of them is accepted.";
+    rows.setPlace(kStudy);
+    ASSERT_NO_FATAL_FAILURE(show({twin, twin}));
+    ASSERT_IN_TIME(comesTrue([this] { return box("inputOf 046d:c216 1") != nullptr; }));
+    EXPECT_TRUE(rows.seats().empty());
+    auto fewer = PluggedButtons::pad("046d:c216 1", 8);
+    fewer.hasSerial = true;
+    EXPECT_FALSE(gui::rememberedInput(kStudy, fewer));
+    const auto asItWas = numbered("046d:c216 1");
+    EXPECT_TRUE(gui::rememberedInput(kStudy, asItWas));
+    for (const char* broken : {"046d:c216 1\tnobody", "046d:c216 1\tparticipant\t9 0", "046d:c216 1", "\t\t"}) {
+        QSettings().setValue(QString("pilot/inputs/") + kStudy, QStringList{broken});
+        EXPECT_FALSE(gui::rememberedInput(kStudy, asItWas)) << broken;
+    }
+}
+
+TEST_F(RememberedInputs, LookRightInBothThemesAndSizes) {
+    const auto known = numbered("Logitech Dual Action 17"), unknown = PluggedButtons::pad("VEC USB Footpedal", 3);
+    gui::rememberInputs(kStudy, {theirs(known), {unknown, PromptTo::Operator, gui::usualUses(3)}});
+    rows.setPlace(kStudy);
+    ASSERT_NO_FATAL_FAILURE(show({known, unknown}));
+    ASSERT_IN_TIME(comesTrue([this] { return rows.findChild<QPushButton*>("seatAsBefore VEC USB Footpedal"); }));
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+            gui::applyTheme(theme);
+            rows.resize(percent == 100 ? QSize(480, 460) : QSize(900, 900));
+            QTest::qWait(60);
+            shot(rows, QString("remembered-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
+            EXPECT_EQ(faultsOf(rows), "") << percent;
+        }
+    }
 }
 
 TEST_F(Inputs, LooksRightInBothThemesAndSizes) {

@@ -1,6 +1,7 @@
 // What stands before a session of a study: a checklist without defaults, and what was interrupted.
 #include <QComboBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QRadioButton>
 #include <QTest>
@@ -168,6 +169,28 @@ TEST_F(SessionStart, AMassagerIsChosenAndNoneTakesThePlaceOfOneThatIsGone) {
     EXPECT_EQ(begin().toolTip(), "The sensor board on the motor is gone. Choose another, or nothing.");
     looks.setCurrentIndex(0);
     EXPECT_THAT(devices(), testing::ElementsAre("plugged:M1"));
+}
+
+TEST_F(SessionStart, MarkersAreOffUntilAPortIsGivenAndAWrongOneIsInTheWay) {
+    RecordProperty("hazard", "H11");
+    prepare(std::nullopt, Modality::Massager);
+    auto* markers = page.findChild<QLineEdit*>("markers");
+    ASSERT_NE(markers, nullptr);
+    EXPECT_EQ(markers->text(), "off");
+    EXPECT_FALSE(page.start().markers);
+    markers->setText("80");
+    EXPECT_FALSE(begin().isEnabled());
+    EXPECT_THAT(begin().toolTip().toStdString(), HasSubstr("1024 to 65535"));
+    EXPECT_FALSE(page.start().markers);
+    markers->setText("5005");
+    EXPECT_THAT(begin().toolTip().toStdString(), testing::Not(HasSubstr("65535")));
+    EXPECT_EQ(page.start().markers, (MarkerAddress{"127.0.0.1", 5005}));
+    emit markers->editingFinished();
+    const gui::SessionStartPage next{watch};
+    EXPECT_EQ(next.findChild<QLineEdit*>("markers")->text(), "5005") << "it is remembered, and shown";
+    markers->setText("");
+    emit markers->editingFinished();
+    EXPECT_FALSE(page.start().markers);
 }
 
 TEST_F(SessionStart, LooksRightInBothThemesAndSizes) {
