@@ -365,6 +365,12 @@ void LiveWorkspace::chooseRecording() {
 
 void LiveWorkspace::editProfile() { openDialog(new ProfileEditor(controller_, this)); }
 
+void LiveWorkspace::enterArea() {
+    auto* editor = new ProfileEditor(controller_, this);
+    openDialog(editor);
+    editor->goTo("electrode_area_cm2");
+}
+
 }  // namespace tacto::gui
 
 #include "moc_LiveWorkspace.cpp"

@@ -33,6 +33,8 @@ public:
     bool openRecording(const QString& path);
     /// Opens the encoding profile's editor; it is its own owner.
     void editProfile();
+    /// The profile's editor at the electrode's area.
+    void enterArea();
     /// The row of tools above the plots; a page of tabs may take it into its own row.
     [[nodiscard]] QWidget* tools() { return tools_; }
     /// The strips alone; a line above them says when the sensor's samples are old.

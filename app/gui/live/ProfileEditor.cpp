@@ -85,6 +85,8 @@ ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDi
     resize(QSize(fontMetrics().averageCharWidth() * 135, fontMetrics().height() * 40).boundedTo(room));
 }
 
+void ProfileEditor::goTo(const QString& key) { tabs_->goTo(key); }
+
 QWidget* ProfileEditor::buildButtons() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);

@@ -24,6 +24,8 @@ class ProfileEditor final : public QDialog {
 public:
     /// Deletes itself when closed.
     explicit ProfileEditor(BenchController& controller, QWidget* parent = nullptr);
+    /// Begins at the field `key`, as a profile's file names it.
+    void goTo(const QString& key);
     /// The sentence that refuses what the form holds; empty when it is sound.
     [[nodiscard]] QString trouble() const { return trouble_; }
     /// A profile file into the form; what is wrong with it is said, and the form stays.

@@ -79,6 +79,19 @@ ProfileTabs::Row ProfileTabs::buildRow(const ProfileField& field, QWidget* page)
     return row;
 }
 
+void ProfileTabs::goTo(const QString& key) {
+    for (const auto& row : rows_) {
+        if (row.field->key != key) continue;
+        setCurrentIndex(int(row.field->tab));
+        QWidget* input = row.box;
+        if (row.line != nullptr) {
+            row.line->selectAll();
+            input = row.line;
+        }
+        input->setFocus();
+    }
+}
+
 void ProfileTabs::fill(const nlohmann::json& document) {
     for (auto& row : rows_) {
         const auto& value = document.at(row.field->section()).at(row.field->key);

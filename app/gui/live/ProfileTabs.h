@@ -33,6 +33,9 @@ public:
     /// meaning with what is chosen now, except the refused one.
     void mark(const ProfileField* field, const QString& refusal);
 
+    /// The tab of the field `key` is shown, and the field has the focus. `key` as in a profile's file.
+    void goTo(const QString& key);
+
 signals:
     void edited();
 

@@ -11,7 +11,8 @@ namespace tacto::gui {
 
 namespace {
 constexpr std::size_t kPoints = 2000;  // more than there are pixels; extremes kept
-}
+constexpr int kMargin = 15, kMarginAbove = 6;
+}  // namespace
 
 CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Last capture"));
@@ -33,6 +34,7 @@ CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
     title_ = new QCPTextElement(this);
     title_->setTextFlags(Qt::AlignLeft | Qt::AlignVCenter);
     plotLayout()->addElement(0, 0, title_);
+    axisRect()->setMinimumMargins(QMargins(kMargin, kMarginAbove, kMargin, 0));
     addPlotMenu(*this, "train");
     setMinimumHeight(fontMetrics().height() * 10);
     show(nullptr);
@@ -45,6 +47,7 @@ CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
 void CaptureStrip::show(const std::shared_ptr<const Capture>& capture, const QString& title) {
     title_->setText(title);
     title_->setVisible(!title.isEmpty());
+    plotLayout()->setRowSpacing(title.isEmpty() ? 0 : kMarginAbove);
     title_->setMaximumSize(QWIDGETSIZE_MAX, title.isEmpty() ? 0 : QWIDGETSIZE_MAX);
     empty_->setVisible(capture == nullptr);
     watermark_->setVisible(capture && capture->simulated);
@@ -90,7 +93,9 @@ void CaptureStrip::thinTicks() {
     const int digits = metrics.horizontalAdvance(QString::number(xAxis->range().upper, 'f', 0));
     const int widest = std::max(metrics.horizontalAdvance("−00000"), digits);
     xAxis->ticker()->setTickCount(std::clamp(width() / (kApart * widest), 1, kMaxTicks));
-    const int up = std::clamp(height() / (2 * kApart * metrics.height()), 1, kMaxTicks);
+    // Above and below the frame stand title, digits and the axis' name.
+    const int frame = height() - 4 * metrics.height();
+    const int up = std::clamp(2 * frame / (3 * metrics.height()), 1, kMaxTicks);
     for (auto* axis : {yAxis, yAxis2}) axis->ticker()->setTickCount(up);
 }
 

@@ -1,6 +1,8 @@
 #include "app/gui/runner/DisclosedPanel.h"
 
+#include <QHBoxLayout>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -12,33 +14,67 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
+#include "app/report/TableContent.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr int kGap = 8;
-constexpr int kMinWave = 150;
+constexpr int kGap = 8, kBetween = 16;
+constexpr int kMinWave = 140;
 
-/// "maximum power density" above "(over 1 s)".
-std::string onTwoLines(std::string name) {
-    if (const auto at = name.find(" ("); at != std::string::npos) name[at] = '\n';
-    return name;
+/// A record for each output, with its value on each load: those of one output stand in a row.
+struct OutputsByLoad {
+    nlohmann::json rows = nlohmann::json::array();
+    std::vector<std::string> loads;
+};
+
+OutputsByLoad byLoad(const nlohmann::json& disclosed) {
+    OutputsByLoad all;
+    for (const auto& record : disclosed) {
+        const auto load = textOr(record, "load"), output = textOr(record, "output");
+        const auto known = std::ranges::find(all.loads, load);
+        const auto column = std::to_string(known - all.loads.begin());
+        if (known == all.loads.end()) all.loads.push_back(load);
+        const auto title = titled(qtext(output)).toStdString();
+        auto row = std::ranges::find_if(all.rows, [&](const auto& other) { return other["output"] == title; });
+        if (row == all.rows.end()) {
+            all.rows.push_back({{"output", title}, {"unit", memberAt(record, "unit")}});
+            row = std::prev(all.rows.end());
+        }
+        (*row)["value" + column] = memberAt(record, "value");
+        (*row)["u" + column] = memberAt(record, "expanded_uncertainty");
+    }
+    return all;
 }
 
 }  // namespace
 
 DisclosedPanel::DisclosedPanel(QWidget* parent)
     : QWidget(parent),
-      area_(new QScrollArea(this)),
-      none_(new QLabel(tr("No limit set asks for outputs to be disclosed."), this)),
+      outputs_(new QWidget(this)),
+      area_(new QScrollArea(outputs_)),
+      none_(new QLabel(tr("No limit set asks for outputs to be disclosed."), outputs_)),
       peak_(new QLabel(this)),
       wave_(new CaptureStrip(this)) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(kGap, 0, 0, 0);
-    column->setSpacing(kGap);
-    auto* heading = new QLabel(tr("Outputs to disclose"), this);
-    setTextSize(*heading, TextSize::Body, true);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, kGap, 0, 0);
+    row->setSpacing(kBetween);
+    auto* tracing = new QVBoxLayout;
+    tracing->setSpacing(0);
+    peak_->setObjectName("strongestOutput");
+    peak_->setWordWrap(true);
+    setTextSize(*peak_, TextSize::Small, true);
+    tracing->addWidget(peak_);
+    wave_->setMinimumHeight(scaledPx(kMinWave));
+    tracing->addWidget(wave_, 1);
+    row->addLayout(tracing, 1);
+    auto* column = new QVBoxLayout(outputs_);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(kGap / 2);
+    auto* heading = new QLabel(tr("Outputs to disclose"), outputs_);
+    setTextSize(*heading, TextSize::Small, true);
     column->addWidget(heading);
     none_->setWordWrap(true);
     setTone(*none_, Tone::Quiet);
@@ -46,14 +82,20 @@ DisclosedPanel::DisclosedPanel(QWidget* parent)
     area_->setObjectName("disclosedOutputs");
     area_->setFrameShape(QFrame::NoFrame);
     area_->setWidgetResizable(true);
-    column->addWidget(area_, 3);
-    peak_->setObjectName("strongestOutput");
-    setTextSize(*peak_, TextSize::Body, true);
-    column->addWidget(peak_);
-    wave_->setMinimumHeight(scaledPx(kMinWave));
-    column->addWidget(wave_, 2);
+    area_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area_->viewport()->setAutoFillBackground(false);
+    column->addWidget(area_, 1);
+    column->addStretch();
+    outputs_->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
+    row->addWidget(outputs_);
     clear();
 }
+
+int DisclosedPanel::leastHeight() const {
+    return kGap + QFontMetrics(textFont(TextSize::Small)).height() + wave_->minimumHeight();
+}
+
+void DisclosedPanel::showOutputs(bool outputs) { outputs_->setVisible(outputs); }
 
 void DisclosedPanel::clear() {
     strongest_ = -1;
@@ -87,16 +129,19 @@ void DisclosedPanel::show(const nlohmann::json& disclosed) {
     delete area_->takeWidget();
     if (any) {
         using As = RecordColumn::As;
-        auto records = disclosed;
-        for (auto& record : records) {
-            // What stands in parentheses goes below the name: together they are wider than the column.
-            if (const auto& name = memberAt(record, "output"); name.is_string())
-                record["output"] = onTwoLines(name.get<std::string>());
+        const auto all = byLoad(disclosed);
+        std::vector<RecordColumn> columns{{tr("Output"), "output", As::Text}};
+        for (std::size_t i = 0; i < all.loads.size(); ++i) {
+            const auto of = std::to_string(i);
+            columns.push_back(
+                {tr("at %1").arg(loadText(qtext(all.loads[i]))), "value" + of, As::Number, "@unit", "u" + of});
         }
-        area_->setWidget(makeRecordTable({{tr("Load"), "load", As::Load},
-                                          {tr("Value"), "value", As::Number, "@unit", "expanded_uncertainty"},
-                                          {tr("Output"), "output", As::Text}},
-                                         records, area_));
+        auto* table = new QTableWidget(area_);
+        setTextSize(*table, TextSize::Small);
+        fillRecordTable(*table, columns, all.rows);
+        layOutRecordTable(*table);
+        area_->setWidget(table);
+        area_->setMinimumWidth(table->maximumWidth() + area_->verticalScrollBar()->sizeHint().width());
     }
     area_->setVisible(any);
     none_->setVisible(!any);

@@ -1,5 +1,5 @@
-// DisclosedPanel.h - beside the limits x loads of a safety check: the outputs that a document asks to disclose, and the
-// waveform of the strongest output that the run captured.
+// DisclosedPanel.h - below the limits x loads of a safety check: the waveform of the strongest output that the run
+// captured, or of a chosen cell, and beside it the outputs that a document asks to disclose.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -25,13 +25,18 @@ public:
     void clear();
     /// Keeps the capture with the highest peak, of current where it is measured, else of voltage.
     void take(const std::shared_ptr<const Capture>& capture);
-    /// `disclosed` as in the results of load-safety; anything else shows none.
+    /// `disclosed` as in the results of load-safety, a column for each load; anything else shows none.
     void show(const nlohmann::json& disclosed);
     using QWidget::show;
-    /// In place of the strongest output, below `title`.
+    /// Without the outputs where there is no room for both.
+    void showOutputs(bool outputs);
+    /// From this height on a tracing can be read.
+    [[nodiscard]] int leastHeight() const;
+    /// In place of the strongest output, under `title`.
     void showTracing(const std::shared_ptr<const Capture>& capture, const QString& title);
 
 private:
+    QWidget* outputs_;
     QScrollArea* area_;
     QLabel* none_;
     QLabel* peak_;

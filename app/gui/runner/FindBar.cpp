@@ -103,7 +103,8 @@ void FindBar::count() {
     }
     says_->setText(words_->text().isEmpty() ? QString()
                    : all == 0               ? tr("no match")
-                   : at == 0                ? tr("%n match(es)", nullptr, all)
+                   : at == 0 && all == 1    ? tr("1 match")
+                   : at == 0                ? tr("%1 matches").arg(all)
                                             : tr("%1 of %2").arg(at).arg(all));
     setTone(*says_, all == 0 && !words_->text().isEmpty() ? Tone::Warning : Tone::Quiet);
     for (auto* button : {back_, next_}) button->setEnabled(all > 0);

@@ -25,9 +25,9 @@ constexpr int kCellShare = Qt::UserRole + 1;  // "23 %"
 constexpr int kCellNear = Qt::UserRole + 2;   // 80 % or more of the limit used
 constexpr int kLineNote = Qt::UserRole;       // below a limit's title
 constexpr int kLineUnit = Qt::UserRole + 3;   // of a limit
-constexpr int kRow = 40, kIconSize = 14, kPad = 8;
+constexpr int kRow = 36, kIconSize = 14, kPad = 8;
 constexpr double kNear_pct = 80;
-constexpr int kLimitChars = 28, kLoadChars = 9;
+constexpr int kLimitChars = 30, kLoadChars = 9;
 
 QString wordsOf(const json& value) {
     return value.is_string() ? visible(QString::fromStdString(value.get<std::string>())) : QString();
@@ -169,6 +169,10 @@ void LimitMatrixView::show(const json& matrix) {
     fitColumns();
 }
 
+int LimitMatrixView::heightOf(int rows) const {
+    return 2 * frameWidth() + horizontalHeader()->height() + rows * verticalHeader()->defaultSectionSize();
+}
+
 void LimitMatrixView::choose(int row, int column) {
     if (row < 0 || column < 1 || item(row, 0) == nullptr) return;
     emit chosen(item(row, 0)->text(), loadKeys_[std::size_t(column) - 1], item(row, 0)->data(kLineUnit).toString());
@@ -221,6 +225,7 @@ void LimitMatrixView::addLine(int row, const json& line) {
 void LimitMatrixView::fitColumns() {
     verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
     horizontalHeader()->setFixedHeight(2 * QFontMetrics(textFont(TextSize::Small)).height() + kPad);
+    setMaximumHeight(heightOf(rowCount()));  // what is left below is the tracing's
     if (columnCount() < 2) return;
     auto* header = horizontalHeader();
     const int loads = columnCount() - 1;

@@ -17,6 +17,10 @@ public:
     /// `matrix` as toJson(LimitMatrix); anything else empties it.
     void show(const nlohmann::json& matrix);
     [[nodiscard]] bool empty() const { return rowCount() == 0; }
+    /// With its header and that many limits in sight.
+    [[nodiscard]] int heightOf(int rows) const;
+    static constexpr int kInSight = 6;  ///< limits that are in sight at least
+    [[nodiscard]] QSize sizeHint() const override { return {QTableWidget::sizeHint().width(), heightOf(kInSight)}; }
 
 signals:
     /// A cell of a load was chosen by mouse or arrow key. `load` as the results name it ("500 ohm"), `unit` the

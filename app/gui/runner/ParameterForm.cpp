@@ -17,12 +17,16 @@ namespace {
 
 constexpr int kLabelWidth = 280;  // before a label wraps
 
+QString shownUnit(const ProtocolParameter& parameter) {
+    return axisUnit(0, QString::fromStdString(parameter.unit)).unit;
+}
+
+/// In the unit that stands behind the label, as what is typed is: "0.5 to 10", never "500 ms to 10 s".
 QString rangeText(const ProtocolParameter& parameter) {
-    const auto unit = QString::fromStdString(parameter.unit);
-    if (parameter.min && parameter.max)
-        return QObject::tr("%1 to %2").arg(settingText(*parameter.min, unit), settingText(*parameter.max, unit));
-    if (parameter.min) return QObject::tr("at least %1").arg(settingText(*parameter.min, unit));
-    if (parameter.max) return QObject::tr("at most %1").arg(settingText(*parameter.max, unit));
+    const auto text = [](double value) { return settingText(value, {}); };
+    if (parameter.min && parameter.max) return QObject::tr("%1 to %2").arg(text(*parameter.min), text(*parameter.max));
+    if (parameter.min) return QObject::tr("at least %1").arg(text(*parameter.min));
+    if (parameter.max) return QObject::tr("at most %1").arg(text(*parameter.max));
     return {};
 }
 
@@ -81,7 +85,10 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
     field.editor->setAccessibleName(label);
     field.editor->setToolTip(tr("%1. The script calls it \"%2\"%3.")
                                  .arg(label, QString::fromStdString(parameter.name),
-                                      range.isEmpty() ? QString() : tr(" and takes %1").arg(range)));
+                                      range.isEmpty() ? QString()
+                                      : parameter.unit.empty()
+                                          ? tr(" and takes %1").arg(range)
+                                          : tr(" and takes %1 %2").arg(range, shownUnit(parameter))));
     return field;
 }
 
@@ -169,8 +176,7 @@ void ParameterForm::addRow(Field& field) {
     field.trouble->hide();
     stack->addWidget(field.trouble);
     auto label = QString::fromStdString(parameter.label);
-    if (!parameter.unit.empty())
-        label += QString(" (%1)").arg(axisUnit(0, QString::fromStdString(parameter.unit)).unit);
+    if (!parameter.unit.empty()) label += QString(" (%1)").arg(shownUnit(parameter));
     auto* rows = parameter.reference ? referenceRows_ : settingsRows_;
     rows->addRow(label, column);
     if (auto* written = qobject_cast<QLabel*>(rows->labelForField(column))) {
@@ -234,6 +240,23 @@ QString ParameterForm::unanswered() const {
             .arg(QString::fromStdString(field.parameter.label), QString::fromStdString(field.parameter.needed));
     }
     return {};
+}
+
+QString ParameterForm::summary() const {
+    QStringList said;
+    int changed = 0;
+    for (const auto& field : fields_) {
+        if (field.parameter.reference) continue;
+        const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
+        if (!field.parameter.needed.empty() && value && value->is_number() && *value != 0)
+            said << settingText(value->get<double>(), QString::fromStdString(field.parameter.unit));
+        else if (!field.parameter.needed.empty() && known_.contains(field.parameter.name))
+            said << tr("by the profile");
+        else if (field.text() != field.atFirst)
+            ++changed;
+    }
+    said << (changed == 0 ? tr("defaults") : tr("%1 changed").arg(changed));
+    return said.join(" · ");
 }
 
 int ParameterForm::refused(bool reference) const {

@@ -35,6 +35,8 @@ public:
     void setKnown(std::set<std::string> names);
     /// The sentence about the first parameter that decides the verdict and has no answer; empty for none.
     [[nodiscard]] QString unanswered() const;
+    /// What decides the verdict, and how much differs from the script's own: "4 cm² · 2 changed".
+    [[nodiscard]] QString summary() const;
     /// How many fields of the part are refused as they stand, or have no answer though the verdict needs it.
     [[nodiscard]] int refused(bool reference) const;
     /// The first such field gets the focus. Returns whether it is one of the reference; nothing where there is none.

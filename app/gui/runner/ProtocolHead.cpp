@@ -3,6 +3,7 @@
 #include <QPushButton>
 
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
@@ -92,8 +93,10 @@ bool ProtocolHead::fill(const QString& select) {
         const ProtocolLibrary library;
         for (const auto& source : library.list()) {
             const auto name = QString::fromStdString(source.name);
-            chooser_->addItem(source.shipped ? name : tr("%1 (the lab's own)").arg(name), name);
-            chooser_->setItemData(chooser_->count() - 1, QString::fromStdString(originOf(source)), Qt::ToolTipRole);
+            const auto title = procedureText(source.name);
+            chooser_->addItem(source.shipped ? title : tr("%1 (the lab's own)").arg(title), name);
+            chooser_->setItemData(chooser_->count() - 1,
+                                  tr("%1: %2").arg(name, QString::fromStdString(originOf(source))), Qt::ToolTipRole);
         }
         for (const auto& refused : library.refused()) {
             const auto path = QString::fromStdString(refused.path.string());

@@ -204,7 +204,7 @@ void ProtocolWorkspace::judge() {
     const int refused = form.refused(false);
     const bool begun = running_ || last_ != nullptr;
     steps_->setState(kSettings, refused > 0 || !declaration_ ? State::Troubled : begun ? State::Done : State::UnderWay);
-    steps_->setNote(kSettings, refused > 0 ? tr("%n to fix", nullptr, refused) : QString());
+    steps_->setNote(kSettings, refused > 0 ? tr("%1 to fix").arg(refused) : declaration_ ? form.summary() : QString());
     withdraw();
     panel_->setReady(declaration_.has_value(), obstacle_, byProfile_);
     previewLater_.start();

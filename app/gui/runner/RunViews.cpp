@@ -2,6 +2,7 @@
 
 #include <QHBoxLayout>
 #include <QScrollArea>
+#include <QSplitter>
 
 #include "app/gui/calibrate/CalibrationView.h"
 #include "app/gui/runner/CaptureStrip.h"
@@ -19,9 +20,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLogLines = 5000;                          // shown; all of them are in the session
-constexpr int kBesideChars = 115;                        // the waveform stands beside the plot from this width on
-constexpr int kMatrixChars = 130, kDisclosedChars = 56;  // what limits x loads need, and the outputs beside them
+constexpr int kLogLines = 5000;           // shown; all of them are in the session
+constexpr int kBesideChars = 115;         // the waveform stands beside the plot from this width on
+constexpr int kDisclosedFromChars = 120;  // the outputs stand beside the tracing from this width on
 constexpr int kPageGap = 6;
 
 TrialPlane::Features featuresOf(RunViews::Plot plot) {
@@ -71,13 +72,16 @@ QWidget* RunViews::buildPlots() {
     plots_->setContentsMargins(0, 0, 0, 0);
     plane_ = new TrialPlane(holder);
     loads_ = new LoadRows(holder);
-    matrix_ = new LimitMatrixView(holder);
+    judged_ = new QSplitter(Qt::Vertical, holder);
+    judged_->setChildrenCollapsible(false);
+    matrix_ = new LimitMatrixView(judged_);
     connect(matrix_, &LimitMatrixView::chosen, this, &RunViews::trace);
     connect(matrix_, &QTableWidget::cellActivated, this, [this](int, int column) {
         if (column > 0 && !disclosed_->isVisible()) showView(kWaveform);
     });
-    disclosed_ = new DisclosedPanel(holder);
-    disclosed_->setMinimumWidth(fontMetrics().averageCharWidth() * kDisclosedChars);
+    disclosed_ = new DisclosedPanel(judged_);
+    judged_->setStretchFactor(0, 2);
+    judged_->setStretchFactor(1, 1);
     calibration_ = new CalibrationView(holder);
     none_ = new QLabel(tr("This protocol has no plot of its own: what it says is in the log, what it found in the "
                           "tables."),
@@ -88,8 +92,7 @@ QWidget* RunViews::buildPlots() {
     wave_ = new CaptureStrip(holder);
     plots_->addWidget(plane_, 3);
     plots_->addWidget(loads_, 3);
-    plots_->addWidget(matrix_, 3);
-    plots_->addWidget(disclosed_, 1);
+    plots_->addWidget(judged_, 3);
     plots_->addWidget(calibration_, 3);
     plots_->addWidget(none_, 3);
     plots_->addWidget(wave_, 2);
@@ -155,10 +158,12 @@ void RunViews::arrange() {
     const bool judged = showsResult_ && !matrix_->empty();
     plane_->setVisible(plot_ == Plot::Trials || plot_ == Plot::Slides);
     calibration_->setVisible(plot_ == Plot::Calibration);
-    matrix_->setVisible(plot_ == Plot::Loads && judged);
-    // Narrower, both are views of their own: under Tables and under Waveform.
-    disclosed_->setVisible(plot_ == Plot::Loads && judged &&
-                           width() >= fontMetrics().averageCharWidth() * (kMatrixChars + kDisclosedChars));
+    judged_->setVisible(plot_ == Plot::Loads && judged);
+    // Where there is no room both are views of their own: under Waveform and under Tables.
+    const bool traced =
+        judged && views_->height() >= matrix_->heightOf(LimitMatrixView::kInSight) + disclosed_->leastHeight();
+    disclosed_->setVisible(traced);
+    disclosed_->showOutputs(width() >= fontMetrics().averageCharWidth() * kDisclosedFromChars);
     loads_->setVisible(plot_ == Plot::Loads && !judged);
     none_->setVisible(plot_ == Plot::None);
     const bool anywhere = plot_ != Plot::Slides && plot_ != Plot::None;
@@ -172,9 +177,10 @@ void RunViews::arrange() {
         plots_->removeWidget(wave_);
         own->addWidget(wave_);
     }
-    wave_->setVisible(anywhere);
-    choices_->button(kWaveform)->setVisible(anywhere && !beside);
-    if (beside && views_->currentIndex() == kWaveform) showView(kPlot);
+    const bool ownView = anywhere && !beside && !traced;
+    wave_->setVisible(beside || ownView);
+    choices_->button(kWaveform)->setVisible(ownView);
+    if (!ownView && views_->currentIndex() == kWaveform) showView(kPlot);
     const bool wide = width() >= next_->sizeHint().width() + viewRow_->sizeHint().width() + bar_->spacing();
     bar_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
 }

@@ -16,6 +16,8 @@
 #include "app/gui/runner/TrialPlane.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
+class QSplitter;
+
 namespace tacto::gui {
 
 class CalibrationView;
@@ -69,8 +71,9 @@ private:
     QBoxLayout* plots_ = nullptr;
     TrialPlane* plane_ = nullptr;
     LoadRows* loads_ = nullptr;               // in the plane's place where a protocol measures loads
-    LimitMatrixView* matrix_ = nullptr;       // and what they come to
-    DisclosedPanel* disclosed_ = nullptr;     // beside it where there is room
+    QSplitter* judged_ = nullptr;             // what they come to
+    LimitMatrixView* matrix_ = nullptr;       // of limits,
+    DisclosedPanel* disclosed_ = nullptr;     // and below it where there is room
     CalibrationView* calibration_ = nullptr;  // and in its place where one calibrates
     QLabel* none_ = nullptr;
     CaptureStrip* wave_ = nullptr;

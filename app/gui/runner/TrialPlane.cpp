@@ -7,10 +7,6 @@
 
 namespace tacto::gui {
 
-namespace {
-constexpr int kOneRowChars = 85;
-}
-
 TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Trials"));
     for (auto* axis : {xAxis, yAxis}) axis->setNumberFormat("gb");
@@ -80,6 +76,7 @@ void TrialPlane::add(const nlohmann::json& trial) {
         empty_->setVisible(false);
         legend->setVisible(true);
         colour();
+        wrapLegend();
     }
     found->second->addData(x, y);
     fit();
@@ -114,16 +111,22 @@ void TrialPlane::colour() {
     }
 }
 
-void TrialPlane::resizeEvent(QResizeEvent* event) {
-    // Names in one row where they fit, else in two columns.
-    const int wrap = width() < fontMetrics().averageCharWidth() * kOneRowChars ? 2 : 0;
-    if (legend->wrap() != wrap) {
+/// Names in one row where they fit, else in two columns.
+void TrialPlane::wrapLegend() {
+    const auto lay = [this](int wrap) {
+        if (legend->wrap() == wrap) return;
         legend->setWrap(wrap);
         // A grid keeps its cells where they were: put them in again.
         for (int i = 0; i < plottableCount(); ++i) plottable(i)->removeFromLegend();
         for (int i = 0; i < plottableCount(); ++i) plottable(i)->addToLegend();
         fitLegend(*this);
-    }
+    };
+    lay(0);
+    if (legend->minimumOuterSizeHint().width() > width()) lay(2);
+}
+
+void TrialPlane::resizeEvent(QResizeEvent* event) {
+    wrapLegend();  // before it draws
     QCustomPlot::resizeEvent(event);
 }
 

@@ -31,6 +31,7 @@ protected:
 private:
     void colour();
     void fit();
+    void wrapLegend();
     Features features_ = Features::Trains;
     std::vector<std::pair<QString, QCPGraph*>> conditions_;
     QCPItemText* watermark_ = nullptr;

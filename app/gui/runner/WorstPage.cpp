@@ -17,6 +17,7 @@ namespace tacto::gui {
 
 WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTable(this)), says_(new QLabel(this)) {
     auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
     says_->setTextFormat(Qt::PlainText);
     says_->setObjectName("worstCase");
     says_->setWordWrap(true);

@@ -41,7 +41,7 @@ struct ReadSession {
     std::vector<SessionRow> log;
     std::vector<SessionStreamInfo> streams;
     std::vector<SessionCaptureInfo> captures;
-    std::map<std::string, nlohmann::json> settings;  ///< by name: "label" and "unit" as declared
+    std::map<std::string, nlohmann::json> settings;  ///< by name: "label", "unit", "shown" of a choice
     std::optional<Figure> figure;                    ///< the first of its report that is not a plane of trials
     QString caption;                                 ///< of it
     bool planeOfTrials = false;                      ///< its report draws the trials' amplitude over their interval

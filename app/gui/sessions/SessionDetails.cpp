@@ -133,15 +133,18 @@ QString SessionDetails::aboutHtml() const {
         const bool known = declared != session_->settings.end();
         const auto column = columnName(qtext(key));
         const auto unit = known ? qtext(textOr(declared->second, "unit")) : column.unit;
+        const auto shown = known ? qtext(textOr(declared->second, "shown")) : QString();  // of a choice
         row(known ? qtext(textOr(declared->second, "label")) : column.title,
-            value.is_number()   ? settingText(value.get<double>(), unit)
-            : value.is_string() ? qtext(value.get<std::string>())
-                                : qtext(dumpJson(value)));
+            !shown.isEmpty()     ? shown
+            : value.is_number()  ? settingText(value.get<double>(), unit)
+            : value.is_boolean() ? (value.get<bool>() ? tr("yes") : tr("no"))
+            : value.is_string()  ? withOhmSigns(qtext(value.get<std::string>()))
+                                 : qtext(dumpJson(value)));
     }
     row(tr("Seed"), QString::number(about.seed));
     row(tr("Output mode"), qtext(about.mode));
     for (const auto& device : about.devices) {
-        row(qtext(device.role),
+        row(titled(qtext(device.role)),
             QString("%1 · %2%3")
                 .arg(qtext(device.name), qtext(device.uri),
                      device.serial.empty() ? QString() : tr(" · serial %1").arg(qtext(device.serial))));

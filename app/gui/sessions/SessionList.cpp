@@ -52,7 +52,7 @@ QWidget* SessionList::buildSearch() {
     row->setSpacing(kGap);
     search_ = new QLineEdit(holder);
     search_->addAction(icon("search"), QLineEdit::LeadingPosition)->setToolTip(tr("Search"));
-    search_->setPlaceholderText(tr("Search names, notes, tags, devices"));
+    search_->setPlaceholderText(tr("Search names, notes, tags"));
     search_->setClearButtonEnabled(true);
     search_->setAccessibleName(tr("Search"));
     search_->setToolTip(

@@ -20,7 +20,7 @@ namespace {
 constexpr int kGrid = 8;
 constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
-constexpr int kMinMoments = 3;  // lines
+constexpr int kMinMoments = 2;  // lines
 constexpr int kWhyLines = 2;
 constexpr double kWrapped = 0.85;  // of a line's width is used where words wrap
 

@@ -163,10 +163,6 @@ QString beganText(const QDateTime& began) {
                                                : language.toString(began, "d MMM yyyy");
 }
 
-QString procedureText(const std::string& protocol) {
-    return protocol.empty() ? words("Live") : titled(qtext(protocol).replace('-', ' '));
-}
-
 SessionEnding endingOf(const SessionEntry& entry, bool recording) {
     const auto as = [](const QString& word, const VerdictStyle& style) {
         return SessionEnding{word, style.icon, style.colour};

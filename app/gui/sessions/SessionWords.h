@@ -17,9 +17,6 @@ namespace tacto::gui {
 [[nodiscard]] QString lengthText(double seconds);
 /// "Today 11:02", "Yesterday 16:20", "20 Nov 14:05"; of another year the date alone.
 [[nodiscard]] QString beganText(const QDateTime& began);
-/// "Stimulator calibration" of "stimulator-calibration"; "Live" of a session without a protocol.
-[[nodiscard]] QString procedureText(const std::string& protocol);
-
 /// "1 trial", "25 trials".
 [[nodiscard]] QString trialsText(std::size_t count);
 /// "1 kΩ, 10.0 V" of "1 kohm, 10.0 V": loads and conditions as people write them.

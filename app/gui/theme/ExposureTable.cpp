@@ -173,7 +173,7 @@ void ExposureTable::showSection(int line, const QString& title) {
 void ExposureTable::showRow(int line, const ExposureRow& row) {
     if (columnSpan(line, kQuantity) != 1) setSpan(line, kQuantity, 1, 1);
     const bool broken = forbids(row);
-    const auto title = rowTitle(row);
+    const auto title = titled(rowTitle(row));
     auto* quantity = cell(line, kQuantity, title);
     quantity->setToolTip(row.set.empty() ? title : tr("%1, limit of %2").arg(title, titleOfSet(row)));
     quantity->setData(Qt::ForegroundRole, QVariant());

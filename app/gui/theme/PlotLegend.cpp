@@ -4,6 +4,10 @@
 
 namespace tacto::gui {
 
+namespace {
+constexpr int kBelow = 6;  // the axes stand close under it
+}
+
 void putLegendAbove(QCustomPlot& plot) {
     auto* legend = plot.legend;
     plot.axisRect()->insetLayout()->take(legend);
@@ -12,6 +16,7 @@ void putLegendAbove(QCustomPlot& plot) {
     auto* line = new QCPLayoutGrid;
     plot.plotLayout()->addElement(0, 0, line);
     plot.plotLayout()->setRowStretchFactor(0, 0.001);
+    plot.axisRect()->setMinimumMargins(QMargins(15, kBelow, 15, 15));
     line->addElement(0, 0, legend);
     auto* rest = new QCPTextElement(&plot);
     rest->setMinimumSize(0, 0);

@@ -3,6 +3,7 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <QObject>
 #include <QRegularExpression>
 #include <QString>
 #include <string_view>
@@ -26,6 +27,13 @@ namespace tacto::gui {
 [[nodiscard]] inline QString decimalText(double value, int decimals, const QString& unit = {}) {
     const auto number = qtext(tacto::decimalText(value, decimals)).replace('-', QChar(0x2212));
     return unit.isEmpty() ? number : number + QChar(0x202f) + unit;
+}
+
+/// A protocol's name for people: "Encoding comparison" of "encoding-comparison"; "Live" of none.
+[[nodiscard]] inline QString procedureText(std::string_view protocol) {
+    if (protocol.empty()) return QObject::tr("Live");
+    if (protocol == "load-safety") return QObject::tr("Safety check");  // as its workspace is called
+    return titled(qtext(protocol).replace('-', ' '));
 }
 
 /// "the load of 2 kΩ" of "the load of 2 kohm".

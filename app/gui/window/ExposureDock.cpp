@@ -3,6 +3,7 @@
 #include <QScrollArea>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Text.h"
@@ -12,7 +13,10 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kBetweenBars = 8;
+constexpr int kBetweenBars = 6;
+
+/// By so much of its limit another row has to be nearer than the first to take its place.
+constexpr double kClearlyNearer = 0.05;
 
 double shareOf(const ExposureRow& row) { return row.evaluated ? row.value / row.limit : -1; }
 
@@ -35,7 +39,10 @@ std::vector<ExposureRow> limitsIn(std::span<const ExposureRow> rows) {
 }  // namespace
 
 ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
-    : FoldingDock(tr("Exposure"), "exposure", "exposureDock", parent), controller_(controller), empty_(new QLabel) {
+    : FoldingDock(tr("Exposure"), "exposure", "exposureDock", parent),
+      controller_(controller),
+      empty_(new QLabel),
+      enterArea_(new QPushButton(tr("Enter the area…"))) {
     auto* area = new QScrollArea(this);
     area->setFrameShape(QFrame::NoFrame);
     area->setWidgetResizable(true);
@@ -54,12 +61,30 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
     setTextSize(*empty_, TextSize::Small);
     setTone(*empty_, Tone::Quiet);
     column_->addWidget(empty_);
+    enterArea_->setObjectName("enterArea");
+    enterArea_->setToolTip(
+        tr("Current and power density need the electrode’s area: opens the encoding profile there."));
+    connect(enterArea_, &QPushButton::clicked, this, &ExposureDock::areaWanted);
+    column_->addWidget(enterArea_, 0, Qt::AlignLeft);
+    enterArea_->hide();
     column_->addStretch();
     area->setWidget(body);
     setContent(area);
 }
 
-/// Bars stay where they are while the bench is open: only their numbers change.
+/// Bars stay where they are and only their numbers change, until another one is clearly nearer to its limit than the
+/// first.
+void ExposureDock::putInOrder(std::vector<ExposureRow>& rows) const {
+    const auto placeOf = [this](const ExposureRow& row) { return titles_.indexOf(titled(rowTitle(row))); };
+    const bool same = qsizetype(rows.size()) == titles_.size() &&
+                      std::ranges::all_of(rows, [&](const ExposureRow& row) { return placeOf(row) >= 0; });
+    if (!same) return std::ranges::stable_sort(rows, std::greater(), shareOf), void();
+    std::ranges::sort(rows, {}, placeOf);
+    const auto nearest = std::ranges::max_element(rows, {}, shareOf);
+    if (nearest != rows.end() && shareOf(*nearest) > shareOf(rows.front()) + kClearlyNearer)
+        std::rotate(rows.begin(), nearest, nearest + 1);
+}
+
 void ExposureDock::build(const std::vector<ExposureRow>& rows) {
     QStringList titles;
     for (const auto& row : rows) titles << titled(rowTitle(row));
@@ -70,7 +95,7 @@ void ExposureDock::build(const std::vector<ExposureRow>& rows) {
     for (const auto& row : rows) {
         bars_.push_back(new LimitBar(shortRowTitle(row), widget(), LimitBar::Shape::Line));
         bars_.back()->setAccessibleName(titled(rowTitle(row)));
-        column_->insertWidget(column_->count() - 1, bars_.back());
+        column_->insertWidget(column_->count() - 2, bars_.back());
     }
     empty_->setVisible(rows.empty());
 }
@@ -78,8 +103,11 @@ void ExposureDock::build(const std::vector<ExposureRow>& rows) {
 void ExposureDock::refresh(const Telemetry& telemetry) {
     if (telemetry.at == shownAt_ && bars_.empty() == telemetry.exposure().empty()) return;
     shownAt_ = telemetry.at;
-    const auto rows = limitsIn(telemetry.exposure());
+    auto rows = limitsIn(telemetry.exposure());
+    putInOrder(rows);
     build(rows);
+    enterArea_->setVisible(!controller_.profile().electrodeArea &&
+                           std::ranges::any_of(rows, [](const ExposureRow& row) { return !row.evaluated; }));
     const auto nearest = std::ranges::max_element(rows, {}, shareOf);
     nearest_ = nearest == rows.end() || !nearest->evaluated
                    ? QString()

@@ -1,8 +1,10 @@
-// ExposureDock.h - every limit that holds for what the bench delivers, nearest first, and what was not evaluated.
+// ExposureDock.h - every limit that holds for what the bench delivers, the nearest first and what was not evaluated
+// last, with the way to what it lacks.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QPushButton>
 #include <QVBoxLayout>
 #include <vector>
 
@@ -21,11 +23,16 @@ public:
     /// The limit that is nearest: "39.1 of 40 V".
     [[nodiscard]] QString keyFigure() const override { return nearest_; }
 
+signals:
+    void areaWanted();  ///< of the electrode, which current and power density need
+
 private:
+    void putInOrder(std::vector<ExposureRow>& rows) const;
     void build(const std::vector<ExposureRow>& rows);
 
     const BenchController& controller_;
     QLabel* empty_;
+    QPushButton* enterArea_;
     QVBoxLayout* column_;
     std::vector<LimitBar*> bars_;
     QStringList titles_;  ///< of the bars

@@ -221,6 +221,7 @@ void MainWindow::buildDocks() {
     devices_ = new DeviceDock(controller_, calibrations_, this);
     docks_ = new DockColumn(*this, {drive_, measurements_, exposure_, devices_});
     connect(scope_, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
+    connect(exposure_, &ExposureDock::areaWanted, live_, &LiveWorkspace::enterArea);
     connect(scope_, &ScopeWorkspace::driveWanted, this, [this] {
         docks_->show(*drive_);
         drive_->takeFocus();

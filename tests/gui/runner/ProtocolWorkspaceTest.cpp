@@ -176,6 +176,28 @@ TEST_F(Workspace, EveryShippedProtocolRunsAsItComes) {
     }
 }
 
+TEST_F(Workspace, ProtocolsAreCalledAsPeopleDoAndRangesStandInTheUnitOfTheirField) {
+    write("bend",
+          "protocol({ title: \"Bend\", parameters: { hold_s: { label: \"Hold\", unit: \"s\", value: 1.5, min: "
+          "0.5, max: 10 } } }); function run(p) {}");
+    open("");
+    auto& chooser = the<QComboBox>("chooser");
+    for (int i = 0; i < chooser.count(); ++i) {
+        EXPECT_FALSE(chooser.itemText(i).contains('-')) << chooser.itemText(i).toStdString();
+        EXPECT_TRUE(chooser.itemText(i).at(0).isUpper()) << chooser.itemText(i).toStdString();
+        EXPECT_TRUE(chooser.itemData(i, Qt::ToolTipRole).toString().startsWith(chooser.itemData(i).toString()))
+            << "its name for the command line";
+    }
+    EXPECT_EQ(chooser.itemText(chooser.findData("encoding-comparison")), "Encoding comparison");
+    EXPECT_EQ(chooser.itemText(chooser.findData("bend")), "Bend (the lab's own)");
+    choose("bend");
+    const auto& hold = the<QLineEdit>("hold_s");
+    QStringList beside;
+    for (const auto* label : hold.parentWidget()->findChildren<QLabel*>()) beside << label->text();
+    EXPECT_TRUE(beside.contains("0.5 to 10")) << beside.join(", ").toStdString();
+    EXPECT_TRUE(hold.toolTip().contains("takes 0.5 to 10 s")) << hold.toolTip().toStdString();
+}
+
 TEST_F(Workspace, LooksRightDarkAndSmall) {
     gui::applyTheme(gui::Theme::Dark);
     open("", {760, 500});

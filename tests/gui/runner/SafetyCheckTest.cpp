@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/runner/CaptureStrip.h"
+#include "app/gui/runner/DisclosedPanel.h"
 #include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/theme/Theme.h"
@@ -54,11 +55,24 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_GT(judged, 50);
     EXPECT_THAT(primaries(), testing::ElementsAre("Sign report…"));
     shot(*workspace, "safety_result");
-    EXPECT_EQ(find<QWidget>(*workspace, "disclosedOutputs"), nullptr) << "there is no room beside the limits";
+    // The tracing stands below the limits; the outputs join it where there is room for both.
+    auto& below = *workspace->findChild<gui::DisclosedPanel*>();
+    auto* strip = below.findChild<gui::CaptureStrip*>();
+    ASSERT_TRUE(strip->isVisible());
+    EXPECT_FALSE(strip->empty());
+    EXPECT_GE(strip->mapTo(workspace.get(), QPoint()).y(),
+              matrix.mapTo(workspace.get(), QPoint(0, matrix.height())).y());
+    EXPECT_EQ(find<QPushButton>(*workspace, "Waveform"), nullptr) << "no second place for it";
+    EXPECT_EQ(find<QWidget>(*workspace, "disclosedOutputs"), nullptr) << "there is no room beside the tracing";
     workspace->resize(1800, 900);
     auto& disclosed = the<QScrollArea>("disclosedOutputs");
     ASSERT_NE(disclosed.widget(), nullptr);
-    EXPECT_GE(qobject_cast<QTableWidget*>(disclosed.widget())->rowCount(), 6);
+    const auto* outputs = qobject_cast<QTableWidget*>(disclosed.widget());
+    EXPECT_GE(outputs->rowCount(), 6);
+    EXPECT_EQ(outputs->columnCount(), 4) << "an output in a row, with a column for each load";
+    EXPECT_EQ(outputs->horizontalHeaderItem(1)->text(), "at 500\u00a0Ω");
+    EXPECT_EQ(outputs->item(0, 0)->text(), "Maximum output voltage");
+    EXPECT_TRUE(outputs->item(1, 3)->text().endsWith("mA")) << outputs->item(1, 3)->text().toStdString();
     EXPECT_THAT(says("strongestOutput").toStdString(), HasSubstr("mA at its peak"));
     EXPECT_LE(matrix.horizontalHeader()->length(), matrix.viewport()->width());
     // The tracing is that of the chosen cell's load.
@@ -70,7 +84,6 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
         const auto title = matrix.item(0, 0)->text() + " on " + load + ": the strongest train";
         EXPECT_IN_TIME(comesTrue([&] { return says("strongestOutput") == title; }))
             << says("strongestOutput").toStdString();
-        const auto* strip = qobject_cast<gui::CaptureStrip*>(disclosed.parentWidget()->findChild<QCustomPlot*>());
         bool any = false;
         const auto range = strip->graph(1)->getValueRange(any);
         EXPECT_TRUE(any) << "a trace of the current";
@@ -84,10 +97,11 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     gui::applyTheme(gui::Theme::Dark);
     QTest::qWait(50);
     shot(*workspace, "safety_result_dark");
-    workspace->resize(1150, 600);
+    workspace->resize(1150, 420);
+    EXPECT_IN_TIME(comesTrue([&] { return !strip->isVisible(); })) << "too low for both";
     QTest::keyClick(&matrix, Qt::Key_Return);
     auto* wave = find<gui::CaptureStrip>(*workspace, "Last capture");
-    ASSERT_NE(wave, nullptr) << "Return shows the tracing where there is no room beside the limits";
+    ASSERT_NE(wave, nullptr) << "Return shows the tracing where there is no room below the limits";
     EXPECT_TRUE(wave->title().endsWith(": the strongest train")) << wave->title().toStdString();
     EXPECT_FALSE(wave->empty());
     shot(*workspace, "safety_tracing");
@@ -121,6 +135,13 @@ TEST_F(SafetyCheck, AsksForTheElectrodeAreaFirst) {
     type("area", "4");
     ASSERT_IN_TIME(ready());
     EXPECT_EQ(says("runObstacle"), "");
+    const auto note = [this] { return step("Settings").accessibleDescription(); };
+    EXPECT_TRUE(note().endsWith(": 4\u202fcm² · defaults")) << note().toStdString();
+    type("steps", "3");
+    type("trains", "3");
+    EXPECT_TRUE(note().endsWith(": 4\u202fcm² · 2 changed")) << note().toStdString();
+    type("steps", "many");
+    EXPECT_TRUE(note().endsWith(": 1 to fix")) << note().toStdString();
 }
 
 TEST_F(SafetyCheck, TheProfilesAreaIsAnAnswer) {
@@ -130,6 +151,8 @@ TEST_F(SafetyCheck, TheProfilesAreaIsAnAnswer) {
     controller.setProfile(profile);
     open("load-safety");
     EXPECT_IN_TIME(ready());
+    EXPECT_IN_TIME(
+        comesTrue([this] { return step("Settings").accessibleDescription().endsWith(": by the profile · defaults"); }));
 }
 
 TEST_F(SafetyCheck, AStoppedRunLeavesNoRowUndecided) {

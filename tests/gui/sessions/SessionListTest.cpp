@@ -8,10 +8,12 @@
 #include <QScrollBar>
 #include <QTableView>
 #include <QTest>
+#include <QTextBrowser>
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 
 #include "app/gui/controller/BenchController.h"
+#include "app/gui/runner/TrialPlane.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/Digest.h"
@@ -27,6 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 class Sessions : public testing::Test {
 protected:
@@ -110,9 +113,10 @@ TEST_F(Sessions, AreFoundByWhatWasSaidOfThem) {
         EXPECT_EQ(cell(0, 2), "Separability") << word;
     }
     search->setText("safety check");
-    EXPECT_EQ(table().model()->rowCount(), 0) << "by its own name";
-    search->setText("load safety");
-    EXPECT_EQ(table().model()->rowCount(), 1);
+    EXPECT_EQ(table().model()->rowCount(), 1) << "as its workspace is called";
+    EXPECT_EQ(cell(0, 2), "Safety check");
+    search->setText("load-safety");
+    EXPECT_EQ(table().model()->rowCount(), 1) << "as the command line calls it";
     search->clear();
     auto* verdict = find<QComboBox>(workspace, "Verdict");
     verdict->setCurrentText("fail");
@@ -227,6 +231,36 @@ TEST_F(Sessions, WhatAnIndexSaysWrongIsCorrectedBeforeItIsReadTwice) {
     auto* rows = again.findChild<QTableView*>("sessionsTable");
     ASSERT_IN_TIME(comesTrue([&] { return rows->model()->rowCount() == 1; }));
     EXPECT_IN_TIME(comesTrue([&] { return rows->model()->index(0, 0).data() == "fail"; })) << "what is seen is read";
+}
+
+TEST_F(Sessions, AChoiceIsSaidInTheWordsOfItsProtocol) {
+    (void)sessions.write({.name = "a"});
+    begin();
+    listed(1);
+    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    const QTextBrowser* about = nullptr;
+    for (const auto* browser : workspace.findChildren<QTextBrowser*>())
+        if (browser->accessibleName() == "About the session") about = browser;
+    ASSERT_NE(about, nullptr);
+    const auto says = about->toPlainText();
+    EXPECT_THAT(says.toStdString(), HasSubstr("Sample rate"));
+    EXPECT_THAT(says.toStdString(), HasSubstr("1 MS/s"));
+    EXPECT_THAT(says.toStdString(), Not(HasSubstr("1M")));
+    EXPECT_THAT(says.toStdString(), HasSubstr("yes")) << "keep, which no declaration names";
+    EXPECT_THAT(says.toStdString(), HasSubstr("Stimulator"));
+    shot(workspace, "sessions-about");
+}
+
+TEST_F(Sessions, ThePreviewKeepsItsHeightInALowWindow) {
+    (void)sessions.write({.name = "a"});
+    begin();
+    listed(1);
+    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    workspace.resize(1180, 600);
+    const auto* plane = workspace.findChild<gui::TrialPlane*>();
+    ASSERT_IN_TIME(comesTrue([&] { return plane->isVisible() && workspace.height() <= 610; })) << workspace.height();
+    EXPECT_IN_TIME(comesTrue([&] { return plane->axisRect()->height() >= 140; })) << plane->axisRect()->height();
+    EXPECT_EQ(plane->legend->wrap(), 0) << "four names in one row";
 }
 
 TEST_F(Sessions, LooksRight) {

@@ -43,7 +43,7 @@ public:
         SessionAbout about;
         about.programVersion = "1.5.0";
         about.protocol = wanted.protocol;
-        about.parameters = {{"repeats", 25}};
+        about.parameters = {{"repeats", 25}, {"rate", "1M"}, {"keep", true}};
         about.seed = 7;
         about.devices = {{"sim:stimulator", "stimulator", "simulated stimulator", "SIM-1", "1", wanted.simulated}};
         about.profileJson = R"({"encoding": {"A_max_v": 40}})";
@@ -54,6 +54,12 @@ public:
         EXPECT_TRUE(made) << made.error().message;
         auto& session = **made;
         const auto pass = [&](double seconds) { clock.advanceTo(clock.now() + toInstant(seconds)); };
+        EXPECT_TRUE(session.reportItem(
+            clock.now(),
+            {{"kind", "about"},
+             {"parameters",
+              {{{"name", "repeats"}, {"label", "Repeats per condition"}, {"value", 25}, {"unit", ""}},
+               {{"name", "rate"}, {"label", "Sample rate"}, {"value", "1M"}, {"unit", ""}, {"shown", "1 MS/s"}}}}}));
         EXPECT_TRUE(session.event(clock.now(), "interlock", {{"text", "armed"}}));
         const std::pair<const char*, std::pair<double, double>> conditions[] = {
             {"smooth-low", {10, 2}},

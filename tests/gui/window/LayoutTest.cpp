@@ -9,9 +9,12 @@
 #include <QTabWidget>
 #include <QToolBar>
 #include <QToolButton>
+#include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
 
 #include "app/gui/live/LiveWorkspace.h"
+#include "app/gui/live/ProfileEditor.h"
 #include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/ScopeScreen.h"
@@ -19,6 +22,7 @@
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/DockColumn.h"
 #include "app/gui/window/FoldingDock.h"
+#include "app/gui/window/LimitBar.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
@@ -285,6 +289,35 @@ TEST_F(Layout, BesideTheOscilloscopeMeasurementsHaveRoomInASmallWindowToo) {
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
     EXPECT_TRUE(dock("measurementDock").folded()) << "a person's choice is kept";
+}
+
+TEST_F(Layout, TheNearestLimitStandsFirstAndTheAreaCanBeEnteredThere) {
+    RecordProperty("hazard", "H9");
+    open();
+    arm();
+    window.controller().drive(DriveSource::Manual, 1, 1);
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
+    window.showWorkspace(0);
+    auto& exposure = dock("exposureDock");
+    const auto inOrder = [&] {
+        std::vector<gui::LimitBar*> bars;
+        for (auto* bar : exposure.findChildren<gui::LimitBar*>()) bars.push_back(bar);
+        std::ranges::sort(bars, {}, [](const gui::LimitBar* bar) { return bar->y(); });
+        return bars;
+    };
+    // The commanded voltage: at its limit of 40 V.
+    ASSERT_IN_TIME(comesTrue([&] { return !inOrder().empty() && inOrder().front()->share() > 0.9; }));
+    EXPECT_TRUE(std::isnan(inOrder().back()->share())) << "what is not evaluated stands last";
+    EXPECT_GE(inOrder().size(), 6U);
+    auto* enter = exposure.findChild<QPushButton*>("enterArea");
+    ASSERT_TRUE(enter->isVisibleTo(&exposure));
+    enter->click();
+    auto* editor = window.findChild<gui::ProfileEditor*>();
+    ASSERT_NE(editor, nullptr);
+    const auto* area = editor->findChild<QLineEdit*>("electrode_area_cm2");
+    EXPECT_IN_TIME(comesTrue([&] { return area->isVisible(); })) << "its tab is in front";
+    EXPECT_EQ(editor->focusWidget(), area);
+    editor->close();
 }
 
 TEST_F(Layout, AKeyThatShowsAWorkspaceTakesTheFocusThereAndNotIntoAText) {
