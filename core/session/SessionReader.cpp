@@ -195,6 +195,16 @@ bool SessionReader::closed() const noexcept { return state_->closed; }
 const std::string& SessionReader::chainHead() const noexcept { return state_->head; }
 Instant SessionReader::lastAt() const noexcept { return state_->lastAt; }
 
+Result<std::string> SessionReader::hashOf(std::int64_t seq) const {
+    auto row = state_->source.database().prepare("SELECT hash FROM entries WHERE seq=?");
+    if (!row) return failure(row);
+    row->bind(1, seq);
+    const auto found = row->step();
+    if (!found) return failure(found);
+    if (!*found) return fail(ErrorCode::NotFound, "{} has no row {}", state_->path.filename().string(), seq);
+    return hexOf(row->blob(0));
+}
+
 Result<void> SessionReader::checkChain() const {
     auto rows = state_->source.database().prepare(
         "SELECT seq, kind, t_ns, name, body, digest, prev, hash FROM entries ORDER BY seq");

@@ -44,6 +44,8 @@ public:
     /// The hash of the recording's last row, 64 hexadecimal digits. Annotations, which come after its end, leave it as
     /// it is.
     [[nodiscard]] const std::string& chainHead() const noexcept;
+    /// The hash of row `seq`, as chainHead(). Errors: NotFound; Io.
+    [[nodiscard]] Result<std::string> hashOf(std::int64_t seq) const;
     /// Follows the chain over all rows. What samples hold is for verifySession(). Errors: ParseError naming the row
     /// that is missing or was altered; Io.
     [[nodiscard]] Result<void> checkChain() const;

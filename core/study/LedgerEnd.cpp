@@ -6,6 +6,7 @@
 #include "core/base/Csv.h"
 #include "core/base/JsonFields.h"
 #include "core/session/Durable.h"
+#include "core/session/SessionReader.h"
 #include "core/study/Gates.h"
 
 namespace tacto {
@@ -26,7 +27,7 @@ void noteLedgerEnd(const fs::path& file, const LedgerEnd& end) noexcept {
     syncFolderOf(file);
 }
 
-Result<void> reachesEnd(const LedgerEnd& now, const fs::path& file) {
+Result<void> reachesEnd(const SessionReader& ledger, const fs::path& file) {
     std::error_code error;
     if (fs::symlink_status(file, error).type() == fs::file_type::not_found) return {};
     const auto text = readTextFile(file);
@@ -37,11 +38,11 @@ Result<void> reachesEnd(const LedgerEnd& now, const fs::path& file) {
         return fail(kGateRefused, "{} does not say how far the study's ledger goes; put it back from your copy",
                     file.string());
     }
-    if (row < now.row || (row == now.row && head == now.head)) return {};
+    if (const auto hash = ledger.hashOf(row); hash && *hash == head) return {};
     return fail(kGateRefused,
-                "the study's ledger ends with row {}, and row {} of it was written on this computer: it was cut short, "
-                "or is an older copy; put back the newest",
-                now.row, row);
+                "row {} of the study's ledger is not the one that was written on this computer: the ledger was cut "
+                "short or recomputed, or is an older copy; put back the newest",
+                row);
 }
 
 }  // namespace tacto

@@ -15,6 +15,8 @@
 
 namespace tacto {
 
+class SessionReader;
+
 struct LedgerEnd {
     std::int64_t row = 0;  ///< number of the last one
     std::string head;      ///< its hash, 64 hexadecimal digits
@@ -22,8 +24,7 @@ struct LedgerEnd {
 
 /// Takes the place of what `file` said. Where it cannot be written, what it said stays.
 void noteLedgerEnd(const std::filesystem::path& file, const LedgerEnd& end) noexcept;
-/// Whether a ledger that ends with `now` has all that was noted. Errors: kGateRefused naming both rows, or a note that
-/// cannot be read.
-[[nodiscard]] Result<void> reachesEnd(const LedgerEnd& now, const std::filesystem::path& file);
+/// Whether the ledger has the row that was noted. Errors: kGateRefused naming it, or a note that cannot be read.
+[[nodiscard]] Result<void> reachesEnd(const SessionReader& ledger, const std::filesystem::path& file);
 
 }  // namespace tacto

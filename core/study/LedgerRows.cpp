@@ -301,7 +301,6 @@ Result<LedgerState> replay(const SessionReader& ledger, const std::string& study
         if (auto taken = replay.take(row); !taken) return failure(taken);
     }
     replay.state.head = ledger.chainHead();
-    replay.state.rows = rows->empty() ? 0 : rows->back().seq;
     return std::move(replay.state);
 }
 

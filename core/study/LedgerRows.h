@@ -56,7 +56,6 @@ struct LedgerState {
     std::map<std::string, NextDay> nextDays;  ///< session to what was said last; with the key only
     std::vector<StudyExport> exports;         ///< with the key only
     std::chrono::sys_seconds last{};          ///< of the newest row
-    std::int64_t rows = 0;                    ///< number of the last one
     std::string head;
 
     [[nodiscard]] Participant* participant(std::string_view id) noexcept;

@@ -212,7 +212,9 @@ std::filesystem::path StudyBook::endFile() const {
 
 Result<void> StudyBook::recordGate() const {
     if (const auto end = endFile(); !end.empty()) {
-        if (auto whole = reachesEnd({known.rows, known.head}, end); !whole) return whole;
+        const auto ledgerFile = SessionReader::open(files.ledger());
+        if (!ledgerFile) return failure(ledgerFile);
+        if (auto whole = reachesEnd(*ledgerFile, end); !whole) return whole;
     }
     const auto strangers = strangersIn(files, known);
     if (!strangers) return fail(kGateRefused, "{}", strangers.error().message);
