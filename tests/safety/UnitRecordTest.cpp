@@ -1,92 +1,17 @@
 #include <cmath>
 #include <csignal>
 #include <deque>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/safety/UnitRecord.h"
-#include "tests/safety/GateFixtures.h"
+#include "tests/safety/UnitRecordFixture.h"
 #include "tests/support/Allocations.h"
 
 namespace tacto::test {
-namespace {
 
 using testing::HasSubstr;
-
-constexpr const char* kUnit = "sciencemode 1234";
-
-/// The computer's time, as the test moves it.
-struct FakeTime final : SystemTime {
-    [[nodiscard]] Instant sinceBoot() const noexcept override { return now; }
-    [[nodiscard]] std::string boot() const override { return id; }
-    [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return walls; }
-    Instant now = std::chrono::hours(1);
-    std::string id = "boot-1";
-    std::chrono::sys_seconds walls = SystemTime::real().wall();
-};
-
-/// 40 V into 100 ohm: 1e-4 A²s a train at the low end of the load range, so that 5 s hold four.
-GateSetup strongSetup() {
-    GateSetup setup = benchSetup(Load::resistor(Ohms(100)));
-    setup.limits = limitSets();
-    return setup;
-}
-
-class UnitRecordFile : public testing::Test {
-protected:
-    /// A program that drives the unit: its own clock and gate.
-    struct Run {
-        Run(const UnitRecordFile& test, const GateSetup& setup) : time(test.time_) {
-            auto opened = UnitRecord::open(test.folders(), kUnit, clock, test.time_);
-            if (!opened) {
-                ADD_FAILURE() << opened.error().message;
-                return;
-            }
-            record = std::move(*opened);
-            gate.continueFrom(*record);
-            EXPECT_TRUE(gate.configure(setup));
-        }
-        Result<ApprovedTrain> ask() { return gate.approve({volts(40), Seconds(10), clock.now()}); }
-        void pass(double seconds) {
-            clock.advanceTo(clock.now() + toInstant(seconds));
-            time.now += toInstant(seconds);
-        }
-        FakeTime& time;
-        VirtualClock clock;
-        std::unique_ptr<UnitRecord> record;
-        SafetyGate gate{clock};
-    };
-    std::unique_ptr<Run> run() { return std::make_unique<Run>(*this, strongSetup()); }
-    /// How many of the strong trains are approved at once.
-    static int approvedAtOnce(Run& running) {
-        int approved = 0;
-        while (approved < 100 && running.ask()) ++approved;
-        return approved;
-    }
-    [[nodiscard]] std::filesystem::path file() const {
-        return std::filesystem::directory_iterator(folder_.path())->path();
-    }
-    void spoil(std::size_t at, char byte = 0x5a) const {
-        std::fstream out(file(), std::ios::in | std::ios::out | std::ios::binary);
-        out.seekp(static_cast<std::streamoff>(at));
-        out.put(byte);
-    }
-
-    [[nodiscard]] UnitFolders folders() const { return {folder_.path(), claims_.path()}; }
-    /// As a start of the computer does.
-    void emptyClaims() const {
-        for (const auto& claim : std::filesystem::directory_iterator(claims_.path())) std::filesystem::remove(claim);
-    }
-
-    ScratchDir folder_;
-    ScratchDir claims_;
-    mutable FakeTime time_;
-};
-
-}  // namespace
 
 TEST_F(UnitRecordFile, FourRunsInARowKeepTheLimitTogether) {
     RecordProperty("hazard", "H1");
@@ -156,19 +81,6 @@ TEST_F(UnitRecordFile, WhatIsLeftOnTheLoadIsFoundByTheNextRun) {
     EXPECT_FALSE(two.gate.approve({train, Seconds(10), two.clock.now()}));
     two.pass(3);
     EXPECT_TRUE(two.gate.approve({train, Seconds(10), two.clock.now()}));
-}
-
-TEST_F(UnitRecordFile, OneUnitIsDrivenByOneProgram) {
-    RecordProperty("hazard", "H1");
-    auto first = run();
-    VirtualClock clock;
-    const auto second = UnitRecord::open(folders(), kUnit, clock, time_);
-    ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, ErrorCode::Device);
-    EXPECT_THAT(second.error().message, HasSubstr(fmt::format("(process {})", ::getpid())));
-    EXPECT_THAT(second.error().message, HasSubstr(kUnit));
-    first.reset();
-    EXPECT_TRUE(UnitRecord::open(folders(), kUnit, clock, time_));
 }
 
 TEST_F(UnitRecordFile, AProgramThatIsKilledAfterAnApprovalHasBookedIt) {
@@ -241,128 +153,6 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
     (void)run();
     time_.now += std::chrono::seconds(3);
     expectRest("did not know it either", 4.8);
-}
-
-TEST_F(UnitRecordFile, OnlyTheLastRecordOfAUnitOnThisComputerKnowsItsPast) {
-    RecordProperty("hazard", "H1");
-    const ScratchDir other;
-    // The records of two accounts or data folders, both of which have long been there.
-    const auto drive = [&](const std::filesystem::path& records, std::size_t expected, const char* why) {
-        const VirtualClock clock;
-        SafetyGate gate(clock);
-        const auto record = UnitRecord::open({records, claims_.path()}, kUnit, clock, time_);
-        ASSERT_TRUE(record) << record.error().message;
-        EXPECT_THAT(std::string((*record)->whyQuiet()), HasSubstr(why));
-        gate.continueFrom(**record);
-        ASSERT_TRUE(gate.configure(strongSetup()));
-        std::size_t approved = 0;
-        while (approved < 100 && gate.approve({volts(40), Seconds(10), clock.now()})) ++approved;
-        EXPECT_EQ(approved, expected);
-        EXPECT_EQ(gate.approveCheck(clock.now()).has_value(), std::string_view(why).empty()) << "not even a check";
-    };
-    drive(folder_.path(), 4, "");
-    time_.now += std::chrono::seconds(20);
-    drive(other.path(), 0, "from another record");
-    time_.now += std::chrono::seconds(20);
-    drive(other.path(), 4, "");
-    drive(folder_.path(), 0, "from another record");
-    time_.now += std::chrono::seconds(3);
-    drive(folder_.path(), 0, "did not know it either");
-    time_.now += std::chrono::seconds(6);
-    drive(folder_.path(), 4, "");
-    drive(folder_.path() / "a new one", 0, "from another record");
-    time_.now += std::chrono::seconds(20);
-    drive(folder_.path() / "a new one", 4, "");
-    std::filesystem::remove_all(folder_.path() / "a new one");
-    drive(folder_.path() / "a new one", 0, "from another record");
-}
-
-TEST_F(UnitRecordFile, ACopyOfARecordIsAnotherRecord) {
-    RecordProperty("hazard", "H1");
-    const ScratchDir copy;
-    const auto from = [&](const std::filesystem::path& records) {
-        const VirtualClock clock;
-        SafetyGate gate(clock);
-        const auto record = UnitRecord::open({records, claims_.path()}, kUnit, clock, time_).value();
-        gate.continueFrom(*record);
-        EXPECT_TRUE(gate.configure(strongSetup()));
-        std::size_t approved = 0;
-        while (approved < 100 && gate.approve({volts(40), Seconds(10), clock.now()})) ++approved;
-        return approved;
-    };
-    EXPECT_EQ(from(folder_.path()), 4U);
-    std::filesystem::copy(folder_.path(), copy.path(), std::filesystem::copy_options::recursive);
-    time_.now += std::chrono::seconds(20);
-    EXPECT_EQ(from(folder_.path()), 4U);
-    EXPECT_EQ(from(copy.path()), 0U) << "it knows nothing of the last four";
-    time_.now += std::chrono::seconds(20);
-    EXPECT_EQ(from(copy.path()), 4U);
-    EXPECT_EQ(from(folder_.path()), 0U);
-}
-
-TEST_F(UnitRecordFile, AFaultIsFoundInAnEarlierCopyOfTheRecordToo) {
-    RecordProperty("hazard", "H3");
-    const ScratchDir copy;
-    const VirtualClock clock;
-    { const auto before = run(); }
-    std::filesystem::copy(folder_.path(), copy.path(), std::filesystem::copy_options::recursive);
-    run()->record->keepFault(FaultCause::OpenElectrode, "the electrode is open");
-    EXPECT_TRUE(UnitRecord::open({copy.path(), claims_.path()}, kUnit, clock, time_).value()->fault());
-}
-
-TEST_F(UnitRecordFile, WithoutAPlaceForClaimsAUnitAlwaysRests) {
-    RecordProperty("hazard", "H1");
-    const ScratchDir other;
-    const auto rests = [&](const std::filesystem::path& claims) {
-        const VirtualClock clock;
-        const auto record = UnitRecord::open({folder_.path(), claims}, kUnit, clock, time_);
-        if (!record) return record.error().message;
-        time_.now += std::chrono::seconds(20);
-        return std::string((*record)->whyQuiet());
-    };
-    EXPECT_EQ(rests(claims_.path()), "");
-    EXPECT_EQ(rests(claims_.path()), "");
-    EXPECT_THAT(rests(claims_.path() / "none"), HasSubstr("no place"));
-    const auto claim = std::filesystem::directory_iterator(claims_.path())->path();
-    EXPECT_EQ(std::filesystem::status(claim).permissions(), std::filesystem::perms(0666)) << "for every account";
-    const auto evidence = other.write("evidence.tacto", "a session");
-    std::filesystem::remove(claim);
-    std::filesystem::create_symlink(evidence, claim);
-    EXPECT_THAT(rests(claims_.path()), HasSubstr("no place"));
-    EXPECT_EQ(std::filesystem::file_size(evidence), 9U) << "it was written over";
-    std::filesystem::remove(claim);
-    EXPECT_EQ(rests(claims_.path()), "") << "the computer was started";
-    std::filesystem::resize_file(claim, 3);
-    EXPECT_THAT(rests(claims_.path()), HasSubstr("from another record")) << "a damaged claim belongs to no program";
-    EXPECT_EQ(rests(claims_.path()), "");
-}
-
-TEST_F(UnitRecordFile, TwoAccountsNeverDriveOneUnitAtOnce) {
-    RecordProperty("hazard", "H1");
-    const ScratchDir other;
-    const auto first = run();
-    const VirtualClock clock;
-    const auto second = UnitRecord::open({other.path(), claims_.path()}, kUnit, clock, time_);
-    ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, ErrorCode::Device);
-    EXPECT_THAT(second.error().message, HasSubstr(fmt::format("(process {})", ::getpid())));
-}
-
-TEST_F(UnitRecordFile, AFaultIsFoundFromEveryAccount) {
-    RecordProperty("hazard", "H3");
-    const ScratchDir other;
-    const VirtualClock clock;
-    const auto elsewhere = [&] {
-        return UnitRecord::open({other.path(), claims_.path()}, kUnit, clock, time_).value();
-    };
-    run()->record->keepFault(FaultCause::OpenElectrode, "the electrode is open");
-    const auto fault = elsewhere()->fault();
-    ASSERT_TRUE(fault);
-    EXPECT_THAT(std::string(fault->reason.view()), HasSubstr("of another account or data folder"));
-    elsewhere()->clearFault();
-    EXPECT_FALSE(elsewhere()->fault());
-    EXPECT_THAT(std::string(run()->record->fault().value().reason.view()), HasSubstr("the electrode is open"))
-        << "a record forgets nothing that it saw itself";
 }
 
 TEST_F(UnitRecordFile, IsNoLinkToAnotherFile) {
