@@ -14,6 +14,7 @@
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/PilotWorkspace.h"
+#include "app/gui/pilot/RehearsalPage.h"
 #include "app/gui/pilot/ScreenChoice.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
@@ -89,7 +90,7 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
 TEST_F(RehearsalInTheWindow, ItsMarkersReachARecorderAndTheResultSaysSo) {
     HeldPort held;
     pilot = window.findChild<gui::PilotWorkspace*>();
-    auto* markers = pilot->findChild<QLineEdit*>("markers");
+    auto* markers = pilot->findChild<gui::RehearsalPage*>()->findChild<QLineEdit*>("markers");
     markers->setText(QString::number(held.port()));
     begin(false);
     const auto* trouble = pilot->findChild<QLabel*>("rehearsalTrouble");

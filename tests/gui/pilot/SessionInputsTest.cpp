@@ -353,6 +353,18 @@ TEST_F(SeatedWithPad, ButtonsOnTheTargetsLookRightAndAreTheSameForEveryCondition
     EXPECT_EQ(seen[2], seen[3]);
     EXPECT_NE(seen[0], seen[2]);
     gui::applyTheme(gui::Theme::Light);
+    for (const auto& [percent, size] : {std::pair{100, QSize(1280, 720)}, std::pair{200, QSize(1280, 800)}}) {
+        gui::applyTextSize(percent);
+        window.resize(size);
+        desk.show(testScreen(ScreenState::Feel));
+        ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+        QTest::qWait(60);
+        shot(window, QString("buttons-%1").arg(percent));
+        EXPECT_EQ(faultsOf(window), "") << percent;
+        click("theirs", 1);
+        ASSERT_TRUE(answered());
+    }
+    gui::applyTextSize(100);
 }
 
 class OwnThread : public testing::Test {
