@@ -147,7 +147,7 @@ struct MarkerServer::State {
     void hangUp();
 
     std::unique_ptr<QThread> thread;
-    // Of that thread alone:
+    // Used by that thread alone:
     std::vector<std::unique_ptr<Recorder>> recorders;
     std::shared_ptr<const Clock> clock;
     MarkerTally tally;

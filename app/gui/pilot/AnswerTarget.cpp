@@ -51,7 +51,7 @@ QFont AnswerTarget::wordFont(int px) const {
 
 int AnswerTarget::keyPx() const { return std::max(kLeast_px, std::min(key_px_, height() / 5)); }
 
-/// Of a key's cap or a button's circle.
+/// The width of a key's cap or a button's circle.
 int AnswerTarget::capWide(const QString& of) const {
     auto font = textFont(TextSize::Body);
     font.setPixelSize(keyPx());

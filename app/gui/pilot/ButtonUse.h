@@ -40,7 +40,7 @@ struct ButtonLabels {
     QStringList answers;  ///< of answer 1 to n, all of which it reaches
     QString hold;         ///< empty where none holds
 };
-/// Of the participant's device that reaches the most answers; what holds may be on another.
+/// The labels are those of the participant's device that reaches the most answers; what holds may be on another.
 [[nodiscard]] ButtonLabels labelsOf(const std::vector<SeatedDevice>& seats);
 
 }  // namespace tacto::gui
