@@ -11,6 +11,7 @@
 #include <future>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 namespace tacto {

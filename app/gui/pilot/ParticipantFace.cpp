@@ -87,6 +87,8 @@ void ParticipantFace::setNote(const QString& note) {
     arrange();
 }
 
+void ParticipantFace::setStopButtons(const QStringList& buttons) { stopTarget_->setButtons(buttons); }
+
 QString ParticipantFace::title() const { return title_->text(); }
 
 void ParticipantFace::setTimeLeft(double share) { time_->setShares({share}); }

@@ -1,5 +1,6 @@
 // Game pads and foot switches in a session: each press is its person's, by the door of the keys, and STOP comes in
 // time.
+#include <QAbstractButton>
 #include <QComboBox>
 #include <QEventLoop>
 #include <QPushButton>
@@ -321,6 +322,11 @@ TEST_F(SeatedWithPad, EachTargetShowsTheButtonThatAnswersIt) {
     ASSERT_TRUE(answered());
     ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
     EXPECT_EQ(target("hold").button(), "7");
+    EXPECT_EQ(window.findChild<QAbstractButton*>("participantStop")->accessibleName(), "STOP · button 5 or 6");
+    const auto pedal = gui::labelsOf({seated("pedal", PromptTo::Participant, 1), seated("pad", PromptTo::Operator)});
+    EXPECT_TRUE(pedal.answers.isEmpty()) << "the operator's are not theirs";
+    window.setButtonLabels(pedal);
+    EXPECT_EQ(window.findChild<QAbstractButton*>("participantStop")->accessibleName(), "STOP · pedal");
 }
 
 TEST_F(SeatedWithPad, ButtonsAreNotShownOnAQuestionThatTheyDoNotReach) {
