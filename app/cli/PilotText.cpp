@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-/// What people read for the keys of results that are no sentences; another text as it is.
+/// What people read for a key of the results; another text is returned as it is.
 std::string wordsOf(const std::string& key) {
     static const std::map<std::string, std::string, std::less<>> kWords{{"too-strong", "too strong"},
                                                                         {"ceiling", "the highest level"},
@@ -35,7 +35,7 @@ std::string wordsOf(const std::string& key) {
     return found != kWords.end() ? found->second : key;
 }
 
-/// GUM writes no such figures with an e.
+/// "0.012"; a p below 0.001 is given as such.
 std::string chanceText(double p) { return !std::isfinite(p) ? "–" : p < 0.001 ? "< 0.001" : decimalText(p, 3); }
 
 /// How the session's levels are read: of current, or of a massager's strength.

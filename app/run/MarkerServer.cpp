@@ -11,6 +11,7 @@
 #include <future>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 namespace tacto {
@@ -147,7 +148,7 @@ struct MarkerServer::State {
     void hangUp();
 
     std::unique_ptr<QThread> thread;
-    // Of that thread alone:
+    // Used by that thread alone:
     std::vector<std::unique_ptr<Recorder>> recorders;
     std::shared_ptr<const Clock> clock;
     MarkerTally tally;

@@ -58,5 +58,18 @@ TEST(PilotMarkers, ASessionIsTheSameWithAndWithoutThem) {
     EXPECT_EQ(desk.desk().run({"verify", desk.desk().at("marked")}).code, 0);
 }
 
+TEST(PilotMarkers, KilledAndResumedWithThemIsAsUndisturbed) {
+    RecordProperty("hazard", "H8");
+    const PilotDesk desk;
+    const auto plain = desk.run("pilot-identification", shortSession());
+    ASSERT_EQ(plain.code, 0) << plain.err;
+    const auto words = shortSession() + Words{"--markers", std::to_string(freePort())};
+    ASSERT_EQ(desk.runKilled(200, "pilot-identification", words, "killed"), -9);
+    const auto resumed = desk.run("pilot-identification", words + Words{"--set", "unfinished=resume"}, "killed");
+    ASSERT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_EQ(planAndAnswers(jsonOf(resumed)), planAndAnswers(jsonOf(plain)));
+    EXPECT_EQ(jsonOf(resumed)["markers"]["recorders"], 0);
+}
+
 }  // namespace
 }  // namespace tacto::test

@@ -234,7 +234,7 @@ TEST(Pilot, ItsResultsAreReadInTheTerminalWithoutJson) {
                               {"--device", "sim:massager", "--device", "sim:finger?on=motor", "--set", "blocks=1"});
     ASSERT_EQ(vibrated.code, 0) << vibrated.err;
     EXPECT_EQ(vibrated.out.find("mA"), std::string::npos) << vibrated.out;
-    EXPECT_THAT(vibrated.out, testing::ContainsRegex("smooth-high +[0-9.]+ +[0-9.]+ +0.5"));
+    EXPECT_THAT(vibrated.out, testing::ContainsRegex("smooth, firm +[0-9.]+ +[0-9.]+ +0.5"));
     const auto limits = run("pilot-thresholds", "thresholds", {"--device", "sim:"});
     ASSERT_EQ(limits.code, 0) << limits.err;
     EXPECT_THAT(limits.out, testing::ContainsRegex("detection +[0-9.]+ mA"));

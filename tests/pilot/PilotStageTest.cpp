@@ -166,7 +166,7 @@ TEST_F(PilotStageTest, AContactThatBouncesSwitchesOffAndIsNoneOfTheirStops) {
         EXPECT_EQ(row.body["why"], "the contact of the button that is held bounced");
     }
 
-    // Where it is no contact's doing it is a stop as any other, and the third ends the session.
+    // Where it was not the contact it is a stop as any other, and the third ends the session.
     someone_.onAsk = {};
     someone_.stops = 3;
     EXPECT_FALSE(stage_->trial(trial("test 2")));

@@ -38,7 +38,7 @@ protected:
         drivers.push_back(makeSimulatedDriver());
         return Registry(std::move(drivers));
     }
-    /// Of the study's only session.
+    /// The rows of the study's only session.
     [[nodiscard]] static std::vector<SessionRow> rowsOf(const std::filesystem::path& folder) {
         const auto study = Study::open(folder, nullptr, Study::Access::Read).value();
         const auto part = study.sessions().front().parts.front().file;

@@ -51,18 +51,21 @@ QFont AnswerTarget::wordFont(int px) const {
 
 int AnswerTarget::keyPx() const { return std::max(kLeast_px, std::min(key_px_, height() / 5)); }
 
-/// Of a key's cap or a button's circle.
+/// The width of a key's cap or a button's circle.
 int AnswerTarget::capWide(const QString& of) const {
     auto font = textFont(TextSize::Body);
     font.setPixelSize(keyPx());
     return of.isEmpty() ? 0 : std::max(int(keyPx() * 1.6), QFontMetrics(font).horizontalAdvance(of) + keyPx() / 2);
 }
 
-/// With the margin beside them; 0 where there is neither.
+/// What the words leave free on a side, with the margin; 0 where there is neither. Below words that stand in the middle
+/// the key is at the right and the button at the left, so that the words stay as large as with the key alone.
 int AnswerTarget::capsWide() const {
     if (key_.isEmpty() && button_.isEmpty()) return 0;
+    const int margin = keyPx() * 7 / 10;
+    if (shape_ == Shape::Stacked) return std::max(capWide(key_), capWide(button_)) + margin;
     const int between = key_.isEmpty() || button_.isEmpty() ? 0 : int(keyPx() * kBetweenCaps);
-    return capWide(key_) + between + capWide(button_) + keyPx() * 7 / 10;
+    return capWide(key_) + between + capWide(button_) + margin;
 }
 
 int AnswerTarget::leastPx() const { return std::max(kLeast_px, int(words_px_ * 0.3)); }
@@ -164,28 +167,26 @@ void AnswerTarget::paintEvent(QPaintEvent* /*event*/) {
     paintCaps(painter);
 }
 
-/// At the right below: the key, and the button left of it.
 void AnswerTarget::paintCaps(QPainter& painter) const {
     const auto& c = colours();
     auto font = textFont(TextSize::Body);
-    const int key_px = keyPx();
+    const int key_px = keyPx(), margin = key_px * 7 / 10;
     font.setPixelSize(key_px);
     painter.setFont(font);
-    double right = width() - key_px * 7 / 10 + 0.5;
     const double high = key_px * 1.6;
-    const auto put = [&](const QString& label, double radius) {
+    const auto put = [&](const QString& label, int left, double radius) {
         if (label.isEmpty()) return;
-        const int wide = capWide(label);
-        const QRectF cap(right - wide, height() - key_px * 7 / 10 - high + 0.5, wide, high);
+        const QRectF cap(left + 0.5, height() - margin - high + 0.5, capWide(label), high);
         painter.setPen(QPen(c.edge, 1));
         painter.setBrush(c.base);
         painter.drawRoundedRect(cap, radius, radius);
         painter.setPen(c.quiet);
         painter.drawText(cap, Qt::AlignCenter, label);
-        right -= wide + int(key_px * kBetweenCaps);
     };
-    put(key_, kKeyRadius);
-    put(button_, high / 2);
+    const int keyLeft = width() - margin - capWide(key_);
+    put(key_, keyLeft, kKeyRadius);
+    const int between = key_.isEmpty() ? 0 : int(key_px * kBetweenCaps);
+    put(button_, shape_ == Shape::Stacked ? margin : keyLeft - between - capWide(button_), high / 2);
 }
 
 }  // namespace tacto::gui

@@ -29,7 +29,12 @@ ButtonLabels labelsOf(const std::vector<SeatedDevice>& seats) {
     };
     for (const auto& seat : seats) {
         if (seat.whose != PromptTo::Participant) continue;
+        const bool hasStops = !labels.stops.isEmpty();
         if (labels.hold.isEmpty()) labels.hold = buttonFor(seat, {ButtonUse::Does::Hold, 0});
+        for (std::size_t i = 0; i < seat.uses.size() && !hasStops; ++i) {
+            if (seat.uses[i].does != ButtonUse::Does::Stop) continue;
+            labels.stops << (seat.uses.size() > 1 ? QString::fromStdString(seat.device.buttons[i]) : QString());
+        }
         if (seat.answers() <= int(labels.answers.size())) continue;
         labels.answers.clear();
         for (int i = 1; i <= seat.answers(); ++i) labels.answers << buttonFor(seat, {ButtonUse::Does::Answer, i});

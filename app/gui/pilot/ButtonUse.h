@@ -39,8 +39,9 @@ struct SeatedDevice {
 struct ButtonLabels {
     QStringList answers;  ///< of answer 1 to n, all of which it reaches
     QString hold;         ///< empty where none holds
+    QStringList stops;    ///< of the first device with one; a device of one button is a pedal, and has no number
 };
-/// Of the participant's device that reaches the most answers; what holds may be on another.
+/// The labels are those of the participant's device that reaches the most answers; what holds may be on another.
 [[nodiscard]] ButtonLabels labelsOf(const std::vector<SeatedDevice>& seats);
 
 }  // namespace tacto::gui

@@ -30,7 +30,7 @@ public:
     /// Null: there are none.
     void setDevices(std::shared_ptr<const ButtonDevices> devices);
     [[nodiscard]] const std::shared_ptr<const ButtonDevices>& devices() const { return open_.devices(); }
-    /// Of which study: its id, or kRehearsals. What was chosen before is forgotten.
+    /// The study's id, or kRehearsals. What was chosen before is forgotten.
     void setPlace(const QString& place);
     /// Those that are assigned to a person and do something.
     [[nodiscard]] std::vector<SeatedDevice> seats() const;

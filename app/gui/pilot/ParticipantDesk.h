@@ -66,9 +66,9 @@ public:
     void setHolding(bool holding, std::optional<int> button = std::nullopt);
     /// The button of that code came up. True where it was what is held, which ends that. Any thread.
     [[nodiscard]] bool letGoOf(int button) noexcept;
-    /// A button that holds went down or came up, whoever held what; after letGoOf(). Any thread.
+    /// A button that holds went down or came up, also one that is not what is held; after letGoOf(). Any thread.
     void noteHoldButton(int button, bool down, SteadyTime at);
-    /// Someone pressed a STOP too: what was let go is no bounce. Any thread.
+    /// Someone pressed a STOP too: a release just before was not a bounce. Any thread.
     void notePressed();
     /// Output off, and the question that waits ends with Stopped; where none waits, the next one, unless the session
     /// shows something before. False where no session listens. Any thread.

@@ -36,6 +36,18 @@ QString phaseTitle(const std::string& phase) {
     return {};
 }
 
+/// A pad's button stands in a circle beside the key.
+QString howToAnswer(const ParticipantView& view) {
+    const bool one = targetCount(*view.asked) == 1;
+    const bool buttons = !view.buttons.isEmpty();
+    auto said = one       ? buttons ? QObject::tr("Touch it, or press its key, or the button in the circle.")
+                                    : QObject::tr("Touch it, or press its key.")
+                      : buttons ? QObject::tr("Touch one, or press its key, or the button in its circle.")
+                          : QObject::tr("Touch one, or press its key.");
+    if (!one && view.asked->within) said += ' ' + QObject::tr("There is time.");
+    return said;
+}
+
 }  // namespace
 
 bool isStopTestPrompt(const PilotPrompt& prompt) { return prompt.name == "stop-test"; }
@@ -74,6 +86,8 @@ void ParticipantFace::setNote(const QString& note) {
     note_->setText(note);
     arrange();
 }
+
+void ParticipantFace::setStopButtons(const QStringList& buttons) { stopTarget_->setButtons(buttons); }
 
 QString ParticipantFace::title() const { return title_->text(); }
 
@@ -150,9 +164,7 @@ void ParticipantFace::show(const ParticipantView& view) {
                            : asked_->kind == PromptKind::Text ? tr("Return gives the answer.")
                            : asked_->kind == PromptKind::Several
                                ? tr("Touch each that fits, then press Return or “done”.")
-                           : targetCount(*asked_) == 1 ? tr("Touch it, or press its key.")
-                           : asked_->within            ? tr("Touch one, or press its key. There is time.")
-                                                       : tr("Touch one, or press its key.");
+                               : howToAnswer(view);
         return put(qtext(asked_->text), below);
     }
     if (view.pause) {

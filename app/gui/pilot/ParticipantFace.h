@@ -44,6 +44,7 @@ public:
     /// Words alone, and no question.
     void say(const QString& title, const QString& below);
     void setNote(const QString& note);
+    void setStopButtons(const QStringList& buttons);
     void setTimeLeft(double share);
     /// At the lower edge while it is open. Takes the widget.
     void setStrip(QWidget* strip);

@@ -37,6 +37,14 @@ void ParticipantStop::setType(int word_px, int lines_px) {
     update();
 }
 
+void ParticipantStop::setButtons(const QStringList& buttons) {
+    buttons_ = buttons.isEmpty()           ? QString()
+               : buttons.first().isEmpty() ? tr(" · pedal")
+                                           : tr(" · button %1").arg(buttons.join(tr(" or ")));
+    setAccessibleName(text() + buttons_);
+    update();
+}
+
 void ParticipantStop::press() {
     stop_();
     setDown(true);
@@ -66,7 +74,7 @@ void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
     painter.drawRoundedRect(rect(), kStopRadius, kStopRadius);
     painter.setPen(style.ink);
     const int room = width() * 9 / 10;
-    const auto keys = tr("Space · Esc · Pause");
+    const auto keys = tr("Space · Esc · Pause") + buttons_;
     const auto foot = tr("It stops immediately. You do not have to say why.\nIt goes on only when you say so.");
     const auto longest = tr("It stops immediately. You do not have to say why.");
     const auto word = fitted(text(), textFont(TextSize::Display, QFont::Bold), word_px_, room);

@@ -14,6 +14,8 @@ public:
     ParticipantStop(std::function<void()> stop, QWidget* parent);
     /// Pixels of the word, which shrinks where there is no room, of the lines below it, and of those at the foot.
     void setType(int word_px, int lines_px);
+    /// Buttons of a pad, or a pedal, that stop as the keys do: see ButtonLabels::stops.
+    void setButtons(const QStringList& buttons);
 
 protected:
     bool event(QEvent* event) override;
@@ -23,6 +25,7 @@ protected:
 private:
     void press();
     const std::function<void()> stop_;
+    QString buttons_;
     int word_px_ = 92;
     int lines_px_ = 20;
 };

@@ -269,6 +269,11 @@ std::optional<int> ParticipantWindow::targetOfAnswer(int answer) const {
     return answer >= 1 && answer <= count && count <= buttonAnswers_ ? std::optional(answer - 1) : std::nullopt;
 }
 
+void ParticipantWindow::setButtonLabels(const ButtonLabels& labels) {
+    buttonLabels_ = labels;
+    face_->setStopButtons(labels.stops);
+}
+
 QStringList ParticipantWindow::buttonsOfTargets() const {
     QStringList buttons;
     for (int i = 0; i < targetCount(prompt_) && targetOfAnswer(i + 1) == i; ++i)

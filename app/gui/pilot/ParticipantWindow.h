@@ -37,8 +37,8 @@ public:
     /// buttons only where they reach each of its targets: see setButtonAnswers().
     void moveButton(int code, const ButtonUse& use, bool down, SteadyTime at);
     void setButtonAnswers(int reached) { buttonAnswers_ = reached; }
-    /// Written on the targets of questions that buttons answer, and on what is held.
-    void setButtonLabels(const ButtonLabels& labels) { buttonLabels_ = labels; }
+    /// Written on the targets of questions that buttons answer, on what is held, and on STOP.
+    void setButtonLabels(const ButtonLabels& labels);
     /// Half a sentence: a device of either person is unplugged, so no presentation starts; empty: all are there.
     void setInputGone(const QString& why);
     /// At the right above: "rehearsal · simulated".

@@ -132,7 +132,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     blocks_->setToolTip(tr("Each block has 18 trials: four per condition and two empty."));
     form->addRow(tr("Blocks of the test"), blocks_);
     seats_ = std::make_unique<SeatRows>(*form, *holder);
-    seats_->inputs().setPlace(kRehearsals);
+    seats_->recall(kRehearsals);
     setTabOrder(folder_, choose);
     setTabOrder(seats_->last(), begin_);
     column->addWidget(holder);

@@ -71,6 +71,11 @@ QString SeatRows::missing(bool person) const {
     return person ? inputs_->missing() : QString();
 }
 
+void SeatRows::recall(const QString& place) {
+    inputs_->setPlace(place);
+    markers_->setText(QSettings().value(kMarkersKey, kNoMarkers).toString());
+}
+
 void SeatRows::setBlind(bool study) {
     blind_->setChecked(study);
     blind_->setEnabled(!study);

@@ -28,6 +28,8 @@ public:
     [[nodiscard]] QLineEdit& markers() const { return *markers_; }
     /// Why a session cannot begin with these rows, a sentence; empty where it can.
     [[nodiscard]] QString missing(bool person) const;
+    /// What is remembered of `place` (RememberedInputs.h), and the markers' port: chosen before is forgotten.
+    void recall(const QString& place);
     /// Screen, keys and buttons are a person's.
     void showFor(bool person);
     /// A blind study's sessions are blind: that is part of its approval.

@@ -1,6 +1,7 @@
 #include "app/gui/pilot/SessionConduct.h"
 
 #include <QScreen>
+#include <algorithm>
 #include <utility>
 
 #include "app/gui/pilot/OperatorPage.h"
@@ -40,7 +41,7 @@ SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, 
         emit changed();
     });
     connect(&desk_, &ParticipantDesk::bounced, this, [this] {
-        --participantStops_;
+        participantStops_ = std::max(0, participantStops_ - 1);
         emit changed();
     });
     connect(&desk_, &ParticipantDesk::obstacleChanged, this,

@@ -129,7 +129,7 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     seats_->showFor(!virtual_);
     seats_->setBlind(study.settings().blind);
     study_ = qtext(study.settings().id);
-    seats_->inputs().setPlace(study_);
+    seats_->recall(study_);
     if (const auto& approved = study.settings().procedure)
         method_->setCurrentIndex(method_->findData(qtext(nameOf(approved->method))));
     const auto unfinished = unfinishedOf(study, participant);

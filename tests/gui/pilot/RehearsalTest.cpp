@@ -14,6 +14,8 @@
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/PilotWorkspace.h"
+#include "app/gui/pilot/RehearsalPage.h"
+#include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/pilot/ScreenChoice.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
@@ -89,7 +91,7 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
 TEST_F(RehearsalInTheWindow, ItsMarkersReachARecorderAndTheResultSaysSo) {
     HeldPort held;
     pilot = window.findChild<gui::PilotWorkspace*>();
-    auto* markers = pilot->findChild<QLineEdit*>("markers");
+    auto* markers = pilot->findChild<gui::RehearsalPage*>()->findChild<QLineEdit*>("markers");
     markers->setText(QString::number(held.port()));
     begin(false);
     const auto* trouble = pilot->findChild<QLabel*>("rehearsalTrouble");
@@ -251,6 +253,9 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     begin(true);
     auto* theirs = pilot->participantWindow();
     ASSERT_NE(theirs, nullptr);
+    const auto before = gui::rememberedInput(gui::kRehearsals, PluggedButtons::pad("pedal", 1));
+    ASSERT_TRUE(before) << "offered in the next one";
+    EXPECT_EQ(before->whose, PromptTo::Operator);
     const auto tests = [&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; };
     ASSERT_IN_TIME(comesTrue(tests, 20'000));
 

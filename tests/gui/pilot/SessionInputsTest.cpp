@@ -1,5 +1,6 @@
 // Game pads and foot switches in a session: each press is its person's, by the door of the keys, and STOP comes in
 // time.
+#include <QAbstractButton>
 #include <QComboBox>
 #include <QEventLoop>
 #include <QPushButton>
@@ -321,6 +322,11 @@ TEST_F(SeatedWithPad, EachTargetShowsTheButtonThatAnswersIt) {
     ASSERT_TRUE(answered());
     ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
     EXPECT_EQ(target("hold").button(), "7");
+    EXPECT_EQ(window.findChild<QAbstractButton*>("participantStop")->accessibleName(), "STOP · button 5 or 6");
+    const auto pedal = gui::labelsOf({seated("pedal", PromptTo::Participant, 1), seated("pad", PromptTo::Operator)});
+    EXPECT_TRUE(pedal.answers.isEmpty()) << "the operator's are not theirs";
+    window.setButtonLabels(pedal);
+    EXPECT_EQ(window.findChild<QAbstractButton*>("participantStop")->accessibleName(), "STOP · pedal");
 }
 
 TEST_F(SeatedWithPad, ButtonsAreNotShownOnAQuestionThatTheyDoNotReach) {
@@ -353,6 +359,18 @@ TEST_F(SeatedWithPad, ButtonsOnTheTargetsLookRightAndAreTheSameForEveryCondition
     EXPECT_EQ(seen[2], seen[3]);
     EXPECT_NE(seen[0], seen[2]);
     gui::applyTheme(gui::Theme::Light);
+    for (const auto& [percent, size] : {std::pair{100, QSize(1280, 720)}, std::pair{200, QSize(1280, 800)}}) {
+        gui::applyTextSize(percent);
+        window.resize(size);
+        desk.show(testScreen(ScreenState::Feel));
+        ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+        QTest::qWait(60);
+        shot(window, QString("buttons-%1").arg(percent));
+        EXPECT_EQ(faultsOf(window), "") << percent;
+        click("theirs", 1);
+        ASSERT_TRUE(answered());
+    }
+    gui::applyTextSize(100);
 }
 
 class OwnThread : public testing::Test {
