@@ -39,7 +39,13 @@ void AnswerTarget::setContent(const QString& words, const QStringList& icons, co
 
 void AnswerTarget::setType(int words_px, int key_px) {
     words_px_ = words_px;
+    most_px_ = words_px;
     key_px_ = key_px;
+    update();
+}
+
+void AnswerTarget::limitWords(int px) {
+    most_px_ = px;
     update();
 }
 
@@ -70,7 +76,6 @@ int AnswerTarget::capsWide() const {
 
 int AnswerTarget::leastPx() const { return std::max(kLeast_px, int(words_px_ * 0.3)); }
 
-/// The words' size, or the largest at which they have room beside the key.
 int AnswerTarget::fittingPx() const {
     const int least = leastPx();
     for (int px = words_px_; px > least; --px) {
@@ -85,7 +90,7 @@ int AnswerTarget::fittingPx() const {
         const int beside = low ? 2 * (capsWide() + keyPx() / 10) : 2 * pad;
         const bool wide = metrics.horizontalAdvance(text()) + icons + cap + beside <= width();
         if (wide && high <= height() - 8) return px;
-        // Beside the key there may be two lines: one target in small letters would be chosen less.
+        // Beside the key there may be two lines, before letters get small.
         const int room = width() - icons - cap - 2 * pad;
         if (row && wrapped(metrics, room).width() <= room && wrapped(metrics, room).height() <= height() - 8) return px;
     }
@@ -131,7 +136,7 @@ void AnswerTarget::paintEvent(QPaintEvent* /*event*/) {
     painter.setBrush(isChecked() ? c.selection : c.base);
     painter.drawRoundedRect(QRectF(rect()).adjusted(1, 1, -1, -1), kRadius, kRadius);
 
-    const int px = fittingPx();
+    const int px = wordsPx();
     const QFontMetrics words(wordFont(px));
     const int icon = int(px * kIconShare), pad = int(px * kPadShare);
     const auto put = [&](const QString& name, int x, int y) {

@@ -7,6 +7,7 @@
 #include <QAbstractButton>
 #include <QFontMetrics>
 #include <QStringList>
+#include <algorithm>
 
 #include "app/gui/pilot/InputTime.h"
 
@@ -26,6 +27,12 @@ public:
     [[nodiscard]] const QString& button() const { return button_; }
     /// Pixels of the words and of the key; words shrink where the target is too narrow for them.
     void setType(int words_px, int key_px);
+    /// The largest pixels of the words for which it has room, setType()'s at most.
+    [[nodiscard]] int fittingPx() const;
+    /// Until the next setType() words are no larger than this: the smallest of the targets that stand beside each
+    /// other.
+    void limitWords(int px);
+    [[nodiscard]] int wordsPx() const { return std::min(fittingPx(), most_px_); }
     /// As small as the words may get.
     [[nodiscard]] QSize minimumSizeHint() const override;
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
@@ -49,13 +56,13 @@ private:
     [[nodiscard]] int capsWide() const;
     void paintCaps(QPainter& painter) const;
     [[nodiscard]] int leastPx() const;
-    [[nodiscard]] int fittingPx() const;
     /// The words' size where lines are as long as `room`.
     [[nodiscard]] QSize wrapped(const QFontMetrics& metrics, int room) const;
     QStringList icons_;
     QString key_, button_;
     Shape shape_ = Shape::Stacked;
     int words_px_ = 28;
+    int most_px_ = 28;
     int key_px_ = 20;
 };
 

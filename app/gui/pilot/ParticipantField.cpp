@@ -149,6 +149,14 @@ void ParticipantField::arrange() {
     std::vector<double> weights(rows.size(), 1.0);
     if (kind_ == PromptKind::Condition && rows.size() == 3) weights.back() = kLowRow;
     arrangeRows(rows, weights);
+    alignWords();
+}
+
+/// A target in smaller letters than the others would be chosen less.
+void ParticipantField::alignWords() {
+    int px = words_px_;
+    for (const auto* target : targets_) px = std::min(px, target->fittingPx());
+    for (auto* target : targets_) target->limitWords(px);
 }
 
 void ParticipantField::arrangeRows(const std::vector<std::vector<int>>& rows, const std::vector<double>& weights) {

@@ -65,6 +65,7 @@ private:
     enum class Content { Nothing, Dot, Word, Intervals, Targets };
     void arrange();
     void arrangeRows(const std::vector<std::vector<int>>& rows, const std::vector<double>& weights);
+    void alignWords();
     void drop();
     void paintIntervals(QPainter& painter) const;
 

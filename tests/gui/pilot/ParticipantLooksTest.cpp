@@ -1,5 +1,6 @@
 // The participant's screen: the same pixels for every condition, targets of 20 mm, nothing cut, nothing red but STOP.
 #include <QLabel>
+#include <set>
 
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/theme/Theme.h"
@@ -169,6 +170,9 @@ TEST_F(ParticipantLooks, TargetsHave20mmAndNothingIsCutInBothThemesAndSizes) {
                             QRect(target->mapTo(&window, QPoint(0, 0)), target->size())))
                             << name.toStdString();
                     }
+                    std::set<int> words_px;
+                    for (const auto* target : window.field().targets()) words_px.insert(target->wordsPx());
+                    EXPECT_LE(words_px.size(), 1U) << name.toStdString() << ": smaller words are chosen less";
                     desk.cancel();
                     EXPECT_FALSE(answered());
                     desk.begin(nullptr);  // another session's
