@@ -109,6 +109,23 @@ TEST_F(PilotStageTest, AnAnswerToAnotherLevelIsNotTaken) {
     EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
 }
 
+TEST_F(PilotStageTest, AnAnswerBesideAnotherWeakerLevelIsNotTaken) {
+    RecordProperty("hazard", "H9");
+    auto compared = trial();
+    for (const double weaker : {0.0, 0.25}) {
+        compared.weaker = weaker;
+        begin({});
+        ASSERT_TRUE(stage_->trial(compared));
+        const auto earlier = rows();
+        begin(earlier);
+        compared.weaker = 0.5;
+        const auto answer = stage_->trial(compared);
+        ASSERT_FALSE(answer);
+        EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
+        EXPECT_THAT(answer.error().message, testing::HasSubstr("beside"));
+    }
+}
+
 TEST_F(PilotStageTest, AnAnswerToAnotherIntervalIsNotTaken) {
     RecordProperty("hazard", "H9");
     ASSERT_TRUE(stage_->trial(trial()));
