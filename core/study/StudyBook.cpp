@@ -131,8 +131,7 @@ Result<Participant> StudyBook::find(std::string_view code) const {
 
 Result<void> StudyBook::amend(StudySettings amended, std::string_view reference) {
     if (auto may = changeable(); !may) return may;
-    if (reference.empty() || reference == settings.approval.reference ||
-        std::ranges::find(known.amendments, reference, &StudyAmendment::reference) != known.amendments.end()) {
+    if (reference.empty() || std::ranges::find(known.references, reference) != known.references.end()) {
         return fail(ErrorCode::InvalidArgument, "an amendment needs a reference of its own, not \"{}\"", reference);
     }
     if (amended.participantsMax < static_cast<int>(known.participants.size())) {

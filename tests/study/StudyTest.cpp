@@ -503,6 +503,7 @@ TEST_F(Desk, AnAmendmentHasAReferenceOfItsOwnAndBindsWhatItChanges) {
     changed.approval.expires = std::chrono::year(2028) / 10 / 31;
     ASSERT_TRUE(study.amend(changed, "EC-2026-17 A1"));
     EXPECT_EQ(study.amend(changed, "EC-2026-17 A1").error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(study.amend(changed, "EC-2026-17").error().code, ErrorCode::InvalidArgument) << "the first approval's";
     EXPECT_TRUE(study.stillApproved());
     enrolled(study, 1);
     enrolled(study, 2);
