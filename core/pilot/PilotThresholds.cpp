@@ -274,6 +274,7 @@ Result<void> PilotThresholds::comparison() {
     compared_ = procedure->result();
     const auto kept = stage_.record().once(row::kEstimate, "comparison", [this]() -> Result<nlohmann::json> {
         return nlohmann::json{{"amplitude_weber", estimateJson(compared_->weber)},
+                              {"at_edge", compared_->atEdge},
                               {"trials", compared_->trials.size()}};
     });
     return kept ? Result<void>() : failure(kept);
