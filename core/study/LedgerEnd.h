@@ -21,7 +21,7 @@ struct LedgerEnd {
 };
 
 /// Takes the place of what `file` said. Where it cannot be written, what it said stays.
-void noteLedgerEnd(const std::filesystem::path& file, const LedgerEnd& end) noexcept;
+void noteLedgerEnd(const std::filesystem::path& file, const LedgerEnd& end);
 /// Whether a ledger that ends with `now` has all that was noted. Errors: kGateRefused naming both rows, or a note that
 /// cannot be read.
 [[nodiscard]] Result<void> reachesEnd(const LedgerEnd& now, const std::filesystem::path& file);

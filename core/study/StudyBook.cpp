@@ -12,10 +12,19 @@
 
 namespace tacto {
 
-CalibrationDate localDay(std::chrono::sys_seconds at) {
+namespace {
+
+std::tm localTime(std::chrono::sys_seconds at) {
     const std::time_t now = at.time_since_epoch().count();
     std::tm here{};
     ::localtime_r(&now, &here);
+    return here;
+}
+
+}  // namespace
+
+CalibrationDate localDay(std::chrono::sys_seconds at) {
+    const auto here = localTime(at);
     return {std::chrono::year(here.tm_year + 1900), std::chrono::month(static_cast<unsigned>(here.tm_mon + 1)),
             std::chrono::day(static_cast<unsigned>(here.tm_mday))};
 }
@@ -228,6 +237,7 @@ Result<void> StudyBook::recordGate() const {
                     "it back from your copy",
                     file);
     }
+    if (auto zone = zoneGate(std::chrono::seconds(localTime(now()).tm_gmtoff)); !zone) return zone;
     return clockGate(known.last, now());
 }
 
