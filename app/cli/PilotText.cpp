@@ -92,10 +92,12 @@ void addThresholds(TextTable& table, const json& results, const LevelText& level
                                       resultNumber(detection, "trials"), wordsOf(resultText(detection, "method")))});
     }
     table.add({"range", rangeText(resultObject(results, "range"), levels)});
-    const auto weber = resultObject(resultObject(results, "comparison"), "amplitude_weber");
+    const auto compared = resultObject(results, "comparison");
+    const auto weber = resultObject(compared, "amplitude_weber");
     if (weber.empty()) return;
     const auto figure = [&](const char* key) { return decimalText(resultValue(weber, key), 2); };
-    table.add({"Weber fraction", fmt::format("{} ({} to {})", figure("value"), figure("low"), figure("high"))});
+    table.add({"Weber fraction", fmt::format("{} ({} to {}){}", figure("value"), figure("low"), figure("high"),
+                                             compared.value("at_edge", json()) == json(true) ? ", or beyond" : "")});
 }
 
 void addParticipant(TextTable& table, const json& results) {

@@ -90,8 +90,9 @@ Result<void> addPredicted(std::vector<ReportBlock>& blocks, Captions& captions, 
             "The prediction is a model's with this session's detection threshold, without lapses and drift. All "
             "together it expects %1 as the Weber fraction of amplitude%2. It is shown beside the answers and judges "
             "nothing.")
-            .arg(accuracies.join(", "), measured ? QString(", of which the last was measured and stands in the table")
-                                                 : QString(", which was not measured; 0.10 stands in the table")),
+            .arg(accuracies.join(", "), measured
+                                            ? QString(", of which the last was measured and stands in the table")
+                                            : QString(", which is not known of this person; 0.10 stands in the table")),
         true});
     return {};
 }

@@ -15,6 +15,7 @@ constexpr Seconds kAnswerWithin{10};  // from the appearance of the targets
 constexpr Seconds kFeedback{1.5};
 constexpr Seconds kDriftRest{300};  // recovery took about 15 min (Kaczmarek 2000): three of them
 constexpr int kMaxOnDemand = 5;     // of each condition
+constexpr std::uint64_t kMostBlocks = 50;
 
 nlohmann::json toJson(const std::vector<PlannedTrial>& planned, const std::vector<Condition>& conditions) {
     nlohmann::json all = nlohmann::json::array();
@@ -24,26 +25,6 @@ nlohmann::json toJson(const std::vector<PlannedTrial>& planned, const std::vecto
             {{"number", each.number}, {"phase", nameOf(each.phase)}, {"block", each.block}, {"condition", condition}});
     }
     return all;
-}
-
-Result<std::vector<PlannedTrial>> plannedFrom(const nlohmann::json& trials, const std::vector<Condition>& conditions) {
-    std::vector<PlannedTrial> out;
-    for (const auto& each : trials) {
-        PlannedTrial trial;
-        trial.number = countOr(each, "number");
-        trial.block = countOr(each, "block");
-        const auto phase = trialPhaseFrom(textOr(each, "phase"));
-        if (!phase) return failure(phase);
-        trial.phase = *phase;
-        const auto name = textOr(each, "condition");
-        const auto at = std::ranges::find(conditions, name, &Condition::name);
-        if (at == conditions.end() && name != kCatchCondition)
-            return fail(ErrorCode::ParseError,
-                        "the stored plan names the condition \"{}\", which this study does not have", name);
-        if (at != conditions.end()) trial.condition = static_cast<std::size_t>(at - conditions.begin());
-        out.push_back(trial);
-    }
-    return out;
 }
 
 }  // namespace
@@ -63,26 +44,40 @@ Result<void> PilotIdentification::plan(bool withTrials) {
                             {"run_sha256", settings.runSha256},
                             {"trials", nullptr}};
         if (!withTrials) return body;
-        TrialPlanSettings wanted;
-        wanted.conditions = settings.conditions.size();
-        wanted.blocks = static_cast<std::size_t>(settings.blocks);
-        wanted.perCondition = static_cast<std::size_t>(settings.perCondition);
-        wanted.catchTrials = static_cast<std::size_t>(settings.catchTrials);
-        const auto planned = planTrials(wanted, settings.seed);
+        auto planned = drawn();
         if (!planned) return failure(planned);
         body["trials"] = toJson(*planned, settings.conditions);
         return body;
     });
     if (!stored) return failure(stored);
+    const auto blocks = countOr(*stored, "blocks");
+    if (textOr(*stored, "encoding") != settings.encoding || blocks < 1 || blocks > kMostBlocks)
+        return fail(ErrorCode::ParseError,
+                    "the stored plan is of the encoding \"{}\" and {} blocks, and the session of {} and up to {}: it "
+                    "cannot be gone on with",
+                    textOr(*stored, "encoding"), blocks, settings.encoding, kMostBlocks);
     settings.seed = countOr(*stored, "seed");
-    settings.encoding = textOr(*stored, "encoding");
-    settings.blocks = static_cast<int>(countOr(*stored, "blocks"));
+    settings.blocks = static_cast<int>(blocks);
     plan_ = valueOr(*stored, "trials");
-    if (!plan_.is_array()) return {};
-    auto planned = plannedFrom(plan_, settings.conditions);
+    if (!withTrials) return {};
+    auto planned = drawn();
     if (!planned) return failure(planned);
+    if (toJson(*planned, settings.conditions) != plan_)
+        return fail(ErrorCode::ParseError,
+                    "the stored plan is not the one that is drawn from its seed, {}: it cannot be gone on with",
+                    settings.seed);
     planned_ = std::move(*planned);
     return {};
+}
+
+Result<std::vector<PlannedTrial>> PilotIdentification::drawn() const {
+    const auto& settings = stage_.settings();
+    TrialPlanSettings wanted;
+    wanted.conditions = settings.conditions.size();
+    wanted.blocks = static_cast<std::size_t>(settings.blocks);
+    wanted.perCondition = static_cast<std::size_t>(settings.perCondition);
+    wanted.catchTrials = static_cast<std::size_t>(settings.catchTrials);
+    return planTrials(wanted, settings.seed);
 }
 
 Result<void> PilotIdentification::prepare() {

@@ -21,7 +21,8 @@ public:
 
     /// The order of the whole session and its seed, from the row where one is stored. Comes before anything is
     /// presented; takes the seed and the numbers of trials of the stored plan into the stage's settings.
-    /// `withTrials`: false for thresholds alone. Errors: as PilotStage; of planTrials().
+    /// `withTrials`: false for thresholds alone. Errors: as PilotStage; of planTrials(); ParseError for a stored plan
+    /// that is not the one drawn from its seed.
     [[nodiscard]] Result<void> plan(bool withTrials);
 
     // After the range, which is usable. Errors: as PilotStage; InvalidArgument out of order.
@@ -49,6 +50,7 @@ public:
     [[nodiscard]] const nlohmann::json& driftJson() const noexcept { return drift_; }
 
 private:
+    [[nodiscard]] Result<std::vector<PlannedTrial>> drawn() const;
     [[nodiscard]] Result<bool> goesOnAdapted(int block);
     [[nodiscard]] Result<void> prepare();
     [[nodiscard]] StageTrial stageTrial(const PlannedTrial& planned) const;

@@ -49,7 +49,10 @@ Result<void> PilotSession::begin(bool withTrials) {
     // Over, and killed before the study knew. What is complete is replayed to its results; nothing is asked.
     const auto* ended = record.find(row::kSessionEnd, row::kEnd);
     const bool complete = ended != nullptr && textOr(*ended, "state") == nameOf(PilotEnd::Complete);
-    if (ended != nullptr && !complete) return stage_.end(PilotEnd::Stopped, textOr(*ended, "why"));
+    if (ended != nullptr && !complete) {
+        const auto why = textOr(*ended, "why");
+        return stage_.end(PilotEnd::Stopped, why.empty() ? "its record says that it is over" : why);
+    }
     if (auto why = endedBy(record); !complete && !why.empty()) return stage_.end(PilotEnd::Stopped, why);
     if (auto planned = identification_.plan(withTrials); !planned || complete) return planned;
     return care_.checklist();

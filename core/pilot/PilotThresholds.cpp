@@ -235,6 +235,13 @@ Result<void> PilotThresholds::range() {
     auto stored =
         stage_.record().once(row::kRange, "range", [this]() -> Result<nlohmann::json> { return describe(*range_); });
     if (!stored) return failure(stored);
+    const auto now = describe(*range_);
+    const auto unit = stage_.settings().unit;
+    for (const auto& key : {std::string("usable"), levelKey("min", unit), levelKey("max", unit)}) {
+        if (valueOr(*stored, key.c_str()) == now[key]) continue;
+        return fail(ErrorCode::ParseError, "the record has a range whose {} is {}, and its answers lead to {}", key,
+                    dumpJson(valueOr(*stored, key.c_str())), dumpJson(now[key]));
+    }
     rangeRow_ = std::move(*stored);
     rangeRow_.erase("name");
     return {};
@@ -267,6 +274,7 @@ Result<void> PilotThresholds::comparison() {
     compared_ = procedure->result();
     const auto kept = stage_.record().once(row::kEstimate, "comparison", [this]() -> Result<nlohmann::json> {
         return nlohmann::json{{"amplitude_weber", estimateJson(compared_->weber)},
+                              {"at_edge", compared_->atEdge},
                               {"trials", compared_->trials.size()}};
     });
     return kept ? Result<void>() : failure(kept);

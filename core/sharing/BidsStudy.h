@@ -76,7 +76,7 @@ struct BidsSession {
     double lowIntensity = kNaN, highIntensity = kNaN;
     double detection = kNaN, tooStrong = kNaN;         ///< mA, or a massager's intensity
     double detectionLow = kNaN, detectionHigh = kNaN;  ///< 95 % interval of `detection`
-    double amplitudeWeber = kNaN;                      ///< their own, from a comparison of strengths
+    double amplitudeWeber = kNaN;                      ///< their own, from a comparison of strengths; NaN at its edge
     std::vector<std::string> sideEffectsAsked;         ///< moments at which they were asked for
     std::optional<int> skinNextDay;                    ///< as those before and after
     std::optional<int> skinBefore, skinAfter;          ///< the worse of erythema and oedema, 0 to 4

@@ -174,6 +174,15 @@ Result<void> clockGate(std::chrono::sys_seconds last, std::chrono::sys_seconds n
     return fail(kGateRefused, "the clock says {}, and {} is of {}; set the clock", utcText(now), of, utcText(last));
 }
 
+Result<void> zoneGate(std::chrono::seconds aheadOfUtc) {
+    if (aheadOfUtc >= -std::chrono::hours(12) && aheadOfUtc <= std::chrono::hours(14)) return {};
+    return fail(
+        kGateRefused,
+        "the time zone of this computer is {:.1f} h ahead of UTC, so what day it is cannot be told; -12 to 14 h "
+        "are accepted",
+        std::chrono::duration<double, std::ratio<3600>>(aheadOfUtc).count());
+}
+
 Result<void> simulationGate(const StudySettings& settings, const Participant& participant, bool devicesSimulated) {
     if (participant.virtualSeed && !devicesSimulated) {
         return fail(kGateRefused, "{} is a virtual participant; only simulated devices are accepted",

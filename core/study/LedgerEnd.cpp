@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace fs = std::filesystem;
 
-void noteLedgerEnd(const fs::path& file, const LedgerEnd& end) noexcept {
+void noteLedgerEnd(const fs::path& file, const LedgerEnd& end) {
     auto draft = file;
     draft += ".new";
     {

@@ -23,7 +23,7 @@ struct LedgerEnd {
 };
 
 /// Takes the place of what `file` said. Where it cannot be written, what it said stays.
-void noteLedgerEnd(const std::filesystem::path& file, const LedgerEnd& end) noexcept;
+void noteLedgerEnd(const std::filesystem::path& file, const LedgerEnd& end);
 /// Whether the ledger has the row that was noted. Errors: kGateRefused naming it, or a note that cannot be read.
 [[nodiscard]] Result<void> reachesEnd(const SessionReader& ledger, const std::filesystem::path& file);
 

@@ -107,6 +107,8 @@ public:
         auto* session = state.session(textOr(row.body, "session"));
         if (session == nullptr) return unfit(row, "an unknown session");
         if (row.name == ledger::kSessionPart) {
+            if (session->state != StudySessionState::Unfinished) return unfit(row, "a session that has ended");
+            if (!isId(textOr(row.body, "file"))) return unfit(row, "a file whose name is not 16 hexadecimal digits");
             session->parts.push_back({textOr(row.body, "file"), std::chrono::sys_seconds(wholeSeconds(row.at))});
             // The part before it is as long as it will ever be: it is never written again.
             auto head = textOr(row.body, "head");
@@ -124,6 +126,10 @@ private:
     static std::chrono::seconds wholeSeconds(Instant at) noexcept {
         return std::chrono::floor<std::chrono::seconds>(at);
     }
+    /// What names a file: 16 hexadecimal digits, and no path.
+    static bool isId(std::string_view text) noexcept {
+        return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+    }
     static tl::unexpected<Error> unfit(const SessionRow& row, std::string_view what) {
         return fail(ErrorCode::ParseError, "row {} ({}) of the ledger is about {}", row.seq, row.name, what);
     }
@@ -139,6 +145,7 @@ private:
     void settings(const SessionRow& row) {
         state.settingsSha256 = textOr(row.body, "sha256");
         auto now = valueOr(row.body, "settings");
+        state.references.push_back(textOr(valueOr(now, "approval"), "reference"));
         if (row.name == ledger::kAmendment) {
             state.amendments.push_back({textOr(row.body, "reference"), std::chrono::sys_seconds(wholeSeconds(row.at)),
                                         changedKeys(state.settings, now)});
@@ -197,6 +204,7 @@ private:
         session.id = textOr(row.body, "session");
         if (session.id.empty() || state.session(session.id) != nullptr)
             return unfit(row, "a session that is there already");
+        if (!isId(textOr(row.body, "file"))) return unfit(row, "a file whose name is not 16 hexadecimal digits");
         const auto content = opened(row, participant.id);
         if (!content) return failure(content);
         if (*content) session.encoding = textOr(**content, "encoding");
@@ -212,8 +220,9 @@ private:
     [[nodiscard]] Result<void> sessionEnded(const SessionRow& row, StudySession& session) {
         const auto ended = valueFor(kStudySessionStates, textOr(row.body, "state"));
         if (!ended) return unfit(row, "a state that this program does not know");
+        if (session.state != StudySessionState::Unfinished) return unfit(row, "a session that has ended");
         session.state = *ended;
-        session.opened = row.body.value("opened", true);
+        session.opened = valueOr(row.body, "opened") != false;
         state.heads[textOr(row.body, "file")] = textOr(row.body, "head");
         return {};
     }

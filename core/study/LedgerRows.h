@@ -45,6 +45,7 @@ inline constexpr const char* kExported = "exported";
 struct LedgerState {
     std::string settingsSha256;              ///< of study.json, as last written
     nlohmann::json settings;                 ///< the same, as JSON
+    std::vector<std::string> references;     ///< of the approval and of each amendment
     int firstPlaces = 0;                     ///< participants that the first approval allowed
     std::vector<StudyAmendment> amendments;  ///< in order
     std::size_t adverseEventRows = 0;        ///< also without the key

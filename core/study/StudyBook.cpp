@@ -12,10 +12,19 @@
 
 namespace tacto {
 
-CalibrationDate localDay(std::chrono::sys_seconds at) {
+namespace {
+
+std::tm localTime(std::chrono::sys_seconds at) {
     const std::time_t now = at.time_since_epoch().count();
     std::tm here{};
     ::localtime_r(&now, &here);
+    return here;
+}
+
+}  // namespace
+
+CalibrationDate localDay(std::chrono::sys_seconds at) {
+    const auto here = localTime(at);
     return {std::chrono::year(here.tm_year + 1900), std::chrono::month(static_cast<unsigned>(here.tm_mon + 1)),
             std::chrono::day(static_cast<unsigned>(here.tm_mday))};
 }
@@ -131,8 +140,7 @@ Result<Participant> StudyBook::find(std::string_view code) const {
 
 Result<void> StudyBook::amend(StudySettings amended, std::string_view reference) {
     if (auto may = changeable(); !may) return may;
-    if (reference.empty() || reference == settings.approval.reference ||
-        std::ranges::find(known.amendments, reference, &StudyAmendment::reference) != known.amendments.end()) {
+    if (reference.empty() || std::ranges::find(known.references, reference) != known.references.end()) {
         return fail(ErrorCode::InvalidArgument, "an amendment needs a reference of its own, not \"{}\"", reference);
     }
     if (amended.participantsMax < static_cast<int>(known.participants.size())) {
@@ -231,6 +239,7 @@ Result<void> StudyBook::recordGate() const {
                     "it back from your copy",
                     file);
     }
+    if (auto zone = zoneGate(std::chrono::seconds(localTime(now()).tm_gmtoff)); !zone) return zone;
     return clockGate(known.last, now());
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/study/Study.h"
 #include "tests/cli/PilotDesk.h"
 
 namespace tacto::test {
@@ -160,6 +161,28 @@ TEST(Pilot, ItsJsonHasTheKeysOfTheContract) {
                           "participants", "withdrawn", "sessions", "adverse_events", "ledger_head"}),
         "");
     EXPECT_EQ(missingIn(shown["sessions"][0], {"id", "code", "number", "protocol", "state", "answered"}), "");
+}
+
+TEST(Pilot, BreaksLastAMinuteAndTheThirdFive) {
+    const PilotDesk desk;
+    const auto ran = desk.run("pilot-identification", {"--set", "participant=virtual:7", "--set", "blocks=5"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto study = Study::open(desk.desk().at("study"), nullptr, Study::Access::Read);
+    ASSERT_TRUE(study) << study.error().message;
+    const auto rows = study->events(study->sessions().front());
+    ASSERT_TRUE(rows) << rows.error().message;
+    std::vector<double> least_s;
+    Instant begun{0};
+    for (const auto& each : *rows) {
+        if (each.name == "break-begin") {
+            least_s.push_back(each.body["least_s"]);
+            begun = each.at;
+        }
+        if (each.name == "break-end") {
+            EXPECT_GE(toSeconds(each.at - begun), least_s.back());
+        }
+    }
+    EXPECT_THAT(least_s, testing::ElementsAre(60, 60, 300, 60)) << "and no rest of the drift check";
 }
 
 TEST(Pilot, TheSameSeedGivesTheSameAnswersAndAnotherOtherOnes) {

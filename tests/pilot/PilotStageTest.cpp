@@ -22,6 +22,24 @@ TEST_F(PilotStageTest, EachAnswerIsOnDiskBeforeTheNextTrialBegins) {
     EXPECT_EQ(answered->body["delivered"].size(), 3U);
 }
 
+TEST_F(PilotStageTest, TheNextTrainComesTwoToThreeSecondsAfterAnAnswer) {
+    RecordProperty("hazard", "H9");
+    std::set<double> pauses;
+    for (int number = 1; number <= 6; ++number) ASSERT_TRUE(stage_->trial(trial(fmt::format("test {}", number))));
+    std::optional<double> answered_s;
+    for (const auto& each : rows()) {
+        if (each.name != row::kAnswer) continue;
+        const double first_s = each.body["delivered"][0]["onset_s"];
+        if (answered_s) {
+            EXPECT_GE(first_s - *answered_s, 2);
+            EXPECT_LE(first_s - *answered_s, 3.05);
+            pauses.insert(std::round(1000 * (first_s - *answered_s)));
+        }
+        answered_s = toSeconds(each.at);
+    }
+    EXPECT_GE(pauses.size(), 4U) << "when it comes cannot be foreseen";
+}
+
 TEST_F(PilotStageTest, WhatHasAnAnswerIsNeitherPresentedNorAskedAgain) {
     RecordProperty("hazard", "H8");
     ASSERT_TRUE(stage_->trial(trial()));
@@ -107,6 +125,23 @@ TEST_F(PilotStageTest, AnAnswerToAnotherLevelIsNotTaken) {
     const auto answer = stage_->trial(trial("test 1", 1));
     ASSERT_FALSE(answer);
     EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
+}
+
+TEST_F(PilotStageTest, AnAnswerBesideAnotherWeakerLevelIsNotTaken) {
+    RecordProperty("hazard", "H9");
+    auto compared = trial();
+    for (const double weaker : {0.0, 0.25}) {
+        compared.weaker = weaker;
+        begin({});
+        ASSERT_TRUE(stage_->trial(compared));
+        const auto earlier = rows();
+        begin(earlier);
+        compared.weaker = 0.5;
+        const auto answer = stage_->trial(compared);
+        ASSERT_FALSE(answer);
+        EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
+        EXPECT_THAT(answer.error().message, testing::HasSubstr("beside"));
+    }
 }
 
 TEST_F(PilotStageTest, AnAnswerToAnotherIntervalIsNotTaken) {

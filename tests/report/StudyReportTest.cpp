@@ -189,7 +189,7 @@ TEST(StudyReport, APredictionFromThePersonsThresholdsStandsBesideTheAnswersAndJu
     EXPECT_THAT(said, HasSubstr("smooth-high | 0 % | 100 % | 0 % | 0 % | 0 % | 100 % | "));
     EXPECT_THAT(said,
                 HasSubstr("it expects 75 % at 0.05, 75 % at 0.10, 75 % at 0.20 as the Weber fraction of amplitude, "
-                          "which was not measured"));
+                          "which is not known of this person"));
     auto compared = sessionWith(0, 3, "standard", 14);
     compared.results.trials.clear();
     compared.results.amplitudeWeber = 0.37;

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "core/base/JsonText.h"
@@ -112,6 +113,16 @@ TEST(SessionResults, ThresholdsKeepTheirProcedures) {
     EXPECT_EQ(found.thresholds[4].correct, true);
     EXPECT_EQ(found.thresholds[6].correct, std::nullopt);
     EXPECT_TRUE(found.trials.empty());
+}
+
+TEST(SessionResults, AnEstimateAtTheEdgeOfWhatWasConsideredIsNoFigure) {
+    RecordProperty("hazard", "H9");
+    const auto first =
+        rowOf(row::kEstimate, "comparison", {{"amplitude_weber", {{"value", 0.12}}}, {"at_edge", false}});
+    const auto guessed =
+        rowOf(row::kEstimate, "comparison", {{"amplitude_weber", {{"value", 0.97}}}, {"at_edge", true}});
+    EXPECT_EQ(sessionResults({first}, kLabels).amplitudeWeber, 0.12);
+    EXPECT_TRUE(std::isnan(sessionResults({guessed}, kLabels).amplitudeWeber));
 }
 
 TEST(SessionResults, QuestionsBecomeRatingsSideEffectsAndSkin) {

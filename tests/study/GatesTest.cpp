@@ -192,6 +192,13 @@ TEST(Gates, AClockThatWasSetBackIsFound) {
                   "clock");
 }
 
+TEST(Gates, DaysAreCountedInAZoneThatThereIs) {
+    RecordProperty("hazard", "H11");
+    using namespace std::chrono_literals;
+    for (const auto zone : {-12h, 0h, 14h}) EXPECT_TRUE(zoneGate(zone));
+    for (const auto zone : {-23h, 15h, 24h}) EXPECT_EQ(zoneGate(zone).error().code, kGateRefused);
+}
+
 TEST(Gates, VirtualParticipantsAndPeopleKeepToTheirDevices) {
     RecordProperty("hazard", "H12");
     auto settings = approved();

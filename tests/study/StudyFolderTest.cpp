@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "core/seal/SealedText.h"
+#include "core/session/Ledger.h"
 #include "core/study/StudyKeys.h"
 #include "core/study/StudyVerify.h"
 #include "tests/session/SessionSupport.h"
@@ -248,6 +249,52 @@ TEST_F(StudyFolder, ASessionThatTheLedgerDoesNotKnowBeginsNoOther) {
     ASSERT_FALSE(may);
     EXPECT_EQ(may.error().code, kGateRefused);
     EXPECT_NE(may.error().message.find("is not in the ledger"), std::string::npos) << may.error().message;
+}
+
+TEST_F(StudyFolder, RowsThatCannotFollowInALedgerAreFound) {
+    RecordProperty("hazard", "H10");
+    std::string first, second, participant;
+    {
+        auto study = make();
+        const auto begun = study.beginSession(test::someRequest(enrolled(study, 1))).value();
+        first = begun.session.id;
+        ASSERT_TRUE(study.endSession(first, StudySessionState::Complete, record(begun)));
+        second = study.beginSession(test::someRequest(enrolled(study, 2)))->session.id;
+        participant = begun.session.participant;
+    }
+    const auto ledger = folder() / "ledger.tacto", whole = scratch.path() / "whole";
+    std::filesystem::copy_file(ledger, whole);
+    const auto of = [&](const std::string& session, nlohmann::json more) {
+        more["session"] = session;
+        more["participant"] = participant;
+        return more;
+    };
+    const std::tuple<const char*, nlohmann::json, const char*> rows[] = {
+        {"session-part", of(second, {{"file", "../../../etc/passwd"}}), "16 hexadecimal digits"},
+        {"session-part", of(second, {{"file", ""}}), "16 hexadecimal digits"},
+        {"session-part", of(first, {{"file", std::string(16, 'a')}}), "a session that has ended"},
+        {"session-ended", of(first, {{"state", "unfinished"}, {"file", first}}), "a session that has ended"},
+        {"session-ended", of(second, {{"state", "blessed"}, {"file", second}}), "a state that this program"},
+        {"session-ended", of("none", {{"state", "stopped"}}), "an unknown session"},
+        {"session-begun", of(second, {{"file", second}}), "a session that is there already"},
+        {"left", {{"participant", "none"}}, "an unknown participant"},
+        {"blessed", of(second, {}), "nothing that this program knows"},
+        {"consent", nlohmann::json::array({participant}), "an unknown participant"},
+    };
+    for (const auto& [name, body, says] : rows) {
+        SCOPED_TRACE(fmt::format("{} {}", name, body.dump()));
+        std::filesystem::copy_file(whole, ledger, std::filesystem::copy_options::overwrite_existing);
+        ASSERT_TRUE(Ledger::open(ledger)->append(time.now, name, body));
+        const auto study = open();
+        ASSERT_FALSE(study);
+        EXPECT_EQ(study.error().code, ErrorCode::ParseError);
+        EXPECT_NE(study.error().message.find(says), std::string::npos) << study.error().message;
+        EXPECT_EQ(verifyStudy(folder())->status, SessionStatus::Damaged);
+    }
+    std::filesystem::copy_file(whole, ledger, std::filesystem::copy_options::overwrite_existing);
+    ASSERT_TRUE(
+        Ledger::open(ledger)->append(time.now, "session-ended", of(second, {{"state", "stopped"}, {"opened", "no"}})));
+    EXPECT_TRUE(open()) << "a word of another type is none";
 }
 
 TEST_F(StudyFolder, ASessionThatIsALinkIsNotOneThatWasNeverMade) {

@@ -434,6 +434,26 @@ TEST_F(Desk, AWithdrawnParticipantLeavesNothingThatOpens) {
     EXPECT_EQ(everythingBelow(scratch.path() / "home").find(code), std::string::npos);
 }
 
+TEST_F(GateOfASession, AZoneThatThereIsNotRevivesNoApproval) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto zone = [](const char* text) {
+        if (text != nullptr)
+            ::setenv("TZ", text, 1);
+        else
+            ::unsetenv("TZ");
+        ::tzset();
+    };
+    const char* was = std::getenv("TZ");
+    const auto before = was != nullptr ? std::optional(std::string(was)) : std::nullopt;
+    time.now = std::chrono::sys_days(std::chrono::year(2027) / 11 / 1) + std::chrono::hours(12);
+    zone("AAA+23");
+    EXPECT_EQ(study.today(), std::chrono::year(2027) / 10 / 31) << "its last day";
+    expectRefused(study, test::someRequest(code), "is -23.0 h ahead of UTC");
+    zone(before ? before->c_str() : nullptr);
+}
+
 TEST_F(Desk, WhoLeavesKeepsTheirData) {
     RecordProperty("hazard", "H11");
     auto study = make();
@@ -503,6 +523,7 @@ TEST_F(Desk, AnAmendmentHasAReferenceOfItsOwnAndBindsWhatItChanges) {
     changed.approval.expires = std::chrono::year(2028) / 10 / 31;
     ASSERT_TRUE(study.amend(changed, "EC-2026-17 A1"));
     EXPECT_EQ(study.amend(changed, "EC-2026-17 A1").error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(study.amend(changed, "EC-2026-17").error().code, ErrorCode::InvalidArgument) << "the first approval's";
     EXPECT_TRUE(study.stillApproved());
     enrolled(study, 1);
     enrolled(study, 2);

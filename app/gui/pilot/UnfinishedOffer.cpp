@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QVBoxLayout>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/run/PilotRows.h"
 
@@ -19,14 +20,20 @@ Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Partici
     const auto open = study.unfinished(participant.id);
     if (!open) return std::optional<Unfinished>();
     const auto rows = pilotRows(study, *open);
-    if (!rows) return failure(rows);
+    if (!rows && !study.hasKey()) return failure(rows);
     const auto whole = study.session(open->id);
     if (!whole) return failure(whole);
     Unfinished found;
     found.number = open->number;
     found.protocol = open->protocol;
     found.answered = whole->answered;
-    found.brokenOff = QDateTime::fromSecsSinceEpoch(rows->answeredAt.time_since_epoch().count());
+    const auto brokenOff = rows ? rows->answeredAt : open->parts.back().begun;
+    found.brokenOff = QDateTime::fromSecsSinceEpoch(brokenOff.time_since_epoch().count());
+    if (!rows) {
+        found.mayGoOn = false;
+        found.trouble = sentence(rows.error());
+        return std::optional(found);
+    }
     found.mayGoOn = rows->mayGoOn(SystemTime::real().wall());
     found.complete = rows->ended == PilotEnd::Complete;
     return std::optional(found);
@@ -79,15 +86,17 @@ void UnfinishedOffer::offer(const std::optional<Unfinished>& unfinished) {
             .arg(offered_->number)
             .arg(today ? tr("at %1").arg(offered_->brokenOff.toString("HH:mm"))
                        : tr("on %1").arg(offered_->brokenOff.toString("yyyy-MM-dd HH:mm")))
-            .arg(offered_->answered));
+            .arg(offered_->answered) +
+        (offered_->trouble.isEmpty() ? QString() : " " + offered_->trouble));
     goOn_->setEnabled(offered_->mayGoOn);
     end_->setText(offered_->complete ? tr("Leave it as it is, complete, and begin another")
                                      : tr("End it as stopped, and begin another"));
     end_->setToolTip(offered_->complete ? tr("The study notes that it is complete.")
                                         : tr("The answers so far are kept, and the session counts as stopped."));
-    goOn_->setText(offered_->complete  ? tr("Go on: nothing is presented or asked any more")
-                   : offered_->mayGoOn ? tr("Go on: nothing is asked twice")
-                                       : tr("Go on: only within 2 h of the last answer"));
+    goOn_->setText(offered_->complete            ? tr("Go on: nothing is presented or asked any more")
+                   : offered_->mayGoOn           ? tr("Go on: nothing is asked twice")
+                   : offered_->trouble.isEmpty() ? tr("Go on: only within 2 h of the last answer")
+                                                 : tr("Go on: not with this record"));
     fit();
     emit changed();
 }

@@ -21,9 +21,10 @@ struct Unfinished {
     QDateTime brokenOff;
     bool mayGoOn = true;    ///< it was not too long ago
     bool complete = false;  ///< the program was ended before the study knew: nothing is left to ask
+    QString trouble{};      ///< why its record cannot be gone on with, where that cannot be read or was changed
     bool operator==(const Unfinished&) const = default;
 };
-/// The participant's; nothing where there is none. Errors: as pilotRows().
+/// The participant's; nothing where there is none. Errors: Unsupported without the study's key.
 [[nodiscard]] Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Participant& participant);
 
 class UnfinishedOffer final : public QFrame {

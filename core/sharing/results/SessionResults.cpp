@@ -52,7 +52,8 @@ public:
             impedance_ = numberOr(body, "impedance_ohm");
             if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);
         } else if (each.name == row::kEstimate && body.contains("amplitude_weber")) {
-            out_.amplitudeWeber = numberOr(body["amplitude_weber"], "value");
+            // At the edge of what was considered it may be anything beyond: no figure.
+            if (!flagOr(body, "at_edge")) out_.amplitudeWeber = numberOr(body["amplitude_weber"], "value");
         } else if (each.name == row::kEstimate) {
             const auto& estimate = valueOr(body, "estimate");
             detectionLevel_ = numberOr(estimate, "value");

@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QRadioButton>
 #include <QTest>
+#include <fstream>
 #include <gmock/gmock.h>
 
 #include "app/gui/controller/DeviceWatch.h"
@@ -124,6 +125,27 @@ TEST_F(SessionStart, ASessionThatWasBrokenOffIsOfferedWithItsTimeAndAnswers) {
     offer->offer(gui::Unfinished{2, "pilot-thresholds", 27, at.addSecs(-7200), false});
     EXPECT_FALSE(page.findChild<QRadioButton*>("goOnWithIt")->isEnabled()) << "too long ago";
     EXPECT_EQ(page.start().unfinished, "");
+}
+
+TEST_F(SessionStart, OneWhoseRecordIsNotWholeIsOfferedToBeEndedAlone) {
+    RecordProperty("hazard", "H8");
+    prepare(7);
+    SessionRequest request;
+    request.code = who.code;
+    request.script = {"pilot-thresholds", "a"};
+    request.codeConfirmed = request.devicesSimulated = true;
+    request.exclusions = nothingExcludes();
+    const auto begun = study->beginSession(request);
+    ASSERT_TRUE(begun) << begun.error().message;
+    std::ofstream(begun->path) << "no session";
+    page.prepare(*study, who);
+    EXPECT_TRUE(page.findChild<gui::UnfinishedOffer*>()->asks());
+    const auto says = page.findChild<QLabel*>("unfinishedSays")->text().toStdString();
+    EXPECT_THAT(says, HasSubstr("Session 1 was interrupted"));
+    EXPECT_THAT(says, HasSubstr(begun->path.filename().string())) << "why it cannot be gone on with";
+    EXPECT_FALSE(page.findChild<QRadioButton*>("goOnWithIt")->isEnabled());
+    page.findChild<QRadioButton*>("endIt")->click();
+    EXPECT_EQ(page.start().unfinished, "end");
 }
 
 TEST_F(SessionStart, AVirtualParticipantAndARehearsalWithElectrodesHaveTheSimulatedBenchAlone) {
