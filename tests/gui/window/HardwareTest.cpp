@@ -1,4 +1,5 @@
 // Hardware as a person meets it in the window: ticked, opened, not permitted, unplugged, plugged in again.
+#include <QHeaderView>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,6 +51,25 @@ TEST_F(HardwareWindow, ASensorBoardShowsWhatItsLineIsLike) {
     board->inspect([](auto& b, Instant) { b.dropNext(0); });
     EXPECT_IN_TIME(comesTrue([this] { return facts().contains("samples lost: 32") && facts().contains("⚠"); }));
     shot(window, "hardware_board");
+}
+
+TEST_F(HardwareWindow, ANameHasAsManyLinesAsItNeeds) {
+    const auto high = [this] { return tree().visualItemRect(&row(kStimulator)).height(); };
+    const QFontMetrics metrics(row(kStimulator).font(0));
+    ASSERT_IN_TIME(comesTrue([&] { return high() < 2 * metrics.height(); })) << "its own name has one: " << high();
+    const auto oneLine = high();
+    const QString name = "Vibrating pad of the second laboratory, number 2";
+    const int needed = metrics.horizontalAdvance(name) / tree().columnWidth(0) + 1;
+    ASSERT_GE(needed, 2);
+    // As another width of the dock does.
+    ASSERT_IN_TIME(comesTrue([&] {
+        row(kStimulator).setText(0, name);
+        emit tree().header()->sectionResized(0, 0, tree().columnWidth(0));
+        QCoreApplication::processEvents();
+        return high() >= needed * metrics.height();
+    }));
+    EXPECT_GT(high(), oneLine);
+    shot(window, "hardware_long_name");
 }
 
 TEST_F(HardwareWindow, OneThatMayNotBeOpenedSaysWhatHelpsAndCannotBeTicked) {
