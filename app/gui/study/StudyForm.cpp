@@ -211,6 +211,7 @@ StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
         auto* column = columns[g < 2 ? 0 : 1];
         auto* title = new QLabel(translated(kGroupTitles[g]), this);
         setTextSize(*title, TextSize::Body, true);
+        title->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
         column->addWidget(title);
         auto* form = new ParameterForm(this);
         connect(form, &ParameterForm::edited, this, &StudyForm::edited);

@@ -15,7 +15,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kNamePad = 4;
+constexpr int kNamePad = 4, kBesideName = 24;  // above and below; with its box
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kOpenRole = Qt::UserRole + 1;
 constexpr int kObstacleRole = Qt::UserRole + 2;
@@ -168,14 +168,13 @@ void DeviceDock::list() {
 }
 
 void DeviceDock::fitNames() {
-    const int beside = 4 * kNamePad + tree_->style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, tree_);
+    const int beside = kBesideName + tree_->style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, tree_);
     const int width = std::max(1, tree_->columnWidth(0) - beside);
     const QSignalBlocker quiet(tree_);  // a changed height ticks nothing
     for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
         auto* item = tree_->topLevelItem(i);
         const auto lines =
-            QFontMetrics(item->font(0))
-                .boundingRect({0, 0, width, QWIDGETSIZE_MAX}, Qt::TextWrapAnywhere | Qt::TextWordWrap, item->text(0));
+            QFontMetrics(item->font(0)).boundingRect({0, 0, width, QWIDGETSIZE_MAX}, Qt::TextWordWrap, item->text(0));
         item->setSizeHint(0, {0, lines.height() + kNamePad});
     }
     tree_->updateGeometry();
@@ -206,7 +205,7 @@ void DeviceDock::describe() {
         lines << tr("Not open.");
     }
     // The same text would throw away the user's selection.
-    if (const auto text = lines.join("<br>"); text != facts_->text()) facts_->setText(text);
+    if (const auto text = keptTogether(lines.join("<br>")); text != facts_->text()) facts_->setText(text);
 }
 
 void DeviceDock::lookForCertificate() {
