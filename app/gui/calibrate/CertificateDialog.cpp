@@ -102,6 +102,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     table_->setWordWrap(false);
     table_->setTabKeyNavigation(false);
     table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    table_->horizontalHeader()->setStretchLastSection(true);  // its lines reach the edge
     column->addWidget(table_);
     withdraw_ = new ConfirmButton({}, this);
     withdraw_->setObjectName("withdrawCertificate");

@@ -10,7 +10,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kUnderZero = 0.06;  // of the height, so that a trace at zero is seen
+constexpr double kAroundNothing = 0.5;  // of an axis on which all values are one
+constexpr double kUnderZero = 0.06;     // of the height, so that a trace at zero is seen
 
 /// The next of 1, 2, 5 times a power of ten at or above `value`.
 double stepAbove(double value) {
@@ -131,7 +132,8 @@ void Strip::fit(std::span<RollingGraph* const> graphs, const QCPRange& shown) {
     }
     if (!any) return;
     if (axis_.fromZero) all.expand(0);
-    const double room = std::max({0.06 * all.size(), (axis_.least - all.size()) / 2, 1e-9});
+    const double room =
+        std::max({0.06 * all.size(), (axis_.least - all.size()) / 2, all.size() > 0 ? 1e-9 : kAroundNothing});
     const bool up = axis_.fromZero && all.lower > -0.05 * all.upper;  // noise about zero is not a sign
     all = up ? QCPRange(0, all.upper + room) : QCPRange(all.lower - room, all.upper + room);
     auto range = steadyRange(up ? QCPRange(0, values().range().upper) : values().range(), all);

@@ -151,7 +151,7 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
     const auto& outcome = run.result.outcome;
     const auto& results = outcome.results;
     const auto said = resultSentence(results);
-    head_->setText(!said.isEmpty() ? said
+    head_->setText(!said.isEmpty() ? keptTogether(said)
                    : outcome.error ? tr("The session ended before there was a result.")
                                    : tr("The session has ended."));
     QStringList why;
@@ -164,7 +164,7 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
         if (!outcome.error && text != said) why << sentence(text);
     }
     for (const auto& trouble : run.result.troubles) why << sentence(trouble);
-    why_->setText(why.join('\n'));
+    why_->setText(keptTogether(why.join('\n')));
     why_->setVisible(!why.isEmpty());
 
     QStringList more;
@@ -184,7 +184,7 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
     const auto& motor = memberAt(results, "vibration.reasons");
     if (motor.is_array() && !motor.empty() && motor.front().is_string())
         more << tr("What the massager did: %1").arg(qtext(motor.front().get<std::string>()));
-    more_->setText(more.join(' '));
+    more_->setText(keptTogether(more.join(' ')));
     more_->setVisible(!more.isEmpty());
     showMatrix(results);
 
@@ -217,9 +217,14 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
     if (!there) return;
     matrix_->setRowCount(int(labels.size()));
     matrix_->setColumnCount(int(columns.size()) + 1);
-    QStringList heads{tr("felt")};
-    for (const auto& column : columns) heads << (column.is_string() ? qtext(column.get<std::string>()) : QString());
+    QStringList heads{tr("stimulus")};
+    for (const auto& column : columns)
+        heads << (column.is_string() ? qtext(column.get<std::string>()).replace("not-sure", tr("not sure"))
+                                     : QString());
     matrix_->setHorizontalHeaderLabels(heads);
+    for (int c = 0; c < matrix_->columnCount(); ++c)
+        matrix_->horizontalHeaderItem(c)->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) |
+                                                           Qt::AlignVCenter);
     for (int r = 0; r < int(labels.size()); ++r) {
         const auto& label = labels[std::size_t(r)];
         putText(*matrix_, r, 0, label.is_string() ? qtext(label.get<std::string>()) : QString(), false);

@@ -12,6 +12,7 @@
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TurningRow.h"
 
 namespace tacto::gui {
 
@@ -69,11 +70,12 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     left->addLayout(form);
     left->addWidget(seats_->about());
     left->addStretch();
-    body_ = new QBoxLayout(QBoxLayout::LeftToRight);
-    body_->setSpacing(scaledPx(32));
-    body_->addLayout(left, 1);
-    body_->addWidget(asks_, 1);
-    column->addLayout(body_);
+    // The checklist stands beside the rest where there is room.
+    auto* body = new TurningRow([] { return scaledPx(kTwoColumns); });
+    body->setSpacing(scaledPx(32));
+    body->addLayout(left, 1);
+    body->addWidget(asks_, 1);
+    column->addLayout(body);
     auto* asks = new QVBoxLayout(asks_);
     asks->setContentsMargins(0, 0, 0, 0);
     asks->setSpacing(8);
@@ -181,12 +183,6 @@ void SessionStartPage::judge() {
                                       .arg(exclusionItems().size())
                                 : tr("Every condition of the study is looked at first. Nothing is delivered before."));
     begin_->setText(goesOn ? tr("Go on with the session") : tr("Begin the session"));
-}
-
-/// The checklist stands beside the rest where there is room.
-void SessionStartPage::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    body_->setDirection(width() > scaledPx(kTwoColumns) ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
 }
 
 void SessionStartPage::say(const QString& what) {

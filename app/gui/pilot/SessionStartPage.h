@@ -41,9 +41,6 @@ signals:
     void beginWanted();
     void backWanted();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void judge();
     std::string code_;
@@ -58,7 +55,6 @@ private:
     QComboBox* method_;
     DeviceRows* devices_;
     std::unique_ptr<SeatRows> seats_;
-    QBoxLayout* body_ = nullptr;
     QWidget* asks_ = nullptr;
     ExclusionChecklist* checklist_ = nullptr;
     QLabel* trouble_;

@@ -94,7 +94,7 @@ void CaptureStrip::thinTicks() {
     const int widest = std::max(metrics.horizontalAdvance("−00000"), digits);
     xAxis->ticker()->setTickCount(std::clamp(width() / (kApart * widest), 1, kMaxTicks));
     // Above and below the frame stand title, digits and the axis' name.
-    const int frame = height() - 4 * metrics.height();
+    const int frame = height() - 3 * metrics.height();
     const int up = std::clamp(2 * frame / (3 * metrics.height()), 1, kMaxTicks);
     for (auto* axis : {yAxis, yAxis2}) axis->ticker()->setTickCount(up);
 }

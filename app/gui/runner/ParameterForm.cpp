@@ -8,6 +8,7 @@
 
 #include "app/gui/theme/DayField.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/JsonText.h"
 
@@ -50,10 +51,21 @@ ParameterForm::ParameterForm(QWidget* parent)
     : QWidget(parent),
       settingsRows_(rowsIn(*this)),
       reference_(new QWidget(parent)),
-      referenceRows_(rowsIn(*reference_)) {}
+      referenceRows_(rowsIn(*reference_)) {
+    onFontChange(*this, [this] { fitLabels(); });
+}
+
+/// A label wraps where it is long, and not between two short words.
+void ParameterForm::fitLabels() {
+    for (const auto& field : fields_) {
+        if (field.label == nullptr) continue;
+        field.label->setMinimumWidth(
+            std::min(scaledPx(kLabelWidth), 2 * fontMetrics().averageCharWidth() * int(field.label->text().size())));
+    }
+}
 
 ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter) {
-    Field field{parameter, {}, {}, nullptr, nullptr, nullptr};
+    Field field{parameter, {}, {}};
     if (parameter.type == ParameterType::Choice) {
         auto* box = new QComboBox(this);
         for (const auto& [key, text] : parameter.choices)
@@ -149,6 +161,7 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
         none->setWordWrap(true);
         settingsRows_->addRow(none);
     }
+    fitLabels();
     judge();
 }
 
@@ -182,9 +195,8 @@ void ParameterForm::addRow(Field& field) {
     if (auto* written = qobject_cast<QLabel*>(rows->labelForField(column))) {
         written->setBuddy(field.editor);
         written->setWordWrap(true);
-        written->setMinimumWidth(
-            std::min(scaledPx(kLabelWidth), 2 * fontMetrics().averageCharWidth() * int(label.size())));
         setTextSize(*written, TextSize::Body, !parameter.needed.empty());
+        field.label = written;
     }
 }
 

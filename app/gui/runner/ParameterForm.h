@@ -53,6 +53,7 @@ private:
         QWidget* editor = nullptr;  // has the parameter's name
         QWidget* whole = nullptr;   // the editor with its buttons
         QLabel* trouble = nullptr;
+        QLabel* label = nullptr;
         QString atFirst{};  // the text as the script's default shows it
     };
     [[nodiscard]] Field makeField(const ProtocolParameter& parameter);
@@ -60,6 +61,7 @@ private:
     void addFileChooser(Field& field);
     void addRow(Field& field);
     [[nodiscard]] bool lacks(const Field& field) const;
+    void fitLabels();
     void judge();
     ProtocolDeclaration declaration_;
     QFormLayout* settingsRows_;

@@ -10,6 +10,7 @@
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstPage.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TurningRow.h"
 
 namespace tacto::gui {
 
@@ -97,17 +98,27 @@ ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : QStackedWidget(
     showStep(kSettings);
 }
 
+/// Beside each other the second part has the more of the width, one below the other the first of the height.
+QBoxLayout* ProcedurePages::turning() {
+    auto* row = new TurningRow([this] { return fontMetrics().averageCharWidth() * kColumnsFromChars - 2 * kPageSide; });
+    row->setSpacing(kPageSide);
+    connect(row, &TurningRow::turned, this, [row](bool beside) {
+        row->setStretch(0, beside ? 2 : 3);
+        row->setStretch(1, beside ? 3 : 2);
+    });
+    return row;
+}
+
 QWidget* ProcedurePages::buildWiring() {
     auto* page = new QWidget(this);
     auto* column = pageLayout(page, {}, {});  // the panel has a title
-    wiringRow_ = new QHBoxLayout;
-    wiringRow_->setSpacing(kPageSide);
+    auto* row = turning();
     wiring_ = new WiringPanel(page);
     auto* devices = scrolling(formColumn(wiring_), page);
     drawing_ = new WiringPage(page);
-    wiringRow_->addWidget(devices, 2);
-    wiringRow_->addWidget(drawing_, 3);
-    column->addLayout(wiringRow_, 1);
+    row->addWidget(devices, 2);
+    row->addWidget(drawing_, 3);
+    column->addLayout(row, 1);
     return page;
 }
 
@@ -124,13 +135,12 @@ QWidget* ProcedurePages::buildReference() {
 QWidget* ProcedurePages::buildSettings() {
     auto* page = new QWidget(this);
     auto* column = pageLayout(page, tr("Settings"), {});
-    settingsRow_ = new QHBoxLayout;
-    settingsRow_->setSpacing(kPageSide);
+    auto* row = turning();
     auto* fields = scrolling(formColumn(form_), page);
     worst_ = new WorstPage(page);
-    settingsRow_->addWidget(fields, 2);
-    settingsRow_->addWidget(worst_, 3);
-    column->addLayout(settingsRow_, 1);
+    row->addWidget(fields, 2);
+    row->addWidget(worst_, 3);
+    column->addLayout(row, 1);
     return page;
 }
 
@@ -151,20 +161,6 @@ void ProcedurePages::setChangeable(bool changeable) {
     for (QWidget* part : {static_cast<QWidget*>(form_), &form_->referencePart(), static_cast<QWidget*>(wiring_),
                           static_cast<QWidget*>(&sign_->notes())})
         part->setEnabled(changeable);
-}
-
-void ProcedurePages::arrange() {
-    const bool wide = width() >= fontMetrics().averageCharWidth() * kColumnsFromChars;
-    for (auto* row : {wiringRow_, settingsRow_}) {
-        row->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-        row->setStretch(0, wide ? 2 : 3);
-        row->setStretch(1, wide ? 3 : 2);
-    }
-}
-
-void ProcedurePages::resizeEvent(QResizeEvent* event) {
-    QStackedWidget::resizeEvent(event);
-    arrange();
 }
 
 }  // namespace tacto::gui

@@ -37,20 +37,15 @@ public:
     [[nodiscard]] RunViews& views() noexcept { return *views_; }
     [[nodiscard]] SignPage& sign() noexcept { return *sign_; }
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     [[nodiscard]] QWidget* buildWiring();
     [[nodiscard]] QWidget* buildReference();
     [[nodiscard]] QWidget* buildSettings();
-    void arrange();
+    [[nodiscard]] QBoxLayout* turning();
     WiringPanel* wiring_ = nullptr;
     WiringPage* drawing_ = nullptr;
-    QBoxLayout* wiringRow_ = nullptr;
     ParameterForm* form_ = nullptr;
     WorstPage* worst_ = nullptr;
-    QBoxLayout* settingsRow_ = nullptr;
     RunViews* views_ = nullptr;
     SignPage* sign_ = nullptr;
 };

@@ -222,7 +222,7 @@ void RunViews::take(const RunFeed& feed) {
         if (plot_ == Plot::Calibration) calibration_->add(trial);
     }
     calibration_->draw();
-    if (!feed.captures.empty()) wave_->show(feed.captures.back());
+    if (!feed.captures.empty()) wave_->show(feed.captures.back(), tr("The last train"));
     if (plot_ == Plot::Loads)
         for (const auto& capture : feed.captures) disclosed_->take(capture);
 }

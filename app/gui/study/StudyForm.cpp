@@ -5,6 +5,7 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TurningRow.h"
 #include "app/run/StudyProgram.h"
 
 namespace tacto::gui {
@@ -200,15 +201,17 @@ const std::vector<std::string_view>& studyFieldsOfTheProgram() {
 }
 
 StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
-    columns_ = new QBoxLayout(QBoxLayout::LeftToRight, this);
-    columns_->setContentsMargins(0, 0, 0, 0);
-    columns_->setSpacing(scaledPx(32));
+    // One column where two have no room for their words.
+    auto* both = new TurningRow([] { return scaledPx(kTwoFormColumns) + 1; }, this);
+    both->setContentsMargins(0, 0, 0, 0);
+    both->setSpacing(scaledPx(32));
     QVBoxLayout* columns[] = {new QVBoxLayout, new QVBoxLayout};
-    for (auto* column : columns) columns_->addLayout(column, 1);
+    for (auto* column : columns) both->addLayout(column, 1);
     for (int g = 0; g < kStudyGroups; ++g) {
         auto* column = columns[g < 2 ? 0 : 1];
         auto* title = new QLabel(translated(kGroupTitles[g]), this);
         setTextSize(*title, TextSize::Body, true);
+        title->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
         column->addWidget(title);
         auto* form = new ParameterForm(this);
         connect(form, &ParameterForm::edited, this, &StudyForm::edited);
@@ -219,12 +222,6 @@ StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
     }
     for (auto* column : columns) column->addStretch();
     clear();
-}
-
-/// One column where two have no room for their words.
-void StudyForm::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    columns_->setDirection(width() > scaledPx(kTwoFormColumns) ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
 }
 
 void StudyForm::clear() {

@@ -48,12 +48,8 @@ public:
 signals:
     void edited();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void fill();
-    QBoxLayout* columns_;
     std::optional<StudySettings> amended_;  ///< nothing for a new study
     std::vector<ParameterForm*> groups_;
 };

@@ -72,6 +72,12 @@ QString numberText(const Known& known, const QString& unit, bool isU) {
     return text;
 }
 
+/// The unit below the title, also where it is the title's own word: "Smallest pair (JND)".
+QString onTwoLines(QString title) {
+    if (const auto at = title.lastIndexOf(" ("); at > 0 && title.endsWith(')')) title[at] = '\n';
+    return title;
+}
+
 QString withUnit(const QString& title, const QString& unit) {
     return unit.isEmpty() ? title : QString("%1\n(%2)").arg(title, unit);
 }
@@ -128,7 +134,7 @@ ColumnText numbersText(const RecordColumn& column, const json& records) {
             out.cells << numberText(known, {}, isU);
         }
     }
-    if (!own && !apart) out.header = withUnit(column.title, axis.unit);
+    out.header = !own && !apart && !axis.unit.isEmpty() ? withUnit(column.title, axis.unit) : onTwoLines(column.title);
     return out;
 }
 
@@ -248,6 +254,7 @@ void layOutRecordTable(QTableWidget& table) {
     header->setHighlightSections(false);
     header->setSectionsClickable(false);
     fitHeader(table);
+    header->setStretchLastSection(false);  // else it is as wide as what is in it when the table is laid out again
     int width = fitColumns(table);
     if (width > kRoom) {
         setTextSize(table, TextSize::Small);

@@ -15,6 +15,7 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr int kNamePad = 4, kBesideName = 24;  // above and below; with its box
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kOpenRole = Qt::UserRole + 1;
 constexpr int kObstacleRole = Qt::UserRole + 2;
@@ -40,7 +41,9 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     tree_->setRootIsDecorated(false);
     tree_->setHeaderHidden(true);
     tree_->setWordWrap(true);
-    tree_->setTextElideMode(Qt::ElideMiddle);  // what tells two of a kind apart stands at the end
+    tree_->setTextElideMode(Qt::ElideNone);
+    // Queued: a header that is being destroyed says so too.
+    connect(tree_->header(), &QHeaderView::sectionResized, this, &DeviceDock::fitNames, Qt::QueuedConnection);
     tree_->setToolTip(tr("Devices that are present; open ones are bold. Select the devices for the bench (Return)."));
     tree_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     tree_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
@@ -159,8 +162,22 @@ void DeviceDock::list() {
     }
     if (tree_->currentItem() == nullptr && tree_->topLevelItemCount() > 0)
         tree_->setCurrentItem(tree_->topLevelItem(0));
+    fitNames();
     nameOpen();
     describe();
+}
+
+void DeviceDock::fitNames() {
+    const int beside = kBesideName + tree_->style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, tree_);
+    const int width = std::max(1, tree_->columnWidth(0) - beside);
+    const QSignalBlocker quiet(tree_);  // a changed height ticks nothing
+    for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+        auto* item = tree_->topLevelItem(i);
+        const auto lines =
+            QFontMetrics(item->font(0)).boundingRect({0, 0, width, QWIDGETSIZE_MAX}, Qt::TextWordWrap, item->text(0));
+        item->setSizeHint(0, {0, lines.height() + kNamePad});
+    }
+    tree_->updateGeometry();
 }
 
 void DeviceDock::describe() {
@@ -188,7 +205,7 @@ void DeviceDock::describe() {
         lines << tr("Not open.");
     }
     // The same text would throw away the user's selection.
-    if (const auto text = lines.join("<br>"); text != facts_->text()) facts_->setText(text);
+    if (const auto text = keptTogether(lines.join("<br>")); text != facts_->text()) facts_->setText(text);
 }
 
 void DeviceDock::lookForCertificate() {

@@ -31,6 +31,8 @@ signals:
 private:
     void list();
     void choose(QTreeWidgetItem* item);
+    /// Each name on as many lines as it needs: what tells two of a kind apart stands at its end.
+    void fitNames();
     void describe();
     /// The roles of the devices that are ticked, with their URIs.
     [[nodiscard]] std::map<Role, DeviceUri> chosen() const;

@@ -66,7 +66,7 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     faultAt_ = new QDoubleSpinBox(this);
     faultAt_->setRange(0.1, 3600);
     faultAt_->setValue(10);
-    faultAt_->setSuffix(" s");
+    faultAt_->setSuffix(QStringLiteral("\u202fs"));
     faultAt_->setToolTip(tr("Time after opening at which the fault begins."));
     form->addRow(tr("A&fter"), faultAt_);
     seed_ = new QSpinBox(this);
@@ -78,6 +78,7 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     says_ = new QLabel(this);
     says_->setWordWrap(true);
     says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    setTextSize(*says_, TextSize::Small);
     layout->addWidget(says_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     open_ = buttons->addButton(tr("&Open"), QDialogButtonBox::AcceptRole);
@@ -118,7 +119,8 @@ void SimulatedBenchDialog::judge() {
     faultAt_->setEnabled(fault_->currentIndex() > 0);
     QStringList shown;
     for (const auto& uri : uris()) shown << QString::fromStdString(uri);
-    says_->setText(load ? shown.join("\n") : sentence(load.error()));
+    says_->setText(load ? shown.join("\n") : "⚠ " + sentence(load.error()));
+    setTone(*says_, load ? Tone::Quiet : Tone::Warning);
 }
 
 void SimulatedBenchDialog::openBench() {

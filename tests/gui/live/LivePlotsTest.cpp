@@ -50,7 +50,7 @@ protected:
                 tap.samples.push(sample);
                 sample.stream = 2;
                 sample.channels = 8;
-                sample.values.fill(5000);
+                sample.values.fill(taxels_Pa);
                 tap.samples.push(sample);
             }
             telemetry.at = toInstant(t_s + 0.02);
@@ -83,6 +83,7 @@ protected:
     LiveHistory history;
     StripPlots plots{history};
     double t_s = 0;
+    float taxels_Pa = 5000;
 };
 
 TEST_F(Plots, HaveTheNewestAtTheRight) {
@@ -288,6 +289,15 @@ TEST_F(Plots, NumbersOfALowStripDoNotLieOnEachOther) {
         }
     }
     shot(plots, "strips-low");
+}
+
+TEST_F(Plots, AnAxisOfWhatIsZeroThroughoutHasPlainNumbers) {
+    taxels_Pa = 0;
+    feel(2);
+    draw();
+    const auto* axis = plots.axisRects().at(2)->axis(QCPAxis::atLeft);
+    EXPECT_GE(axis->range().size(), 0.4) << "not around a billionth";
+    for (const auto& label : axis->tickVectorLabels()) EXPECT_FALSE(label.contains('e')) << label.toStdString();
 }
 
 TEST_F(Plots, AStripWithoutItsStreamIsLeftOut) {

@@ -1,4 +1,5 @@
 // What a session came to, as the window says it.
+#include <QRegularExpression>
 #include <QTableWidget>
 #include <QTest>
 #include <gtest/gtest.h>
@@ -56,11 +57,27 @@ TEST(PilotResult, SaysTheHeadlineOnceWhateverItIs) {
         run.result.outcome.reasons = {"No usable range: too narrow", headline};
         gui::PilotResult view;
         view.show(run, "/home/lab/rehearsal-1");
-        EXPECT_EQ(view.findChild<QLabel*>("pilotHeadline")->text().toStdString(), headline);
+        auto said = view.findChild<QLabel*>("pilotHeadline")->text();
+        EXPECT_EQ(said.replace(QChar(0x202F), ' ').toStdString(), headline);
         const auto why = view.findChild<QLabel*>("pilotReason")->text().toStdString();
         EXPECT_EQ(why.find(headline), std::string::npos) << why;
         EXPECT_NE(why.find("No usable range"), std::string::npos) << why;
     }
+}
+
+TEST(PilotResult, ANumberAndItsUnitStandOnOneLine) {
+    gui::FinishedRun run;
+    run.result.outcome.results = someResults();
+    run.result.outcome.reasons = {"the range is 2 mA wide, 3 mA were expected"};
+    gui::PilotResult view;
+    view.show(run, "/home/lab/rehearsal-1");
+    static const QRegularExpression breaks("\\d (mA|V|kΩ|%)");
+    for (const char* name : {"pilotHeadline", "pilotReason"}) {
+        const auto said = view.findChild<QLabel*>(name)->text();
+        EXPECT_FALSE(said.isEmpty()) << name;
+        EXPECT_FALSE(said.contains(breaks)) << said.toStdString();
+    }
+    EXPECT_TRUE(view.findChild<QLabel*>("pilotReason")->text().contains(u"3\u202fmA"));
 }
 
 TEST(PilotResult, ShowsTheMatrixAndLooksRight) {

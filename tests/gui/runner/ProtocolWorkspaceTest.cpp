@@ -5,11 +5,13 @@
 #include <QPdfDocument>
 #include <QPdfView>
 #include <QProgressBar>
+#include <QTableWidget>
 #include <QToolButton>
 #include <gmock/gmock.h>
 
 #include "app/gui/runner/ProcedurePages.h"
 #include "app/gui/runner/TrialPlane.h"
+#include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/runner/Lab.h"
@@ -244,6 +246,32 @@ TEST_F(Workspace, ShowsTheWorstCaseOfTheDeclaredLoad) {
         << says("worstCase").toStdString();
     type("load", "lots");
     ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("when every setting is accepted"); }));
+}
+
+TEST_F(Workspace, LimitSetsAreReadAndChosenInPlace) {
+    open("separability");
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
+    auto& table = the<gui::ExposureTable>("Worst case against the limits");
+    ASSERT_IN_TIME(comesTrue([&] { return table.rowCount() > 0; }));
+    const int all = table.rowCount();
+    auto& chooser = the<QComboBox>("limitSetChooser");
+    const auto& sets = controller.limits().sets;
+    ASSERT_EQ(chooser.count(), int(sets.size()) + 1);
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        const auto title = QString::fromStdString(sets[i].title);
+        EXPECT_EQ(chooser.itemText(int(i) + 1), title) << "by its title";
+        chooser.setCurrentIndex(int(i) + 1);
+        EXPECT_LT(table.rowCount(), all) << title.toStdString();
+        if (table.rowCount() > 0) {
+            EXPECT_EQ(table.item(0, 0)->text(), title);
+        }
+    }
+    click(the<QPushButton>("readLimits"));
+    const auto* read = workspace->findChild<QTableWidget*>("limitRows");
+    ASSERT_NE(read, nullptr);
+    EXPECT_IN_TIME(comesTrue([&] { return read->isVisible(); }));
+    EXPECT_EQ(read->rowCount(), int(sets.back().rows.size())) << "the set that was chosen";
+    read->window()->close();
 }
 
 TEST_F(Workspace, PutsQuestionsInPlaceAndRefusesAnAnswerThatDoesNotFit) {

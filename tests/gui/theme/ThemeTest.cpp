@@ -1,5 +1,7 @@
 // The promises of the design about colour: told apart by dash as well, legible, and red for STOP and faults alone.
+#include <QApplication>
 #include <QComboBox>
+#include <QFontInfo>
 #include <QHeaderView>
 #include <QTabBar>
 #include <QTableWidget>
@@ -7,9 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TurningRow.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/VerdictMark.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -64,6 +68,28 @@ TEST(Looks, AreFoundWrongWhereTheyAre) {
     EXPECT_EQ(cutTexts(window).size(), 1);
     EXPECT_EQ(paleTexts(window).size(), 1);
     EXPECT_EQ(overlaps(window).size(), 1);
+}
+
+TEST(Type, IsNotoSansAndItsSignsFromFacesThatHaveThem) {
+    EXPECT_EQ(QApplication::font().families(), QStringList({"Noto Sans", "Noto Sans Math", "DejaVu Sans"}));
+    EXPECT_EQ(QFontInfo(QApplication::font()).family(), "Noto Sans") << "fonts-noto-core is needed";
+}
+
+TEST(TurningRow, PutsItsPartsBelowEachOtherWhereThereIsNoRoom) {
+    QWidget page;
+    auto* row = new gui::TurningRow([] { return 300; }, &page);
+    auto* first = new QLabel("first", &page);
+    auto* second = new QLabel("second", &page);
+    for (auto* part : {first, second}) row->addWidget(part);
+    row->setContentsMargins(0, 0, 0, 0);
+    page.show();
+    for (const int width : {400, 200, 300, 299}) {
+        page.resize(width, 200);
+        const bool beside = width >= 300;
+        EXPECT_IN_TIME(comesTrue([&] { return (first->y() == second->y()) == beside; })) << width;
+        EXPECT_IN_TIME(comesTrue([&] { return (first->x() == second->x()) == !beside; })) << width;
+        EXPECT_EQ(row->direction() == QBoxLayout::LeftToRight, beside) << width;
+    }
 }
 
 TEST(Conditions, HaveTheColoursOfTheSetAndADashEach) {

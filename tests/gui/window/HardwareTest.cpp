@@ -1,4 +1,5 @@
 // Hardware as a person meets it in the window: ticked, opened, not permitted, unplugged, plugged in again.
+#include <QHeaderView>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,6 +51,25 @@ TEST_F(HardwareWindow, ASensorBoardShowsWhatItsLineIsLike) {
     board->inspect([](auto& b, Instant) { b.dropNext(0); });
     EXPECT_IN_TIME(comesTrue([this] { return facts().contains("samples lost: 32") && facts().contains("⚠"); }));
     shot(window, "hardware_board");
+}
+
+TEST_F(HardwareWindow, ANameHasAsManyLinesAsItNeeds) {
+    const QFontMetrics metrics(row(kStimulator).font(0));
+    const auto high = [this] { return tree().visualItemRect(&row(kStimulator)).height(); };
+    for (const QString name : {"Pad", "Vibrating pad of the second laboratory, number 2"}) {
+        // Its box and the edges take some of the width.
+        const int beside = 2 * tree().style()->pixelMetric(QStyle::PM_IndicatorWidth);
+        const auto lines = metrics.boundingRect({0, 0, tree().columnWidth(0) - beside, 1000}, Qt::TextWordWrap, name);
+        // As another width of the dock does.
+        EXPECT_IN_TIME(comesTrue([&] {
+            row(kStimulator).setText(0, name);
+            emit tree().header()->sectionResized(0, 0, tree().columnWidth(0));
+            QCoreApplication::processEvents();
+            return high() >= lines.height() && high() < lines.height() + metrics.height();
+        })) << name.toStdString()
+            << ": " << high() << " of " << lines.height();
+    }
+    shot(window, "hardware_long_name");
 }
 
 TEST_F(HardwareWindow, OneThatMayNotBeOpenedSaysWhatHelpsAndCannotBeTicked) {

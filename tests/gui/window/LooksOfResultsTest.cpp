@@ -1,5 +1,6 @@
 // The screens that take a run or a fault to come to: results of a calibration, a safety check and a separability run,
 // the faulted state, the second step of arming, the drive panel; in both themes, small and large.
+#include <QComboBox>
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
@@ -10,6 +11,7 @@
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/SimulatedBenchDialog.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 #include "tests/gui/window/WindowFixture.h"
@@ -119,6 +121,41 @@ TEST_F(ResultsInTheWindow, TheArmDialogLooksRight) {
         ASSERT_IN_TIME(comesTrue([&] { return window.findChild<QPushButton*>("armOutput") == nullptr; }));
         EXPECT_NE(state(), InterlockState::Armed) << "closing it arms nothing";
     }
+}
+
+TEST_F(ResultsInTheWindow, TheDialogOfFaultsLooksRightAndDoesWhatTheReadmePromises) {
+    RecordProperty("hazard", "H4");
+    window.showWorkspace(0);  // with its docks
+    ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(window, "Faults…") != nullptr; }));
+    const auto ask = [this]() -> QWidget* {
+        click(*find<QPushButton>(window, "Faults…"));
+        return window.findChild<gui::SimulatedBenchDialog*>();
+    };
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        auto* dialog = ask();
+        ASSERT_NE(dialog, nullptr);
+        EXPECT_IN_TIME(comesTrue([&] { return dialog->isVisible() && faultsOf(*dialog).empty(); }))
+            << faultsOf(*dialog);
+        shot(*dialog, theme == gui::Theme::Dark ? "faults-dark" : "faults-light");
+        dialog->close();
+        ASSERT_IN_TIME(comesTrue([&] { return window.findChild<gui::SimulatedBenchDialog*>() == nullptr; }));
+    }
+    auto* dialog = ask();
+    ASSERT_NE(dialog, nullptr);
+    QComboBox* faults = nullptr;
+    for (auto* box : dialog->findChildren<QComboBox*>())
+        if (box->findText("electrode lifts (open)") >= 0) faults = box;
+    ASSERT_NE(faults, nullptr);
+    faults->setCurrentText("electrode lifts (open)");
+    for (auto* after : dialog->findChildren<QDoubleSpinBox*>())
+        if (after->suffix().trimmed() == "s") after->setValue(4);  // of the thirty seconds
+    click(*find<QPushButton>(*dialog, "Open"));
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
+    arm();
+    window.controller().drive(DriveSource::Manual, 0.5, 1);
+    EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }, 20'000));
+    EXPECT_IN_TIME(comesTrue([this] { return banner().contains("Output is off"); })) << banner().toStdString();
 }
 
 TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
