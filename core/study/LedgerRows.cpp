@@ -173,6 +173,7 @@ private:
     }
 
     [[nodiscard]] Result<void> consent(const SessionRow& row, Participant& participant) {
+        state.promised[participant.id] = textOr(state.settings, "data_on_request");
         const auto content = opened(row, participant.id);
         if (!content) return failure(content);
         if (!*content) return {};

@@ -50,6 +50,7 @@ struct LedgerState {
     std::vector<StudyAmendment> amendments;  ///< in order
     std::size_t adverseEventRows = 0;        ///< also without the key
     std::vector<Participant> participants;
+    std::map<std::string, std::string> promised;  ///< participant to the data_on_request that they consented to last
     std::map<std::string, std::chrono::sys_seconds> excluded;         ///< participant to their last yes
     std::vector<StudySession> sessions;                               ///< without `answered`
     std::map<std::string, std::string> heads;                         ///< of ended files: file to chain head

@@ -263,7 +263,11 @@ Result<void> Study::withdraw(std::string_view code) {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(code);
     if (!participant) return failure(participant);
-    if (state_->settings.dataOnRequest == DataOnRequest::Keep) {
+    // What the form said that they consented to holds, whatever was amended since.
+    const auto promised = state_->known.promised.find(participant->id);
+    const bool mayDestroy =
+        promised != state_->known.promised.end() && promised->second == nameOf(DataOnRequest::Destroy);
+    if (state_->settings.dataOnRequest == DataOnRequest::Keep && !mayDestroy) {
         return fail(
             kGateRefused,
             "the study keeps what was collected (data_on_request keep), as its consent says; \"leave\" ends {}'s "

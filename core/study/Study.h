@@ -178,7 +178,7 @@ public:
     /// The participant takes part no more; the data stay.
     [[nodiscard]] Result<void> leave(std::string_view code);
     /// Destroys the participant's key: nothing of theirs opens any more. Errors: kGateRefused where the study keeps
-    /// data (data_on_request).
+    /// data (data_on_request), and did when they consented last.
     [[nodiscard]] Result<void> withdraw(std::string_view code);
     /// Changes settings under a committee's amendment. Errors: InvalidArgument without a reference of its own, for one
     /// that an earlier amendment had, and for fewer participants than are enrolled.

@@ -165,6 +165,8 @@ std::string_view nameOf(ElectrodeSite site) noexcept { return wordFor(kElectrode
 
 std::string_view nameOf(DetectionMethod method) noexcept { return wordFor<DetectionMethod>(kDetectionMethods, method); }
 
+std::string_view nameOf(DataOnRequest kept) noexcept { return wordFor<DataOnRequest>(kDataOnRequest, kept); }
+
 const RecordFields<StudySettings>& studyFields() {
     static const auto fields = buildStudyFields();
     return fields;

@@ -37,6 +37,7 @@ enum class DataOnRequest { Destroy, Keep };
 [[nodiscard]] constexpr std::string_view nameOf(Modality modality) noexcept { return wordFor(kModalities, modality); }
 [[nodiscard]] std::string_view nameOf(ElectrodeSite site) noexcept;
 [[nodiscard]] std::string_view nameOf(DetectionMethod method) noexcept;
+[[nodiscard]] std::string_view nameOf(DataOnRequest kept) noexcept;
 
 /// A committee's approval. Days are local dates; both ends count.
 struct Approval {

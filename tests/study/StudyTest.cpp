@@ -474,6 +474,26 @@ TEST_F(Desk, AStudyThatKeepsDataRefusesAWithdrawal) {
     EXPECT_TRUE(study.find(code));
 }
 
+TEST_F(Desk, AnAmendmentTakesNoPromiseBackThatWasConsentedTo) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    const auto earlier = enrolled(study, 1);
+    auto keeps = study.settings();
+    keeps.dataOnRequest = DataOnRequest::Keep;
+    ASSERT_TRUE(study.amend(keeps, "EC-2026-17 A1"));
+    const auto later = enrolled(study, 2);
+    const auto reconsented = enrolled(study, 3);
+    EXPECT_EQ(study.withdraw(later).error().code, kGateRefused);
+    EXPECT_TRUE(study.withdraw(earlier)) << "their form said that it is destroyed";
+    auto destroys = study.settings();
+    destroys.dataOnRequest = DataOnRequest::Destroy;
+    ASSERT_TRUE(study.amend(destroys, "EC-2026-17 A2"));
+    ASSERT_TRUE(study.consent(reconsented, {"2", study.today(), "KL"}));
+    ASSERT_TRUE(study.amend(keeps, "EC-2026-17 A3"));
+    EXPECT_EQ(study.withdraw(later).error().code, kGateRefused);
+    EXPECT_TRUE(study.withdraw(reconsented));
+}
+
 TEST_F(Desk, NoMoreParticipantsThanApproved) {
     RecordProperty("hazard", "H11");
     auto settings = test::someStudy();
