@@ -206,18 +206,20 @@ StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
     both->setContentsMargins(0, 0, 0, 0);
     both->setSpacing(scaledPx(32));
     QVBoxLayout* columns[] = {new QVBoxLayout, new QVBoxLayout};
-    for (auto* column : columns) both->addLayout(column, 1);
+    for (auto* column : columns) {
+        both->addLayout(column, 1);
+        column->setSpacing(scaledPx(8));  // not the row's
+    }
     for (int g = 0; g < kStudyGroups; ++g) {
         auto* column = columns[g < 2 ? 0 : 1];
         auto* title = new QLabel(translated(kGroupTitles[g]), this);
         setTextSize(*title, TextSize::Body, true);
-        title->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
         column->addWidget(title);
         auto* form = new ParameterForm(this);
         connect(form, &ParameterForm::edited, this, &StudyForm::edited);
         form->referencePart().hide();  // a study has none
         column->addWidget(form);
-        column->addSpacing(scaledPx(8));
+        column->addSpacing(scaledPx(16));
         groups_.push_back(form);
     }
     for (auto* column : columns) column->addStretch();

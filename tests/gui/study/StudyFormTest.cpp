@@ -2,6 +2,7 @@
 #include <QScrollArea>
 #include <set>
 
+#include "app/gui/runner/ParameterForm.h"
 #include "app/gui/study/NewStudyPage.h"
 #include "app/gui/study/StudyForm.h"
 #include "app/gui/theme/Theme.h"
@@ -103,6 +104,13 @@ TEST_F(StudyInThePage, ANewStudyIsMade) {
         QTest::qWait(30);
         shot(page, QString("study-new-%1").arg(theme == gui::Theme::Dark ? "dark" : "light"));
         EXPECT_EQ(faultsOf(page), "");
+    }
+    for (const auto* group : form->findChildren<gui::ParameterForm*>()) {
+        int below = 1000;
+        for (const auto* title : form->findChildren<QLabel*>(QString(), Qt::FindDirectChildrenOnly))
+            if (title->x() == group->x() && title->geometry().bottom() < group->y())
+                below = std::min(below, group->y() - title->geometry().bottom());
+        EXPECT_LE(below, 16) << "a group's title stands at its fields";
     }
     gui::applyTheme(gui::Theme::Light);
     press("createStudy");
