@@ -140,7 +140,7 @@ QWidget* LiveWorkspace::buildSide() {
     layout->addWidget(rig_);
     auto* profile = new QPushButton(tr("Encoding profile…"), side);
     profile->setToolTip(tr("How R and P become amplitude and interval, and the shape of a pulse."));
-    connect(profile, &QPushButton::clicked, this, &LiveWorkspace::editProfile);
+    connect(profile, &QPushButton::clicked, this, [this] { editProfile(); });
     layout->addWidget(profile);
     area->setWidget(side);
     for (auto* ground : {side, area->viewport()}) ground->setAutoFillBackground(false);
@@ -363,12 +363,10 @@ void LiveWorkspace::chooseRecording() {
     askForFile(*this, question, [this](const QString& path) { openRecording(path); });
 }
 
-void LiveWorkspace::editProfile() { openDialog(new ProfileEditor(controller_, this)); }
-
-void LiveWorkspace::enterArea() {
+void LiveWorkspace::editProfile(const QString& key) {
     auto* editor = new ProfileEditor(controller_, this);
     openDialog(editor);
-    editor->goTo("electrode_area_cm2");
+    if (!key.isEmpty()) editor->goTo(key);
 }
 
 }  // namespace tacto::gui

@@ -31,10 +31,8 @@ public:
     /// A folder with recording.json, or such a file, replayed into the simulated stimulator. False, and
     /// When it is not a recording, refusedRecording() says why.
     bool openRecording(const QString& path);
-    /// Opens the encoding profile's editor; it is its own owner.
-    void editProfile();
-    /// The profile's editor at the electrode's area.
-    void enterArea();
+    /// Opens the encoding profile's editor, which is its own owner, at the field `key` of a profile's file.
+    void editProfile(const QString& key = {});
     /// The row of tools above the plots; a page of tabs may take it into its own row.
     [[nodiscard]] QWidget* tools() { return tools_; }
     /// The strips alone; a line above them says when the sensor's samples are old.

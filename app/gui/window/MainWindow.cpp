@@ -192,7 +192,7 @@ void MainWindow::buildOthers() {
     connect(separability_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSeparability); });
     connect(protocols_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kProtocols); });
     for (auto* runner : runners()) {
-        connect(runner, &ProtocolWorkspace::profileChangeWanted, live_, &LiveWorkspace::editProfile);
+        connect(runner, &ProtocolWorkspace::profileChangeWanted, live_, [this] { live_->editProfile(); });
         connect(runner, &ProtocolWorkspace::sessionWanted, this, &MainWindow::openFile);
         connect(runner, &ProtocolWorkspace::safetyCheckWanted, this, [this] { showWorkspace(kSafetyCheck); });
         connect(runner, &ProtocolWorkspace::liveWanted, this, [this] { showWorkspace(kLive); });
@@ -221,7 +221,7 @@ void MainWindow::buildDocks() {
     devices_ = new DeviceDock(controller_, calibrations_, this);
     docks_ = new DockColumn(*this, {drive_, measurements_, exposure_, devices_});
     connect(scope_, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
-    connect(exposure_, &ExposureDock::areaWanted, live_, &LiveWorkspace::enterArea);
+    connect(exposure_, &ExposureDock::areaWanted, live_, [this] { live_->editProfile("electrode_area_cm2"); });
     connect(scope_, &ScopeWorkspace::driveWanted, this, [this] {
         docks_->show(*drive_);
         drive_->takeFocus();
