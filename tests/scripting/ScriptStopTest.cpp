@@ -179,6 +179,7 @@ TEST(ScriptStop, AbandonsALongNativeCallWithinASecondWithOutputsOff) {
     EXPECT_EQ(ScriptRun::abandonedRunning(), 1);
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
     EXPECT_TRUE(outcome.error->message.starts_with("/lab/probe.js:3: stopped by the test")) << outcome.error->message;
+    EXPECT_EQ(outcome.error->message.rfind("probe.js"), outcome.error->message.find("probe.js")) << "its path once";
     EXPECT_NE(outcome.error->message.find("abandoned with the output off"), std::string::npos);
     EXPECT_TRUE(rig.outputOff());
     run.reset();

@@ -210,8 +210,7 @@ void OperatorPage::showCounts() {
         words << tr("next break after trial %1, in about %2 min").arg(last).arg(std::max(1, int(std::lround(minutes))));
     }
     counts_->setText(words.join(" · "));
-    kept_->setText(answered_ == 1 ? tr("1 answer is on disk and stays.")
-                                  : tr("%1 answers are on disk and stay.").arg(answered_));
+    kept_->setText(answered_ == 1 ? tr("1 answer on disk") : tr("%1 answers on disk").arg(answered_));
 }
 
 void OperatorPage::ask(const PilotPrompt& prompt, quint64 id) {

@@ -13,6 +13,7 @@ void ParticipantDesk::begin(std::shared_ptr<const Clock> clock) {
     const std::scoped_lock lock(mutex_);
     clock_ = std::move(clock);
     early_.clear();
+    down_.clear();
     cancelled_ = stopped_ = false;
     break_ = false;
     holding_ = false;
@@ -174,10 +175,13 @@ void ParticipantDesk::noteEarly(const std::string& key) {
     early_.push_back({key, clock_ ? clock_->now() : Instant(0)});
 }
 
-void ParticipantDesk::setHolding(bool holding, std::optional<int> button) {
+bool ParticipantDesk::setHolding(bool holding, std::optional<int> button) {
+    const std::scoped_lock lock(mutex_);
+    if (holding && button && !down_.contains(*button)) return false;
     holding_ = holding;
     const int before = heldButton_.exchange(holding ? button.value_or(kNoButton) : kNoButton);
     if (!holding) letGo_ = before;
+    return true;
 }
 
 bool ParticipantDesk::letGoOf(int button) noexcept {
@@ -190,6 +194,10 @@ bool ParticipantDesk::letGoOf(int button) noexcept {
 void ParticipantDesk::noteHoldButton(int button, bool down, SteadyTime at) {
     {
         const std::scoped_lock lock(mutex_);
+        if (down)
+            down_.insert(button);
+        else
+            down_.erase(button);
         if (!down) {
             cameUp_ = button;
             cameUpAt_ = at;

@@ -13,6 +13,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <set>
 
 #include "app/gui/pilot/InputTime.h"
 #include "core/base/Clock.h"
@@ -62,11 +63,12 @@ public:
     void answerAsOperator(quint64 id, PilotAnswer answer);
     /// A press before the targets; `key` is what it would have been, or empty.
     void noteEarly(const std::string& key);
-    /// `button`: the code of the one that is held; by a key, the mouse or a finger none.
-    void setHolding(bool holding, std::optional<int> button = std::nullopt);
+    /// `button`: the code of the one that is held; by a key, the mouse or a finger none. False where that button has
+    /// come up meanwhile, which its device says sooner than the window hears of it: nothing is held then.
+    bool setHolding(bool holding, std::optional<int> button = std::nullopt);
     /// The button of that code came up. True where it was what is held, which ends that. Any thread.
     [[nodiscard]] bool letGoOf(int button) noexcept;
-    /// A button that holds went down or came up, also one that is not what is held; after letGoOf(). Any thread.
+    /// A button that holds went down or came up, also one that is not what is held; before letGoOf(). Any thread.
     void noteHoldButton(int button, bool down, SteadyTime at);
     /// Someone pressed a STOP too: a release just before was not a bounce. Any thread.
     void notePressed();
@@ -102,6 +104,7 @@ private:
     bool cancelled_ = false;
     bool stopped_ = false;  ///< by a person; ends one question
     bool there_ = true;
+    std::set<int> down_;         ///< buttons that hold, as their devices say
     std::optional<int> cameUp_;  ///< the button that holds that came up last
     SteadyTime cameUpAt_{};
     bool downAgain_ = false;  ///< and went down again within kBounces

@@ -226,7 +226,8 @@ void ParticipantWindow::give(PilotAnswer answer, SteadyTime at) {
 
 void ParticipantWindow::pressHold() {
     if (!asking_ || !shown_ || prompt_.kind != PromptKind::Hold) return;
-    desk_.setHolding(true, heldKey_ >= kFirstButton ? std::optional(heldKey_ - kFirstButton) : std::nullopt);
+    const auto button = heldKey_ >= kFirstButton ? std::optional(heldKey_ - kFirstButton) : std::nullopt;
+    if (!desk_.setHolding(true, button)) return;
     PilotAnswer answer;
     answer.keys.emplace_back("held");
     give(std::move(answer), std::chrono::steady_clock::now());

@@ -2,6 +2,7 @@
 
 #include <QPainter>
 #include <array>
+#include <cmath>
 
 #include "app/gui/theme/Theme.h"
 
@@ -12,7 +13,22 @@ namespace {
 constexpr std::array kPhases{QT_TRANSLATE_NOOP("PhaseBar", "get ready"), QT_TRANSLATE_NOOP("PhaseBar", "trains"),
                              QT_TRANSLATE_NOOP("PhaseBar", "answer"), QT_TRANSLATE_NOOP("PhaseBar", "rest")};
 constexpr std::array kParts{0.127, 0.311, 0.408, 0.154};  // of the width, as the picture has them
-constexpr int kPhaseHigh = 32, kBelow = 10, kShareHigh = 6, kBetween = 8;
+constexpr int kPhaseHigh = 32, kBelow = 10, kShareHigh = 6, kBetween = 8, kPad = 12;
+
+/// The phases' shares of `room`; one too narrow for its words takes from those that have more than theirs.
+std::array<double, kParts.size()> widthsIn(double room) {
+    const QFontMetricsF metrics(textFont(TextSize::Body, QFont::DemiBold));
+    std::array<double, kParts.size()> widths{}, spare{};
+    double missing = 0, spared = 0;
+    for (std::size_t i = 0; i < kParts.size(); ++i) {
+        widths[i] = room * kParts[i];
+        spare[i] = widths[i] - std::ceil(metrics.horizontalAdvance(PhaseBar::tr(kPhases[i]))) - 2 * scaledPx(kPad) - 2;
+        (spare[i] < 0 ? missing : spared) += std::abs(spare[i]);
+    }
+    if (missing <= 0 || spared < missing) return widths;
+    for (std::size_t i = 0; i < kParts.size(); ++i) widths[i] -= spare[i] < 0 ? spare[i] : spare[i] * missing / spared;
+    return widths;
+}
 
 }  // namespace
 
@@ -36,11 +52,11 @@ void PhaseBar::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const auto& c = colours();
-    const int high = scaledPx(kPhaseHigh), pad = scaledPx(12);
-    const double room = width() - kBetween * double(kParts.size() - 1);
+    const int high = scaledPx(kPhaseHigh), pad = scaledPx(kPad);
+    const auto widths = widthsIn(width() - kBetween * double(kParts.size() - 1));
     double x = 0;
     for (std::size_t i = 0; i < kParts.size(); ++i) {
-        const QRectF box(x + 0.5, 0.5, room * kParts[i] - 1, high - 1);
+        const QRectF box(x + 0.5, 0.5, widths[i] - 1, high - 1);
         const bool now = int(i) == phase_, before = phase_ != kNone && int(i) < phase_;
         painter.setPen(QPen(now ? c.primary : c.line, 1));
         painter.setBrush(now ? c.primary : before ? c.selection : c.base);
@@ -57,11 +73,11 @@ void PhaseBar::paintEvent(QPaintEvent* /*event*/) {
                 painter.drawText(words, Qt::AlignRight | Qt::AlignVCenter, left);
         }
         if (now && share_) {
-            const QRectF trough(x, high + kBelow - kShareHigh, room * kParts[i], kShareHigh);
+            const QRectF trough(x, high + kBelow - kShareHigh, widths[i], kShareHigh);
             painter.fillRect(trough, c.sunken);
             painter.fillRect(QRectF(trough.topLeft(), QSizeF(trough.width() * *share_, kShareHigh)), c.bar);
         }
-        x += room * kParts[i] + kBetween;
+        x += widths[i] + kBetween;
     }
 }
 

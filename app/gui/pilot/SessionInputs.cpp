@@ -24,8 +24,8 @@ ButtonListener listenerOf(const SeatedDevice& seat, int firstCode, const InputsA
         const auto does = seat.uses[press.button].does;
         if (does == ButtonUse::Does::Stop && press.down && atOnce.stop) atOnce.stop(seat.whose);
         const bool holds = does == ButtonUse::Does::Hold && seat.whose == PromptTo::Participant;
-        if (holds && !press.down && atOnce.letGo) atOnce.letGo(firstCode + int(press.button));
         if (holds && atOnce.heldMoved) atOnce.heldMoved(firstCode + int(press.button), press.down, press.at);
+        if (holds && !press.down && atOnce.letGo) atOnce.letGo(firstCode + int(press.button));
     };
     listener.plugged = [which = unpluggedText(seat).toStdString(), lost = atOnce.lost](bool there) {
         if (!there && lost) lost(which);

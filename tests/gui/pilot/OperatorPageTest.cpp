@@ -71,7 +71,7 @@ TEST_F(Operator8b, SaysWhereTheSessionIs) {
     const auto says = allText();
     EXPECT_THAT(says, HasSubstr("Test, block 2 of 5, trial 27 of 90"));
     EXPECT_THAT(says, HasSubstr("26 answered · 0 repeated · next break after trial 36, in about 2 min"));
-    EXPECT_THAT(says, HasSubstr("26 answers are on disk and stay."));
+    EXPECT_THAT(says, HasSubstr("26 answers on disk"));
 }
 
 TEST_F(Operator8b, WhileBlindNothingOfAConditionIsShown) {

@@ -240,7 +240,21 @@ TEST_F(SeatedWithPad, OneDeviceIsNotBothPeoples) {
     EXPECT_EQ(plugged->open("theirs"), 0U);
 }
 
-/// A pad over its real driver, and what it told on its own thread.
+TEST_F(SeatedWithPad, WhatCameUpBeforeTheWindowHeardOfItIsNotHeld) {
+    RecordProperty("hazard", "H6");
+    const auto now = std::chrono::steady_clock::now();
+    desk.noteHoldButton(7, true, now);
+    EXPECT_TRUE(desk.setHolding(true, 7));
+    EXPECT_TRUE(desk.holding());
+    desk.noteHoldButton(7, false, now);
+    EXPECT_TRUE(desk.letGoOf(7));
+    EXPECT_FALSE(desk.setHolding(true, 7)) << "the window's thread comes late with what it was";
+    EXPECT_FALSE(desk.holding());
+    EXPECT_TRUE(desk.setHolding(true)) << "a key, the mouse or a finger";
+    EXPECT_TRUE(desk.holding());
+    desk.setHolding(false);
+}
+
 TEST_F(SeatedWithPad, TheBounceOfAHeldContactSwitchesOffAndIsNoStopOfTheirs) {
     RecordProperty("hazard", "H2");
     ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
@@ -376,6 +390,7 @@ TEST_F(SeatedWithPad, ButtonsOnTheTargetsLookRightAndAreTheSameForEveryCondition
     gui::applyTextSize(100);
 }
 
+/// A pad over its real driver, and what it told on its own thread.
 class OwnThread : public testing::Test {
 protected:
     OwnThread() {

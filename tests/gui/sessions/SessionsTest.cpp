@@ -253,7 +253,12 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
         return std::any_of(plots.begin(), plots.end(), [](const auto* plot) { return plot->plottableCount() >= 2; });
     };
     EXPECT_IN_TIME(comesTrue(drawn)) << "a stream of both, over each other";
-    for (const auto* plot : both->findChildren<QCustomPlot*>()) EXPECT_TRUE(saysSimulated(*plot));
+    for (const auto* plot : both->findChildren<QCustomPlot*>()) {
+        EXPECT_TRUE(saysSimulated(*plot));
+        if (!plot->legend->visible()) continue;
+        EXPECT_TRUE(plot->viewport().contains(plot->legend->outerRect())) << "the legend is on its plot";
+        EXPECT_FALSE(plot->legend->outerRect().intersects(plot->axisRect()->rect())) << "and covers no data";
+    }
     EXPECT_IN_TIME(comesTrue([&] { return both->marks().words().size() == 1; }));
     EXPECT_THAT(both->marks().words().join(" ").toStdString(), testing::EndsWith(": lead off"))
         << "and of which of both";

@@ -49,6 +49,24 @@ TEST(Verdicts, AreTheSameOnScreenAndOnPaper) {
     }
 }
 
+TEST_P(InTheme, AVerdictsWordIsReadAfterTheThemeHasChanged) {
+    const auto other = GetParam() == Theme::Light ? Theme::Dark : Theme::Light;
+    for (const char* key : {"pass", "fail", "indeterminate", "stopped", "error", ""}) {
+        gui::applyTheme(other);
+        gui::VerdictBlock block(nullptr);
+        block.setVerdict(key);
+        block.resize(block.sizeHint());
+        block.show();
+        static_cast<void>(block.grab());
+        gui::applyTheme(GetParam());
+        const auto style = gui::verdictStyle(key);
+        EXPECT_GE(contrast(style.ink, style.fill), 4.5) << key;
+        const auto picture = block.grab().toImage();
+        EXPECT_GT(pixelsOf(picture, style.fill), picture.width() * picture.height() / 2) << key;
+        EXPECT_GT(pixelsOf(picture, style.ink), 100) << key;
+    }
+}
+
 TEST(Looks, AreFoundWrongWhereTheyAre) {
     gui::applyTheme(Theme::Light);
     QWidget window;
