@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/Hex.h"
 #include "core/base/RecordFields.h"
 #include "core/base/Words.h"
 
@@ -14,9 +15,7 @@ constexpr Word<CheckVerdict> kCheckVerdicts[] = {
     {"fail", CheckVerdict::Fail},       {"indeterminate", CheckVerdict::Indeterminate},
     {"stopped", CheckVerdict::Stopped}, {"none", CheckVerdict::None}};
 
-bool isSha256(std::string_view text) {
-    return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
+bool isSha256(std::string_view text) { return isHex(text, 64); }
 
 Result<void> checkWhole(const LoadSafetyCheck& c) {
     const auto wants = [&](std::string_view what) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/Hex.h"
 #include "core/base/RecordFields.h"
 
 namespace tacto {
@@ -74,9 +75,7 @@ const RecordFields<StoredCalibration>& calibrationFields() {
     return fields;
 }
 
-bool isDigest(std::string_view text) {
-    return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
+bool isDigest(std::string_view text) { return isHex(text, 64); }
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/Hex.h"
 #include "core/base/JsonFields.h"
 #include "core/seal/SealedText.h"
 #include "core/study/SessionSeal.h"
@@ -126,10 +127,8 @@ private:
     static std::chrono::seconds wholeSeconds(Instant at) noexcept {
         return std::chrono::floor<std::chrono::seconds>(at);
     }
-    /// What names a file: 16 hexadecimal digits, and no path.
-    static bool isId(std::string_view text) noexcept {
-        return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-    }
+    /// What names a file: hexadecimal digits, and no path.
+    static bool isId(std::string_view text) noexcept { return isHex(text, 16); }
     static tl::unexpected<Error> unfit(const SessionRow& row, std::string_view what) {
         return fail(ErrorCode::ParseError, "row {} ({}) of the ledger is about {}", row.seq, row.name, what);
     }

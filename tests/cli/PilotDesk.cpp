@@ -2,10 +2,15 @@
 
 #include <csignal>
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
+#include <fmt/chrono.h>
+#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "core/base/Clock.h"
+#include "core/session/SessionWriter.h"
+#include "core/study/Study.h"
 
 namespace tacto::test {
 
@@ -20,6 +25,29 @@ Words PilotDesk::words(const std::string& protocol, const Words& more, const std
 
 Ran PilotDesk::run(const std::string& protocol, const Words& more, const std::string& study) const {
     return desk_.run(words(protocol, more, study));
+}
+
+void PilotDesk::writeUnfinished(const std::string& folder, const std::string& protocol,
+                                const std::vector<WrittenRow>& rows, std::chrono::sys_seconds begunAt) const {
+    auto study = Study::createRehearsal(desk_.at(folder)).value();
+    Participant who;
+    who.virtualSeed = 7;
+    const auto code = study.enrol(who).value().code;
+    ASSERT_TRUE(study.consent(code, {study.settings().consentVersion, study.today(), "KL"}));
+    SessionRequest request;
+    request.code = code;
+    request.script = {protocol, "a"};
+    request.encoding = "standard";
+    request.codeConfirmed = request.devicesSimulated = true;
+    request.exclusions = nothingExcludes();
+    const auto begun = study.beginSession(request).value();
+    VirtualClock clock;
+    SessionAbout about;
+    about.wallStart = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(begunAt)));
+    auto writer = SessionWriter::create(begun.path, about, clock, begun.seal);
+    ASSERT_TRUE(writer) << writer.error().message;
+    for (const auto& row : rows) ASSERT_TRUE((*writer)->event(clock.now(), row.kind, row.body));
+    ASSERT_TRUE((*writer)->close());
 }
 
 Ran PilotDesk::runDisturbed(const Disturbance& by, const std::string& protocol, const Words& more,

@@ -4,7 +4,8 @@
 #pragma once
 
 #include <chrono>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "tests/cli/Shape.h"
 
@@ -21,6 +22,12 @@ struct Disturbance {
     long clockFromSync = 0;         ///< from that time on that it makes something durable; 0: from its beginning
 };
 
+/// A row as someone with the keys can write it.
+struct WrittenRow {
+    const char* kind;
+    nlohmann::json body;
+};
+
 class PilotDesk {
 public:
     explicit PilotDesk(Words devices = {"sim:"}) : devices_(std::move(devices)) {}
@@ -32,6 +39,9 @@ public:
     /// The code of one that is killed at its `sync`-th durable row.
     [[nodiscard]] int runKilled(long sync, const std::string& protocol, const Words& more,
                                 const std::string& study = "study") const;
+    /// A rehearsal in which virtual:7 has an unfinished session of these rows, begun then.
+    void writeUnfinished(const std::string& study, const std::string& protocol, const std::vector<WrittenRow>& rows,
+                         std::chrono::sys_seconds begun) const;
     [[nodiscard]] const Desk& desk() const noexcept { return desk_; }
 
 private:

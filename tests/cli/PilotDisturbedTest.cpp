@@ -1,13 +1,11 @@
 // What happens to a session beside being killed: the disk is full, the clock is moved, a part of its record is gone or
 // another's. It is refused or goes on as if nothing had happened.
 #include <filesystem>
-#include <fmt/chrono.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/Clock.h"
-#include "core/session/SessionWriter.h"
 #include "core/study/Study.h"
 #include "tests/cli/PilotDesk.h"
 #include "tests/support/Trials.h"
@@ -106,28 +104,10 @@ TEST_F(DisturbedSession, WithAClockThatWasMovedBetweenItsPartsItIsRefusedOrGoesO
 
 TEST_F(DisturbedSession, WithAClockBehindItsLastAnswerItIsRefused) {
     RecordProperty("hazard", "H8");
-    {
-        auto study = Study::createRehearsal(desk.desk().at("study")).value();
-        Participant who;
-        who.virtualSeed = 7;
-        const auto code = study.enrol(who).value().code;
-        ASSERT_TRUE(study.consent(code, {study.settings().consentVersion, study.today(), "KL"}));
-        SessionRequest request;
-        request.code = code;
-        request.script = {kSession, "a"};
-        request.codeConfirmed = request.devicesSimulated = true;
-        request.exclusions = nothingExcludes();
-        const auto begun = study.beginSession(request).value();
-        // It went on for half an hour, and nothing of it is a row of the ledger.
-        const auto then = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()) + 30min;
-        VirtualClock clock;
-        SessionAbout about;
-        about.wallStart = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(then)));
-        auto writer = SessionWriter::create(begun.path, about, clock, begun.seal);
-        ASSERT_TRUE(writer) << writer.error().message;
-        ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
-        ASSERT_TRUE((*writer)->close());
-    }
+    // It went on for half an hour, and nothing of it is a row of the ledger.
+    const auto then = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()) + 30min;
+    ASSERT_NO_FATAL_FAILURE(
+        desk.writeUnfinished("study", kSession, {{"trial-begin", {{"name", "ascending 1"}}}}, then));
     expectUnchanged({}, 4, "and what was last presented or answered is of", "study");
 }
 

@@ -1,25 +1,16 @@
 // Rows of a session that lie though their seals and their chain are right: made by someone who has the keys, as those
 // of a rehearsal are for everyone. A session goes on from what it can believe and else is refused in one sentence;
 // nothing is presented that its rows do not lead to.
-#include <filesystem>
-#include <gmock/gmock.h>
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/Clock.h"
-#include "core/session/SessionWriter.h"
-#include "core/study/Study.h"
 #include "tests/cli/PilotDesk.h"
 
 namespace tacto::test {
 namespace {
 
 using nlohmann::json;
-
-struct HostileRow {
-    const char* kind;
-    json body;
-};
 
 json plan(json trials, json blocks = 1, json seed = 1, json encoding = "standard") {
     return {{"name", "plan"},
@@ -38,35 +29,21 @@ json planned(json number, json condition = "rough-high", json phase = "test", js
 class HostileRows : public testing::Test {
 protected:
     /// Goes on with an unfinished session that has these rows.
-    Ran goneOnWith(const std::vector<HostileRow>& rows, const char* protocol = "pilot-identification") {
+    Ran goneOnWith(const std::vector<WrittenRow>& rows, const char* protocol) {
         const auto name = "study " + std::to_string(++made_);
-        {
-            auto study = Study::createRehearsal(desk.desk().at(name)).value();
-            Participant who;
-            who.virtualSeed = 7;
-            const auto code = study.enrol(who).value().code;
-            EXPECT_TRUE(study.consent(code, {study.settings().consentVersion, study.today(), "KL"}));
-            SessionRequest request;
-            request.code = code;
-            request.script = {protocol, "a"};
-            request.encoding = "standard";
-            request.codeConfirmed = request.devicesSimulated = true;
-            request.exclusions = nothingExcludes();
-            const auto begun = study.beginSession(request).value();
-            VirtualClock clock;
-            SessionAbout about;
-            about.wallStart = wallTimeUtc();
-            auto writer = SessionWriter::create(begun.path, about, clock, begun.seal);
-            EXPECT_TRUE(writer) << writer.error().message;
-            for (const auto& row : rows) EXPECT_TRUE((*writer)->event(clock.now(), row.kind, row.body));
-            EXPECT_TRUE((*writer)->close());
-        }
+        desk.writeUnfinished(name, protocol, rows,
+                             std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()));
         return desk.run(protocol, shortSession() + Words{"--set", "unfinished=resume"}, name);
     }
-    static void expectSentence(const Ran& ran, const std::string& what) {
-        EXPECT_TRUE(ran.code == 3 || ran.code == 4) << what << ": " << ran.code << ran.err << ran.out.substr(0, 2000);
-        EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << what << ": " << ran.err;
-        EXPECT_EQ(ran.err.find("unexpected"), std::string::npos) << what << ": " << ran.err;
+    /// Each is refused with that code, in one sentence.
+    void expectRefused(std::initializer_list<std::pair<const char*, std::vector<WrittenRow>>> all, const char* protocol,
+                       int code) {
+        for (const auto& [what, rows] : all) {
+            const auto ran = goneOnWith(rows, protocol);
+            EXPECT_EQ(ran.code, code) << what << ": " << ran.err << ran.out.substr(0, 2000);
+            EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << what << ": " << ran.err;
+            EXPECT_EQ(ran.err.find("unexpected"), std::string::npos) << what << ": " << ran.err;
+        }
     }
     const PilotDesk desk;
     int made_ = 0;
@@ -96,37 +73,30 @@ TEST_F(HostileRows, APlanThatCannotBeIsRefused) {
         {"an encoding that is none", plan({planned(1)}, 1, 1, nullptr)},
         {"a seed that is a text", plan({planned(1)}, 1, "one")},
     };
-    for (const auto& [what, body] : plans) {
-        const auto ran = goneOnWith({{"plan", body}});
-        expectSentence(ran, what);
-        EXPECT_EQ(ran.code, 3) << what;
-    }
+    for (const auto& [what, body] : plans) expectRefused({{what, {{"plan", body}}}}, "pilot-identification", 3);
 }
 
 TEST_F(HostileRows, WhatSaysThatItIsCompleteAndIsNotPresentsNothing) {
     RecordProperty("hazard", "H12");
     const auto whole = plan(nullptr);
-    const std::pair<const char*, std::vector<HostileRow>> all[] = {
-        {"an end alone", {{"session-end", {{"name", "end"}, {"state", "complete"}, {"why", ""}}}}},
-        {"plan and end", {{"plan", whole}, {"session-end", {{"name", "end"}, {"state", "complete"}, {"why", ""}}}}},
-        {"two ends",
-         {{"plan", whole},
-          {"session-end", {{"name", "end"}, {"state", "stopped"}, {"why", "third stop"}}},
-          {"session-end", {{"name", "end"}, {"state", "complete"}, {"why", ""}}}}},
-        {"an end in an unknown state", {{"plan", whole}, {"session-end", {{"name", "end"}, {"state", "done"}}}}},
-    };
-    for (const auto& [what, rows] : all) {
-        const auto ran = goneOnWith(rows, "pilot-thresholds");
-        expectSentence(ran, what);
-        EXPECT_EQ(ran.code, 4) << what;
-    }
+    expectRefused(
+        {
+            {"an end alone", {{"session-end", {{"name", "end"}, {"state", "complete"}, {"why", ""}}}}},
+            {"plan and end", {{"plan", whole}, {"session-end", {{"name", "end"}, {"state", "complete"}, {"why", ""}}}}},
+            {"two ends",
+             {{"plan", whole},
+              {"session-end", {{"name", "end"}, {"state", "stopped"}, {"why", "third stop"}}},
+              {"session-end", {{"name", "end"}, {"state", "complete"}, {"why", ""}}}}},
+            {"an end in an unknown state", {{"plan", whole}, {"session-end", {{"name", "end"}, {"state", "done"}}}}},
+        },
+        "pilot-thresholds", 4);
 }
 
 TEST_F(HostileRows, AnswersThatCannotBeAreRefused) {
     RecordProperty("hazard", "H10");
-    const auto begin = HostileRow{"plan", plan(nullptr)};
+    const auto begin = WrittenRow{"plan", plan(nullptr)};
     const auto ascending = [](json level, json response) {
-        return HostileRow{"answer",
+        return WrittenRow{"answer",
                           {{"name", "ascending 1"},
                            {"series", 1},
                            {"current_ma", std::move(level)},
@@ -134,31 +104,28 @@ TEST_F(HostileRows, AnswersThatCannotBeAreRefused) {
                            {"attempt", 1},
                            {"rt_s", 1}}};
     };
-    const std::pair<const char*, std::vector<HostileRow>> all[] = {
-        {"a level that is not asked for", {begin, ascending(14.5, "nothing")}},
-        {"no level", {begin, ascending(nullptr, "nothing")}},
-        {"an unknown answer", {begin, ascending(0, "wonderful")}},
-        {"an answer that is a number", {begin, ascending(0, 3)}},
-        {"a look-alike", {begin, ascending(0, "n\u043ething")}},
-        {"an answer that is null", {begin, ascending(0, nullptr)}},
-        {"a step of 0", {begin, {"phase", {{"name", "ascending"}, {"step", 0}, {"cap", 15}}}}},
-        {"a step that is not a number", {begin, {"phase", {{"name", "ascending"}, {"step", "1"}, {"cap", 15}}}}},
-        {"a cap of 1e300", {begin, {"phase", {{"name", "ascending"}, {"step", 1e-300}, {"cap", 1e300}}}}},
-        {"a range above all",
-         {begin, {"range", {{"name", "range"}, {"usable", true}, {"min_ma", 20}, {"max_ma", 90}}}}},
-    };
-    for (const auto& [what, rows] : all) {
-        const auto ran = goneOnWith(rows, "pilot-thresholds");
-        expectSentence(ran, what);
-        EXPECT_EQ(ran.code, 3) << what;
-    }
+    expectRefused(
+        {
+            {"a level that is not asked for", {begin, ascending(14.5, "nothing")}},
+            {"no level", {begin, ascending(nullptr, "nothing")}},
+            {"an unknown answer", {begin, ascending(0, "wonderful")}},
+            {"an answer that is a number", {begin, ascending(0, 3)}},
+            {"a look-alike", {begin, ascending(0, "n\u043ething")}},
+            {"an answer that is null", {begin, ascending(0, nullptr)}},
+            {"a step of 0", {begin, {"phase", {{"name", "ascending"}, {"step", 0}, {"cap", 15}}}}},
+            {"a step that is not a number", {begin, {"phase", {{"name", "ascending"}, {"step", "1"}, {"cap", 15}}}}},
+            {"a cap of 1e300", {begin, {"phase", {{"name", "ascending"}, {"step", 1e-300}, {"cap", 1e300}}}}},
+            {"a range above all",
+             {begin, {"range", {{"name", "range"}, {"usable", true}, {"min_ma", 20}, {"max_ma", 90}}}}},
+        },
+        "pilot-thresholds", 3);
 }
 
 TEST_F(HostileRows, WhatLeadsNowhereChangesNothing) {
     RecordProperty("hazard", "H6");
-    const auto begin = HostileRow{"plan", plan(nullptr)};
+    const auto begin = WrittenRow{"plan", plan(nullptr)};
     const auto expected = jsonOf(goneOnWith({begin}, "pilot-thresholds"))["results"]["range"];
-    const std::pair<const char*, std::vector<HostileRow>> all[] = {
+    const std::pair<const char*, std::vector<WrittenRow>> all[] = {
         {"a cap beyond the study's", {begin, {"phase", {{"name", "ascending"}, {"step", 0.5}, {"cap", 99}}}}},
         {"a body that is a list", {begin, {"answer", json::array({1, 2})}}},
         {"an accepted level", {begin, {"level-accepted", {{"name", "x"}, {"current_ma", 14}}}}},

@@ -4,15 +4,11 @@
 #include <regex>
 #include <set>
 
+#include "core/base/Csv.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
 namespace {
-
-std::string wholeText(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// All that a text holds of this form, its groups joined by a dot.
 std::set<std::string> namesIn(const std::string& text, const std::regex& form) {
@@ -30,7 +26,7 @@ std::set<std::string> declaredIn(const std::string& source) {
 TEST(Evidence, NamesTestsThatExistForEachSection) {
     std::set<std::string> declared;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(test::sourceDir() / "tests"))
-        if (entry.path().extension() == ".cpp") declared.merge(declaredIn(wholeText(entry.path())));
+        if (entry.path().extension() == ".cpp") declared.merge(declaredIn(readTextFile(entry.path()).value()));
     ASSERT_GT(declared.size(), 1000U);
     std::ifstream lines(test::sourceDir() / "resources/design/pilot-evidence.md");
     static const std::regex quoted("`([A-Za-z0-9]\\w*)\\.(\\w+)`");
