@@ -19,24 +19,12 @@ namespace {
 
 /// What people read for a key of the results; another text is returned as it is.
 std::string wordsOf(const std::string& key) {
-    static const std::map<std::string, std::string, std::less<>> kWords{{"too-strong", "too strong"},
-                                                                        {"ceiling", "the highest level"},
-                                                                        {"stop", "STOP"},
-                                                                        {"open", "not ended"},
-                                                                        {"none", "nothing"},
-                                                                        {"not-sure", "not sure"},
-                                                                        {"quest", "QUEST+"},
-                                                                        {"staircase", "the weighted staircase"},
-                                                                        {"rough-high", "rough, firm"},
-                                                                        {"rough-low", "rough, light"},
-                                                                        {"smooth-high", "smooth, firm"},
-                                                                        {"smooth-low", "smooth, light"}};
+    static const std::map<std::string, std::string, std::less<>> kWords{
+        {"too-strong", "too strong"}, {"ceiling", "the highest level"},       {"stop", "STOP"}, {"open", "not ended"},
+        {"quest", "QUEST+"},          {"staircase", "the weighted staircase"}};
     const auto found = kWords.find(key);
-    return found != kWords.end() ? found->second : key;
+    return found != kWords.end() ? found->second : answerWords(key);
 }
-
-/// "0.012"; a p below 0.001 is given as such.
-std::string chanceText(double p) { return !std::isfinite(p) ? "–" : p < 0.001 ? "< 0.001" : decimalText(p, 3); }
 
 /// How the session's levels are read: of current, or of a massager's strength.
 struct LevelText {

@@ -33,10 +33,6 @@ bool hasTestTrials(const SessionRecord& session) {
                                [](const BidsTrial& row) { return row.trial.phase == TrialPhase::Test; });
 }
 
-bool hasRange(const SessionRecord& session) {
-    return std::isfinite(session.results.low.value()) || std::isfinite(session.results.lowIntensity);
-}
-
 bool withMassager(const StudyRecord& study) { return study.settings.modality == Modality::Massager; }
 
 /// The highest current, or a massager's intensity, that was presented in any part of the session.
@@ -117,7 +113,7 @@ TableBlock flowTable(const StudyRecord& study, const QString& caption) {
         }
         if (!about.consents.empty()) ++consented;
         if (!participant.sessions.empty()) ++begun;
-        usable += any(hasRange);
+        usable += any([](const SessionRecord& session) { return hasUsableRange(session.results); });
         tested += any(hasTestTrials);
         complete += any([](const SessionRecord& session) {
             return session.about.state == StudySessionState::Complete && hasTestTrials(session);

@@ -51,7 +51,7 @@ TableBlock valuesTable(const OverSessions& compared, const std::vector<AnalysedS
         const auto& each = compared.sessions[i];
         const auto& felt = sessions[i].session->results;
         const double low = massager ? felt.lowIntensity : felt.low.value();
-        const auto range = std::isfinite(low) && std::isfinite(each.high)
+        const auto range = hasUsableRange(felt) && std::isfinite(each.high)
                                ? figureText(low, digits) + " to " + figureText(each.high, digits)
                                : QString("–");
         table.rows.push_back({QString::number(each.number), figureText(each.days, 0), withInterval(each.detection, 2),

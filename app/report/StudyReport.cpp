@@ -45,10 +45,6 @@ PresentedRange rangeOf(const BidsSession& session) {
     return range;
 }
 
-bool isUsable(const BidsSession& session) {
-    return std::isfinite(session.low.value()) || std::isfinite(session.lowIntensity);
-}
-
 double medianResponse_s(const BidsSession& session) {
     std::vector<double> times;
     for (const auto& row : session.trials) {
@@ -117,8 +113,9 @@ void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
     const auto& found = one.found;
     FactsBlock facts;
     facts.oneColumn = true;
-    facts.facts = {{"By chance", QString("p = %1, exact and one-sided against %2 %")
-                                     .arg(found.all.pChance, 0, 'g', 2)
+    const auto chance = qtext(chanceText(found.all.pChance));
+    facts.facts = {{"By chance", QString("p %1, exact and one-sided against %2 %")
+                                     .arg(chance.startsWith('<') ? chance : "= " + chance)
                                      .arg(100 * found.all.chance, 0, 'f', 0)},
                    {"Information", QString("%1 bit, of which chance gives %2 bit; corrected %3 bit")
                                        .arg(figureText(found.all.it_bits, 2), figureText(found.all.itBias_bits, 2),
@@ -215,14 +212,14 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vect
     blocks.emplace_back(captions.heading("All participants"));
     const auto together = judgeFewPeople(std::move(people));
     TableBlock table;
-    table.caption = captions.table("Each participant's first session with test trials");
+    table.caption = captions.table("Each participant's first session with test trials, else the last");
     table.columns = {{"Participant"},          {"Usable range"},      {"Right", true},
                      {"Accuracy, 95 %", true}, {"p by chance", true}, {"Information, corrected (bit)", true}};
     for (const auto& person : together.people) {
         const auto& figures = person.figures;
         table.rows.push_back({qtext(person.name), person.usable ? "yes" : "no",
                               QString("%1 of %2").arg(figures.hits).arg(figures.n), shareText(figures.accuracy),
-                              figures.n > 0 ? QString::number(figures.pChance, 'g', 2) : QString("–"),
+                              qtext(chanceText(figures.n > 0 ? figures.pChance : kNaN)),
                               figureText(figures.itCorrected_bits, 2)});
     }
     blocks.emplace_back(std::move(table));
@@ -233,6 +230,18 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vect
     blocks.emplace_back(ParagraphBlock{qtext(fewPeopleSentence(together))});
     blocks.emplace_back(ParagraphBlock{
         "Answers of different people are not pooled: no proportion, p or interval is given over all trials.", true});
+}
+
+/// A sentence for each session in which there was no room for the test.
+QStringList unusableRanges(const ParticipantRecord& participant) {
+    QStringList said;
+    for (const auto& session : participant.sessions) {
+        if (session.results.rangeNotUsable.empty()) continue;
+        said << QString("Session %1 had no usable range, and so no test: %2.")
+                    .arg(session.results.number)
+                    .arg(qtext(session.results.rangeNotUsable));
+    }
+    return said;
 }
 
 const ParticipantRecord* withCode(const StudyRecord& study, const std::string& code) {
@@ -273,10 +282,14 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
         if (participant.about.state == ParticipantState::Withdrawn) continue;
         auto sessions = analysed(participant);
         if (!sessions) return failure(sessions);
-        PersonResult person{.name = participant.about.code, .usable = true, .figures = {}};
-        person.usable = std::ranges::any_of(participant.sessions, [](const auto& s) { return isUsable(s.results); });
-        if (!sessions->empty()) person.figures = sessions->front().found.all;
-        if (!participant.sessions.empty()) people.push_back(std::move(person));
+        if (!participant.sessions.empty()) {
+            PersonResult person{.name = participant.about.code, .usable = true, .figures = {}};
+            if (sessions->empty())
+                person.usable = hasUsableRange(participant.sessions.back().results);
+            else
+                person.figures = sessions->front().found.all;
+            people.push_back(std::move(person));
+        }
         all.emplace_back(participant.about.code, std::move(*sessions));
     }
     for (const auto& [name, sessions] : all) {
@@ -286,8 +299,10 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
     addTogether(blocks, captions, std::move(people));
     for (const auto& [name, sessions] : all) {
         const auto* who = withCode(study, name);
-        if (sessions.empty() && (who == nullptr || who->sessions.size() < 2)) continue;
+        const auto unusable = who == nullptr ? QStringList() : unusableRanges(*who);
+        if (sessions.empty() && unusable.empty() && (who == nullptr || who->sessions.size() < 2)) continue;
         blocks.emplace_back(captions.heading(qtext(name)));
+        for (const auto& sentence : unusable) blocks.emplace_back(ParagraphBlock{sentence});
         for (const auto& one : sessions) {
             const auto& results = one.session->results;
             addConfusion(blocks, captions, one,

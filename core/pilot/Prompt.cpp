@@ -1,7 +1,9 @@
 #include "core/pilot/Prompt.h"
 
+#include <cctype>
 #include <utility>
 
+#include "core/analysis/identification/IdentificationText.h"
 #include "core/base/Words.h"
 
 namespace tacto {
@@ -28,12 +30,10 @@ PilotPrompt prompt(PromptKind kind, std::string name, std::string text, std::vec
     return made;
 }
 
-/// "rough-high" is rough and firm, "smooth-low" smooth and light.
-std::string conditionText(const std::string& key) {
-    const auto dash = key.find('-');
-    if (dash == std::string::npos) return key;
-    const std::string texture = key.substr(0, dash), pressure = key.substr(dash + 1);
-    return (texture == "rough" ? "Rough, " : "Smooth, ") + std::string(pressure == "high" ? "firm" : "light");
+/// As a button says it.
+std::string capitalised(std::string words) {
+    if (!words.empty()) words.front() = char(std::toupper(static_cast<unsigned char>(words.front())));
+    return words;
 }
 
 }  // namespace
@@ -64,9 +64,9 @@ PilotPrompt comparisonPrompt() {
 
 PilotPrompt conditionPrompt(const std::vector<std::string>& names) {
     std::vector<PromptTarget> targets;
-    for (const auto& name : names) targets.push_back({name, conditionText(name)});
-    targets.push_back({"none", "Nothing"});
-    targets.push_back({"not-sure", "Not sure"});
+    std::vector<std::string> answers = names;
+    answers.insert(answers.end(), {std::string(kNoneResponse), std::string(kNotSureResponse)});
+    for (const auto& key : answers) targets.push_back({key, capitalised(answerWords(key))});
     return prompt(PromptKind::Condition, "identification", "What did you feel?", std::move(targets));
 }
 

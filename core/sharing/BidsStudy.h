@@ -6,6 +6,7 @@
 // Thread-safety: values.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -74,7 +75,8 @@ struct BidsSession {
     Ohms impedance{kNaN};
     Milliamps low{kNaN}, high{kNaN};  ///< range
     double lowIntensity = kNaN, highIntensity = kNaN;
-    double detection = kNaN, tooStrong = kNaN;         ///< mA, or a massager's intensity
+    std::string rangeNotUsable;                 ///< why ("it was not confirmed"); empty where it was, or none was found
+    double detection = kNaN, tooStrong = kNaN;  ///< mA, or a massager's intensity
     double detectionLow = kNaN, detectionHigh = kNaN;  ///< 95 % interval of `detection`
     double amplitudeWeber = kNaN;                      ///< their own, from a comparison of strengths; NaN at its edge
     std::vector<std::string> sideEffectsAsked;         ///< moments at which they were asked for
@@ -89,6 +91,12 @@ struct BidsSession {
     std::vector<BidsRating> ratings;
     std::vector<BidsSideEffect> sideEffects;
 };
+
+/// Between what is just felt and what is too strong there was room for the test.
+[[nodiscard]] inline bool hasUsableRange(const BidsSession& session) {
+    return session.rangeNotUsable.empty() &&
+           (std::isfinite(session.low.value()) || std::isfinite(session.lowIntensity));
+}
 
 struct BidsParticipant {
     std::size_t enrolled = 0;  ///< 1, 2, ...: decides the label together with BidsStudy::labelSeed

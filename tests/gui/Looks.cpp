@@ -8,11 +8,16 @@
 #include <QRegularExpression>
 #include <QStyleOptionComboBox>
 #include <QTabBar>
+#include <QTest>
 #include <QTextDocument>
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
+#include <utility>
 
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Person.h"
 
 namespace tacto::test {
 
@@ -200,6 +205,26 @@ std::string faultsOf(const QWidget& in) {
     for (const auto& text : paleTexts(in)) all << "pale: " + text;
     for (const auto& text : overlaps(in)) all << "over each other: " + text;
     return all.join('\n').toStdString();
+}
+
+void looksRight(QWidget& widget, const QString& name, const LookedAtSizes& sizes, QWidget* frame) {
+    auto& pictured = frame != nullptr ? *frame : widget;
+    const auto size = pictured.size();
+    for (const auto& [percent, sized] : {std::pair(100, sizes.at100), std::pair(200, sizes.at200)}) {
+        gui::applyTextSize(percent);
+        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+            gui::applyTheme(theme);
+            if (sized.isValid()) pictured.resize(sized);
+            QTest::qWait(40);
+            // Texts grow before their places do.
+            static_cast<void>(comesTrue([&] { return faultsOf(widget).empty(); }, 3000));
+            EXPECT_EQ(faultsOf(widget), "") << name.toStdString() << " at " << percent << " %";
+            shot(pictured, QString("%1-%2-%3").arg(name, theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
+        }
+    }
+    gui::applyTextSize(100);
+    gui::applyTheme(gui::Theme::Light);
+    pictured.resize(size);
 }
 
 std::string widgetName(const QWidget& widget) {

@@ -28,6 +28,15 @@ namespace tacto::test {
 /// All three, a line each; empty where the widget looks right.
 [[nodiscard]] std::string faultsOf(const QWidget& in);
 
+/// A size for each size of text; an invalid one leaves the widget as large as it is.
+struct LookedAtSizes {
+    QSize at100, at200;
+};
+/// Looks at the shown widget in both themes, with text at 100 and at 200 %: it has no faults, and there is a picture of
+/// each (NAME-light-100 …, see shot()). Theme, text and size are then as they were.
+/// `frame`: what is resized and pictured, where that is more than what is judged.
+void looksRight(QWidget& widget, const QString& name, const LookedAtSizes& sizes = {}, QWidget* frame = nullptr);
+
 /// "QPushButton armButton "Arm"": its class, its name, and its name for those who do not see it.
 [[nodiscard]] std::string widgetName(const QWidget& widget);
 /// Steps of Tab against the direction of reading, a line each: up within a column, or back within a row.

@@ -136,6 +136,31 @@ TEST(StudyReport, EachPersonsResultComesFirst) {
     EXPECT_THAT(said, Not(HasSubstr("nan")));
 }
 
+TEST(StudyReport, ASessionWithoutAUsableRangeIsNotCountedAsOneAndSaysWhyThereWasNoTest) {
+    RecordProperty("hazard", "H9");
+    auto study = studyOfThree();
+    auto narrow = sessionWith(0, 1, "standard", 0);
+    narrow.results.trials.clear();
+    narrow.results.rangeNotUsable = "from the lowest level of 4.0 mA to the highest of 4.5 mA there is 1 step";
+    study.participants[2].sessions = {narrow};
+    auto content = studyReport(study);
+    ASSERT_TRUE(content) << content.error().message;
+    EXPECT_THAT(textOf(*content), HasSubstr("P-BBBB | no | 0 of 0 | – | – | –"));
+    EXPECT_THAT(textOf(*content), HasSubstr("Session 1 had no usable range, and so no test: from the lowest level of"));
+    EXPECT_THAT(textOf(*content), HasSubstr("Had a usable range | 2"));
+    // Thresholds found a range on the first day, and the test's session none: it is the latter that has no test.
+    auto wide = narrow;
+    wide.results.rangeNotUsable.clear();
+    narrow.results.number = 2;
+    study.participants[2].sessions = {wide, narrow};
+    content = studyReport(study);
+    ASSERT_TRUE(content) << content.error().message;
+    EXPECT_THAT(textOf(*content), HasSubstr("P-BBBB | no | 0 of 0 | – | – | –"));
+    EXPECT_THAT(textOf(*content), HasSubstr("Had a usable range | 3"));
+    EXPECT_THAT(textOf(*content), HasSubstr("| 4.0 to 6.5 | "));
+    EXPECT_THAT(textOf(*content), HasSubstr("2 | 0 | 3.10 (2.80 to 3.40) | – | – | "));
+}
+
 TEST(StudyReport, ThresholdsAndRatingsOverSessionsStandBesideTheFirst) {
     RecordProperty("hazard", "H9");
     auto study = studyOfThree();

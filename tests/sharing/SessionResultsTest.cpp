@@ -35,6 +35,22 @@ SessionRow testTrial(std::size_t number, std::size_t block, const std::string& c
 
 const std::vector<std::string> kLabels = {"smooth-low", "smooth-high", "rough-low", "rough-high"};
 
+TEST(SessionResults, ARangeThatIsNotUsableSaysWhy) {
+    RecordProperty("hazard", "H9");
+    const auto found = [](const json& range) {
+        return sessionResults({rowOf(row::kPlan, "plan", {{"encoding", "standard"}, {"trials", json::array()}}),
+                               rowOf(row::kRange, "range", range)},
+                              kLabels);
+    };
+    EXPECT_TRUE(hasUsableRange(found({{"usable", true}, {"min_ma", 3.5}, {"max_ma", 6.5}})));
+    const auto narrow = found({{"usable", false}, {"reason", "one step"}, {"min_ma", 4}, {"max_ma", 4.5}});
+    EXPECT_FALSE(hasUsableRange(narrow));
+    EXPECT_EQ(narrow.rangeNotUsable, "one step");
+    EXPECT_FALSE(hasUsableRange(found({{"usable", false}, {"reason", nullptr}, {"min_ma", 4}, {"max_ma", 6}})));
+    EXPECT_FALSE(hasUsableRange(found({{"usable", false}, {"reason", "one"}, {"min_intensity", 0.4}})));
+    EXPECT_FALSE(hasUsableRange({})) << "none was looked for";
+}
+
 TEST(SessionResults, WhatWasMeasuredLastStandsBesideEachTrial) {
     const auto found = sessionResults(
         {rowOf(row::kPlan, "plan", {{"seed", 7}, {"encoding", "swapped"}, {"trials", json::array()}}),

@@ -6,6 +6,7 @@
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -31,7 +32,7 @@ OperatorStrip::OperatorStrip(QWidget* parent)
     auto* stop = new ParticipantStop([this] { emit stopWanted(); }, this);
     stop->setObjectName("operatorStop");
     stop->setType(scaledPx(kStripStop_px), scaledPx(kStripKeys_px));
-    stop->setFixedWidth(scaledPx(kStripStopWide));
+    fixWidth(*stop, kStripStopWide);
     both->addWidget(stop);
     auto* row = new QHBoxLayout;
     row->setSpacing(8);

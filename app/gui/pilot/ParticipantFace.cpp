@@ -9,6 +9,7 @@
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/analysis/identification/IdentificationText.h"
 
 namespace tacto::gui {
 
@@ -185,7 +186,7 @@ void ParticipantFace::show(const ParticipantView& view) {
                        screen.text.empty() ? tr("It comes once: while 1 or while 2 is dark.") : qtext(screen.text));
         case ScreenState::Named: {
             const auto verdict = !screen.right ? tr("This is") : *screen.right ? tr("Right. This was") : tr("This was");
-            field_->showWord(conditionWords(screen.named), iconsOf(screen.named));
+            field_->showWord(qtext(answerWords(screen.named)), iconsOf(screen.named));
             return put(verdict, qtext(screen.text));
         }
         case ScreenState::Break:

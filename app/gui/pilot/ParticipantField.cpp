@@ -49,13 +49,6 @@ PilotPrompt asItStands(PilotPrompt prompt) {
     return prompt;
 }
 
-QString conditionWords(const std::string& key) {
-    const auto icons = iconsOf(key);
-    if (icons.size() != 2) return qtext(key);
-    return QObject::tr("%1, %2").arg(icons[0] == "rough" ? QObject::tr("rough") : QObject::tr("smooth"),
-                                     icons[1] == "firm" ? QObject::tr("firm") : QObject::tr("light"));
-}
-
 int fieldColumns(int count) { return count <= 3 ? std::max(1, count) : count <= 8 ? 2 : count <= 12 ? 3 : 4; }
 
 ParticipantField::ParticipantField(QWidget* parent) : QWidget(parent) {}

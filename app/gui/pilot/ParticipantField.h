@@ -26,8 +26,6 @@ constexpr double kTarget_mm = 20;
 /// The prompt with its targets in the order in which they stand: firm above light, smooth left of rough; as it is where
 /// its conditions have other names.
 [[nodiscard]] PilotPrompt asItStands(PilotPrompt prompt);
-/// "rough, firm" of "rough-high"; another name as it is.
-[[nodiscard]] QString conditionWords(const std::string& key);
 
 /// In how many columns so many targets stand, unless they are a scale.
 [[nodiscard]] int fieldColumns(int count);

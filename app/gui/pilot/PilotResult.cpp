@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -18,7 +19,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kResultPad = 16, kMatrixWide = 760;
+constexpr int kResultPad = 16;
 
 double numberIn(const nlohmann::json& record, const std::string& path) { return numberOr(memberAt(record, path)); }
 
@@ -119,7 +120,7 @@ PilotResult::PilotResult(QWidget* parent)
     column->addWidget(matrixTitle_);
     matrix_->setObjectName("confusion");
     matrix_->setAccessibleName(tr("Confusion matrix"));
-    matrix_->setMaximumWidth(scaledPx(kMatrixWide));
+    onFontChange(*matrix_, [this] { layOutRecordTable(*matrix_); });
     column->addWidget(matrix_);
     column->addWidget(blocks_);
     column->addWidget(note_);
@@ -219,15 +220,14 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
     matrix_->setColumnCount(int(columns.size()) + 1);
     QStringList heads{tr("stimulus")};
     for (const auto& column : columns)
-        heads << (column.is_string() ? qtext(column.get<std::string>()).replace("not-sure", tr("not sure"))
-                                     : QString());
+        heads << (column.is_string() ? qtext(answerWords(column.get<std::string>())).replace(' ', '\n') : QString());
     matrix_->setHorizontalHeaderLabels(heads);
     for (int c = 0; c < matrix_->columnCount(); ++c)
         matrix_->horizontalHeaderItem(c)->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) |
                                                            Qt::AlignVCenter);
     for (int r = 0; r < int(labels.size()); ++r) {
         const auto& label = labels[std::size_t(r)];
-        putText(*matrix_, r, 0, label.is_string() ? qtext(label.get<std::string>()) : QString(), false);
+        putText(*matrix_, r, 0, label.is_string() ? qtext(answerWords(label.get<std::string>())) : QString(), false);
         const auto& row = counts[std::size_t(r)];
         for (int i = 0; row.is_array() && i < int(columns.size()) && std::size_t(i) < row.size(); ++i) {
             putText(*matrix_, r, i + 1,

@@ -11,6 +11,7 @@
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -73,7 +74,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
            "training, test, ratings. Nothing of it reaches a person."),
         inside));
     auto* holder = new QWidget(inside);
-    holder->setMaximumWidth(scaledPx(kFormWide));
+    boundWidth(*holder, kFormWide);
     auto* form = new QFormLayout(holder);
     form->setContentsMargins(0, 8, 0, 0);
     form->setVerticalSpacing(12);

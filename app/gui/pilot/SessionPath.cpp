@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/gui/runner/StepList.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -41,7 +42,7 @@ constexpr double kBegins_min[kSteps + 1] = {0, 4, 6, 12, 23, 30, 58, 62, 66};
 
 SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     setObjectName("path");
-    setFixedWidth(scaledPx(kPilotPath));
+    fixWidth(*this, kPilotPath);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, kPathPad / 2, 0, kPathPad);
     auto* top = new QVBoxLayout;

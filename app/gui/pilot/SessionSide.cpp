@@ -6,6 +6,7 @@
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/SessionConduct.h"
 #include "app/gui/pilot/TheirScreen.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -20,7 +21,7 @@ SessionSide::SessionSide(QWidget* parent) : QScrollArea(parent) {
     setFrameShape(QFrame::NoFrame);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     setFocusPolicy(Qt::NoFocus);
-    setFixedWidth(scaledPx(kPilotSide));
+    fixWidth(*this, kPilotSide);
     auto* inside = new QWidget(this);
     auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(0, 0, 0, 0);

@@ -9,6 +9,7 @@
 #include "app/gui/pilot/ExclusionChecklist.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -35,7 +36,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     whole->setSpacing(0);
     auto* page = new ScrollingPage(this);
     auto* inside = new QWidget(page->viewport());
-    inside->setMaximumWidth(scaledPx(kStartWide));
+    boundWidth(*inside, kStartWide);
     auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(kStartPad, kStartPad, kStartPad, kStartPad);
     column->setSpacing(12);

@@ -9,6 +9,7 @@
 #include "app/gui/runner/SignPage.h"
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstPage.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/TurningRow.h"
 
@@ -127,7 +128,7 @@ QWidget* ProcedurePages::buildReference() {
     auto* column = pageLayout(page, tr("Known reference"),
                               tr("It is read first. If the known load reads wrong, nothing else can be judged, so the "
                                  "run stops."));
-    form_->referencePart().setMaximumWidth(scaledPx(kFormWidth * 3 / 2));
+    boundWidth(form_->referencePart(), kFormWidth * 3 / 2);
     column->addWidget(scrolling(formColumn(&form_->referencePart()), page), 1);
     return page;
 }

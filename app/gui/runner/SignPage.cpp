@@ -6,6 +6,7 @@
 #include "app/gui/runner/NotesPanel.h"
 #include "app/gui/runner/ReportView.h"
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -20,14 +21,14 @@ SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(thi
     row->setSpacing(16);
     auto* left = new QVBoxLayout;
     notes_ = new NotesPanel(day, this);
-    notes_->setMaximumWidth(scaledPx(kNotesWidth));
+    boundWidth(*notes_, kNotesWidth);
     left->addWidget(notes_);
     auto* tip =
         new QLabel(tr("These are recorded when a run begins and appear on the first page of its report, beside the "
                       "lines for signatures."),
                    this);
     tip->setWordWrap(true);
-    tip->setMaximumWidth(scaledPx(kNotesWidth));
+    boundWidth(*tip, kNotesWidth);
     setTone(*tip, Tone::Quiet);
     left->addWidget(tip);
     left->addStretch();

@@ -65,7 +65,7 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
     code_->setObjectName("enrolledCode");
     code_->setAlignment(Qt::AlignCenter);
     code_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    code_->setFont(textFont(TextSize::Display, QFont::Bold));
+    setTextSize(*code_, TextSize::Display);
     next_->setWordWrap(true);
     for (auto* label : {code_, next_}) {
         label->setTextFormat(Qt::PlainText);
@@ -76,7 +76,7 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
     enrol_->setObjectName("enrolNow");
     makePrimary(*enrol_);
     close_ = finish("enrolTrouble", enrol_);
-    connect(enrol_, &QPushButton::clicked, this, &EnrolDialog::enrol);
+    connect(enrol_, &QPushButton::clicked, this, &EnrolDialog::act);
     connect(who_, &QComboBox::currentIndexChanged, this, &EnrolDialog::judge);
     judge();
 }
@@ -87,6 +87,12 @@ void EnrolDialog::judge() {
     rows->setRowVisible(seed_, isVirtual);
     for (QWidget* ofPerson : {static_cast<QWidget*>(age_), static_cast<QWidget*>(sex_), static_cast<QWidget*>(hand_)})
         rows->setRowVisible(ofPerson, !isVirtual);
+}
+
+void EnrolDialog::act() {
+    if (code_->text().isEmpty()) return enrol();
+    emit consentWanted(code_->text());
+    accept();
 }
 
 void EnrolDialog::enrol() {
@@ -111,12 +117,12 @@ void EnrolDialog::enrol() {
 void EnrolDialog::showCode(const Participant& participant) {
     clearTrouble();
     form_->hide();
-    enrol_->hide();
+    enrol_->setText(tr("Note the consent…"));
     code_->setText(qtext(participant.code));
     next_->setText(participant.virtualSeed
-                       ? tr("Enrolled. Note the consent to the form in force next, as for everyone.")
+                       ? tr("Enrolled. The consent to the form in force comes next, as for everyone.")
                        : tr("Enrolled. Give the person this code on paper: they read it on their own screen at each "
-                            "session. Keep it apart from their name. Note their consent next."));
+                            "session. Keep it apart from their name. Their consent comes next."));
     code_->show();
     next_->show();
     close_->setText(tr("Close"));

@@ -1,4 +1,5 @@
-// EnrolDialog.h - enrols a participant and shows their code, once and large: for them to keep, not for notes.
+// EnrolDialog.h - enrols a participant and shows their code, once and large: for them to keep, not for notes. Leads to
+// their consent.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -19,8 +20,12 @@ public:
     /// `study` outlives it.
     EnrolDialog(OpenStudy& study, QWidget* parent);
 
+signals:
+    void consentWanted(const QString& code);  ///< the next step with the participant who was enrolled
+
 private:
     void judge();
+    void act();
     void enrol();
     void showCode(const Participant& participant);
     QWidget* form_;

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -57,9 +58,9 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     row->addWidget(word);
     row->addWidget(folder_, 1);
     row->addWidget(choose);
-    place->setMaximumWidth(scaledPx(kFormWide));
+    boundWidth(*place, kFormWide);
     column->addWidget(place);
-    form_->setMaximumWidth(scaledPx(kFormWide));
+    boundWidth(*form_, kFormWide);
     column->addWidget(form_);
     column->addStretch();
     page->hold(inside);

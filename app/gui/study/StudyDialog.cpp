@@ -22,6 +22,7 @@ void StudyDialog::scroll(QWidget* page, int least) {
     scrolling->hold(page);
     if (least > 0) scrolling->setMinimumHeight(least);
     column_->addWidget(scrolling, 1);
+    scrolls_ = true;
 }
 
 QPushButton* StudyDialog::finish(const QString& trouble, QPushButton* act) {
@@ -29,6 +30,7 @@ QPushButton* StudyDialog::finish(const QString& trouble, QPushButton* act) {
     trouble_->setTextFormat(Qt::PlainText);
     trouble_->setWordWrap(true);
     setTone(*trouble_, Tone::Warning);
+    if (!scrolls_) column_->addStretch(1);  // what is asked stays together below the heading
     column_->addWidget(trouble_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     buttons->addButton(act, QDialogButtonBox::ActionRole);

@@ -37,6 +37,7 @@ private:
     OpenStudy& study_;
     QVBoxLayout* column_;
     QLabel* trouble_;
+    bool scrolls_ = false;
 };
 
 }  // namespace tacto::gui

@@ -155,6 +155,14 @@ QPushButton* StudyList::button(const QString& text, const QString& tip, const ch
     return made;
 }
 
+void StudyList::choose(const QString& code) {
+    for (int row = 0; row < participants_->rowCount(); ++row) {
+        if (participants_->item(row, 0)->text() == code) participants_->selectRow(row);
+    }
+}
+
+void StudyList::askForConsent(const QString& code) { openDialog(new ConsentDialog(study_, code, this)); }
+
 QWidget* StudyList::buildParticipants() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
@@ -166,7 +174,12 @@ QWidget* StudyList::buildParticipants() {
     auto* enrol = button(tr("Enrol…"), tr("A new participant, who is given a code."), "enrol", holder);
     connect(enrol, &QPushButton::clicked, this, [this] {
         say({});
-        openDialog(new EnrolDialog(study_, this));
+        auto* asks = new EnrolDialog(study_, this);
+        connect(asks, &EnrolDialog::consentWanted, this, [this](const QString& code) {
+            choose(code);
+            askForConsent(code);
+        });
+        openDialog(asks);
     });
     row->addWidget(enrol);
     all_.push_back(enrol);
@@ -191,7 +204,7 @@ QWidget* StudyList::buildOfOne() {
         button(tr("Consent…"), tr("Notes that the participant signed the form in force."), "consentOne", holder);
     connect(consent, &QPushButton::clicked, this, [this] {
         say({});
-        openDialog(new ConsentDialog(study_, code_, this));
+        askForConsent(code_);
     });
     auto* more = button(tr("More"), tr("Their page, leaving, withdrawing."), "moreOfOne", holder);
     auto* menu = new QMenu(more);
@@ -318,10 +331,7 @@ void StudyList::showTables(const Study& study) {
         judge();
     });
     layOut();
-    const auto before = std::exchange(code_, QString());
-    for (int row = 0; row < participants_->rowCount(); ++row) {
-        if (participants_->item(row, 0)->text() == before) participants_->selectRow(row);
-    }
+    choose(std::exchange(code_, QString()));
     if (code_.isEmpty() && participants_->rowCount() > 0) participants_->selectRow(participants_->rowCount() - 1);
     const auto runs = sessionRows(study);
     sessions_ = makeRecordTable({{tr("Participant"), "code"},

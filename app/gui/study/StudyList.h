@@ -45,6 +45,8 @@ private:
     void refresh();
     void showTables(const Study& study);
     void judge();
+    void choose(const QString& code);
+    void askForConsent(const QString& code);
     void makeReport(const QString& title, const QString& name, const QStringList& more);
     void askForExport(const BidsWith& with);
     [[nodiscard]] bool noteReport(const QString& out, const QStringList& more);

@@ -3,6 +3,8 @@
 #include <QEvent>
 #include <utility>
 
+#include "app/gui/theme/Theme.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -28,5 +30,17 @@ private:
 
 void onLookChange(QWidget& widget, std::function<void()> follow) { new LookChange(widget, true, std::move(follow)); }
 void onFontChange(QWidget& widget, std::function<void()> follow) { new LookChange(widget, false, std::move(follow)); }
+
+void boundWidth(QWidget& widget, int atMost_px) {
+    const auto bound = [&widget, atMost_px] { widget.setMaximumWidth(scaledPx(atMost_px)); };
+    bound();
+    onFontChange(widget, bound);
+}
+
+void fixWidth(QWidget& widget, int px) {
+    const auto fix = [&widget, px] { widget.setFixedWidth(scaledPx(px)); };
+    fix();
+    onFontChange(widget, fix);
+}
 
 }  // namespace tacto::gui

@@ -13,4 +13,8 @@ void onLookChange(QWidget& widget, std::function<void()> follow);
 /// The same for another font alone.
 void onFontChange(QWidget& widget, std::function<void()> follow);
 
+/// Bounds of a widget's width that grow and shrink with the size of text: pixels of text at 100 % (scaledPx()).
+void boundWidth(QWidget& widget, int atMost_px);
+void fixWidth(QWidget& widget, int px);
+
 }  // namespace tacto::gui

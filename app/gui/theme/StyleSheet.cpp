@@ -153,6 +153,7 @@ QLabel[tone="quiet"] { color: @quiet; }
 QLabel[tone="warning"] { color: @amberText; }
 *[textSize="small"] { font-size: ^9; }
 *[textSize="large"] { font-size: ^15; font-weight: 600; }
+*[textSize="display"] { font-size: ^28; font-weight: 700; }
 *[textWeight="strong"] { font-weight: 600; }
 QFrame#safetyBar, QWidget#centre { background: @base; }
 QFrame#tour { background: @base; border: 2px solid @text; border-radius: 4px; }

@@ -69,7 +69,8 @@ QFont textFont(TextSize size, QFont::Weight weight) {
 }
 
 void setTextSize(QWidget& widget, TextSize size, bool strong) {
-    setStyled(widget, "textSize", size == TextSize::Small ? "small" : size == TextSize::Large ? "large" : "");
+    const char* name = size == TextSize::Small ? "small" : size == TextSize::Large ? "large" : "";
+    setStyled(widget, "textSize", size == TextSize::Display ? "display" : name);
     setStyled(widget, "textWeight", strong ? "strong" : "");
 }
 

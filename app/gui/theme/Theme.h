@@ -31,10 +31,10 @@ void applyTextSize(int percent);
 /// The current theme's.
 [[nodiscard]] const Colours& colours();
 
-/// Three sizes of text, and a fourth for two words only, the state and the verdict.
+/// Three sizes of text, and a fourth for one word of a screen: the state, the verdict, the code of a participant.
 enum class TextSize { Small, Body, Large, Display };
 [[nodiscard]] QFont textFont(TextSize size, QFont::Weight weight = QFont::Normal);
-/// The widget's text, kept when the size of text changes. Small, Body or Large.
+/// The widget's text, kept when the size of text changes.
 void setTextSize(QWidget& widget, TextSize size, bool strong = false);
 enum class Tone { Text, Quiet, Warning };
 /// The colour of a label's words, kept when the theme changes.

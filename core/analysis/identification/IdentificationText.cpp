@@ -53,6 +53,20 @@ std::string headline(const std::string& name, const Identification& found, const
         100 * all.accuracy.high, 100 * all.chance, rangeText(range));
 }
 
+std::string answerWords(std::string_view key) {
+    if (key == kNoneResponse) return "nothing";
+    if (key == kNotSureResponse) return "not sure";
+    const auto [texture, pressure] = featuresOf(key);
+    if ((texture != "rough" && texture != "smooth") || (pressure != "high" && pressure != "low"))
+        return std::string(key);
+    return fmt::format("{}, {}", texture, pressure == "high" ? "firm" : "light");
+}
+
+std::string chanceText(double p) {
+    if (!std::isfinite(p)) return "–";
+    return p < 0.001 ? "< 0.001" : decimalText(p, 3);
+}
+
 std::string precisionSentence(std::size_t n, double chance) {
     const std::size_t from = aboveChanceFrom(n, chance);
     const auto clear = from > n ? fmt::format("not even {} right of {} are above chance", n, n)

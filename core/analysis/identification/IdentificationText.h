@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/analysis/identification/Identification.h"
 #include "core/base/Units.h"
@@ -26,6 +27,13 @@ struct PresentedRange {
 /// "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA,
 /// 14 to 22 V at 3.4 kΩ." What is not known is left out. Without trials: "P-7K3M answered no test trial."
 [[nodiscard]] std::string headline(const std::string& name, const Identification& found, const PresentedRange& range);
+
+/// What people read for a condition or an answer: "rough, firm" for "rough-high", "not sure" for "not-sure". Another
+/// name as it is.
+[[nodiscard]] std::string answerWords(std::string_view key);
+
+/// "0.012"; "< 0.001" below that, and "–" for what is not known.
+[[nodiscard]] std::string chanceText(double p);
 
 /// "80 trials: ± 8 % at 85 %, ± 11 % at 50 %; 27 right of 80 is above chance."; `n` ≥ 1.
 [[nodiscard]] std::string precisionSentence(std::size_t n, double chance);

@@ -70,6 +70,8 @@ public:
             out_.high = Milliamps(numberOr(body, "max_ma"));
             out_.lowIntensity = numberOr(body, "min_intensity");
             out_.highIntensity = numberOr(body, "max_intensity");
+            out_.rangeNotUsable = flagOr(body, "usable") ? std::string() : textOr(body, "reason");
+            if (!flagOr(body, "usable") && out_.rangeNotUsable.empty()) out_.rangeNotUsable = "it was not confirmed";
         } else if (each.name == row::kSkin) {
             takeSkin(name, body);
         } else if (each.name == row::kRating) {

@@ -37,6 +37,22 @@ TEST(IdentificationText, SmallVoltagesKeepTwoDigits) {
     EXPECT_EQ(voltageRangeText(Volts(0), Volts(3)), "0.0 to 3.0 V");
 }
 
+TEST(IdentificationText, ConditionsAndAnswersAreReadAsTheParticipantReadsThem) {
+    EXPECT_EQ(answerWords("rough-high"), "rough, firm");
+    EXPECT_EQ(answerWords("smooth-low"), "smooth, light");
+    EXPECT_EQ(answerWords("none"), "nothing");
+    EXPECT_EQ(answerWords("not-sure"), "not sure");
+    for (const char* other : {"", "-", "rough", "rough-", "rough-medium", "silk-high", "catch"})
+        EXPECT_EQ(answerWords(other), other) << "named otherwise: nothing is claimed of it";
+}
+
+TEST(IdentificationText, AChanceBelowOneInAThousandIsGivenAsSuch) {
+    EXPECT_EQ(chanceText(2e-44), "< 0.001");
+    EXPECT_EQ(chanceText(0.0123), "0.012");
+    EXPECT_EQ(chanceText(1), "1.000");
+    EXPECT_EQ(chanceText(kNaN), "–");
+}
+
 TEST(IdentificationText, WhatIsNotKnownIsLeftOut) {
     RecordProperty("hazard", "H9");
     PresentedRange range;

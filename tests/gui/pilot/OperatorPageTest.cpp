@@ -7,7 +7,6 @@
 #include "app/gui/pilot/OperatorPage.h"
 #include "app/gui/pilot/RehearsalPage.h"
 #include "app/gui/pilot/ShareBars.h"
-#include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/pilot/SeatedPeople.h"
@@ -27,10 +26,6 @@ protected:
         page.begin(start);
         page.setVisible(true);
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&page));
-    }
-    ~Operator8b() override {
-        gui::applyTextSize(100);
-        gui::applyTheme(gui::Theme::Light);
     }
     [[nodiscard]] std::string allText() {
         QStringList all;
@@ -146,16 +141,7 @@ TEST_F(Operator8b, LooksRightInBothThemesAndSizes) {
     runTo(27);
     page.notes().add("Comfortable, seat lowered.");
     page.notes().add("Moved the elbow rest.");
-    for (const int percent : {100, 200}) {
-        gui::applyTextSize(percent);
-        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
-            gui::applyTheme(theme);
-            page.resize(percent == 100 ? QSize(880, 720) : QSize(1200, 900));
-            QTest::qWait(60);
-            shot(page, QString("operator-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
-            EXPECT_EQ(faultsOf(page), "") << percent;
-        }
-    }
+    looksRight(page, "operator", {QSize(880, 720), QSize(1200, 900)});
 }
 
 TEST(BlockShares, FillInOrder) {

@@ -640,16 +640,7 @@ TEST_F(RememberedInputs, LookRightInBothThemesAndSizes) {
     rows.setPlace(kStudy);
     ASSERT_NO_FATAL_FAILURE(show({known, unknown}));
     ASSERT_IN_TIME(comesTrue([this] { return rows.findChild<QPushButton*>("seatAsBefore VEC USB Footpedal"); }));
-    for (const int percent : {100, 200}) {
-        gui::applyTextSize(percent);
-        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
-            gui::applyTheme(theme);
-            rows.resize(percent == 100 ? QSize(480, 460) : QSize(900, 900));
-            QTest::qWait(60);
-            shot(rows, QString("remembered-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
-            EXPECT_EQ(faultsOf(rows), "") << percent;
-        }
-    }
+    looksRight(rows, "remembered", {QSize(480, 460), QSize(900, 900)});
 }
 
 TEST_F(Inputs, LooksRightInBothThemesAndSizes) {
@@ -663,16 +654,7 @@ TEST_F(Inputs, LooksRightInBothThemesAndSizes) {
     choose(*box("inputOf Logitech Logitech Dual Action"), 1);
     choose(*box("inputOf VEC USB Footpedal"), 2);
     plugged->press("Logitech Logitech Dual Action", 6);
-    for (const int percent : {100, 200}) {
-        gui::applyTextSize(percent);
-        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
-            gui::applyTheme(theme);
-            rows.resize(percent == 100 ? QSize(480, 560) : QSize(900, 1100));
-            QTest::qWait(60);
-            shot(rows, QString("inputs-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
-            EXPECT_EQ(faultsOf(rows), "") << percent;
-        }
-    }
+    looksRight(rows, "inputs", {QSize(480, 560), QSize(900, 1100)});
 }
 
 }  // namespace

@@ -14,7 +14,6 @@
 #include "app/gui/runner/StepList.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/TabbedPage.h"
-#include "app/gui/theme/Theme.h"
 #include "app/run/Shipped.h"
 #include "app/run/StudyProgram.h"
 #include "core/study/Study.h"
@@ -280,15 +279,7 @@ TEST_F(StudyInTheWindow, EveryPageLooksRightAtEverySize) {
     pilot = window.findChild<gui::PilotWorkspace*>();
     auto* tabs = pilot->findChild<gui::TabbedPage*>();
     const auto look = [&](const char* name) {
-        for (const auto& [size, percent, theme] :
-             {std::tuple(QSize(1280, 720), 100, gui::Theme::Light), {QSize(1280, 720), 200, gui::Theme::Dark}}) {
-            gui::applyTextSize(percent);
-            gui::applyTheme(theme);
-            window.resize(size);
-            // Texts grow before their places do.
-            EXPECT_IN_TIME(comesTrue([this] { return faultsOf(*pilot).empty(); }, 3000)) << name << faultsOf(*pilot);
-            shot(window, QString("pilot-%1-%2").arg(name).arg(percent));
-        }
+        looksRight(*pilot, QString("pilot-%1").arg(name), {QSize(1280, 720), QSize(1280, 720)}, &window);
     };
     look("rehearsal");
     tabs->setCurrentIndex(1);
@@ -299,8 +290,6 @@ TEST_F(StudyInTheWindow, EveryPageLooksRightAtEverySize) {
     look("study");
     ASSERT_NO_FATAL_FAILURE(start());
     look("start");
-    gui::applyTextSize(100);
-    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace
