@@ -149,6 +149,7 @@ struct WaveformsFigure {
 struct ConfusionFigure {
     QStringList labels;
     QStringList columns;
+    QString answers = "found";                ///< what the columns are
     std::vector<std::vector<double>> counts;  ///< labels.size() rows of columns.size()
     Estimate accuracy;
 };

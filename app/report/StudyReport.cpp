@@ -75,7 +75,8 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
     ReportContent content;
     content.simulated = sharedStudy(study).simulated;
     content.documentTitle = title;
-    content.header = QString("Tactoscope  ·  %1%2").arg(title, content.simulated ? "  ·  simulated" : "");
+    content.header =
+        QString("Tactoscope " TACTOSCOPE_VERSION "  ·  %1%2").arg(title, content.simulated ? "  ·  simulated" : "");
     content.footer =
         QString("Study %1  ·  ledger head %2…").arg(qtext(study.settings.id), qtext(study.ledgerHead).left(12));
     content.blocks.emplace_back(TitleBlock{title, subtitle});
@@ -93,6 +94,7 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
 void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const AnalysedSession& one,
                   const QString& caption, bool simulated) {
     ConfusionFigure figure;
+    figure.answers = "answered";
     for (const auto& label : one.found.labels) figure.labels << qtext(label);
     for (const auto& column : one.found.columns) figure.columns << qtext(column);
     for (const auto& row : one.found.confusion) figure.counts.emplace_back(row.begin(), row.end());
@@ -244,6 +246,13 @@ QStringList unusableRanges(const ParticipantRecord& participant) {
     return said;
 }
 
+void addApproval(std::vector<ReportBlock>& blocks, Captions& captions, const StudyRecord& study) {
+    blocks.emplace_back(captions.heading("Approval and consent"));
+    blocks.emplace_back(approvalFacts(study));
+    blocks.emplace_back(captions.heading("What the approval covers"));
+    blocks.emplace_back(procedureFacts(study));
+}
+
 const ParticipantRecord* withCode(const StudyRecord& study, const std::string& code) {
     for (const auto& participant : study.participants) {
         if (!participant.about.code.empty() && participant.about.code == code) return &participant;
@@ -340,6 +349,7 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
     blocks.emplace_back(sideEffectsTable(study, ShownName::Code, captions.table("Side effects, a row a session")));
     blocks.emplace_back(captions.heading("Flow of participants"));
     blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
+    addApproval(blocks, captions, study);
     return content;
 }
 
@@ -347,10 +357,7 @@ ReportContent committeeReport(const StudyRecord& study) {
     auto content = begun(study, qtext(study.settings.title), "Report to the ethics committee  ·  names no participant");
     auto& blocks = content.blocks;
     Captions captions(content.simulated);
-    blocks.emplace_back(captions.heading("Approval and consent"));
-    blocks.emplace_back(approvalFacts(study));
-    blocks.emplace_back(captions.heading("What the approval covers"));
-    blocks.emplace_back(procedureFacts(study));
+    addApproval(blocks, captions, study);
     blocks.emplace_back(captions.heading("Flow of participants"));
     blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
     blocks.emplace_back(captions.heading("Sessions"));

@@ -114,7 +114,7 @@ std::unique_ptr<PlotSheet> drawConfusion(const ConfusionFigure& figure, bool sim
     horizontal->setRange(-0.5, columns - 0.5);
     vertical->setRange(-0.5, rows - 0.5);
     vertical->setRangeReversed(true);
-    horizontal->setLabel("found");
+    horizontal->setLabel(figure.answers);
     vertical->setLabel("presented");
     for (auto* axis : {horizontal, vertical}) {
         axis->grid()->setVisible(false);

@@ -61,6 +61,11 @@ RecordFields<StudyTrain> trainFields() {
     all.number("gap_us", &T::gap_us, {.low = 0, .high = 1000, .unit = "µs"});
     all.number("pulses", &T::pulses, {.low = 1, .high = 1000});
     all.number("rate_hz", &T::rate_hz, {.low = 0, .high = 1000, .unit = "Hz"});
+    all.rule([](const T& train) -> Result<void> {
+        if (train.shape == kBiphasic) return {};
+        return fail(ErrorCode::InvalidArgument,
+                    "\"shape\" is \"{}\"; \"{}\" is expected: a person is given nothing else", train.shape, kBiphasic);
+    });
     return all;
 }
 

@@ -65,8 +65,11 @@ struct StudyElectrode {
 };
 
 /// The one kind of train that a study delivers (H6).
+/// The only shape of pulses that a person is given.
+inline constexpr std::string_view kBiphasic = "biphasic";
+
 struct StudyTrain {
-    std::string shape = "biphasic";
+    std::string shape{kBiphasic};
     double width_us = 200;  ///< of a phase
     double gap_us = 50;
     int pulses = 1;

@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <filesystem>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/scripting/engine/ProtocolLibrary.h"
@@ -88,6 +89,8 @@ TEST(Resources, AreTheSourceTreesInABuildAndTheEnvironmentsWhereSet) {
     EXPECT_EQ(resourcesFolder().value(), folder.path());
     setenv("TACTOSCOPE_RESOURCES", "/no/such/folder", 1);
     EXPECT_EQ(resourcesFolder().error().code, ErrorCode::NotFound);
+    EXPECT_THAT(ProtocolLibrary().find("separability").error().message,
+                testing::StartsWith("there is no protocol separability: TACTOSCOPE_RESOURCES is /no/such/folder"));
     unsetenv("TACTOSCOPE_RESOURCES");
 }
 

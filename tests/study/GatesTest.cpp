@@ -239,6 +239,16 @@ TEST(StudySettings, AnUnknownEncodingIsRefusedAndNotTakenAsTheStandardOne) {
     EXPECT_FALSE(studyFields().read(stored, read, RecordPlace{})) << "in a study's file too";
 }
 
+TEST(StudySettings, OnlyTheShapeThatAPersonIsGivenIsAccepted) {
+    RecordProperty("hazard", "H1");
+    auto settings = approved();
+    const auto set = setStudyField(settings, "train.shape", "monophasic");
+    ASSERT_FALSE(set);
+    EXPECT_THAT(set.error().message, testing::HasSubstr("\"monophasic\"; \"biphasic\" is expected"));
+    EXPECT_EQ(settings.train.shape, kBiphasic);
+    EXPECT_TRUE(setStudyField(settings, "train.shape", "biphasic"));
+}
+
 TEST(StudySettings, AreSetByKeyAndRefuseWhatTheyDoNotAccept) {
     auto settings = approved();
     ASSERT_TRUE(setStudyField(settings, "blocks", "3"));

@@ -92,8 +92,9 @@ PilotResult::PilotResult(QWidget* parent)
       blocks_(new QLabel(this)),
       note_(new QLabel(this)),
       goOn_(new QPushButton(tr("Go on with the session"), this)),
-      another_(new QPushButton(tr("Another rehearsal"), this)),
-      place_(new QPushButton(tr("Open the study’s folder"), this)) {
+      another_(new QPushButton(tr("New rehearsal"), this)),
+      back_(new QPushButton(this)),
+      place_(new QPushButton(tr("Open the folder"), this)) {
     setObjectName("pilotResult");
     auto* all = new QVBoxLayout(this);
     all->setContentsMargins(0, 0, 0, 0);
@@ -137,7 +138,9 @@ PilotResult::PilotResult(QWidget* parent)
     makePrimary(*goOn_);
     goOn_->setToolTip(tr("Answered trials are not repeated; the order stays the same."));
     another_->setObjectName("anotherRehearsal");
-    for (auto* button : {goOn_, another_, place_}) {
+    another_->setToolTip(tr("In a folder of its own: the same seed gives the same session."));
+    back_->setObjectName("backFromResult");
+    for (auto* button : {goOn_, another_, back_, place_}) {
         button->setAutoDefault(false);
         row->addWidget(button);
     }
@@ -145,8 +148,11 @@ PilotResult::PilotResult(QWidget* parent)
     all->addLayout(row);
     connect(goOn_, &QPushButton::clicked, this, &PilotResult::goOnWanted);
     connect(another_, &QPushButton::clicked, this, &PilotResult::anotherWanted);
+    connect(back_, &QPushButton::clicked, this, &PilotResult::backWanted);
     connect(place_, &QPushButton::clicked, this, &PilotResult::folderWanted);
 }
+
+void PilotResult::say(const QString& what) { note_->setText(note_->text() + '\n' + what); }
 
 void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStudy) {
     const auto& outcome = run.result.outcome;
@@ -173,7 +179,7 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
         more << (p < 0.001 ? tr("Guessing would reach that in fewer than 1 of 1000 sessions (p < 0.001).")
                            : tr("Guessing would reach that with p = %1.").arg(decimalText(p, 3)));
     if (const double bits = numberIn(results, "it_corrected_bits"); std::isfinite(bits))
-        more << tr("Information: %1 bit of 2, corrected by %2.")
+        more << tr("Information: %1 of 2 bit; the %2 bit that chance gives are taken off.")
                     .arg(decimalText(bits, 2), decimalText(numberIn(results, "it_bias_bits"), 2));
     if (const double empty = numberIn(results, "catch.n"); std::isfinite(empty) && empty > 0)
         more << tr("Empty trials with a name for an answer: %1 of %2.")
@@ -200,11 +206,14 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
     }
     blocks_->setText(blocks.isEmpty() ? QString() : tr("Right in ") + blocks.join(", ") + '.');
     blocks_->setVisible(!blocks.isEmpty());
-    note_->setText((run.result.simulated ? tr("Simulated. ") : QString()) + tr("In the study at %1.").arg(folder) +
+    note_->setText((run.result.simulated ? tr("Simulated. ") : QString()) +
+                   (ofStudy ? tr("In the study at %1.") : tr("In the rehearsal at %1.")).arg(folder) +
                    (run.result.markers ? ' ' + qtext(markersSentence(*run.result.markers)) : QString()));
     goOn_->setVisible(outcome.error.has_value() && !ofStudy);
-    another_->setText(ofStudy ? tr("Back to the study") : tr("Another rehearsal"));
-    makePrimary(*another_, !outcome.error || ofStudy);
+    another_->setVisible(!ofStudy);
+    makePrimary(*another_, !outcome.error);
+    back_->setText(ofStudy ? tr("Back to the study") : tr("Back"));
+    makePrimary(*back_, ofStudy);
 }
 
 void PilotResult::showMatrix(const nlohmann::json& results) {

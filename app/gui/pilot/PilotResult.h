@@ -27,9 +27,12 @@ public:
     /// `folder`: of the study. `ofStudy`: it leads back there, where an interrupted session is offered for
     /// continuation.
     void show(const FinishedRun& run, const QString& folder, bool ofStudy = false);
+    /// A sentence below the result.
+    void say(const QString& what);
 
 signals:
-    void anotherWanted();
+    void anotherWanted();  ///< a new rehearsal
+    void backWanted();
     void goOnWanted();  ///< the unfinished session
     void folderWanted();
 
@@ -44,6 +47,7 @@ private:
     QLabel* note_;
     QPushButton* goOn_;
     QPushButton* another_;
+    QPushButton* back_;
     QPushButton* place_;
 };
 

@@ -21,6 +21,7 @@ namespace tacto::gui {
 
 struct PilotStart {
     QString folder;                            ///< of the study
+    QString title;                             ///< of the study, or the name of a rehearsal's folder
     std::shared_ptr<const Secret> passphrase;  ///< null: a rehearsal
     std::string participant = "virtual:1";     ///< a code, or virtual:SEED
     std::vector<DeviceUri> devices{{"sim", "", {}}};

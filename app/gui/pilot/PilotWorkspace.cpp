@@ -1,8 +1,6 @@
 #include "app/gui/pilot/PilotWorkspace.h"
 
-#include <QDesktopServices>
 #include <QHBoxLayout>
-#include <QUrl>
 
 #include "app/gui/pilot/OperatorPage.h"
 #include "app/gui/pilot/PilotResult.h"
@@ -12,6 +10,7 @@
 #include "app/gui/pilot/SessionStartPage.h"
 #include "app/gui/study/StudyList.h"
 #include "app/gui/study/StudyPage.h"
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 
@@ -88,7 +87,7 @@ void PilotWorkspace::connectSession() {
     auto* session = session_.get();
     connect(session, &SessionConduct::begun, this, [this, session] {
         const auto& start = session->start();
-        path_->setTitle(tr("Session of %1").arg(start.who), kindOf(start, ofStudy_));
+        path_->setTitle(tr("Session: %1").arg(start.who), kindOf(start, ofStudy_));
         path_->begin(start.blocks.value_or(kUsualBlocks), start.person, start.massager);
         showPage(kSession);
     });
@@ -119,12 +118,17 @@ void PilotWorkspace::connectSession() {
 
 void PilotWorkspace::connectResult() {
     connect(result_, &PilotResult::anotherWanted, this, [this] {
+        if (!ofStudy_) rehearsal_->renew();
+        showPage(kHome);
+    });
+    connect(result_, &PilotResult::backWanted, this, [this] {
         if (!ofStudy_) rehearsal_->look();
         showPage(kHome);
     });
     connect(result_, &PilotResult::goOnWanted, this, [this] { beginRehearsal(true); });
-    connect(result_, &PilotResult::folderWanted, this,
-            [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(session_->start().folder)); });
+    connect(result_, &PilotResult::folderWanted, this, [this] {
+        if (const auto why = openOnDesktop(session_->start().folder); !why.isEmpty()) result_->say(why);
+    });
 }
 
 /// The steps stand beside a session and what begins it; a study's lists have the room to themselves.

@@ -50,6 +50,7 @@ std::optional<Unfinished> unfinishedIn(const QString& folder, const std::string&
 
 RehearsalPage::RehearsalPage(QWidget* parent)
     : QWidget(parent),
+      title_(new QLabel(this)),
       folder_(new QLineEdit(newFolder(), this)),
       offer_(new UnfinishedOffer(this)),
       who_(new QComboBox(this)),
@@ -68,7 +69,9 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad);
     column->setSpacing(12);
-    column->addWidget(heading(tr("A new rehearsal"), inside));
+    title_->setObjectName("rehearsalTitle");
+    setTextSize(*title_, TextSize::Large);
+    column->addWidget(title_);
     column->addWidget(explanation(
         tr("The whole session as a participant and an operator live it, on simulated devices: checklist, thresholds, "
            "training, test, ratings. Nothing of it reaches a person."),
@@ -91,7 +94,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     connect(choose, &QPushButton::clicked, this, [this] {
         FileQuestion question;
         question.title = tr("The rehearsal’s folder");
-        question.wants = FileQuestion::Wants::Folder;
+        question.wants = FileQuestion::Wants::NewFolder;
         askForFile(*this, question, [this](const QString& path) { folder_->setText(path); });
     });
     row->addWidget(folder_, 1);
@@ -164,16 +167,17 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     connect(offer_, &UnfinishedOffer::changed, this, &RehearsalPage::judge);
     connect(&seats_->inputs(), &InputRows::changed, this, &RehearsalPage::judge);
     connect(&seats_->markers(), &QLineEdit::textChanged, this, &RehearsalPage::judge);
-    judge();
+    look();
 }
 
 PilotStart RehearsalPage::rehearsal() const {
     PilotStart made;
     made.folder = folder_->text().trimmed();
+    made.title = made.folder.section('/', -1);
     made.seed = std::uint64_t(seed_->value());
     made.participant = fmt::format("virtual:{}", made.seed);
     made.person = who_->currentData().toBool();
-    made.who = made.person ? tr("you") : tr("virtual");
+    made.who = made.person ? tr("you") : tr("virtual, seed %1").arg(made.seed);
     made.protocol = protocol_->currentData().toString().toStdString();
     made.method = method_->currentData().toString().toStdString();
     made.unfinished = offer_->chosen();
@@ -189,9 +193,12 @@ void RehearsalPage::look() {
     const auto known = modalityIn(folder_->text().trimmed());
     if (known) modality_->setCurrentIndex(modality_->findData(qtext(nameOf(*known))));
     modality_->setEnabled(!known);
+    title_->setText(known ? tr("Another session of this rehearsal") : tr("A new rehearsal"));
     offer_->offer(unfinishedIn(folder_->text().trimmed(), fmt::format("virtual:{}", seed_->value())));
     judge();
 }
+
+void RehearsalPage::renew() { folder_->setText(newFolder()); }
 
 void RehearsalPage::judge() {
     const bool goesOn = offer_->chosen() == "resume";

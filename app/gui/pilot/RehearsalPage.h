@@ -32,12 +32,15 @@ public:
     void say(const QString& what);
     /// Looks again whether there is something to go on with.
     void look();
+    /// The same in a new folder.
+    void renew();
 
 signals:
     void beginWanted();
 
 private:
     void judge();
+    QLabel* title_;
     QLineEdit* folder_;
     UnfinishedOffer* offer_;
     QComboBox* who_;

@@ -88,11 +88,14 @@ void SeatRows::showFor(bool person) {
     form_.setRowVisible(screen_, person);
     form_.setRowVisible(keys_, person);
     form_.setRowVisible(inputs_, person);
-    about_->setText(!person ? QObject::tr("The virtual participant answers every question of both people; you watch.")
-                    : ScreenChoice::isOnly()
-                        ? QObject::tr("There is one screen: the participant’s window covers it. F2 opens your strip on "
-                                      "it, and Esc stops from anywhere.")
-                        : QObject::tr("Their window opens on the screen chosen above; this one stays yours."));
+    about_->setText(
+        !person
+            ? QObject::tr(
+                  "The virtual participant answers every question of both people, and the session is done in seconds.")
+        : ScreenChoice::isOnly()
+            ? QObject::tr("There is one screen: the participant’s window covers it. F2 opens your strip on "
+                          "it, and Esc stops from anywhere.")
+            : QObject::tr("Their window opens on the screen chosen above; this one stays yours."));
 }
 
 }  // namespace tacto::gui

@@ -46,9 +46,9 @@ SessionSide::SessionSide(QWidget* parent) : QScrollArea(parent) {
 void SessionSide::show(const SessionConduct& session) {
     const auto& start = session.start();
     who_->setFacts({{tr("Participant"), start.who},
-                    {tr("Seed"), start.rehearsal ? QString::number(start.seed) : tr("drawn")},
+                    {tr("Order by seed"), start.rehearsal ? QString::number(start.seed) : tr("drawn")},
                     {tr("Consent"), start.rehearsal ? tr("rehearsal") : tr("noted")},
-                    {tr("Study"), start.folder.section('/', -1)}});
+                    {start.rehearsal ? tr("Folder") : tr("Study"), start.title}});
     stops_->setFacts(
         {{tr("Participant"), tr("%1 of %2").arg(session.participantStops()).arg(kMaxParticipantStops), true},
          {tr("Faults"), QString::number(session.faults()), true}});

@@ -138,6 +138,7 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     const auto unfinished = unfinishedOf(study, participant);
     say(unfinished ? QString() : sentence(unfinished.error()));
     offer_->offer(unfinished ? *unfinished : std::nullopt);
+    title_ = qtext(study.settings().title);
     head_->setText(tr("A session of %1").arg(qtext(code_)));
     about_->setText(virtual_ ? tr("A virtual participant of seed %1, on the simulated bench. It answers no to the "
                                   "checklist and is done in seconds.")
@@ -150,6 +151,7 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
 
 PilotStart SessionStartPage::start() const {
     PilotStart made;
+    made.title = title_;
     made.participant = code_;
     made.devices = devices_->chosen();
     made.massager = massager_;

@@ -44,6 +44,7 @@ signals:
 private:
     void judge();
     std::string code_;
+    QString title_;  ///< of the study
     QString study_;  ///< its id
     bool virtual_ = false;
     bool rehearsal_ = false;

@@ -1,13 +1,12 @@
 #include "app/gui/runner/ReportView.h"
 
-#include <QDesktopServices>
 #include <QMenu>
 #include <QScreen>
-#include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "app/gui/runner/ReportPrinter.h"
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -54,8 +53,9 @@ QWidget* ReportView::buildRow() {
     elsewhere_ = new QPushButton(tr("Open in the PDF viewer"), holder);
     elsewhere_->setObjectName("openReport");
     elsewhere_->setToolTip(tr("Opens the PDF with the desktop's program for it, to sign it there."));
-    connect(elsewhere_, &QPushButton::clicked, this,
-            [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(report_)); });
+    connect(elsewhere_, &QPushButton::clicked, this, [this] {
+        if (const auto why = openOnDesktop(report_); !why.isEmpty()) emit said(why);
+    });
     for (auto* button : {print_, elsewhere_}) {
         button->setAutoDefault(false);
         row_->addWidget(button);

@@ -249,7 +249,7 @@ void SessionList::say() {
     if (all == 0)
         empty_->setText(
             tr("No session yet. Every open bench and every protocol run is recorded and appears here: open "
-               "the simulated bench (Ctrl+B) or run Separability."));
+               "the simulated bench (Ctrl+B) or run Separability. A pilot session lies in its study: Pilot."));
     else if (search_->text().trimmed().isEmpty())
         empty_->setText(tr("No session is of this verdict and date."));
     else

@@ -1,11 +1,9 @@
 #include "app/gui/sessions/SessionsWorkspace.h"
 
-#include <QDesktopServices>
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
 #include <QSplitter>
-#include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -356,8 +354,9 @@ void SessionsWorkspace::compare() {
 }
 
 void SessionsWorkspace::showInFolder() {
-    if (const auto* entry = list_->current())
-        QDesktopServices::openUrl(QUrl::fromLocalFile(qtext(entry->path.parent_path().string())));
+    const auto* entry = list_->current();
+    if (entry == nullptr) return;
+    if (const auto why = openOnDesktop(qtext(entry->path.parent_path().string())); !why.isEmpty()) say(why);
 }
 
 void SessionsWorkspace::dragEnterEvent(QDragEnterEvent* event) {

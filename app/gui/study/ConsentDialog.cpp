@@ -35,6 +35,7 @@ ConsentDialog::ConsentDialog(OpenStudy& study, const QString& code, QWidget* par
     note->setObjectName("noteConsent");
     makePrimary(*note);
     finish("consentTrouble", note);
+    note->setDefault(true);
     connect(note, &QPushButton::clicked, this, &ConsentDialog::note);
 }
 

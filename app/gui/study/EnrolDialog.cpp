@@ -76,6 +76,7 @@ EnrolDialog::EnrolDialog(OpenStudy& study, QWidget* parent)
     enrol_->setObjectName("enrolNow");
     makePrimary(*enrol_);
     close_ = finish("enrolTrouble", enrol_);
+    enrol_->setDefault(true);
     connect(enrol_, &QPushButton::clicked, this, &EnrolDialog::act);
     connect(who_, &QComboBox::currentIndexChanged, this, &EnrolDialog::judge);
     judge();

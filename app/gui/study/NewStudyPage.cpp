@@ -36,7 +36,7 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     column->addWidget(heading(tr("A new study"), inside));
     column->addWidget(explanation(
         tr("As the ethics committee approved it. Settings and protocols are fixed with it: a later change is an "
-           "amendment with a reference of its own."),
+           "amendment with a reference of its own. Participants, people and virtual ones, are enrolled afterwards."),
         inside));
     auto* place = new QWidget(inside);
     auto* row = new QHBoxLayout(place);
@@ -51,8 +51,8 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     choose->setAutoDefault(false);
     connect(choose, &QPushButton::clicked, this, [this] {
         FileQuestion question;
-        question.title = tr("An empty folder for the study");
-        question.wants = FileQuestion::Wants::Folder;
+        question.title = tr("A new or empty folder for the study");
+        question.wants = FileQuestion::Wants::NewFolder;
         askForFile(*this, question, [this](const QString& path) { folder_->setText(path); });
     });
     row->addWidget(word);

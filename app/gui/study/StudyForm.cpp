@@ -100,14 +100,12 @@ std::vector<StudyFormField> describedFields() {
 
         {Group::Train, "cap_ma", WORDS("Current at most"),
          WORDS("No level is above it, even if other limits allow more.")},
-        {Group::Train, "train.shape", WORDS("Shape"), WORDS("biphasic. Nothing else is presented to a person.")},
         {Group::Train, "train.width_us", WORDS("Phase width"), WORDS("Duration of one phase.")},
         {Group::Train, "train.gap_us", WORDS("Inter-phase gap"), WORDS("From one phase to the other.")},
         {Group::Train, "train.pulses", WORDS("Pulses in a train"), WORDS("A whole number.")},
         {Group::Train, "train.rate_hz", WORDS("Rate in the train"), WORDS("0 where a train has one pulse.")},
 
-        {Group::Test, "encodings", WORDS("Encodings"),
-         WORDS("standard, or standard,swapped: in the swapped one texture and pressure change places.")},
+        {Group::Test, "encodings", WORDS("Encodings"), WORDS("In the swapped one texture and pressure change places.")},
         {Group::Test,
          "procedure.method",
          WORDS("Detection by"),
@@ -144,6 +142,17 @@ StudySettings shownIn(const std::optional<StudySettings>& amended) {
     return settings;
 }
 
+/// One encoding, or both in an order. `held` is among them as it is.
+std::vector<std::pair<std::string, std::string>> encodingChoices(const std::string& held) {
+    const auto word = [](const char* text) { return translated(text).toStdString(); };
+    std::vector<std::pair<std::string, std::string>> all{
+        {"standard", word(QT_TRANSLATE_NOOP("Study", "standard"))},
+        {"standard,swapped", word(QT_TRANSLATE_NOOP("Study", "standard, and swapped"))}};
+    if (std::ranges::find(all, held, &std::pair<std::string, std::string>::first) == all.end())
+        all.emplace_back(held, held);
+    return all;
+}
+
 /// As the form of a protocol's parameters takes it.
 ProtocolParameter parameterOf(const StudyFormField& field, nlohmann::json defaults, bool isNew) {
     const auto& stored = *storedField(field.key);
@@ -168,9 +177,10 @@ ProtocolParameter parameterOf(const StudyFormField& field, nlohmann::json defaul
         made.type = ParameterType::Boolean;
         made.value = value;
     } else if (value.is_array()) {
-        made.type = ParameterType::Text;
+        made.type = ParameterType::Choice;
         std::string all;
         for (const auto& each : value) all += (all.empty() ? "" : ",") + each.get<std::string>();
+        made.choices = encodingChoices(all);
         made.value = all;
     } else {
         const bool day = field.key == "approval.from" || field.key == "approval.expires";
@@ -193,6 +203,7 @@ const std::vector<std::string_view>& studyFieldsOfTheProgram() {
                                                    "approval.protocol_sha256",
                                                    "limits",
                                                    "conditions",
+                                                   "train.shape",
                                                    "scripts",
                                                    "procedure.interval_min_s",
                                                    "procedure.interval_max_s",

@@ -6,6 +6,7 @@
 #include <QHeaderView>
 #include <QMenu>
 
+#include "app/gui/runner/ReportWindow.h"
 #include "app/gui/study/AdverseEventDialog.h"
 #include "app/gui/study/AmendDialog.h"
 #include "app/gui/study/ConsentDialog.h"
@@ -141,8 +142,10 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
     connect(&study_, &OpenStudy::changed, this, &StudyList::refresh);
     connect(&study_, &OpenStudy::exported, this,
             [this](const QString& place) { say(tr("The results lie in %1.").arg(place), false); });
-    connect(&reports_, &ReportMaker::done, this,
-            [this](const QString& out) { say(tr("The report is %1.").arg(out), false); });
+    connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
+        say(tr("The report is %1.").arg(out), false);
+        if (out.endsWith(".pdf", Qt::CaseInsensitive)) ReportWindow::showReport(*this, out);
+    });
     connect(&reports_, &ReportMaker::failed, this, [this](const QString& why) { say(why); });
     refresh();
 }
@@ -256,8 +259,8 @@ QWidget* StudyList::buildFoot() {
         action->setObjectName(name);
         connect(action, &QAction::triggered, this, [this, with] { askForExport(with); });
     };
-    addExport(tr("Results…"), "exportResults", {});
-    addExport(tr("Results with age, sex and handedness…"), "exportWithAbout",
+    addExport(tr("Results as BIDS…"), "exportResults", {});
+    addExport(tr("Results as BIDS, with age, sex and handedness…"), "exportWithAbout",
               {.age = true, .sex = true, .handedness = true});
     out->setMenu(exports);
     auto* note = button(tr("Note"), tr("What happened, is changed or is reported later."), "noteOfStudy", holder);
@@ -423,8 +426,8 @@ bool StudyList::noteReport(const QString& out, const QStringList& more) {
 
 void StudyList::askForExport(const BidsWith& with) {
     FileQuestion question;
-    question.title = tr("An empty folder for the results, outside the study");
-    question.wants = FileQuestion::Wants::Folder;
+    question.title = tr("A new or empty folder for the results, outside the study");
+    question.wants = FileQuestion::Wants::NewFolder;
     question.folder = QFileInfo(study_.folder()).absolutePath();
     askForFile(*this, question, [this, with](const QString& place) {
         say(tr("The results are being written…"), false);

@@ -2,12 +2,15 @@
 
 #include <QAbstractItemView>
 #include <QApplication>
+#include <QDesktopServices>
 #include <QFileDialog>
 #include <QFileIconProvider>
 #include <QGridLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QScreen>
 #include <QShortcut>
+#include <QUrl>
 
 namespace tacto::gui {
 
@@ -38,10 +41,10 @@ public:
         setObjectName("fileChooser");
         // The desktop's own dialog keeps its keys to itself, Esc and Pause too.
         setOptions(DontUseNativeDialog | DontConfirmOverwrite);
-        setFileMode(question.wants == Wants::Folder    ? Directory
-                    : question.wants == Wants::NewFile ? AnyFile
-                                                       : ExistingFile);
-        setOption(ShowDirsOnly, question.wants == Wants::Folder);
+        const bool folder = question.wants == Wants::Folder || question.wants == Wants::NewFolder;
+        makes_ = question.wants == Wants::NewFolder;
+        setFileMode(folder ? Directory : question.wants == Wants::NewFile ? AnyFile : ExistingFile);
+        setOption(ShowDirsOnly, folder);
         setAcceptMode(question.wants == Wants::NewFile ? AcceptSave : AcceptOpen);
         if (!question.filters.isEmpty()) setNameFilters(question.filters);
         setDirectory(!question.folder.isEmpty() ? question.folder : lastFolder());
@@ -58,12 +61,19 @@ public:
         says_->hide();
         if (auto* grid = qobject_cast<QGridLayout*>(layout()))
             grid->addWidget(says_, grid->rowCount(), 0, 1, grid->columnCount());
+        if (auto* name = findChild<QLineEdit*>("fileNameEdit"))
+            connect(name, &QLineEdit::textChanged, says_, &QLabel::hide);
     }
 
     void accept() override {
         const auto files = selectedFiles();
         if (files.isEmpty()) return;
-        const QFileInfo file(files.first());
+        QFileInfo file(files.first());
+        if (makes_ && !file.exists()) {
+            if (!QDir().mkpath(file.absoluteFilePath()))
+                return say(QObject::tr("⚠ %1 cannot be made there. Choose another place.").arg(file.fileName()));
+            file.refresh();
+        }
         if (acceptMode() == AcceptOpen && !file.exists())
             return say(QObject::tr("⚠ %1 is not there. Choose another name.").arg(file.fileName()));
         const bool replaces = acceptMode() == AcceptSave && file.isFile();
@@ -83,7 +93,8 @@ private:
         says_->show();
     }
     QLabel* says_;
-    QString replaces_;  ///< the file that the operator was told about
+    bool makes_ = false;  ///< a folder that is not there
+    QString replaces_;    ///< the file that the operator was told about
 };
 
 /// The dialog that is open already, if any.
@@ -134,6 +145,11 @@ void openDialog(QDialog* dialog) {
     }
     dialog->raise();
     dialog->activateWindow();
+}
+
+QString openOnDesktop(const QString& path) {
+    if (QDesktopServices::openUrl(QUrl::fromLocalFile(path))) return {};
+    return QObject::tr("This desktop has no program that opens %1.").arg(path);
 }
 
 void askForFile(QWidget& asking, const FileQuestion& question, std::function<void(const QString& path)> then) {

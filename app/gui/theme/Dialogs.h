@@ -21,8 +21,11 @@ void openDialog(QDialog* dialog);
 /// screen has room there, so that STOP stays in sight. Without a parent it stays where it is.
 void place(QWidget& dialog);
 
+/// Opens a file or folder with the desktop's program for it. Where there is none, the value says where it lies.
+[[nodiscard]] QString openOnDesktop(const QString& path);
+
 struct FileQuestion {
-    enum class Wants { ExistingFile, Folder, NewFile };
+    enum class Wants { ExistingFile, Folder, NewFolder, NewFile };
     QString title;
     Wants wants = Wants::ExistingFile;
     QStringList filters;  ///< "Profiles (*.json)"; empty: all files
@@ -31,8 +34,9 @@ struct FileQuestion {
     QString suffix;       ///< added to a name without one; without a dot
 };
 
-/// Asks the operator for a file; `then` gets its path, unless the question is cancelled or `asking` is deleted first. A
-/// file that exists is replaced only after a second press, which the dialog asks for in place.
+/// Asks the operator for a file or folder; a new folder that is typed is made. `then` gets its path, unless the
+/// question is cancelled or `asking` is deleted first. A file that exists is replaced only after a second press, which
+/// the dialog asks for in place.
 void askForFile(QWidget& asking, const FileQuestion& question, std::function<void(const QString& path)> then);
 
 }  // namespace tacto::gui

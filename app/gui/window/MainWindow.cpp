@@ -119,6 +119,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, 
     setCentralWidget(centre);
     mark_ = new MarkLine(controller_, *line_, *centre);
     connect(mark_, &MarkLine::refused, banner_, &NoticeBanner::complain);
+    if (const auto resources = resourcesFolder(); !resources) banner_->complain(sentence(resources.error()));
     if (const auto added = addedLimitsText(controller_.limits()); !added.empty()) {
         auto* limits = new QLabel(QString::fromStdString(added), this);
         limits->setObjectName("added-limits");

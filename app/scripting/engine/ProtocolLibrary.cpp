@@ -107,7 +107,9 @@ Result<fs::path> resourcesFolder() {
         if (usable(folder / "resources")) return folder / "resources";
     }
     if (usable(TACTOSCOPE_INSTALLED_RESOURCES)) return fs::path(TACTOSCOPE_INSTALLED_RESOURCES);
-    return fail(ErrorCode::NotFound, "the program's resources were not found in {}; set TACTOSCOPE_RESOURCES",
+    return fail(ErrorCode::NotFound,
+                "the program's resources were not found in {}; install it anew, or set TACTOSCOPE_RESOURCES to "
+                "their folder",
                 fmt::join(tried, ", "));
 }
 
@@ -136,7 +138,10 @@ fs::path userProtocolsFolder() {
 }
 
 ProtocolLibrary::ProtocolLibrary() : user_(userProtocolsFolder()) {
-    if (auto resources = resourcesFolder()) shipped_ = *resources / "protocols";
+    if (const auto resources = resourcesFolder())
+        shipped_ = *resources / "protocols";
+    else
+        missing_ = resources.error().message;
 }
 
 ProtocolLibrary::ProtocolLibrary(fs::path shipped, fs::path user)
@@ -190,6 +195,8 @@ Result<ProtocolSource> ProtocolLibrary::find(std::string_view nameOrPath) const 
     }
     std::set<std::string> known;
     for (const auto& source : list()) known.insert(source.name);
+    if (known.empty() && !missing_.empty())
+        return fail(ErrorCode::NotFound, "there is no protocol {}: {}", wanted, missing_);
     return fail(ErrorCode::NotFound, "there is no protocol {}; there are {}", wanted,
                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
 }

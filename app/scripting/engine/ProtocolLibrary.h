@@ -54,6 +54,7 @@ private:
     [[nodiscard]] Listing listing() const;
 
     std::filesystem::path shipped_;
+    std::string missing_;  ///< why there are no shipped ones
     std::filesystem::path user_;
 };
 

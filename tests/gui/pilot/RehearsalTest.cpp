@@ -17,6 +17,7 @@
 #include "app/gui/pilot/RehearsalPage.h"
 #include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/pilot/ScreenChoice.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
 #include "tests/gui/Looks.h"
@@ -86,6 +87,27 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     shot(window, "pilot-virtual-result");
     window.showWorkspace(0);
     EXPECT_EQ(window.workspace(), 0) << "the session has ended";
+    window.showWorkspace(4);
+    const auto text = [this](const char* name) { return pilot->findChild<QLabel*>(name)->text(); };
+    click(*find<QPushButton>(*pilot, "Open the folder"));
+    EXPECT_TRUE(text("pilotNote").contains("This desktop has no program that opens"))
+        << text("pilotNote").toStdString();
+    click(*pilot->findChild<QPushButton*>("backFromResult"));
+    EXPECT_EQ(text("rehearsalTitle"), "Another session of this rehearsal");
+    EXPECT_TRUE(pilot->findChild<gui::TabbedPage*>()->isVisible()) << "the way to the study";
+}
+
+TEST_F(RehearsalInTheWindow, ANewOneHasAFolderOfItsOwnAndKeepsTheRest) {
+    begin(false, "massager");
+    const auto first = pilot->findChild<QLineEdit*>("studyFolder")->text();
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 100'000));
+    click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
+    EXPECT_EQ(pilot->findChild<QLabel*>("rehearsalTitle")->text(), "A new rehearsal");
+    EXPECT_NE(pilot->findChild<QLineEdit*>("studyFolder")->text(), first);
+    EXPECT_EQ(pilot->findChild<QSpinBox*>("rehearsalBlocks")->value(), 1);
+    const auto* through = pilot->findChild<QComboBox*>("rehearsalModality");
+    EXPECT_EQ(through->currentData(), "massager");
+    EXPECT_TRUE(through->isEnabled());
 }
 
 TEST_F(RehearsalInTheWindow, ItsMarkersReachARecorderAndTheResultSaysSo) {

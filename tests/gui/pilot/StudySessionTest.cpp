@@ -147,7 +147,7 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     ASSERT_IN_TIME(comesTrue([this] { return !nothingWasMade(); }, 20'000));
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
-    click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
+    click(*pilot->findChild<QPushButton*>("backFromResult"));
     ASSERT_NO_FATAL_FAILURE(seeList());
     EXPECT_EQ(cell(0, 5), "interrupted, can continue");
     ASSERT_NO_FATAL_FAILURE(start());
@@ -160,7 +160,7 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     EXPECT_THAT(pilot->findChild<QLabel*>("pilotHeadline")->text().toStdString(), HasSubstr(code.toStdString()));
     shot(window, "study-window-result");
     EXPECT_EQ(faultsOf(window), "");
-    click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
+    click(*pilot->findChild<QPushButton*>("backFromResult"));
     ASSERT_NO_FATAL_FAILURE(seeList());
     EXPECT_EQ(pilot->findChild<QTableWidget*>("studySessions")->rowCount(), 1) << "the same session";
     EXPECT_EQ(cell(0, 5), "complete");
@@ -237,7 +237,7 @@ TEST_F(StudyInTheWindow, ASessionThatWasBrokenOffGoesOnWithNoOtherMassager) {
             return !pilot->running();
         },
         20'000));
-    click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
+    click(*pilot->findChild<QPushButton*>("backFromResult"));
     ASSERT_NO_FATAL_FAILURE(seeList());
     ASSERT_EQ(cell(0, 5), "interrupted, can continue");
     const auto files = filesIn(place() / "sessions");

@@ -67,7 +67,7 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
     EXPECT_EQ(read->procedure->intervalMin_s, 0.5);
     EXPECT_EQ(read->procedure->intervalMax_s, 2);
     form.set("procedure.method", "staircase");
-    form.set("encodings", "standard, swapped");
+    form.set("encodings", "standard,swapped");
     form.set("site", "forearm");
     form.set("electrode.area_cm2", "5.5");
     read = form.read(shippedProfile().value());

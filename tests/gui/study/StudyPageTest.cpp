@@ -89,7 +89,7 @@ TEST_F(StudyPageTest, EnrollingLeadsToTheConsentOfThatParticipantAndEnrolsOnce) 
     EXPECT_EQ(consents->windowTitle(), "Consent of " + code);
     EXPECT_EQ(study.study()->participants().size(), 2U);
     consents->findChild<QLineEdit*>("by")->setText("KL");
-    click(*consents->findChild<QPushButton*>("noteConsent"));
+    QTest::keyClick(consents->findChild<QLineEdit*>("by"), Qt::Key_Return);
     auto* people = page.findChild<QTableWidget*>("participants");
     ASSERT_EQ(people->rowCount(), 2);
     EXPECT_THAT(cell("participants", 1, 5), HasSubstr("version 2, 20"));
@@ -328,7 +328,7 @@ TEST_F(StudyOfThisUser, GetsAReportFromTheCommandLinesProgram) {
     EXPECT_TRUE(QFileInfo::exists(out)) << said->text().toStdString();
 }
 
-TEST_F(StudyOfThisUser, AReportThatNamesPeopleIsNotedWithItsPlace) {
+TEST_F(StudyOfThisUser, AReportThatNamesPeopleIsNotedWithItsPlaceAndShown) {
     RecordProperty("hazard", "H11");
     make();
     open();
@@ -338,17 +338,20 @@ TEST_F(StudyOfThisUser, AReportThatNamesPeopleIsNotedWithItsPlace) {
         asks = page.findChild<QFileDialog*>();
         return asks != nullptr && asks->isVisible();
     }));
-    const auto out = QString::fromStdString((scratch.path() / "study.html").string());
+    const auto out = QString::fromStdString((scratch.path() / "study.pdf").string());
     emit asks->fileSelected(out);
     asks->close();
     const auto* said = page.findChild<QLabel*>("studyTrouble");
     ASSERT_IN_TIME(
-        comesTrue([&] { return said->text().contains("study.html") || said->text().startsWith("⚠"); }, 30'000));
+        comesTrue([&] { return said->text().contains("study.pdf") || said->text().startsWith("⚠"); }, 30'000));
     EXPECT_TRUE(QFileInfo::exists(out)) << said->text().toStdString();
     const auto exports = study.study()->exports();
     ASSERT_EQ(exports.size(), 1U);
     EXPECT_EQ(exports[0].what, "study report");
     EXPECT_EQ(exports[0].place, out.toStdString());
+    ASSERT_IN_TIME(comesTrue([this] { return dialog("reportWindow") != nullptr; }));
+    EXPECT_EQ(dialog("reportWindow")->windowTitle(), "Report study.pdf");
+    dialog("reportWindow")->close();
 }
 
 TEST_F(StudyPageTest, AnExportInsideTheStudyIsRefused) {

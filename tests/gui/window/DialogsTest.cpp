@@ -108,6 +108,42 @@ TEST_F(Asking, AFileThatIsNotThereIsSaidInPlace) {
     EXPECT_THAT(trouble().toStdString(), HasSubstr("missing.json is not there"));
 }
 
+TEST_F(Asking, AComplaintIsGoneOnceAnotherNameIsTyped) {
+    ask(gui::FileQuestion::Wants::ExistingFile);
+    answer("missing.json");
+    ASSERT_FALSE(trouble().isEmpty());
+    chooser()->findChild<QLineEdit*>("fileNameEdit")->setText("other");
+    EXPECT_TRUE(trouble().isEmpty());
+}
+
+TEST_F(Asking, ANewFolderIsMadeByItsNameWhereOneIsAskedFor) {
+    ask(gui::FileQuestion::Wants::Folder);
+    answer("shared");
+    EXPECT_TRUE(chosen.isEmpty());
+    EXPECT_THAT(trouble().toStdString(), HasSubstr("shared is not there"));
+    chooser()->close();
+    QTest::qWait(20);
+    ask(gui::FileQuestion::Wants::NewFolder);
+    answer("shared");
+    const auto made = folder.path() / "shared";
+    EXPECT_EQ(chosen, QStringList(QString::fromStdString(made.string())));
+    EXPECT_TRUE(std::filesystem::is_directory(made));
+}
+
+TEST_F(Asking, AFolderThatCannotBeMadeIsSaidInPlace) {
+    static_cast<void>(folder.write("file", "in the way"));
+    ask(gui::FileQuestion::Wants::NewFolder);
+    answer(QString::fromStdString((folder.path() / "file" / "shared").string()));
+    EXPECT_TRUE(chosen.isEmpty());
+    EXPECT_THAT(trouble().toStdString(), HasSubstr("shared cannot be made there"));
+}
+
+TEST(OnDesktop, WithoutAProgramForItThePlaceIsSaid) {
+    // Off screen there is no desktop.
+    EXPECT_EQ(gui::openOnDesktop("/home/lab/report.pdf"),
+              "This desktop has no program that opens /home/lab/report.pdf.");
+}
+
 TEST_F(Asking, TwiceShowsTheQuestionThatIsOpen) {
     ask(gui::FileQuestion::Wants::ExistingFile);
     auto* first = chooser();

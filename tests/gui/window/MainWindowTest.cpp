@@ -32,6 +32,21 @@ namespace {
 using gui::Activity;
 using testing::HasSubstr;
 
+/// A program that was moved without its resources.
+class WithoutResources : public Window {
+protected:
+    WithoutResources()
+        : Window([] {
+              ::setenv("TACTOSCOPE_RESOURCES", "/no/such/folder", 1);
+              return simulatedRegistry();
+          }) {}
+    ~WithoutResources() override { ::unsetenv("TACTOSCOPE_RESOURCES"); }
+};
+
+TEST_F(WithoutResources, ItSaysSoAtOnceAndWhatWouldHelp) {
+    EXPECT_THAT(banner().toStdString(), HasSubstr("TACTOSCOPE_RESOURCES is /no/such/folder, a folder with protocols/"));
+}
+
 TEST_F(Window, ArmingTakesTwoSteps) {
     RecordProperty("hazard", "H12");
     open();
