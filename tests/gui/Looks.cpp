@@ -122,6 +122,10 @@ int pixelsOf(const QImage& picture, const QColor& colour) {
 QStringList cutTexts(const QWidget& in) {
     QStringList cut;
     for (const auto* widget : textsIn(in)) {
+        if (widget->width() < 2 || widget->height() < 2) {
+            cut << QString("%1: %2x%3, not to be seen").arg(nameOf(*widget)).arg(widget->width()).arg(widget->height());
+            continue;
+        }
         const bool elides = dynamic_cast<const gui::ElidedLabel*>(widget) != nullptr ||
                             widget->sizePolicy().horizontalPolicy() == QSizePolicy::Ignored;
         if (elides) continue;

@@ -19,7 +19,7 @@ namespace tacto::test {
 [[nodiscard]] int pixelsOf(const QImage& picture, const QColor& colour);
 
 /// Visible labels, buttons, choices of boxes, tabs and titles of columns whose text has no room, each with its text. A
-/// label that elides by design is left out.
+/// label that elides by design is left out, unless it has no extent at all.
 [[nodiscard]] QStringList cutTexts(const QWidget& in);
 /// Visible enabled texts with a contrast below 4.5:1, by the colours of their palettes.
 [[nodiscard]] QStringList paleTexts(const QWidget& in);

@@ -80,7 +80,7 @@ ParticipantFace::ParticipantFace(std::function<void()> stop, QWidget* parent)
     hold_->setObjectName("hold");
     hold_->hide();
     line_->hide();
-    onFontChange(*this, [this] { arrange(); });
+    afterLookChange(*this, [this] { arrange(); });
 }
 
 void ParticipantFace::setNote(const QString& note) {

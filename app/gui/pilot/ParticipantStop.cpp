@@ -11,6 +11,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kStopRadius = 8;
+constexpr int kLeastFoot_px = 11;
 
 /// The largest size, up to `px`, at which `words` are no wider than `room`.
 QFont fitted(const QString& words, QFont font, int px, int room) {
@@ -28,6 +29,7 @@ ParticipantStop::ParticipantStop(std::function<void()> stop, QWidget* parent)
     setText(tr("STOP"));
     setAccessibleName(tr("STOP"));
     setFocusPolicy(Qt::NoFocus);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);  // in a row it is as high as the row
     setAttribute(Qt::WA_AcceptTouchEvents);
 }
 
@@ -78,10 +80,13 @@ void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
     const auto foot = tr("It stops immediately. You do not have to say why.\nIt goes on only when you say so.");
     const auto longest = tr("It stops immediately. You do not have to say why.");
     const auto word = fitted(text(), textFont(TextSize::Display, QFont::Bold), word_px_, room);
-    const auto lines = fitted(longest, textFont(TextSize::Body), lines_px_, room);
-    const QFontMetrics above(word), below(lines);
-    const int footHigh = below.lineSpacing() * 2 + below.descent();
-    const bool hasFoot = height() > above.height() + below.height() + 2 * footHigh + lines.pixelSize() * 2;
+    auto lines = fitted(longest, textFont(TextSize::Body), lines_px_, room);
+    const int footHigh = QFontMetrics(lines).lineSpacing() * 2 + QFontMetrics(lines).descent();
+    const QFontMetrics above(word);
+    const bool hasFoot = QFontMetrics(lines).horizontalAdvance(longest) <= room && lines.pixelSize() >= kLeastFoot_px &&
+                         height() > above.height() + 3 * footHigh + lines.pixelSize() * 2;
+    if (!hasFoot) lines = fitted(keys, lines, lines_px_, room);
+    const QFontMetrics below(lines);
     const int top = int((height() - above.height() - below.height()) * 0.43);
     painter.setFont(word);
     painter.drawText(QRect(0, top, width(), above.height()), Qt::AlignCenter, text());

@@ -11,6 +11,7 @@
 #include "app/gui/study/StudyList.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 
@@ -63,6 +64,7 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
     connect(start_, &SessionStartPage::beginWanted, this, &PilotWorkspace::beginOfStudy);
     connect(start_, &SessionStartPage::backWanted, this, [this] { showPage(kHome); });
     showPage(kHome);
+    afterLookChange(*this, [this] { showBeside(Page(pages_->currentIndex())); });
 }
 
 PilotWorkspace::~PilotWorkspace() = default;
@@ -137,20 +139,28 @@ void PilotWorkspace::showPage(Page page) {
         path_->clear();
         path_->setTitle(tr("Pilot sessions"), tr("Can a person tell the four conditions apart?"));
     }
-    showPath(page);
-    for (auto* right : {static_cast<QWidget*>(side_), static_cast<QWidget*>(sideEdge_)})
-        right->setVisible(page == kSession);
+    showBeside(page);
     pages_->setCurrentIndex(page);
 }
 
-void PilotWorkspace::showPath(Page page) {
-    for (auto* left : {static_cast<QWidget*>(path_), static_cast<QWidget*>(pathEdge_)})
-        left->setVisible(!plotOnly_ && (page == kSession || page == kResult));
+void PilotWorkspace::showBeside(Page page) {
+    // Large text in a small window: the session's own page comes first, then the path.
+    const auto* shown = pages_->widget(page);
+    const int room = (parentWidget() != nullptr ? parentWidget() : this)->width() - shown->minimumSizeHint().width();
+    const bool path = !plotOnly_ && (page == kSession || page == kResult) && room >= path_->maximumWidth();
+    const bool side = page == kSession && room >= path_->maximumWidth() + side_->maximumWidth();
+    for (auto* left : {static_cast<QWidget*>(path_), static_cast<QWidget*>(pathEdge_)}) left->setVisible(path);
+    for (auto* right : {static_cast<QWidget*>(side_), static_cast<QWidget*>(sideEdge_)}) right->setVisible(side);
+}
+
+void PilotWorkspace::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    showBeside(Page(pages_->currentIndex()));
 }
 
 void PilotWorkspace::showPlotOnly(bool only) {
     plotOnly_ = only;
-    showPath(Page(pages_->currentIndex()));
+    showBeside(Page(pages_->currentIndex()));
 }
 
 void PilotWorkspace::prepareStart(const QString& code) {

@@ -50,13 +50,16 @@ signals:
     void attentionWanted();
     void runningChanged();
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     enum Page { kHome, kStart, kSession, kResult };
     [[nodiscard]] QWidget* buildHome();
     void connectSession();
     void connectResult();
     void showPage(Page page);
-    void showPath(Page page);
+    void showBeside(Page page);
     void prepareStart(const QString& code);
     void beginRehearsal(bool goOn);
     void beginOfStudy();

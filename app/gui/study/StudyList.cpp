@@ -15,6 +15,7 @@
 #include "app/gui/study/NextDayDialog.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -147,6 +148,7 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
         if (out.endsWith(".pdf", Qt::CaseInsensitive)) ReportWindow::showReport(*this, out);
     });
     connect(&reports_, &ReportMaker::failed, this, [this](const QString& why) { say(why); });
+    afterLookChange(*this, [this] { layOut(); });
     refresh();
 }
 
@@ -374,12 +376,6 @@ void StudyList::layOut() {
         layOutRecordTable(*table);
     }
     if (participants_ != nullptr) participants_->setSelectionMode(QAbstractItemView::SingleSelection);
-}
-
-void StudyList::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() != QEvent::FontChange && event->type() != QEvent::StyleChange) return;
-    QMetaObject::invokeMethod(this, &StudyList::layOut, Qt::QueuedConnection);  // once the tables have it too
 }
 
 void StudyList::judge() {

@@ -33,9 +33,6 @@ public:
 signals:
     void sessionWanted(const QString& code);
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     void layOut();
     [[nodiscard]] QWidget* buildParticipants();

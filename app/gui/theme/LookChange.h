@@ -13,6 +13,10 @@ void onLookChange(QWidget& widget, std::function<void()> follow);
 /// The same for another font alone.
 void onFontChange(QWidget& widget, std::function<void()> follow);
 
+/// Calls `follow` in the next turn of the event loop after a change of palette, font or style, when the widgets within
+/// have it too: for one that gives them fonts or places of its own. (A new style sheet takes them those fonts.)
+void afterLookChange(QWidget& widget, std::function<void()> follow);
+
 /// Bounds of a widget's width that grow and shrink with the size of text: pixels of text at 100 % (scaledPx()).
 void boundWidth(QWidget& widget, int atMost_px);
 void fixWidth(QWidget& widget, int px);

@@ -62,8 +62,7 @@ TEST_F(StudyInThePage, AWrongPassphraseIsOneSentenceAndIsAskedAgain) {
     EXPECT_FALSE(trouble->text().contains(". ")) << "one sentence: " << trouble->text().toStdString();
     EXPECT_TRUE(line->text().isEmpty());
     EXPECT_EQ(study.study(), nullptr);
-    shot(*asks, "passphrase-wrong");
-    EXPECT_EQ(faultsOf(*asks), "");
+    looksRight(*asks, "passphrase-wrong", {QSize(), QSize(1000, 680)});
     QTest::keyClicks(line, kWords);
     QTest::keyClick(line, Qt::Key_Return);
     ASSERT_IN_TIME(comesTrue([this] { return study.study() != nullptr; }));
