@@ -209,12 +209,16 @@ bool ScopeModel::undoZoom() {
     return undone;
 }
 
+double ScopeModel::restingTime_s() const {
+    const auto& view = viewport();
+    const bool triggerInView = !roll_ && view.left_s <= 0 && view.right_s() >= 0;
+    return triggerInView ? 0 : view.left_s + view.width_s() / 2;
+}
+
 void ScopeModel::setTimePerDivision(double perDivision_s) {
     if (!(perDivision_s > 0)) return;
     const double base_s = std::max(perDivision_s, leastTimePerDivision_s());
-    const auto& now = viewport();
-    const bool triggerInView = now.left_s <= 0 && now.right_s() >= 0;
-    auto next = withTimeBase(now, base_s, triggerInView ? 0 : now.left_s + now.width_s() / 2);
+    auto next = withTimeBase(viewport(), base_s, restingTime_s());
     if (roll_ && shown_) next.left_s = ScopeFrame::rollLeft(scene(), base_s);
     go(next, "time base");
 }

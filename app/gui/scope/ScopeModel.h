@@ -70,7 +70,8 @@ public:
     void removeReference(const QString& key);
 
     [[nodiscard]] const Viewport& viewport() const noexcept { return frame_.view(); }
-    /// The trigger stays where it stands on the screen; where it is not in view, the middle does.
+    /// What another time base leaves where it stands on the screen: the trigger; where it is not in view, the middle.
+    [[nodiscard]] double restingTime_s() const;
     void setTimePerDivision(double perDivision_s);
     /// Below this the samples shown have no shape: a zoom and a time base end there.
     [[nodiscard]] double leastTimePerDivision_s() const;

@@ -66,6 +66,7 @@ TEST_F(Model, ATimeBaseKeepsTheTriggerWhereItStandsOnTheScreen) {
         EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, base_s);
         EXPECT_NEAR(share(), before, 0.01) << base_s;
     }
+    EXPECT_EQ(model.restingTime_s(), 0) << "so do + and -";
     // Where it is not in view, the middle stays.
     model.setTimePerDivision(100e-6);
     model.setTimeCentre(4.2e-3);
