@@ -49,13 +49,18 @@ void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& so
     const bool follows = !std::exchange(gap_, false);
     const bool ours = source.isEmpty();
     auto prepare = [this, capture = std::move(capture), source, math = mathOptions_, follows, ours,
-                    mask = ours ? mask_ : nullptr]() mutable -> ShownPtr {
+                    mask = ours ? mask_ : nullptr, trigger = ours ? trigger_ : std::nullopt,
+                    asked = ours ? asked_ : std::nullopt,
+                    taken = ours ? QDateTime::currentDateTime() : QDateTime()]() mutable -> ShownPtr {
+        if (trigger) capture = triggeredAtCrossing(std::move(capture), *trigger);
         std::optional<MaskCheck> judged;
         if (mask && !capture->untriggered) judged = mask->check(*capture);
         const bool averages = ours && average_.captures() > 1 && std::isfinite(capture->trigger_s);
         if (averages) capture = average_.add(std::move(capture));
         auto shown = std::const_pointer_cast<ShownCapture>(prepareCapture(std::move(capture), {}, math));
         shown->source = source;
+        shown->taken = taken;
+        shown->asked = asked;
         shown->mask = std::move(judged);
         shown->judgedBy = mask;
         shown->follows = follows;

@@ -15,6 +15,7 @@
 
 #include "app/gui/controller/SideWork.h"
 #include "app/gui/scope/Trace.h"
+#include "app/gui/scope/TriggerCrossing.h"
 #include "core/measure/CaptureAverage.h"
 
 namespace tacto::gui {
@@ -29,6 +30,11 @@ public:
     void setAverage(std::size_t captures);
     /// Judges the bench's captures from now on; null: none is.
     void setMask(std::shared_ptr<const CaptureMask> mask) { mask_ = std::move(mask); }
+    /// What the bench's captures are triggered with: they are shown from where they cross its level. Nothing: from
+    /// where the oscilloscope states.
+    void setTrigger(const std::optional<ScopeSettings>& settings) { trigger_ = settings; }
+    /// What is asked of the output while the captures come that are taken from now on.
+    void setAsked(const std::optional<AskedDrive>& asked) { asked_ = asked; }
     /// What comes next does not follow on what came last: the oscilloscope was set again.
     void breakOff() { gap_ = true; }
     /// Another bench or another load: nothing of the one before goes into a mean, and its captures that are on their
@@ -62,6 +68,8 @@ private:
 
     MathOptions mathOptions_;
     std::shared_ptr<const CaptureMask> mask_;
+    std::optional<ScopeSettings> trigger_;
+    std::optional<AskedDrive> asked_;
     CaptureAverage average_;   // the thread's
     bool gap_ = false;         // a capture was left out since the last
     std::uint64_t epoch_ = 1;  // of the bench's captures; another since beginAnew()

@@ -76,6 +76,7 @@ double RunningStatistics::of(Statistic statistic) const noexcept {
 QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its, const QString& channelUnit,
                       int digits) {
     if (statistic == Statistic::Count) return QString::number(its.n());
+    if (statistic == Statistic::Last && its.upperBound()) return upperBoundText(*its.upperBound());
     // A deviation is known to two digits at best.
     return readingText(reading, its.of(statistic), channelUnit, statistic == Statistic::Sd ? 2 : digits);
 }
@@ -83,6 +84,25 @@ QString statisticText(Reading reading, Statistic statistic, const RunningStatist
 void CaptureStatistics::clear() {
     channels_.clear();
     captures_ = 0;
+    since_ = {};
+    asked_.reset();
+    programmed_ = kNotMeasured;
+}
+
+/// A train may come as it was asked for before: what was programmed for it tells.
+bool CaptureStatistics::begins(const ShownCapture& shown) const {
+    constexpr double kSameCommand = 1e-6;  // relative
+    constexpr double kSameOutput = 0.02;   // a current follows the impedance
+    const auto another = [](double a, double b, double share) { return std::abs(a - b) > share * std::abs(b); };
+    if (captures_ == 0 || !shown.asked) return false;
+    if (!asked_ || asked_->byHand != shown.asked->byHand) return true;
+    return shown.asked->byHand && (another(shown.asked->amplitude_v, asked_->amplitude_v, kSameCommand) ||
+                                   another(shown.asked->interval_s, asked_->interval_s, kSameCommand) ||
+                                   another(shown.capture->programmed, programmed_, kSameOutput));
+}
+
+QString CaptureStatistics::sinceText() const {
+    return since_.isValid() ? QObject::tr("since %1").arg(since_.toString("HH:mm:ss")) : QString();
 }
 
 void CaptureStatistics::breakOff() {
@@ -91,6 +111,7 @@ void CaptureStatistics::breakOff() {
 
 void CaptureStatistics::add(const ShownCapture& shown) {
     const auto& measured = shown.measurement;
+    if (begins(shown)) clear();
     const bool same =
         std::equal(channels_.begin(), channels_.end(), measured.begin(), measured.end(),
                    [](const Channel& c, const ChannelMeasurement& m) {
@@ -106,7 +127,11 @@ void CaptureStatistics::add(const ShownCapture& shown) {
         }
     }
     if (!shown.follows) breakOff();
-    ++captures_;
+    if (++captures_ == 1) {
+        since_ = shown.taken;
+        programmed_ = shown.capture->programmed;
+    }
+    if (shown.asked) asked_ = shown.asked;
     for (std::size_t c = 0; c < measured.size(); ++c) {
         for (const auto reading : allReadings()) {
             auto& its = channels_[c].readings[static_cast<std::size_t>(reading)];
@@ -122,6 +147,7 @@ void CaptureStatistics::add(const ShownCapture& shown) {
                 here.add(value);
             }
             its.setLast(here.mean());
+            its.setUpperBound(upperBound(reading, shown, c));
         }
         channels_[c].lastOnset_s = lastOnset(measured[c]);
     }

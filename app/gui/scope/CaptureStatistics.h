@@ -12,6 +12,7 @@
 #include <QString>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "app/gui/scope/Reading.h"
@@ -29,6 +30,9 @@ class RunningStatistics {
 public:
     void add(double value) noexcept;
     void setLast(double value) noexcept { last_ = value; }
+    /// The newest capture tells only that it is no more than this.
+    void setUpperBound(std::optional<double> bound) noexcept { bound_ = bound; }
+    [[nodiscard]] const std::optional<double>& upperBound() const noexcept { return bound_; }
     [[nodiscard]] double last() const noexcept { return last_; }
     [[nodiscard]] double mean() const noexcept { return n_ > 0 ? mean_ : kNotMeasured; }
     [[nodiscard]] double sd() const noexcept;
@@ -40,9 +44,10 @@ public:
 private:
     double last_ = kNotMeasured, mean_ = 0, squares_ = 0, min_ = 0, max_ = 0;
     std::size_t n_ = 0;
+    std::optional<double> bound_;
 };
 
-/// As it stands in a cell; the number of readings without a unit.
+/// As it stands in a cell; the number of readings without a unit. The last may be an upper bound.
 [[nodiscard]] QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its,
                                     const QString& channelUnit, int digits = 4);
 
@@ -57,17 +62,25 @@ public:
         [[nodiscard]] const RunningStatistics& of(Reading r) const { return readings[static_cast<std::size_t>(r)]; }
     };
 
-    /// Statistics of channels that come or go restart.
+    /// Statistics of channels that come or go restart, and all of them where another drive was asked for: another
+    /// amplitude or interval by hand, or the fingertip in place of the hand.
     void add(const ShownCapture& shown);
     /// What comes next does not follow on what came last: no interval runs across.
     void breakOff();
     void clear();
     [[nodiscard]] const std::vector<Channel>& channels() const noexcept { return channels_; }
     [[nodiscard]] std::size_t captures() const noexcept { return captures_; }
+    /// "since 16:59:12", of the first capture counted; empty where that is not known.
+    [[nodiscard]] QString sinceText() const;
 
 private:
+    [[nodiscard]] bool begins(const ShownCapture& shown) const;
+
     std::vector<Channel> channels_;
     std::size_t captures_ = 0;
+    QDateTime since_;
+    std::optional<AskedDrive> asked_;   ///< of those counted
+    double programmed_ = kNotMeasured;  ///< of the first of them
 };
 
 }  // namespace tacto::gui

@@ -98,6 +98,8 @@ QMenu* makeReadingsMenu(ChosenReadings& chosen, QWidget* parent) {
     });
     menu->addSeparator();
     menu->addAction(QObject::tr("As at first"), &chosen, &ChosenReadings::chooseStandard);
+    menu->addSeparator();
+    menu->addAction(QObject::tr("Close"))->setToolTip(QObject::tr("Closes this list. Esc stops the output as well."));
     return menu;
 }
 

@@ -35,7 +35,8 @@ private:
     std::vector<Reading> chosen_;
 };
 
-/// A menu in which they are chosen; it stays open from one to the next. `chosen` outlives it.
+/// A menu in which they are chosen; it stays open from one to the next, until its last row
+/// closes it: Esc would stop the output. `chosen` outlives it.
 [[nodiscard]] QMenu* makeReadingsMenu(ChosenReadings& chosen, QWidget* parent);
 
 }  // namespace tacto::gui

@@ -127,7 +127,7 @@ void MeasurementSummary::take(const ShownPtr& shown) {
 }
 
 void MeasurementSummary::measure(std::shared_ptr<const Capture> capture) {
-    pipe_.take(std::move(capture), tr("the run's latest train"));
+    pipe_.take(std::move(capture), tr("the run's latest train, not the one on the oscilloscope"));
 }
 
 void MeasurementSummary::clear() {
@@ -239,13 +239,14 @@ void MeasurementSummary::fill() {
         const auto& its = channel.of(figure.reading);
         const auto text = statisticText(figure.reading, figure.statistic, its, channel.unit);
         figure.label->setText(text);
-        const bool missing = text == "–" && shown_;
+        const bool bound = figure.statistic == Statistic::Last && its.upperBound();
+        const bool missing = (text == "–" || bound) && shown_;
         const auto reason = missing ? whyMissing(figure.reading, *shown_, figure.channel) : QString();
         const bool single = figure.statistic == Statistic::Sd && its.n() == 1;
         figure.label->setToolTip(!missing ? nameOf(figure.reading).explained
                                  : single ? tr("One reading has no standard deviation.")
                                           : reason);
-        if (missing && figure.reading == Reading::Amplitude && figure.statistic == Statistic::Last) {
+        if (missing && !bound && figure.reading == Reading::Amplitude && figure.statistic == Statistic::Last) {
             why << tr("%1: %2").arg(titled(channel.name), reason);
         }
     }
@@ -267,7 +268,8 @@ void MeasurementSummary::sayHead() {
     }
     QStringList parts;
     parts << (shown_->source.isEmpty() ? ageText(static_cast<double>(since_.elapsed()) / 1000) : shown_->source);
-    if (statistics_.captures() > 1) parts << tr("last of %1").arg(statistics_.captures());
+    if (statistics_.captures() > 1)
+        parts << (tr("last of %1").arg(statistics_.captures()) + " " + statistics_.sinceText()).trimmed();
     if (quietSince_) parts << tr("no trigger since");
     if (shown_->averaged > 0) parts << tr("averaged %1").arg(shown_->averaged);
     if (shown_->capture->simulated) parts << tr("simulated");

@@ -91,8 +91,9 @@ void MeasurementTable::add(const ShownPtr& shown) {
     refill();
 }
 
-void MeasurementTable::passOverUntriggered() {
+void MeasurementTable::passOverUntriggered(bool held) {
     passedOver_ = true;
+    held_ = held;
     statistics_.breakOff();
     warnings_->clear();
     warnings_->hide();
@@ -144,10 +145,11 @@ void MeasurementTable::refill() {
             for (std::size_t s = 0; s < kStatistics.size(); ++s) {
                 auto* item = table_->item(row, columnOf(c, s));
                 item->setText(statisticText(reading, kStatistics[s], its, channels[c].unit));
-                item->setToolTip(item->text() != "–"  ? QString()
-                                 : its.n() == 1       ? tr("One reading has no standard deviation.")
-                                 : newest_ == nullptr ? QString()
-                                                      : whyMissing(reading, *newest_, c));
+                const bool bound = kStatistics[s] == Statistic::Last && its.upperBound();
+                item->setToolTip(item->text() != "–" && !bound ? QString()
+                                 : its.n() == 1                ? tr("One reading has no standard deviation.")
+                                 : newest_ == nullptr          ? QString()
+                                                               : whyMissing(reading, *newest_, c));
             }
         }
     }
@@ -155,10 +157,12 @@ void MeasurementTable::refill() {
     auto said = n == 0   ? tr("Measurements appear with the first capture.")
                 : n == 1 ? tr("Over 1 capture")
                          : tr("Over %1 captures").arg(n);
+    if (const auto since = statistics_.sinceText(); n > 0 && !since.isEmpty()) said += " " + since;
     if (n > 1 && newest_ && newest_->averaged > 0) said += tr(" · of averages: the spread is theirs");
     if (passedOver_) {
-        said = n == 0 ? tr("Untriggered: nothing is measured. Measurements appear with the first trigger.")
-                      : said + tr(" · the record shown now is untriggered and not counted");
+        said = n == 0  ? tr("Untriggered: nothing is measured. Measurements appear with the first trigger.")
+               : held_ ? said + tr(" · no trigger since: the last train is held on the screen")
+                       : said + tr(" · the record shown now is untriggered and not counted");
     }
     seen_->setText(said);
     reset_->setEnabled(n > 0);
@@ -185,7 +189,7 @@ QStringList MeasurementTable::asLines() const {
     for (const auto& channel : statistics_.channels()) {
         QStringList parts;
         for (const auto reading : chosen_.all()) {
-            const auto text = readingText(reading, channel.of(reading).last(), channel.unit);
+            const auto text = statisticText(reading, Statistic::Last, channel.of(reading), channel.unit);
             if (text != "–") parts << nameOf(reading).title + " " + text;
         }
         if (!parts.isEmpty()) lines << channel.letter + ":  " + parts.join(QStringLiteral("   "));

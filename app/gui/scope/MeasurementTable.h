@@ -23,8 +23,9 @@ public:
 
     /// One more capture.
     void add(const ShownPtr& shown);
-    /// What is shown now was not triggered: it is not counted, and that is said until the next capture.
-    void passOverUntriggered();
+    /// The newest record was not triggered: it is not counted, and that is said until the next capture. `held`: the
+    /// screen does not show it, but the last train.
+    void passOverUntriggered(bool held);
     void clear();
     [[nodiscard]] const CaptureStatistics& statistics() const noexcept { return statistics_; }
     /// The table as tab-separated text, for the clipboard.
@@ -48,6 +49,7 @@ private:
     CaptureStatistics statistics_;
     ShownPtr newest_;  // that was counted
     bool passedOver_ = false;
+    bool held_ = false;
     QTableWidget* table_;
     QLabel* seen_;
     QLabel* warnings_;

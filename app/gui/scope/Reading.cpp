@@ -71,6 +71,16 @@ bool isCharge(Reading reading) {
     return reading == Reading::Charge || reading == Reading::SecondCharge || reading == Reading::NetCharge;
 }
 
+bool isEdge(Reading reading) { return reading == Reading::Rise || reading == Reading::Fall; }
+
+/// Between those samples that were measured: of a noisy record they are means.
+double sampleInterval_s(const ChannelMeasurement& measured) {
+    return static_cast<double>(std::max<std::size_t>(1, measured.quality.mean)) / measured.rate_hz;
+}
+
+/// An edge needs a sample on it and one beside it either way.
+double leastEdge_s(const ChannelMeasurement& measured) { return 2 * sampleInterval_s(measured); }
+
 /// What takes the voltage and the current together.
 bool isOfLoad(Reading reading) { return reading == Reading::NetCharge || reading == Reading::Energy; }
 
@@ -172,6 +182,7 @@ std::vector<double> readingsOf(Reading reading, const ShownCapture& shown, std::
     const auto& measured = shown.measurement[channel];
     const auto& waveform = shown.waveforms[channel];
     std::vector<double> values;
+    if (isCharge(reading) && measured.unit != "A") return {};
     if (reading == Reading::Pulses) return {static_cast<double>(measured.measuredPulses)};
     if (const auto whole = ofWaveform(reading, waveform)) {
         values.push_back(*whole);
@@ -184,7 +195,26 @@ std::vector<double> readingsOf(Reading reading, const ShownCapture& shown, std::
         for (const auto& pulse : measured.pulses) values.push_back(ofPulse(reading, pulse));
     }
     std::erase_if(values, [](double v) { return std::isnan(v); });
+    if (isEdge(reading)) std::erase_if(values, [&](double v) { return v < leastEdge_s(measured); });
     return values;
+}
+
+std::optional<double> upperBound(Reading reading, const ShownCapture& shown, std::size_t channel) {
+    if (!isEdge(reading)) return std::nullopt;
+    const auto& measured = shown.measurement[channel];
+    const double least_s = leastEdge_s(measured);
+    bool any = false;
+    for (const auto& pulse : measured.pulses) {
+        const double edge_s = ofPulse(reading, pulse);
+        if (edge_s >= least_s) return std::nullopt;
+        any = any || edge_s < least_s;
+    }
+    return any ? std::optional(least_s) : std::nullopt;
+}
+
+QString upperBoundText(double bound_s) {
+    const auto exact = settingText(bound_s, "s"), rounded = quantityText(bound_s, "s", 2);
+    return QStringLiteral("≤\u202f") + (exact.size() <= rounded.size() ? exact : rounded);
 }
 
 QString readingText(Reading reading, double value, const QString& channelUnit, int digits) {
@@ -216,6 +246,12 @@ QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t chann
     if (measured.measuredPulses == 0) {
         return QObject::tr(
             "The pulses are clipped, cut off or too coarse to be measured: the oscilloscope says which.");
+    }
+    if (isEdge(reading)) {
+        return QObject::tr(
+                   "The samples are %1 apart: an edge shorter than two of them is not resolved, and the statistics do "
+                   "not count it. Choose a higher rate.")
+            .arg(quantityText(sampleInterval_s(measured), "s", 3));
     }
     if (reading == Reading::Interval) {
         return QObject::tr(

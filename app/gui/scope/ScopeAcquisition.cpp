@@ -174,7 +174,7 @@ QString ScopeAcquisition::statusText(const ShownCapture* shown, std::uint64_t sk
         return tr("%1 · %2 samples at %3")
             .arg(shown->source)
             .arg(shown->capture->samples())
-            .arg(settingText(shown->capture->rate_hz, "Hz"));
+            .arg(settingText(shown->capture->rate_hz, "S/s"));
     }
     switch (controller_.activity()) {
         case Activity::Running:

@@ -19,9 +19,8 @@ CursorValue::At valueOf(const Trace& trace, double time_s) {
     const auto sample = [&](double index) {
         return static_cast<double>((*trace.samples)[static_cast<std::size_t>(std::clamp(index, 0.0, last))]);
     };
-    const double before = std::floor(at), part = at - before;
     CursorValue::At read;
-    read.value = part == 0 ? sample(before) : sample(before) + part * (sample(before + 1) - sample(before));
+    read.value = trace.valueAt(time_s);
     if (trace.levels.size() < 2) return read;
     const auto [low, high] = std::minmax_element(trace.levels.begin(), trace.levels.end());
     const double change = sample(std::round(at) + 2) - sample(std::round(at) - 2);
@@ -107,6 +106,8 @@ double knownTime(double time_s, double rate_hz) {
     return std::round(time_s / grain) * grain;
 }
 
+QString levelText(double level, const QString& unit) { return quantityText(level, unit, 3); }
+
 QString spanText(const CursorReadout& readout, double rate_hz) {
     const double span_s = knownTime(readout.x2_s, rate_hz) - knownTime(readout.x1_s, rate_hz);
     return QObject::tr("Δ %1 · 1/Δ %2")
@@ -121,12 +122,11 @@ QString readoutText(CursorReadout r, double rate_hz) {
               << QObject::tr("t₂ %1").arg(quantityText(r.x2_s, "s"))
               << QObject::tr("Δ %1").arg(quantityText(r.dx_s(), "s"))
               << QObject::tr("1/Δ %1").arg(r.dx_s() == 0 ? "–" : quantityText(1 / std::abs(r.dx_s()), "Hz"));
-        parts << QObject::tr("there %1 and %2").arg(quantityText(r.at1, r.unit), quantityText(r.at2, r.unit));
+        parts << QObject::tr("there %1 and %2").arg(levelText(r.at1, r.unit), levelText(r.at2, r.unit));
     }
     if (std::isfinite(r.y1)) {
-        parts << QObject::tr("y₁ %1").arg(quantityText(r.y1, r.unit))
-              << QObject::tr("y₂ %1").arg(quantityText(r.y2, r.unit))
-              << QObject::tr("Δ %1").arg(quantityText(r.dy(), r.unit));
+        parts << QObject::tr("y₁ %1").arg(levelText(r.y1, r.unit)) << QObject::tr("y₂ %1").arg(levelText(r.y2, r.unit))
+              << QObject::tr("Δ %1").arg(levelText(r.dy(), r.unit));
     }
     return parts.join(QStringLiteral("   "));
 }

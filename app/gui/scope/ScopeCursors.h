@@ -15,7 +15,7 @@ namespace tacto::gui {
 /// NaN where there is no cursor or no value.
 struct CursorReadout {
     double x1_s = kNotMeasured, x2_s = kNotMeasured;
-    double at1 = kNotMeasured, at2 = kNotMeasured;  ///< the active lane's samples there
+    double at1 = kNotMeasured, at2 = kNotMeasured;  ///< the active lane there, as CursorValue has it
     double y1 = kNotMeasured, y2 = kNotMeasured;
     QString unit;  ///< of the active lane
     [[nodiscard]] double dx_s() const noexcept { return x2_s - x1_s; }
@@ -34,6 +34,8 @@ struct CursorValue {
 
 /// Times as exact as samples of `rate_hz` know them; 0: not known.
 [[nodiscard]] double knownTime(double time_s, double rate_hz);
+/// "17.5 V": a level that a cursor reads, alike in flags, on the clipboard and in a picture's caption.
+[[nodiscard]] QString levelText(double level, const QString& unit);
 /// "Δ 200.0 µs · 1/Δ 5.000 kHz".
 [[nodiscard]] QString spanText(const CursorReadout& readout, double rate_hz);
 /// "t₁ 0 s   t₂ 4.000 ms   Δ 4.000 ms   1/Δ 250.0 Hz …", for the clipboard and for those who do not see the flags.

@@ -1,7 +1,6 @@
 #include "app/gui/scope/ScopeFiles.h"
 
 #include <QClipboard>
-#include <QDateTime>
 #include <QFile>
 #include <QGuiApplication>
 #include <QMenu>
@@ -38,7 +37,7 @@ ScopeFiles::ScopeFiles(CapturePipe& pipe, ScopeModel& model, QWidget& window)
     menu_->addAction(tr("Save picture as PDF…"), this, [this] { askSave(tr("PDF document (*.pdf)"), "pdf"); });
     menu_->addAction(tr("Save visible data as CSV…"), this, [this] { askSave(tr("Capture (*.csv)"), "csv"); });
     connect(&pipe_, &CapturePipe::saved, this,
-            [this](const QString& path) { emit told(tr("Saved %1.").arg(path), {}); });
+            [this](const QString& path) { emit told(tr("Saved to %1.").arg(path), {}); });
 }
 
 void ScopeFiles::show(ScopeScreen& screen, MeasurementTable& table, std::function<ScopeCaption()> caption) {
@@ -72,26 +71,28 @@ void ScopeFiles::askSave(const QString& filter, const QString& ending) {
     question.wants = FileQuestion::Wants::NewFile;
     question.filters << filter;
     question.suffix = ending;
-    question.name = "scope-" + QDateTime::currentDateTime().toString("yyyyMMdd-HHmmss") + "." + ending;
-    askForFile(window_, question, [this, ending](const QString& path) {
-        saveAs(path.endsWith("." + ending, Qt::CaseInsensitive) ? path : path + "." + ending);
+    const auto shown = still();
+    question.name = "scope-" + shown.taken.toString("yyyyMMdd-HHmmss") + "." + ending;
+    askForFile(window_, question, [this, ending, shown](const QString& path) {
+        saveAs(path.endsWith("." + ending, Qt::CaseInsensitive) ? path : path + "." + ending, shown);
     });
 }
 
-void ScopeFiles::saveAs(const QString& path) {
+void ScopeFiles::saveAs(const QString& path, const ScopeStill& still) {
     if (path.endsWith(".csv", Qt::CaseInsensitive)) {
         emit told({}, {});
-        const double zero = model_.zero_s();
-        pipe_.save(model_.shown(), model_.viewport().left_s + zero, model_.viewport().right_s() + zero, path);
-    } else if (const auto wrong = saveScopePicture(model_, *screen_, caption_(), path)) {
+        const auto& model = *still.model;
+        pipe_.save(model.shown(), model.viewport().left_s + model.zero_s(), model.viewport().right_s() + model.zero_s(),
+                   path);
+    } else if (const auto wrong = saveScopePicture(still, path)) {
         emit told({}, *wrong);
     } else {
-        emit told(tr("Saved %1.").arg(path), {});
+        emit told(tr("Saved to %1.").arg(path), {});
     }
 }
 
 void ScopeFiles::copyPicture() {
-    QGuiApplication::clipboard()->setImage(scopePicture(model_, *screen_, caption_()));
+    QGuiApplication::clipboard()->setImage(scopePicture(still()));
     emit told(tr("The picture is on the clipboard."), {});
 }
 

@@ -31,8 +31,8 @@ public:
     [[nodiscard]] static QString captureGlobs();
     void askOpen();
     void askSavePicture();
-    /// Picture by its ending (.png, .svg, .pdf), or the visible data (.csv, in the background).
-    void saveAs(const QString& path);
+    /// Picture by its ending (.png, .svg, .pdf), or the visible data (.csv, in the background), of what is shown now.
+    void saveAs(const QString& path) { saveAs(path, still()); }
 
 signals:
     void openWanted(const QString& path);
@@ -40,7 +40,10 @@ signals:
     void told(const QString& done, const QString& problem);
 
 private:
+    /// What is shown when it is asked is saved when it is answered.
     void askSave(const QString& filter, const QString& ending);
+    void saveAs(const QString& path, const ScopeStill& still);
+    [[nodiscard]] ScopeStill still() const { return stillOf(model_, *screen_, caption_()); }
     void copyPicture();
     void copyData();
 

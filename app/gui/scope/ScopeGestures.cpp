@@ -216,7 +216,6 @@ bool ScopeGestures::keyPressed(const QKeyEvent& event) {
 }
 
 void ScopeGestures::zoomByKey(int steps, bool level) {
-    const auto& view = model_.viewport();
     if (level) {
         const auto* active = model_.lane(model_.activeLane());
         if (active != nullptr) model_.zoomLevel(steps, model_.scaleOf(*active).position, "level keys");
@@ -224,7 +223,7 @@ void ScopeGestures::zoomByKey(int steps, bool level) {
     }
     const auto& cursors = model_.cursors();
     const double anchor = cursors.timeFocused() ? (*cursors.time_s())[static_cast<std::size_t>(cursors.focused())]
-                                                : view.left_s + view.width_s() / 2;
+                                                : model_.restingTime_s();
     model_.zoomTime(steps, anchor, "time keys");
 }
 

@@ -16,6 +16,22 @@ double lengthOf(const ShownCapture& shown) { return shown.end_s() - shown.captur
 
 }  // namespace
 
+std::unique_ptr<ScopeModel> ScopeModel::still() const {
+    auto still = std::make_unique<ScopeModel>();
+    still->shown_ = shown_;
+    still->older_ = older_;
+    still->lanes_ = lanes_;
+    still->active_ = active_;
+    still->persistence_ = persistence_;
+    still->roll_ = roll_;
+    still->held_ = held_;
+    still->frame_ = frame_;
+    still->cursors_ = cursors_;
+    still->trigger_ = trigger_;
+    still->marks_ = marks_;
+    return still;
+}
+
 void ScopeModel::setHeld(bool held) {
     if (std::exchange(held_, held) != held) emit heldChanged();
 }
@@ -193,15 +209,21 @@ bool ScopeModel::undoZoom() {
     return undone;
 }
 
+double ScopeModel::restingTime_s() const {
+    const auto& view = viewport();
+    const bool triggerInView = !roll_ && view.left_s <= 0 && view.right_s() >= 0;
+    return triggerInView ? 0 : view.left_s + view.width_s() / 2;
+}
+
 void ScopeModel::setTimePerDivision(double perDivision_s) {
     if (!(perDivision_s > 0)) return;
-    auto next = viewport();
-    const double centre = viewport().left_s + viewport().width_s() / 2;
-    next.perDivision_s = perDivision_s;
-    next.left_s = roll_ && shown_ ? ScopeFrame::rollLeft(scene(), perDivision_s)
-                                  : onGrid(centre - next.width_s() / 2, perDivision_s);
+    const double base_s = std::max(perDivision_s, leastTimePerDivision_s());
+    auto next = withTimeBase(viewport(), base_s, restingTime_s());
+    if (roll_ && shown_) next.left_s = ScopeFrame::rollLeft(scene(), base_s);
     go(next, "time base");
 }
+
+double ScopeModel::leastTimePerDivision_s() const { return shown_ ? leastPerDivision(shown_->capture->rate_hz) : 0; }
 
 void ScopeModel::setTimeCentre(double centre_s) {
     if (!std::isfinite(centre_s)) return;
@@ -211,7 +233,7 @@ void ScopeModel::setTimeCentre(double centre_s) {
 }
 
 void ScopeModel::zoomTime(int steps, double anchor_s, const QString& kind) {
-    go(zoomedInTime(viewport(), steps, anchor_s), kind);
+    go(zoomedInTime(viewport(), steps, anchor_s, leastTimePerDivision_s()), kind);
 }
 
 void ScopeModel::zoomLevel(int steps, double anchorHeight, const QString& kind) {
@@ -222,7 +244,7 @@ void ScopeModel::zoomLevel(int steps, double anchorHeight, const QString& kind) 
 }
 
 void ScopeModel::zoomToBox(double from_s, double to_s, double bottom, double top) {
-    auto next = spanningTime(viewport(), from_s, to_s);
+    auto next = spanningTime(viewport(), from_s, to_s, leastTimePerDivision_s());
     for (const auto& l : lanes()) {
         if (!l.reference() && l.shown) next.lanes[l.key] = showingHeights(scaleOf(l), bottom, top);
     }

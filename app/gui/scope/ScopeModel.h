@@ -8,6 +8,7 @@
 #pragma once
 
 #include <QObject>
+#include <memory>
 
 #include "app/gui/scope/ScopeCursors.h"
 #include "app/gui/scope/ScopeFrame.h"
@@ -28,6 +29,9 @@ class ScopeModel final : public QObject {
 public:
     static constexpr int kMaxBehind = 32;
     using QObject::QObject;
+
+    /// All of it as it is now; nothing that is shown later changes that.
+    [[nodiscard]] std::unique_ptr<ScopeModel> still() const;
 
     /// The newest capture. The first one, and one with other channels, is fitted.
     void show(ShownPtr shown);
@@ -66,7 +70,11 @@ public:
     void removeReference(const QString& key);
 
     [[nodiscard]] const Viewport& viewport() const noexcept { return frame_.view(); }
+    /// What another time base leaves where it stands on the screen: the trigger; where it is not in view, the middle.
+    [[nodiscard]] double restingTime_s() const;
     void setTimePerDivision(double perDivision_s);
+    /// Below this the samples shown have no shape: a zoom and a time base end there.
+    [[nodiscard]] double leastTimePerDivision_s() const;
     void setTimeCentre(double centre_s);
     /// The pulse nearest to the trigger in the middle third, every lane as large as it can be; asked again, the whole
     /// record. Without a measured pulse always the whole.

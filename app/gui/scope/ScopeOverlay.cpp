@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/scope/ClearPlace.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -92,6 +93,9 @@ std::vector<QRectF> ScopeOverlay::flagBoxes() const {
     const auto a = area();
     const bool ordered = state.timeCursors_s[0] <= state.timeCursors_s[1];
     const double top = a.top() + QFontMetricsF(font()).height() * 1.6;  // below the trigger's mark
+    const QRectF room(a.left(), top, a.width(), a.bottom() - top);
+    auto drawn = drawnBoxes();
+    drawn.push_back(spanBox(drawn));
     for (std::size_t i = 0; i < 2; ++i) {
         const auto size = sizeOf(state.flags[i]);
         const double at = x(state.timeCursors_s[i]);
@@ -99,10 +103,30 @@ std::vector<QRectF> ScopeOverlay::flagBoxes() const {
         if (left && at - size.width() < a.left()) left = false;
         if (!left && at + size.width() > a.right()) left = true;
         const double from = std::clamp(left ? at - size.width() : at, a.left(), a.right() - size.width());
-        boxes.emplace_back(QPointF(from, top), size);
+        boxes.push_back(atClearHeight(QRectF(QPointF(from, top), size), room, drawn));
+        drawn.push_back(boxes.back());
     }
     if (boxes[0].intersects(boxes[1])) boxes[1].moveTop(boxes[0].bottom() + kFlagPadding);
     return boxes;
+}
+
+std::vector<QRectF> ScopeOverlay::drawnBoxes() const {
+    constexpr double kBeside = 3;  // pixels: a line that is touched is hidden
+    std::vector<QRectF> boxes;
+    boxes.reserve(state.drawn.size() + 1);
+    for (const auto& its : state.drawn) {
+        boxes.push_back(
+            QRectF(QPointF(x(its.from_s), y(its.high) - kBeside), QPointF(x(its.to_s), y(its.low) + kBeside)) & area());
+    }
+    return boxes;
+}
+
+QRectF ScopeOverlay::spanBox(const std::vector<QRectF>& drawn) const {
+    const auto a = area();
+    const auto within = [&](double key_s) { return std::clamp(x(key_s), a.left(), a.right()); };
+    const double middle = (within(state.timeCursors_s[0]) + within(state.timeCursors_s[1])) / 2;
+    const auto box = tagBox(QPointF(middle, std::round(a.center().y())), state.timeSpan);
+    return atClearHeight(box, a.adjusted(0, a.height() / 4, 0, -a.height() / 4), drawn);
 }
 
 GripAt ScopeOverlay::at(const QPointF& pixel) const {
@@ -237,13 +261,14 @@ void ScopeOverlay::drawTimeCursors(QCPPainter& painter) const {
     }
     const double from = std::clamp(x(std::min(state.timeCursors_s[0], state.timeCursors_s[1])), a.left(), a.right());
     const double to = std::clamp(x(std::max(state.timeCursors_s[0], state.timeCursors_s[1])), a.left(), a.right());
-    const double half = std::round(a.center().y());
+    const auto span = spanBox(drawnBoxes());
+    const double half = std::round(span.center().y());
     drawLine(painter, QLineF(from, half, to, half), c.text, Qt::SolidLine);
     for (const auto& [end, inwards] : {std::pair(from, kArrow), std::pair(to, -kArrow)}) {
         drawLine(painter, QLineF(end, half, end + inwards, half - kArrow / 2), c.text, Qt::SolidLine);
         drawLine(painter, QLineF(end, half, end + inwards, half + kArrow / 2), c.text, Qt::SolidLine);
     }
-    drawTag(painter, QPointF((from + to) / 2, half), state.timeSpan, c.text);
+    drawTag(painter, span.center(), state.timeSpan, c.text);
     const auto boxes = flagBoxes();
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         drawFlag(painter, boxes[i], state.flags[i], state.focusedCursor == static_cast<int>(i));
@@ -357,13 +382,18 @@ void ScopeOverlay::drawHover(QCPPainter& painter) const {
     drawTag(painter, QPointF((from + to) / 2, at + QFontMetricsF(font()).height()), h.text, colours().text);
 }
 
-void ScopeOverlay::drawTag(QCPPainter& painter, const QPointF& centre, const QString& text,
-                           const QColor& colour) const {
+QRectF ScopeOverlay::tagBox(const QPointF& centre, const QString& text) const {
     const QFontMetricsF metrics(font());
     const auto a = area();
     QRectF box(0, 0, metrics.horizontalAdvance(text) + 12, metrics.height() + 4);
     box.moveCenter(centre);
     box.moveLeft(std::clamp(box.left(), a.left() + 2, std::max(a.left() + 2, a.right() - box.width() - 2)));
+    return box;
+}
+
+void ScopeOverlay::drawTag(QCPPainter& painter, const QPointF& centre, const QString& text,
+                           const QColor& colour) const {
+    const auto box = tagBox(centre, text);
     auto ground = colours().base;
     ground.setAlpha(225);
     painter.setPen(QPen(colours().grid, 1));

@@ -49,7 +49,12 @@ struct OverlayState {
         double at_s = 0;
         QString word;
     };
-    /// What a cursor reads; it stands beyond what the two cursors enclose.
+    /// A stretch of a trace, from its lowest to its highest.
+    struct Drawn {
+        double from_s = 0, to_s = 0;
+        double low = 0, high = 0;
+    };
+    /// What a cursor reads; it stands beyond what the two cursors enclose, where it hides least of the traces.
     struct Flag {
         struct Row {
             QString letter;  ///< of the lane
@@ -65,6 +70,7 @@ struct OverlayState {
     std::vector<double> timeCursors_s;  ///< two or none
     std::vector<Flag> flags;            ///< of the time cursors
     QString timeSpan;                   ///< between them
+    std::vector<Drawn> drawn;           ///< of the lanes shown, with time cursors
     std::vector<double> levelCursors;   ///< two or none, heights
     std::vector<QString> levelTexts;    ///< of the level cursors: "y₁ 40.0 V"
     QString levelSpan;                  ///< between them
@@ -104,6 +110,11 @@ private:
     [[nodiscard]] Pennant lanePennant(int lane) const;
     /// In the order of the cursors; empty without them.
     [[nodiscard]] std::vector<QRectF> flagBoxes() const;
+    /// What the traces cover, in pixels.
+    [[nodiscard]] std::vector<QRectF> drawnBoxes() const;
+    /// Where the words between the time cursors stand.
+    [[nodiscard]] QRectF spanBox(const std::vector<QRectF>& drawn) const;
+    [[nodiscard]] QRectF tagBox(const QPointF& centre, const QString& text) const;
     [[nodiscard]] QSizeF sizeOf(const OverlayState::Flag& flag) const;
     [[nodiscard]] Pennant levelTag(int cursor) const;
     void drawFlag(QCPPainter& painter, const QRectF& box, const OverlayState::Flag& flag, bool focused) const;

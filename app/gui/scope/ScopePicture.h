@@ -4,11 +4,15 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QDateTime>
 #include <QImage>
+#include <QSize>
 #include <QString>
 #include <QStringList>
+#include <memory>
 #include <optional>
 
+#include "core/measure/CaptureMask.h"
 #include "core/session/SessionTypes.h"
 
 namespace tacto::gui {
@@ -18,24 +22,34 @@ class ScopeScreen;
 
 /// What stands beside the plot; empty lines are left out.
 struct ScopeCaption {
-    QString title;  ///< "Oscilloscope · simulated"
-    QString date;
+    QString title;      ///< "Oscilloscope · simulated"
+    QString date;       ///< "2026-11-26 16:59:39 UTC+01:00"
     QStringList lines;  ///< devices, scales, trigger, cursors, readings, mask
 };
 
 /// "V 20 V/div · I 20 mA/div".
 [[nodiscard]] QString laneScalesText(const ScopeModel& model);
 
-/// "V 20 V/div · I 20 mA/div · 100 µs/div · 2 MHz, 20000 samples · averaged 16": as the model has it.
+/// "V 20 V/div · I 20 mA/div · 100 µs/div · 20000 samples at 2 MS/s · averaged 16": as the model has it.
 [[nodiscard]] QString scalesText(const ScopeModel& model);
 
 /// Title, date, the devices of the bench or the file's name, scales, then `more`. `bench` may be null.
 [[nodiscard]] ScopeCaption captionOf(const ScopeModel& model, const SessionAbout* bench, const QStringList& more);
 
+/// What is on the screen at a moment: it is saved as it was then, however long a dialog asks for the file's name.
+struct ScopeStill {
+    std::shared_ptr<const ScopeModel> model;
+    std::shared_ptr<const CaptureMask> mask;
+    QString alarm;
+    QSize size;  ///< of the screen
+    ScopeCaption caption;
+    QDateTime taken;  ///< when the capture came from the bench, or this was made of a file's
+};
+[[nodiscard]] ScopeStill stillOf(const ScopeModel& model, const ScopeScreen& screen, const ScopeCaption& caption);
+
 /// By the path's ending: .png (twice the screen's resolution), .svg or .pdf, as large as the screen and its caption.
 /// Returns what went wrong, as a sentence.
-[[nodiscard]] std::optional<QString> saveScopePicture(const ScopeModel& model, const ScopeScreen& screen,
-                                                      const ScopeCaption& caption, const QString& path);
-[[nodiscard]] QImage scopePicture(const ScopeModel& model, const ScopeScreen& screen, const ScopeCaption& caption);
+[[nodiscard]] std::optional<QString> saveScopePicture(const ScopeStill& still, const QString& path);
+[[nodiscard]] QImage scopePicture(const ScopeStill& still);
 
 }  // namespace tacto::gui

@@ -274,7 +274,7 @@ void ScopeScreen::fillOverlay() {
     fillTrigger(o);
     fillCursors(o);
     if (model_.shown() && model_.shown()->capture->untriggered) o.notes << tr("not triggered");
-    if (model_.held()) o.notes << tr("the last train, held");
+    if (model_.held()) o.notes << tr("the last live train, held");
     if (model_.shown() && model_.shown()->averaged > 0) o.notes << tr("averaged %1").arg(model_.shown()->averaged);
     if (const auto mark = model_.markBeside(); !mark.isEmpty()) o.notes << mark;
     for (const auto& mark : model_.marksOnAxis()) o.moments.push_back({mark.at_s, mark.word});
@@ -299,20 +299,45 @@ void ScopeScreen::fillCursors(OverlayState& o) const {
             const auto& lane = *model_.lane(value.lane);
             for (std::size_t i = 0; i < 2; ++i) {
                 const auto& at = value.at[i];
-                auto text = quantityText(at.value, lane.unit, 3);
+                auto text = levelText(at.value, lane.unit);
                 if (at.slope != 0) text += at.slope > 0 ? QStringLiteral(" ↑") : QStringLiteral(" ↓");
                 o.flags[i].rows.push_back({lane.letter, text, laneColour(model_, lane)});
             }
         }
     }
+    if (cursors.time_s()) fillDrawn(o);
     const auto* active = model_.lane(model_.activeLane());
     if (active == nullptr || !cursors.level()) return;
     for (const double level : *cursors.level()) {
         o.levelCursors.push_back(model_.scaleOf(*active).heightOf(level));
-        o.levelTexts.push_back(
-            (o.levelTexts.empty() ? tr("y₁ %1") : tr("y₂ %1")).arg(quantityText(level, active->unit, 3)));
+        o.levelTexts.push_back((o.levelTexts.empty() ? tr("y₁ %1") : tr("y₂ %1")).arg(levelText(level, active->unit)));
     }
-    o.levelSpan = tr("Δ %1").arg(quantityText(read.dy(), active->unit, 3));
+    o.levelSpan = tr("Δ %1").arg(levelText(read.dy(), active->unit));
+}
+
+void ScopeScreen::fillDrawn(OverlayState& o) const {
+    constexpr int kColumns = 300;
+    const auto& view = model_.viewport();
+    const double column_s = view.width_s() / kColumns;
+    for (const auto& lane : model_.lanes()) {
+        if (!lane.shown || lane.reference() || lane.spans.empty()) continue;
+        const auto scale = model_.scaleOf(lane);
+        const auto& span = lane.spans.back();
+        const auto& trace = *span.trace;
+        const auto sample = [&](double time_s) {
+            return static_cast<std::size_t>(
+                std::clamp((time_s - span.key_s) * trace.rate_hz, 0.0, static_cast<double>(trace.size())));
+        };
+        for (int column = 0; column < kColumns; ++column) {
+            const double from_s = view.left_s + column * column_s, to_s = from_s + column_s;
+            if (to_s < span.key_s || from_s > span.key_s + span.length_s()) continue;
+            // One more either way: the line to it is drawn as well.
+            const auto its = trace.pyramid.over(sample(from_s), std::min(sample(to_s) + 2, trace.size()));
+            if (its.empty()) continue;
+            o.drawn.push_back({from_s, to_s, scale.heightOf(static_cast<double>(its.low)),
+                               scale.heightOf(static_cast<double>(its.high))});
+        }
+    }
 }
 
 void ScopeScreen::setMask(const std::shared_ptr<const CaptureMask>& mask) {

@@ -64,6 +64,7 @@ private:
     void fillCursors(OverlayState& overlay) const;
     void fillTrigger(OverlayState& overlay) const;
     void fillMarks(OverlayState& overlay) const;
+    void fillDrawn(OverlayState& overlay) const;
     void refreshOverlay();
 
     const ScopeModel& model_;

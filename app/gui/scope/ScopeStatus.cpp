@@ -27,9 +27,15 @@ ScopeStatus::ScopeStatus(QWidget* parent) : QWidget(parent), text_(new QLabel(th
 void ScopeStatus::tell(const QString& done, const QString& problem) {
     done_ = done;
     problem_ = problem;
+    told_.start();
 }
 
-void ScopeStatus::forget() { tell({}, {}); }
+void ScopeStatus::forget() {
+    constexpr qint64 kToBeRead_ms = 8000;
+    if (told_.isValid() && !told_.hasExpired(kToBeRead_ms)) return;
+    done_.clear();
+    problem_.clear();
+}
 
 void ScopeStatus::show(std::optional<int> percentRead, const QString& standing) {
     cancel_->setVisible(percentRead.has_value());

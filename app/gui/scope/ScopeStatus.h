@@ -4,6 +4,7 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QString>
 #include <QWidget>
 #include <optional>
@@ -18,10 +19,11 @@ class ScopeStatus final : public QWidget {
 public:
     explicit ScopeStatus(QWidget* parent = nullptr);
 
-    /// Sentences; empty for nothing. They stay until they are forgotten.
+    /// Sentences; empty for nothing. They stay until they are forgotten, and long enough to be read.
     void tell(const QString& done, const QString& problem);
     void tellProblem(const QString& problem) { tell(done_, problem); }
     void forgetProblem() { problem_.clear(); }
+    /// Does nothing in the first seconds.
     void forget();
     /// `percentRead`: of the file that is being read. `standing`: how the oscilloscope stands.
     void show(std::optional<int> percentRead, const QString& standing);
@@ -34,6 +36,7 @@ signals:
 private:
     QString problem_;
     QString done_;
+    QElapsedTimer told_;
     QLabel* text_;
     QToolButton* cancel_;
 };

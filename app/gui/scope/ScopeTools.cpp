@@ -4,6 +4,7 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QToolButton>
+#include <cmath>
 
 #include "app/gui/scope/Steps.h"
 #include "app/gui/scope/ToolRow.h"
@@ -74,8 +75,15 @@ void ScopeTools::addModes(ToolRow& row) {
     base_ = tool(tr("Time base"), tr("How much time one of the ten divisions is."), false);
     opensMenu(*base_);
     auto* steps = new QMenu(base_);
+    bases_ = new QActionGroup(base_);
+    bases_->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);  // a base may lie beyond the list
+    connect(steps, &QMenu::aboutToShow, this, &ScopeTools::markTimeBase);
     for (const double step : stepsBetween(100e-9, 1)) {
-        steps->addAction(tr("%1/div").arg(settingText(step, "s")), this, [this, step] { emit timeBaseChosen(step); });
+        auto* action = steps->addAction(tr("%1/div").arg(settingText(step, "s")), this,
+                                        [this, step] { emit timeBaseChosen(step); });
+        action->setCheckable(true);
+        action->setData(step);
+        bases_->addAction(action);
     }
     base_->setMenu(steps);
     row.addWidget(base_);
@@ -156,11 +164,23 @@ void ScopeTools::showRunning(bool running, bool possible) {
     run_->setEnabled(possible);
 }
 
-void ScopeTools::showTimeBase(double perDivision_s) {
+void ScopeTools::showTimeBase(double perDivision_s, double least_s) {
+    base_s_ = stepNotBelow(perDivision_s);
+    leastBase_s_ = least_s;
+    markTimeBase();
     // What lies between two lines of the grid, which stand at round numbers.
-    base_->setText(tr("%1/div").arg(settingText(stepNotBelow(perDivision_s), "s")));
+    base_->setText(tr("%1/div").arg(settingText(base_s_, "s")));
     base_->setAccessibleName(tr("Time base tool"));
     base_->setMinimumWidth(base_->fontMetrics().horizontalAdvance("00.00 µs/div") + scaledPx(24));
+}
+
+void ScopeTools::markTimeBase() {
+    constexpr double kSameBase = 1e-6;  // relative
+    for (auto* action : bases_->actions()) {
+        const double step_s = action->data().toDouble();
+        action->setChecked(std::abs(step_s - base_s_) < kSameBase * base_s_);
+        action->setEnabled(step_s > leastBase_s_ * (1 - kSameBase));
+    }
 }
 
 void ScopeTools::showControls(bool on) { controls_->setChecked(on); }

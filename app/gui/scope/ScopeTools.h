@@ -23,7 +23,8 @@ public:
     ScopeTools(QMenu* files, QWidget* parent);
     void showMode(ScopeMode mode);
     void showRunning(bool running, bool possible);
-    void showTimeBase(double perDivision_s);
+    /// Those below `least_s` cannot be chosen.
+    void showTimeBase(double perDivision_s, double least_s);
     void showControls(bool on);
     void showTable(bool on);
     void showSpectrum(bool on);
@@ -58,12 +59,15 @@ private:
     void addModes(ToolRow& row);
     void addViews(ToolRow& row);
     void addPanels(ToolRow& row);
+    void markTimeBase();
 
     QPushButton* run_;
     QToolButton* single_ = nullptr;
     QToolButton* mode_ = nullptr;
     QActionGroup* modes_;
     QToolButton* base_ = nullptr;
+    QActionGroup* bases_ = nullptr;
+    double base_s_ = 0, leastBase_s_ = 0;
     QToolButton* undo_ = nullptr;
     QToolButton* box_ = nullptr;
     QToolButton* time_ = nullptr;

@@ -30,6 +30,11 @@ namespace {
 constexpr Word<ScopeMode> kModes[] = {
     {"auto", ScopeMode::Auto}, {"normal", ScopeMode::Normal}, {"single", ScopeMode::Single}, {"roll", ScopeMode::Roll}};
 
+std::optional<AskedDrive> askedOf(const Telemetry& telemetry) {
+    if (telemetry.driving == DriveSource::Off || !std::isfinite(telemetry.amplitude_v)) return std::nullopt;
+    return AskedDrive{telemetry.driving == DriveSource::Manual, telemetry.amplitude_v, telemetry.interval_s};
+}
+
 }  // namespace
 
 ScopeWorkspace::ScopeWorkspace(BenchController& controller, QWidget* parent)
@@ -107,7 +112,7 @@ void ScopeWorkspace::connectModel() {
     connect(&model_, &ScopeModel::cursorsChanged, this, &ScopeWorkspace::sayCursors);
     connect(&model_, &ScopeModel::viewChanged, this, [this] {
         tools_->setCanUndo(model_.canUndo());
-        tools_->showTimeBase(model_.viewport().perDivision_s);
+        tools_->showTimeBase(model_.viewport().perDivision_s, model_.leastTimePerDivision_s());
         sayCursors();
     });
     connect(&model_, &ScopeModel::triggerLevelChosen, this, [this](double level) {
@@ -165,7 +170,10 @@ void ScopeWorkspace::connectBench() {
         pipe_.beginAnew();
         table_->clear();
     });
-    connect(acquisition_.get(), &ScopeAcquisition::requested, this, [this] { pipe_.breakOff(); });
+    connect(acquisition_.get(), &ScopeAcquisition::requested, this, [this] {
+        pipe_.breakOff();
+        pipe_.setTrigger(acquisition_->requestedSettings());
+    });
     connect(acquisition_.get(), &ScopeAcquisition::stopped, this, [this](const QString& why) { tell({}, why); });
     connect(&pipe_, &CapturePipe::prepared, this, &ScopeWorkspace::take);
     connect(&pipe_, &CapturePipe::recalculated, this, [this](const ShownPtr& shown) {
@@ -285,6 +293,7 @@ void ScopeWorkspace::hold() {
 
 void ScopeWorkspace::refresh(const Telemetry& telemetry) {
     acquisition_->refresh(telemetry);
+    pipe_.setAsked(askedOf(telemetry));
     if (isVisible()) say();
 }
 
@@ -292,7 +301,7 @@ void ScopeWorkspace::take(const ShownPtr& shown) {
     const bool ours = shown->source.isEmpty();
     if (ours && !acquisition_->take(*shown)) return;
     if (ours && outlives(*shown)) {
-        table_->passOverUntriggered();
+        table_->passOverUntriggered(true);
         model_.setHeld(true);
         emit captureShown(shown);
         return say();
@@ -304,7 +313,7 @@ void ScopeWorkspace::take(const ShownPtr& shown) {
     if (ours && !shown->capture->untriggered && !std::exchange(framed_, true)) model_.frameFirstPulse();
     if (ours) controls_->mask().take(shown);
     if (shown->capture->untriggered)
-        table_->passOverUntriggered();
+        table_->passOverUntriggered(false);
     else
         table_->add(shown);
     emit captureShown(shown);

@@ -57,9 +57,13 @@ TracePtr channelTrace(const std::shared_ptr<const Capture>& capture, std::size_t
 }  // namespace
 
 double Trace::valueAt(double t_s) const noexcept {
-    const double at = std::round((t_s - start_s) * rate_hz);
-    if (!(at >= 0) || !(at < static_cast<double>(size()))) return kNotMeasured;
-    return static_cast<double>((*samples)[static_cast<std::size_t>(at)]);
+    constexpr double kOnTheGrid = 1e-6;  // of a sample: nearer than a time on a long session's base is known
+    double at = (t_s - start_s) * rate_hz;
+    if (const double nearest = std::round(at); std::abs(at - nearest) < kOnTheGrid) at = nearest;
+    if (!(at >= 0) || !(at <= static_cast<double>(size()) - 1)) return kNotMeasured;
+    const auto before = static_cast<std::size_t>(at);
+    const double part = at - static_cast<double>(before), value = static_cast<double>((*samples)[before]);
+    return part == 0 ? value : value + part * (static_cast<double>((*samples)[before + 1]) - value);
 }
 
 TracePtr ShownCapture::trace(const QString& key) const {

@@ -7,6 +7,7 @@
 // Thread-safety: pure functions; shared objects are const.
 #pragma once
 
+#include <QDateTime>
 #include <QString>
 #include <memory>
 #include <optional>
@@ -51,7 +52,8 @@ struct Trace {
 
     [[nodiscard]] std::size_t size() const noexcept { return samples ? samples->size() : 0; }
     [[nodiscard]] double end_s() const noexcept { return start_s + static_cast<double>(size()) / rate_hz; }
-    /// Sample nearest to a time on the session's time base; NaN outside.
+    /// At a time on the session's time base, between samples by straight line as it is drawn; NaN outside the record
+    /// and beside a missing sample. Whatever reads a level at a time reads it here.
     [[nodiscard]] double valueAt(double t_s) const noexcept;
 };
 using TracePtr = std::shared_ptr<const Trace>;
@@ -72,10 +74,19 @@ struct MathOptions {
     TracePtr reference;
 };
 
+/// What was asked of the output when a capture came.
+struct AskedDrive {
+    bool byHand = true;  ///< else the fingertip drives, and amplitude and interval follow the touch
+    double amplitude_v = 0;
+    double interval_s = 0;
+};
+
 struct ShownCapture {
     std::shared_ptr<const Capture> capture;
     std::size_t averaged = 0;                     ///< captures that it is the mean of; 0: as it was taken
     QString source;                               ///< "" for the bench's own, else the file's name
+    QDateTime taken;                              ///< when it came from the bench; else not valid
+    std::optional<AskedDrive> asked;              ///< of a bench that delivers
     double zero_s = 0;                            ///< trigger, or the record's begin where there was none
     std::vector<TracePtr> traces;                 ///< channels in the capture's order, then what was calculated
     std::vector<ChannelMeasurement> measurement;  ///< of the channels

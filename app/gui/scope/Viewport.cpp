@@ -27,15 +27,25 @@ double onGrid(double value, double perDivision) {
     return std::round(value / grain) * grain;
 }
 
-Viewport zoomedInTime(Viewport view, int steps, double anchor_s) {
-    const double before = view.perDivision_s;
-    view.perDivision_s = stepWithin(stepAlong(before, steps), kShortest_s, kLongest_s);
-    view.left_s = onGrid(anchor_s - (anchor_s - view.left_s) * view.perDivision_s / before, view.perDivision_s);
+double leastPerDivision(double rate_hz) {
+    constexpr double kSamplesAcross = 4;
+    return stepNotBelow(std::max(kShortest_s, kSamplesAcross / rate_hz / kDivisionsAcross));
+}
+
+Viewport withTimeBase(Viewport view, double perDivision_s, double anchor_s) {
+    view.left_s = onGrid(anchor_s - (anchor_s - view.left_s) * perDivision_s / view.perDivision_s, perDivision_s);
+    view.perDivision_s = perDivision_s;
     return view;
 }
 
-Viewport spanningTime(Viewport view, double from_s, double to_s) {
-    view.perDivision_s = stepWithin((to_s - from_s) / kDivisionsAcross, kShortest_s, kLongest_s);
+Viewport zoomedInTime(Viewport view, int steps, double anchor_s, double least_s) {
+    // What is narrower already, because the record before had more samples, is not made wider by a zoom into it.
+    const double shortest_s = std::max(kShortest_s, std::min(least_s, view.perDivision_s));
+    return withTimeBase(view, stepWithin(stepAlong(view.perDivision_s, steps), shortest_s, kLongest_s), anchor_s);
+}
+
+Viewport spanningTime(Viewport view, double from_s, double to_s, double least_s) {
+    view.perDivision_s = stepWithin((to_s - from_s) / kDivisionsAcross, std::max(kShortest_s, least_s), kLongest_s);
     view.left_s = (from_s + to_s) / 2 - view.width_s() / 2;
     return view;
 }

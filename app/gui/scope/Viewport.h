@@ -43,10 +43,15 @@ struct Viewport {
 /// Rounded to a fiftieth of a division: no eye sees it, and axis labels stay short.
 [[nodiscard]] double onGrid(double value, double perDivision);
 
-/// `steps` along the ladder, what stands at `anchor_s` stays there. Steps above 0 show more time.
-[[nodiscard]] Viewport zoomedInTime(Viewport view, int steps, double anchor_s);
-/// from..to and nothing else, from edge to edge.
-[[nodiscard]] Viewport spanningTime(Viewport view, double from_s, double to_s);
+/// The smallest time base of the ladder on which samples of `rate_hz` still show a shape: four of them across.
+[[nodiscard]] double leastPerDivision(double rate_hz);
+/// `steps` along the ladder, not below `least_s` a division; what stands at `anchor_s` stays there. Steps above 0 show
+/// more time.
+[[nodiscard]] Viewport zoomedInTime(Viewport view, int steps, double anchor_s, double least_s = 0);
+/// Another time base; what stands at `anchor_s` stays there.
+[[nodiscard]] Viewport withTimeBase(Viewport view, double perDivision_s, double anchor_s);
+/// from..to and nothing else, from edge to edge; more around its middle where that is below `least_s` a division.
+[[nodiscard]] Viewport spanningTime(Viewport view, double from_s, double to_s, double least_s = 0);
 /// A pulse in the middle third, the time base in two digits.
 [[nodiscard]] Viewport framingPulse(Viewport view, double from_s, double to_s);
 /// The smallest time base of the ladder that shows from..to, in the middle.

@@ -1,4 +1,5 @@
 // What the oscilloscope reads of its captures: the readings chosen, their statistics, and the table of them.
+#include <QMenu>
 #include <QSettings>
 #include <QTableWidget>
 #include <gmock/gmock.h>
@@ -41,7 +42,8 @@ TEST(MeasurementTable, ShowsWhatCoreMeasures) {
     same(gui::Reading::Fall, truth.fall_s);
     same(gui::Reading::Overshoot, truth.overshoot);
     same(gui::Reading::Droop, truth.droop);
-    same(gui::Reading::Charge, truth.charge);
+    EXPECT_EQ(volts.of(gui::Reading::Charge).n(), 0U) << "a voltage has no charge";
+    EXPECT_EQ(table.statistics().channels()[1].of(gui::Reading::Charge).n(), shown->measurement[1].charge.n);
     same(gui::Reading::Gap, truth.gap_s);
     same(gui::Reading::Imbalance, truth.imbalance);
     EXPECT_EQ(volts.of(gui::Reading::Pulses).last(), 2);
@@ -86,6 +88,78 @@ TEST(MeasurementTable, ShowsWhatCoreMeasures) {
     EXPECT_NE(find<QLabel>(table, "Channel 'voltage' is tired."), nullptr);
     click(*find<QPushButton>(table, "Reset statistics"));
     EXPECT_EQ(table.statistics().captures(), 0U);
+}
+
+/// A voltage alone, with edges of 200 ns on samples 500 ns apart.
+Capture steepVoltage(double start_s = 99.999, double edge_s = 200e-9) {
+    std::vector<SyntheticPhase> phases;
+    append(phases, biphasic(start_s + 1e-3, 40, 200e-6, 100e-6, edge_s));
+    SyntheticRecord record;
+    record.start_s = start_s;
+    auto capture = recordOf(phases, record);
+    capture.trigger_s = start_s + 1e-3;
+    return capture;
+}
+
+TEST(MeasurementTable, AnEdgeThatTheSamplesDoNotResolveIsAnUpperBoundAndNotCounted) {
+    gui::ChosenReadings chosen;
+    gui::MeasurementTable table(chosen);
+    table.resize(1000, 420);
+    table.show();
+    table.add(prepared(steepVoltage()));
+    const auto& rise = table.statistics().channels()[0].of(gui::Reading::Rise);
+    EXPECT_EQ(rise.n(), 0U);
+    const auto* cells = table.findChild<QTableWidget*>("measurements");
+    int row = 0;
+    while (cells->item(row, 0)->text() != "Rise") ++row;
+    EXPECT_EQ(cells->item(row, 1)->text(), "≤\u202f1\u202fµs");
+    EXPECT_THAT(cells->item(row, 1)->toolTip().toStdString(), HasSubstr("samples are 500\u202fns apart"));
+    EXPECT_EQ(cells->item(row, 2)->text(), "–") << "no mean of it";
+    EXPECT_EQ(cells->item(row, 6)->text(), "0");
+    EXPECT_THAT(table.asLines().first().toStdString(), HasSubstr("Rise ≤\u202f1\u202fµs"));
+    table.add(prepared(steepVoltage(100.2, 2e-6)));
+    EXPECT_EQ(rise.n(), 1U) << "this one is resolved";
+    EXPECT_TRUE(cells->item(row, 1)->text().startsWith("1.59") || cells->item(row, 1)->text().startsWith("1.60"))
+        << qPrintable(cells->item(row, 1)->text());
+    EXPECT_TRUE(cells->item(row, 1)->toolTip().isEmpty());
+}
+
+TEST(MeasurementTable, SaysWhatTheScreenHoldsWhenNoTriggerComes) {
+    gui::ChosenReadings chosen;
+    gui::MeasurementTable table(chosen);
+    table.resize(1000, 420);
+    table.show();
+    table.add(prepared(twoPulses()));
+    table.passOverUntriggered(true);
+    EXPECT_NE(find<QLabel>(table, "Over 1 capture · no trigger since: the last train is held on the screen"), nullptr);
+    table.passOverUntriggered(false);
+    EXPECT_NE(find<QLabel>(table, "Over 1 capture · the record shown now is untriggered and not counted"), nullptr);
+}
+
+TEST(CaptureStatistics, BeginAnewWithAnotherDriveAndSaySinceWhen) {
+    gui::CaptureStatistics statistics;
+    const auto add = [&](std::optional<gui::AskedDrive> asked, double programmed, int minute) {
+        auto capture = twoPulses();
+        capture.programmed = programmed;
+        auto shown = std::make_shared<gui::ShownCapture>(*prepared(std::move(capture)));
+        shown->asked = asked;
+        shown->taken = QDateTime(QDate(2026, 11, 26), QTime(16, minute));
+        statistics.add(*shown);
+        return statistics.captures();
+    };
+    const gui::AskedDrive loud{true, 40, 1.25}, soft{true, 25, 1.25}, slow{true, 25, 2.5}, touch{false, 25, 2.5};
+    EXPECT_EQ(add(std::nullopt, kNaN, 1), 1U) << "a check pulse, perhaps";
+    EXPECT_EQ(add(loud, 40, 2), 1U);
+    EXPECT_EQ(add(loud, 40.1, 3), 2U) << "a current follows the impedance a little";
+    EXPECT_EQ(add(std::nullopt, 40, 4), 3U) << "the last train of a drive that is off";
+    EXPECT_EQ(statistics.sinceText(), "since 16:02:00");
+    EXPECT_EQ(add(soft, 40, 5), 1U) << "another amplitude";
+    EXPECT_EQ(add(soft, 25, 6), 1U) << "the train before was programmed for the old one";
+    EXPECT_EQ(add(slow, 25, 7), 1U) << "another interval";
+    EXPECT_EQ(add(slow, 25, 8), 2U);
+    EXPECT_EQ(add(touch, 25, 9), 1U) << "the fingertip took over";
+    EXPECT_EQ(statistics.sinceText(), "since 16:09:00");
+    EXPECT_EQ(add({{false, 33, 1}}, 33, 10), 2U) << "what follows the touch is one drive";
 }
 
 TEST(Reading, NetChargeAndEnergyAreTheCurrentsWhereOneVoltageGoesWithIt) {
@@ -170,6 +244,27 @@ TEST(ChosenReadings, AreAddedRemovedAndRemembered) {
         EXPECT_EQ(gui::readingOfKey(gui::nameOf(reading).key), reading);
     }
     EXPECT_EQ(keys.size(), gui::kReadings);
+}
+
+TEST(ChosenReadings, TheListStaysOpenUntilItsLastRowClosesIt) {
+    RecordProperty("hazard", "H2");  // else Esc is the natural way out, and Esc stops the output
+    gui::ChosenReadings chosen;
+    QWidget window;
+    window.show();
+    auto* menu = makeReadingsMenu(chosen, &window);
+    menu->popup(window.mapToGlobal(QPoint(0, 0)));
+    const auto place = [&](QAction* action) { return menu->actionGeometry(action).center(); };
+    QTest::mouseClick(menu, Qt::LeftButton, {}, place(menu->actions().first()));
+    EXPECT_TRUE(menu->isVisible());
+    EXPECT_FALSE(chosen.has(gui::Reading::Amplitude));
+    auto* close = menu->actions().last();
+    EXPECT_EQ(close->text(), "Close");
+    QTest::mouseClick(menu, Qt::LeftButton, {}, place(close));
+    EXPECT_FALSE(menu->isVisible());
+    menu->popup(window.mapToGlobal(QPoint(0, 0)));
+    menu->setActiveAction(close);
+    QTest::keyClick(menu, Qt::Key_Return);
+    EXPECT_FALSE(menu->isVisible());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <QLabel>
 #include <QSettings>
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "app/gui/scope/MeasurementTable.h"
@@ -57,6 +58,12 @@ protected:
         return shown && !shown->capture->untriggered;
     }
     std::string status() { return scope.findChild<QLabel*>("scopeStatus")->text().toStdString(); }
+    /// Some label says so.
+    bool says(const QString& words) {
+        const auto labels = scope.findChildren<QLabel*>();
+        return std::any_of(labels.begin(), labels.end(),
+                           [&](const QLabel* label) { return label->isVisible() && label->text().contains(words); });
+    }
     void draw() { scope.screen().replot(QCustomPlot::rpImmediateRefresh); }
 
     /// At a first start the screen has the room: here everything else is switched on, too.

@@ -20,6 +20,24 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
+TEST_F(Scope, ATrainCrossesTheTriggersLevelAtTime0AndTheTableSaysSinceWhen) {
+    openBench();
+    deliver();
+    ASSERT_IN_TIME(comes([&] { return triggered() && scope.table().statistics().captures() >= 3; }));  // level found
+    gui::ShownPtr last = scope.model().shown();
+    for (int captures = 0; captures < 5; ++captures) {
+        ASSERT_IN_TIME(comes([&] { return triggered() && scope.model().shown() != last; }));
+        last = scope.model().shown();
+        const auto* volts = scope.model().lane(scope.model().channelIn("V"));
+        ASSERT_NE(volts, nullptr);
+        const auto& span = volts->spans.front();
+        EXPECT_NEAR(std::abs(span.trace->valueAt(last->zero_s)), scope.settings().triggerLevel, 1e-3);
+    }
+    EXPECT_TRUE(says("since " + scope.model().shown()->taken.toString("HH:")));
+    controller.drive(DriveSource::Manual, 0.9, 0.3);
+    ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() == 1; })) << "another drive begins anew";
+}
+
 TEST_F(Scope, AutoShowsTheSignalUntriggeredAndSaysSo) {
     openBench();
     ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
@@ -43,7 +61,8 @@ TEST_F(Scope, AutoShowsTheSignalUntriggeredAndSaysSo) {
     controller.stop("test");
     ASSERT_IN_TIME(comes([&] { return scope.model().held(); }));
     EXPECT_TRUE(triggered()) << "a stop keeps the last train on the screen";
-    EXPECT_THAT(scope.screen().overlay().notes, testing::ElementsAre("the last train, held"));
+    EXPECT_THAT(scope.screen().overlay().notes, testing::ElementsAre("the last live train, held"));
+    EXPECT_TRUE(says("no trigger since: the last train is held on the screen"));
     const auto counted = scope.table().statistics().captures();
     const auto last = scope.model().shown();
     const auto at = controller.telemetry().at;

@@ -2,11 +2,14 @@
 #include <QFile>
 #include <QImage>
 #include <QTemporaryDir>
+#include <QTimeZone>
 #include <gmock/gmock.h>
 
+#include "app/gui/scope/Reading.h"
 #include "app/gui/scope/ScopeExport.h"
 #include "app/gui/scope/ScopePicture.h"
 #include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Theme.h"
 #include "core/formats/csv/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "tests/gui/scope/Captures.h"
@@ -58,18 +61,51 @@ TEST_F(Exports, APictureSaysWhatItShows) {
     gui::ScopeCaption caption{"Oscilloscope · simulated", "2026-11-23 19:00:00", {}};
     caption.lines << "simulated oscilloscope SIM-1" << gui::scalesText(model) << QString() << "V:  Amplitude 40.0 V";
     const auto path = folder.filePath("said.svg");
-    ASSERT_EQ(gui::saveScopePicture(model, screen, caption, path), std::nullopt);
+    const auto still = stillOf(model, screen, caption);
+    ASSERT_EQ(gui::saveScopePicture(still, path), std::nullopt);
     const auto drawing = QString::fromUtf8(bytes(path));
     for (const auto* text :
          {"Oscilloscope · simulated", "2026-11-23 19:00:00", "simulated oscilloscope SIM-1", "V/div", "1\u202fms/div",
-          "20000 samples at 2\u202fMHz", "averaged 16", "Amplitude 40.0 V", "SIMULATED", "Voltage (V)"}) {
+          "20000 samples at 2\u202fMS/s", "averaged 16", "Amplitude 40.0 V", "SIMULATED", "Voltage (V)"}) {
         EXPECT_TRUE(drawing.contains(text)) << text;
     }
-    const auto picture = gui::scopePicture(model, screen, caption);
+    const auto picture = gui::scopePicture(still);
     EXPECT_EQ(picture.width(), 2 * screen.width());
     EXPECT_GT(picture.height(), 2 * screen.height() + 100) << "the caption takes nothing from the plot";
     if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
         picture.save(shots + "/captioned.png");
+}
+
+TEST_F(Exports, APictureIsOfTheMomentThatItWasAskedForAndSaysWhenWithItsZone) {
+    auto first = std::make_shared<gui::ShownCapture>(*prepared(twoPulses(100.2)));
+    first->taken = QDateTime(QDate(2026, 11, 26), QTime(16, 59, 12), QTimeZone(3600));
+    model.show(first);
+    const auto still = stillOf(model, screen, captionOf(model, nullptr, {}));
+    EXPECT_EQ(still.caption.date, "2026-11-26 16:59:12 UTC+01:00");
+    EXPECT_EQ(still.taken, first->taken);
+    const auto before = gui::scopePicture(still);
+    model.show(prepared(twoPulses(100.4, 10)));
+    model.setTimePerDivision(20e-6);
+    EXPECT_EQ(gui::scopePicture(still), before) << "the screen ran on";
+    EXPECT_NE(gui::scopePicture(stillOf(model, screen, still.caption)), before);
+}
+
+TEST_F(Exports, NoReadingIsCutFromAPicture) {
+    QStringList readings{"I:"};
+    for (const auto reading : gui::allReadings()) readings << nameOf(reading).title + " 12.34\u202fmA";
+    gui::ScopeCaption caption{"Oscilloscope", "2026-11-23 19:00:00 UTC", {readings.join("   ")}};
+    const auto path = folder.filePath("all.svg");
+    ASSERT_EQ(gui::saveScopePicture(stillOf(model, screen, caption), path), std::nullopt);
+    const auto drawing = QString::fromUtf8(bytes(path));
+    for (const auto& reading : readings) EXPECT_TRUE(drawing.contains(reading)) << qPrintable(reading);
+    EXPECT_FALSE(drawing.contains("…"));
+    const int line = QFontMetrics(gui::textFont(gui::TextSize::Small)).lineSpacing();
+    caption.lines = {"one"};
+    const auto least = gui::scopePicture(stillOf(model, screen, caption)).height();
+    caption.lines = {readings.join("   ")};
+    const auto picture = gui::scopePicture(stillOf(model, screen, caption));
+    EXPECT_GE(picture.height(), least + 2 * 2 * line) << "on further lines";
+    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty()) picture.save(shots + "/wrapped.png");
 }
 
 TEST_F(Exports, AFileThatCannotBeWrittenIsToldAndAnOldOneStays) {

@@ -57,6 +57,66 @@ TEST_F(Model, EveryZoomCanBeUndone) {
     EXPECT_FALSE(model.undoZoom());
 }
 
+TEST_F(Model, ATimeBaseKeepsTheTriggerWhereItStandsOnTheScreen) {
+    const auto share = [&] { return -model.viewport().left_s / model.viewport().width_s(); };
+    const double before = share();
+    ASSERT_NEAR(before, 0.1, 0.01);
+    for (const double base_s : {1e-6, 200e-6, 5e-3}) {
+        model.setTimePerDivision(base_s);
+        EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, base_s);
+        EXPECT_NEAR(share(), before, 0.01) << base_s;
+    }
+    EXPECT_EQ(model.restingTime_s(), 0) << "so do + and -";
+    // Where it is not in view, the middle stays.
+    model.setTimePerDivision(100e-6);
+    model.setTimeCentre(4.2e-3);
+    model.setTimePerDivision(10e-6);
+    EXPECT_NEAR(model.viewport().left_s + model.viewport().width_s() / 2, 4.2e-3, 1e-6);
+}
+
+TEST_F(Model, NoZoomGoesBelowFourSampleIntervals) {
+    const double least_s = 4 / model.shown()->capture->rate_hz;
+    for (int turns = 0; turns < 40; ++turns) model.zoomTime(-1, 0, "wheel");
+    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 200e-9);
+    EXPECT_GE(model.viewport().width_s(), least_s * (1 - 1e-9));
+    model.setTimePerDivision(1e-9);
+    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 200e-9);
+    model.zoomToBox(0, 1e-9, -1, 1);
+    EXPECT_GE(model.viewport().width_s(), least_s * (1 - 1e-9));
+    model.zoomTime(1, 0, "wheel");
+    EXPECT_GT(model.viewport().perDivision_s, 200e-9) << "out of it it goes on";
+}
+
+TEST_F(Model, ALevelAtATimeIsTheSameForFlagsAndWords) {
+    model.setTimeCursors(true);
+    const double onEdge_s = model.trace(volts)->edges.front().onset_s - model.zero_s() - 0.13e-6;
+    model.dragTimeCursor(0, onEdge_s, 0);
+    model.dragTimeCursor(1, 0.1e-3, 0);
+    const auto read = model.readout();
+    const auto values = model.cursorValues();
+    ASSERT_EQ(values.front().lane, volts);
+    EXPECT_EQ(read.at1, values.front().at[0].value);
+    EXPECT_EQ(read.at2, values.front().at[1].value);
+    EXPECT_LT(std::abs(read.at1), 20) << "between two samples, on the line between them";
+    EXPECT_GT(std::abs(read.at1), 10);
+    const auto words = readoutText(read, model.shown()->capture->rate_hz);
+    EXPECT_TRUE(words.contains("there " + gui::levelText(values.front().at[0].value, "V") + " and "))
+        << qPrintable(words);
+}
+
+TEST_F(Model, AStillShowsWhatWasShownThen) {
+    model.setTimeCursors(true);
+    const auto still = model.still();
+    const auto shown = model.shown();
+    const auto view = model.viewport();
+    model.show(prepared(twoPulses(100.099, 20)));
+    model.setTimePerDivision(10e-6);
+    EXPECT_EQ(still->shown(), shown);
+    EXPECT_EQ(still->viewport(), view);
+    EXPECT_TRUE(still->cursors().time_s());
+    EXPECT_EQ(still->lanes().front().spans.front().trace, shown->traces.front());
+}
+
 TEST_F(Model, RefusesScalesThatAreNone) {
     const auto before = model.viewport();
     for (const double wrong : {0.0, -1.0, double(NAN)}) {

@@ -163,6 +163,27 @@ TEST_F(Screen, CursorsReadEveryLaneInFlagsBeyondThePulse) {
     shot(screen, "flags-edge");
 }
 
+TEST_F(Screen, FlagsLeaveTheTracesInSightWhereThereIsRoom) {
+    model.setTimePerDivision(200e-6);
+    model.setTimeCursors(true);
+    model.dragTimeCursor(0, -130e-9, 0);
+    model.dragTimeCursor(1, 380e-9, 0);
+    draw();
+    shot(screen, "flags-on-one-edge");
+    // The right one stood over the top of the positive phase.
+    const auto grip = [&](const QString& lane, double time_s, double level) {
+        return screen.gripAt(atTime(screen, time_s, scaleOf(lane).heightOf(level))).grip;
+    };
+    for (const double time_s : {50e-6, 100e-6, 150e-6}) {
+        EXPECT_EQ(grip(volts, time_s, 40), Grip::None) << time_s;
+        EXPECT_EQ(grip(amps, time_s, 40e-3), Grip::None) << time_s;
+    }
+    for (const double time_s : {350e-6, 450e-6}) EXPECT_EQ(grip(volts, time_s, -40), Grip::None) << time_s;
+    EXPECT_EQ(grip(volts, 250e-6, 0), Grip::None);
+    const auto flag = screen.gripAt(atTime(screen, 20e-6, scaleOf(volts).heightOf(20)));
+    EXPECT_EQ(flag.grip, Grip::TimeCursor) << "but stays beside its cursor";
+}
+
 TEST_F(Screen, TicksAreRoundWhateverABoxMakesOfThem) {
     const auto roundOn = [&](const QCPAxis& axis) {
         const auto labels = axis.tickVectorLabels();

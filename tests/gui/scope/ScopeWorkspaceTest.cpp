@@ -1,7 +1,9 @@
 // The oscilloscope as a person uses it: with the simulated bench, with files, by keys and mouse.
 #include <QClipboard>
 #include <QComboBox>
+#include <QFileDialog>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
 #include <QSplitter>
@@ -197,6 +199,45 @@ TEST_F(Scope, SavesAndCopies) {
         if (action->text() == "Copy picture") action->trigger();
     }
     EXPECT_FALSE(QGuiApplication::clipboard()->image().isNull());
+}
+
+TEST_F(Scope, WhatIsSavedIsWhatWasShownWhenSaveWasChosenAndThatIsSaid) {
+    openBench();
+    deliver();
+    ASSERT_IN_TIME(comes([&] { return triggered() && scope.table().statistics().captures() >= 2; }));
+    const auto asked = scope.model().shown();
+    for (auto* action : scope.findChild<QMenu*>()->actions()) {
+        if (action->text() == "Save visible data as CSV…") action->trigger();
+    }
+    auto* dialog = scope.findChild<QFileDialog*>("fileChooser");
+    ASSERT_NE(dialog, nullptr);
+    auto* line = dialog->findChild<QLineEdit*>("fileNameEdit");
+    EXPECT_TRUE(line->text().contains(asked->taken.toString("yyyyMMdd-HHmmss"))) << qPrintable(line->text());
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != asked && triggered(); })) << "the screen runs on";
+    const QTemporaryDir folder;
+    const auto path = folder.filePath("then.csv");
+    line->setText(path);
+    static_cast<QDialog*>(dialog)->accept();
+    ASSERT_IN_TIME(comes([&] { return QString::fromStdString(status()).startsWith("Saved to " + path); }));
+    const auto read = readCapture(path.toStdString());
+    ASSERT_TRUE(read);
+    EXPECT_NEAR(read->capture.start_s, asked->capture->start_s, 1e-3);
+    const auto next = scope.model().shown();
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != next; }));
+    EXPECT_THAT(status(), HasSubstr("Saved to")) << "long enough to be read";
+}
+
+TEST_F(Scope, TheListOfTimeBasesMarksThePresentOneAndEndsWhereSamplesHaveNoShape) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    scope.model().setTimePerDivision(500e-6);
+    QStringList marked, refused;
+    for (const auto* action : find<QToolButton>(scope, "Time base tool")->menu()->actions()) {
+        if (action->isChecked()) marked << action->text();
+        if (!action->isEnabled()) refused << action->text();
+    }
+    EXPECT_EQ(marked, QStringList("500\u202fµs/div"));
+    EXPECT_EQ(refused, QStringList("100\u202fns/div")) << "samples 500 ns apart";
 }
 
 TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {

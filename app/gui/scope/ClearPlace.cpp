@@ -1,0 +1,47 @@
+#include "app/gui/scope/ClearPlace.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kBesideTheBox = 4;  // pixels: what runs along its side is not hidden by it
+
+double hidden(const QRectF& whole, const std::vector<QRectF>& drawn) {
+    const auto box = whole.adjusted(kBesideTheBox, 0, -kBesideTheBox, 0);
+    double area = 0;
+    for (const auto& its : drawn) {
+        const auto shared = its.intersected(box);
+        if (!shared.isEmpty()) area += shared.width() * shared.height();
+    }
+    return area;
+}
+
+}  // namespace
+
+QRectF atClearHeight(const QRectF& box, const QRectF& within, const std::vector<QRectF>& drawn) {
+    constexpr double kStep = 8;           // pixels
+    constexpr double kClearlyLess = 0.8;  // of what is hidden now: noise moves no box
+    std::vector<QRectF> below;
+    std::copy_if(drawn.begin(), drawn.end(), std::back_inserter(below),
+                 [&](const QRectF& its) { return its.right() > box.left() && its.left() < box.right(); });
+    QRectF best = box;
+    double least = hidden(box, below);
+    const double farthest = within.height();
+    for (double away = kStep; least > 0 && away < farthest; away += kStep) {
+        for (const double top : {box.top() - away, box.top() + away}) {
+            if (top < within.top() || top + box.height() > within.bottom()) continue;
+            QRectF moved = box;
+            moved.moveTop(top);
+            const double its = hidden(moved, below);
+            if (!(its < kClearlyLess * least)) continue;
+            least = its;
+            best = moved;
+        }
+    }
+    return best;
+}
+
+}  // namespace tacto::gui
