@@ -68,8 +68,7 @@ Result<std::vector<std::string>> sessionMarks(const SessionReader& session) {
     if (!measured) return failure(measured);
     const bool calibrates = std::ranges::find(*measured, kCalibrationMeasurement, &SessionRow::name) != measured->end();
     if (recorded.uncalibratedStimulator)
-        marks.emplace_back(calibrates ? "Before this run the stimulator was not calibrated."
-                                      : "The stimulator is not calibrated.");
+        marks.emplace_back(calibrates ? kNotCalibratedBefore : "The stimulator is not calibrated.");
     marks.insert(marks.end(), recorded.flags.begin(), recorded.flags.end());
     const bool felt = std::ranges::any_of(about.devices, [](const auto& device) { return device.is(Role::Sensor); });
     const bool uncalibrated =

@@ -9,6 +9,7 @@
 #include "app/report/TableContent.h"
 #include "core/base/JsonFields.h"
 #include "core/dsp/RoughnessFlags.h"
+#include "core/session/Marks.h"
 
 namespace tacto::gui {
 
@@ -108,7 +109,11 @@ void ResultHead::show(const FinishedRun& run) {
     QStringList marks;
     for (const auto& mark : run.result.marks) marks << QString::fromStdString(flagSentence(mark));
     const auto until = qtext(textOr(memberAt(outcome.results, "stored"), "valid_until"));
-    if (!until.isEmpty()) marks << tr("Now it is, until %1.").arg(until);
+    if (!until.isEmpty()) {
+        const auto before = marks.removeAll(qtext(kNotCalibratedBefore)) > 0;
+        marks << (before ? tr("Calibrated until %1; before this run it was not.") : tr("Calibrated until %1."))
+                     .arg(until);
+    }
     if (!marks.isEmpty()) why << marks.join(' ');
     more_->setText(withSigns(keptTogether(why.join("\n"))));
     more_->setVisible(!why.isEmpty());

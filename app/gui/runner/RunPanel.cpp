@@ -117,7 +117,7 @@ void RunPanel::buildWords() {
     closed_->setText(tr("The run closed the bench that was open."));
     setTone(*closed_, Tone::Quiet);
     openAgain_ =
-        addButton(tr("&Open the bench again"), "openAgain", tr("Opens the same devices; the output stays off."));
+        addButton(tr("Open the bench again"), "openAgain", tr("Opens the same devices; the output stays off."));
     connect(openAgain_, &QPushButton::clicked, this, &RunPanel::openAgainWanted);
     question_ = buildQuestion();
     column->addWidget(question_);

@@ -6,6 +6,8 @@
 
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/FaultBanner.h"
 #include "app/gui/window/LimitBarRow.h"
@@ -24,6 +26,8 @@ constexpr const char* kFactsWidth = "calibrated until 2030-12-30";
 constexpr const char* kUnmeasured = QT_TRANSLATE_NOOP("SafetyBar", "impedance not measured");
 constexpr const char* kActions[] = {QT_TRANSLATE_NOOP("SafetyBar", "&Arm…"), QT_TRANSLATE_NOOP("SafetyBar", "Dis&arm"),
                                     QT_TRANSLATE_NOOP("SafetyBar", "&Reset")};
+
+constexpr std::size_t kPeakBar = 0;
 
 struct Bar {
     const char* title;
@@ -316,6 +320,8 @@ void SafetyBar::showExposure(const Telemetry& telemetry) {
         const auto& quantities = allBars()[i].quantities;
         const auto row = quantities.empty() ? netCharge(telemetry) : tightest(telemetry.exposure(), quantities);
         bars_->show(i, row, controller_.limits().sets);
+        // The command against the profile's ceiling and the peak against the limit set's are two things.
+        if (i == kPeakBar) bars_->setTitle(i, row ? shortRowTitle(*row) : tr(allBars()[i].title));
     }
     bars_->arrange();
 }

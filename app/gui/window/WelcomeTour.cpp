@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/ResultHead.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/ScopeScreen.h"
@@ -27,6 +28,7 @@ constexpr int kSessionsPage = 5;
 constexpr int kTouchTab = 0;
 constexpr int kScopeTab = 1;
 constexpr int kOpenStep = 1;  // of the tour: the simulated bench
+constexpr int kInside = 8;
 constexpr int kSee_ms = 1200;
 constexpr int kReadFor_ms = 6000;  // where something is to be read when it is done
 
@@ -194,6 +196,7 @@ std::vector<QWidget*> WelcomeTour::ofTheRun() const {
         for (auto* widget : found)
             if (widget->isVisible()) all.push_back(widget);
     };
+    add(window_.findChildren<ParameterForm*>());
     add(window_.findChildren<ResultHead*>());
     add(window_.findChildren<ExposureTable*>());
     add(window_.findChildren<TrialPlane*>());
@@ -204,7 +207,8 @@ std::vector<QWidget*> WelcomeTour::ofTheRun() const {
 TourTarget WelcomeTour::sessionsTarget() {
     if (window_.workspace() != kSessionsPage) return workspaceButton(kSessionsPage);
     if (!newest_.isEmpty()) window_.openFile(std::exchange(newest_, {}));
-    return {window_.findChild<SessionDetails*>()};
+    auto* details = window_.findChild<SessionDetails*>();
+    return {details, details->rect().adjusted(kInside, kInside, -kInside, -kInside)};  // the frame stays off STOP
 }
 
 QWidget* WelcomeTour::named(const char* name) const { return window_.findChild<QWidget*>(name); }
