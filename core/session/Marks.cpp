@@ -64,7 +64,11 @@ Result<std::vector<std::string>> sessionMarks(const SessionReader& session) {
     const auto& about = session.about();
     auto marks = originMarks(about, *delivered);
     const auto recorded = recordedIn(*events);
-    if (recorded.uncalibratedStimulator) marks.emplace_back("The stimulator is not calibrated.");
+    const auto measured = session.measurements();
+    if (!measured) return failure(measured);
+    const bool calibrates = std::ranges::find(*measured, kCalibrationMeasurement, &SessionRow::name) != measured->end();
+    if (recorded.uncalibratedStimulator)
+        marks.emplace_back(calibrates ? kNotCalibratedBefore : "The stimulator is not calibrated.");
     marks.insert(marks.end(), recorded.flags.begin(), recorded.flags.end());
     const bool felt = std::ranges::any_of(about.devices, [](const auto& device) { return device.is(Role::Sensor); });
     const bool uncalibrated =

@@ -16,6 +16,9 @@ namespace tacto {
 
 class SessionReader;
 
+/// Of a run whose readings make a calibration.
+inline constexpr const char* kNotCalibratedBefore = "Before this run the stimulator was not calibrated.";
+
 /// Sentences, and the flags as science.md names them ("uncalibrated R"). Errors: as SessionReader::events() and
 /// commands().
 [[nodiscard]] Result<std::vector<std::string>> sessionMarks(const SessionReader& session);

@@ -145,6 +145,19 @@ TEST(CalibrationVerdict, IsTheWorstQuantitysAndNamesEachReason) {
     is("lost", "indeterminate", {"good", "open"});
 }
 
+TEST(CalibrationVerdict, BeginsWithWhatIsNearestToItsTolerance) {
+    RunBench rig;
+    const auto outcome = rig.run(withRun(R"(
+        const found = (quantity, error) => ({ quantity: quantity, verdict: "pass", reasons: ["" + error],
+          levels: [{ worst_error: 0, worst_expanded_uncertainty: 0.1, tolerance: 1 },
+                   { worst_error: -error, worst_expanded_uncertainty: 0.1, tolerance: 1 }] });
+        return verdict({ verdict: null, all: calibration.stimulatorVerdict(
+          [found("amplitude", 0.2), found("interval", 0), found("width", 0.3), found("gap", 0.3)], "", true) });)"));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.results["all"]["reasons"],
+              nlohmann::json({"Phase width: 0.3", "Inter-phase gap: 0.3", "Amplitude: 0.2", "Interval: 0"}));
+}
+
 TEST(Weighings, GoUpAndDownAgainAndAgain) {
     RunBench rig;
     const auto outcome =

@@ -46,6 +46,18 @@ TEST_F(SessionMarks, AreTheOriginTheCalibrationsTheFlagsAndTheKnownLimit) {
     EXPECT_EQ(marks[5], kKnownLimitOfR);
 }
 
+TEST_F(SessionMarks, OfARunThatCalibratesSayHowItWasBefore) {
+    const auto path = folder.path() / "calibrates.tacto";
+    const auto writer = SessionWriter::create(path, about, clock).value();
+    ASSERT_TRUE(writer->measurement(Instant(1), kCalibrationMeasurement, nlohmann::json::object()));
+    ASSERT_TRUE(
+        writer->event(Instant(1), kMarksEvent, {{"flags", {"uncalibrated R"}}, {"stimulator_calibrated", false}}));
+    ASSERT_TRUE(writer->close());
+    const auto marks = sessionMarks(SessionReader::open(path).value()).value();
+    EXPECT_THAT(marks, Contains("Before this run the stimulator was not calibrated."));
+    EXPECT_THAT(marks, testing::Not(Contains("The stimulator is not calibrated.")));
+}
+
 TEST_F(SessionMarks, OfACalibratedRSayHowFarItCanBeOff) {
     const auto known =
         of({{kMarksEvent, {{"flags", nlohmann::json::array()}, {"R_expanded_uncertainty", {0.034, 0.031, 0.033}}}}});

@@ -61,7 +61,7 @@ void CalibrationPlot::build() {
     means_->setName(tr("mean ± U (95 %)"));
     bandTop_->setName(tr("tolerance"));
     axisRect()->setMinimumMargins(QMargins(kEdge, kEdge, kEdge, kEdge));
-    if (kind_ == Kind::Errors) addLegend();
+    addLegend();
     watermark_ = addWatermark(*axisRect());
     watermark_->setVisible(false);
     nearest_ = new QCPItemRect(this);
@@ -82,7 +82,10 @@ void CalibrationPlot::addLegend() {
     legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
     legend->setWrap(kLegendColumns);
     legend->clearItems();
-    for (auto* graph : {up_, means_, down_, bandTop_}) graph->addToLegend();
+    line_->setName(tr("fitted line"));
+    const auto named =
+        kind_ == Kind::Errors ? std::vector{up_, means_, down_, bandTop_} : std::vector{up_, line_, down_};
+    for (auto* graph : named) graph->addToLegend();
 }
 
 void CalibrationPlot::clear() {
@@ -143,7 +146,7 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
         axis->setTicker(QSharedPointer<PlainTicker>::create(kTicks));
     }
     empty_->setVisible(false);
-    legend->setVisible(kind_ == Kind::Errors);
+    legend->setVisible(true);
     replot(QCustomPlot::rpQueuedReplot);
 }
 

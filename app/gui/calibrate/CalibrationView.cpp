@@ -29,7 +29,10 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     measured_->setObjectName("calibrationMeasured");
     plots_->addWidget(errors_);
     plots_->addWidget(measured_);
-    connect(kind_, &QComboBox::currentIndexChanged, plots_, &QStackedWidget::setCurrentIndex);
+    connect(kind_, &QComboBox::currentIndexChanged, this, [this](int kind) {
+        plots_->setCurrentIndex(kind);
+        if (shown_ >= 0) say();
+    });
     column->addWidget(plots_, 1);
     row_ = new QHBoxLayout;
     row_->setSpacing(8);
@@ -139,7 +142,9 @@ void CalibrationView::choose(int index) {
 
 void CalibrationView::say() {
     const auto& shown = all_[std::size_t(shown_)];
-    title_->setText(tr("%1: residuals in their tolerance").arg(quantityTitle(shown.quantity)));
+    const bool residuals = kind_->currentIndex() == 0;
+    title_->setText((residuals ? tr("%1: residuals in their tolerance") : tr("%1: measured against commanded"))
+                        .arg(quantityTitle(shown.quantity)));
     const auto marked = std::count_if(shown.readings.begin(), shown.readings.end(),
                                       [](const CalibrationReading& reading) { return reading.outlier; });
     QStringList said{tr("n = %1").arg(shown.readings.size())};

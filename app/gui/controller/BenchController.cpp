@@ -54,12 +54,23 @@ void BenchController::openLive(const LiveOrder& order) {
     if (day_.asksFirst()) return;
     profile_ = order.profile;
     speed_ = order.speed;
+    closedByRun_.reset();
+    lastLive_ = order;
     auto noted = order;
     noted.notes = day_.notes();
     thread_.post([this, noted = std::move(noted), asked = stops_->mark()] { openOnThread(noted, asked); });
 }
 
+void BenchController::openAgain() {
+    if (!closedByRun_ || activity_ != Activity::Closed) return;
+    auto order = *closedByRun_;
+    order.profile = profile_;
+    order.speed = speed_;
+    openLive(order);
+}
+
 void BenchController::close() {
+    closedByRun_.reset();
     stop("closed by the operator");
     thread_.post([this] { closeOnThread(); });
 }
@@ -168,6 +179,7 @@ void BenchController::stopScope() {
 
 /// What is handed to the bench's thread. At once another run is kept from beginning beside it.
 RunOrder BenchController::begun(const RunOrder& order, StopMark asked) {
+    if (activity_ == Activity::Live) closedByRun_ = lastLive_;
     profile_ = order.profile;
     operator_.prepare(order.settings.answers);
     auto marked = order;
@@ -352,7 +364,10 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     // script asked for itself, as a pilot session's stop test does, ends nothing.
     if (const auto by = published_.publish(run.bench(), *run.script())) run.script()->stop(by->c_str());
     become(Activity::Running, describeBench(run.opened()), tap);
+    const auto clock = run.opened().clock;
+    const auto began = clock->now();
     static_cast<void>(run.script()->wait());
+    if (describeBench(run.opened())->paced) finished->benchTime = Seconds(clock->now() - began);
     published_.publish(nullptr);
     become(Activity::Closing, nullptr, tap);
     finished->result = prepared->finish();

@@ -68,7 +68,8 @@ struct FinishedRun {
     std::uint64_t number = 0;  ///< as run() returned it
     RunOrder order;
     RunResult result;
-    std::filesystem::path html, pdf;  ///< empty when not written
+    std::filesystem::path html, pdf;        ///< empty when not written
+    std::optional<Seconds> benchTime = {};  ///< how long it took on the virtual clock; nothing on the steady one
 };
 
 class BenchController final : public QObject {
@@ -102,6 +103,9 @@ public:
     /// Not on a new day before its notes were asked for: DayNotes::asksFirst().
     void openLive(const LiveOrder& order);
     void close();
+    /// The bench that a run closed, with nothing opened or closed since: openAgain() opens the same devices.
+    [[nodiscard]] bool closedByRun() const noexcept { return closedByRun_.has_value(); }
+    void openAgain();
     /// What the operator is shown and confirms before this load is armed: `request.confirmed`. Empty without a bench.
     [[nodiscard]] std::string confirmationOf(const Load& load) const;
     /// Two deliberate steps are the window's; `request.operatorConfirmed` says they were taken. Whatever fails leaves
@@ -197,7 +201,9 @@ private:
     std::shared_ptr<BenchTap> tap_;
     Profile profile_;
     DriveCommand lastDrive_;
-    std::uint64_t lastRun_ = 0;  ///< the number of it
+    std::uint64_t lastRun_ = 0;             ///< the number of it
+    std::optional<LiveOrder> lastLive_;     ///< of the bench that is open
+    std::optional<LiveOrder> closedByRun_;  ///< see closedByRun()
     ShippedLimits limits_;
 
     // One for this controller and all its benches.

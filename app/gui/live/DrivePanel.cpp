@@ -40,15 +40,15 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
         sources_->addButton(button);
         row->addWidget(button, 1);
         button->installEventFilter(this);
-        connect(button, &QPushButton::clicked, this, &DrivePanel::drive);
+        connect(button, &QPushButton::clicked, this, &DrivePanel::choose);
     }
     off_->setChecked(true);
     layout->addLayout(row);
     auto* grid = new QGridLayout;
-    roughness_ = addIndex(*grid, 0, tr("R"), tr("Roughness R"),
-                          tr("Roughness, 0 smooth to 1 rough. Arrows step by 0.01, Page up and down by 0.1."));
-    pressure_ = addIndex(*grid, 1, tr("P"), tr("Pressure P"),
-                         tr("Pressure, 0 light to 1 firm. Arrows step by 0.01, Page up and down by 0.1."));
+    addIndex(*grid, roughness_, tr("R"), tr("Roughness R"),
+             tr("Roughness, 0 smooth to 1 rough. Arrows step by 0.01, Page up and down by 0.1."));
+    addIndex(*grid, pressure_, tr("P"), tr("Pressure P"),
+             tr("Pressure, 0 light to 1 firm. Arrows step by 0.01, Page up and down by 0.1."));
     layout->addLayout(grid);
     output_ = new QLabel(this);
     output_->setObjectName("driveOutput");
@@ -66,9 +66,10 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     begin();
 }
 
-DrivePanel::Index DrivePanel::addIndex(QGridLayout& grid, int row, const QString& label, const QString& name,
-                                       const QString& tip) {
-    Index index{new QSlider(Qt::Horizontal, this), new QDoubleSpinBox(this)};
+void DrivePanel::addIndex(QGridLayout& grid, Index& index, const QString& label, const QString& name,
+                          const QString& tip) {
+    index.slider = new QSlider(Qt::Horizontal, this);
+    index.box = new QDoubleSpinBox(this);
     index.slider->setRange(0, kSteps);
     index.slider->setSingleStep(1);
     index.slider->setPageStep(10);
@@ -84,17 +85,18 @@ DrivePanel::Index DrivePanel::addIndex(QGridLayout& grid, int row, const QString
     index.box->setKeyboardTracking(false);  // a number is a number once it is written
     auto* text = new QLabel(label, this);
     text->setBuddy(index.box);
+    const int row = grid.isEmpty() ? 0 : grid.rowCount();
     grid.addWidget(text, row, 0);
     grid.addWidget(index.slider, row, 1);
     grid.addWidget(index.box, row, 2);
     connect(index.slider, &QSlider::valueChanged, index.box,
             [box = index.box](int v) { box->setValue(double(v) / kSteps); });
-    connect(index.box, &QDoubleSpinBox::valueChanged, this, [this, index](double v) {
+    connect(index.box, &QDoubleSpinBox::valueChanged, this, [this, &index](double v) {
         const QSignalBlocker quiet(index.slider);
         index.slider->setValue(int(std::lround(v * kSteps)));
+        index.byHand = v;
         if (byHand_->isChecked()) drive();
     });
-    return index;
 }
 
 bool DrivePanel::eventFilter(QObject* watched, QEvent* event) {
@@ -125,15 +127,46 @@ void DrivePanel::begin() {
                             ? tr("No fingertip is open.")
                             : tr("R and P come from what the fingertip feels; without contact no train is sent."));
     asked_.reset();
+    last_ = DriveSource::Off;
     off_->setChecked(true);
+    // Another bench: what was set by hand on the one before is no setting of this one.
+    if (const auto bench = controller_.tap(); bench != bench_.lock() || !bench) {
+        bench_ = bench;
+        for (auto* index : {&roughness_, &pressure_}) index->byHand = 0;
+    }
+    showHand();
+}
+
+void DrivePanel::showHand() {
+    for (const auto* index : {&roughness_, &pressure_})
+        if (index->box->value() != index->byHand) showIndex(*index, index->byHand);
+}
+
+/// Without asking anything of the bench.
+void DrivePanel::showIndex(const Index& index, double value) {
+    const QSignalBlocker quietSlider(index.slider), quietBox(index.box);
+    index.slider->setValue(int(std::lround(value * kSteps)));
+    index.box->setValue(value);
 }
 
 DriveSource DrivePanel::chosen() const {
     return byHand_->isChecked() ? DriveSource::Manual : finger_->isChecked() ? DriveSource::Sensor : DriveSource::Off;
 }
 
+/// By hand begins with what was set by hand. Only from a fingertip that has a train due now it goes on with that train,
+/// so that nothing jumps.
+void DrivePanel::choose() {
+    const auto now = controller_.telemetry();
+    const bool delivers = now.state == InterlockState::Armed || now.state == InterlockState::Delivering;
+    const bool wasFinger = last_ == DriveSource::Sensor;  // what was asked last, where the bench has not answered
+    const bool takesOver =
+        wasFinger && now.driving == DriveSource::Sensor && delivers && !now.paused && std::isfinite(now.amplitude_v);
+    if (byHand_->isChecked() && now.driving != DriveSource::Manual && !takesOver) showHand();
+    drive();
+}
+
 void DrivePanel::drive() {
-    asked_ = chosen();
+    asked_ = last_ = chosen();
     askedAt_.start();
     controller_.drive(*asked_, roughness_.box->value(), pressure_.box->value());
 }
@@ -143,6 +176,7 @@ void DrivePanel::follow(DriveSource driving) {
         if (*asked_ != driving && askedAt_.elapsed() < kAnswerWithin_ms) return;
         asked_.reset();
     }
+    last_ = driving;
     if (driving == chosen()) return;
     // setChecked() clicks nothing: the bench is not asked again.
     (driving == DriveSource::Manual ? byHand_ : driving == DriveSource::Sensor ? finger_ : off_)->setChecked(true);
@@ -150,12 +184,25 @@ void DrivePanel::follow(DriveSource driving) {
 
 QString DrivePanel::outputText(const Telemetry& telemetry) const {
     if (chosen() == DriveSource::Off || !std::isfinite(telemetry.amplitude_v)) return tr("Off");
-    const auto every = quantityText(telemetry.interval_s, "s", 3);
+    return trainText(telemetry.amplitude_v, telemetry.interval_s);
+}
+
+QString DrivePanel::trainText(double amplitude_v, double interval_s) const {
+    const auto every = quantityText(interval_s, "s", 3);
     if (vibrates()) {
-        const double share = Encoder(controller_.profile().encoding).massagerIntensity(Volts(telemetry.amplitude_v));
+        const double share = Encoder(controller_.profile().encoding).massagerIntensity(Volts(amplitude_v));
         return tr("%1 of the strength every %2").arg(quantityText(100 * share, "%", 2), every);
     }
-    return tr("%1 every %2").arg(quantityText(telemetry.amplitude_v, "V", 3), every);
+    return tr("%1 every %2").arg(quantityText(amplitude_v, "V", 3), every);
+}
+
+/// What a click on "By hand" would ask for.
+QString DrivePanel::offWords() const {
+    const auto nothing = tr("Nothing drives the output.");
+    if (controller_.activity() != Activity::Live) return nothing;
+    const auto first = Encoder(controller_.profile().encoding).encode(roughness_.byHand, pressure_.byHand);
+    if (!first) return nothing;
+    return tr("%1 By hand asks for %2.").arg(nothing, trainText(first->amplitude.value(), first->interval.count()));
 }
 
 bool DrivePanel::vibrates() const {
@@ -167,7 +214,7 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
     const auto state = telemetry.state;
     if (controller_.activity() == Activity::Running)
         return tr("A protocol has the bench and drives the output itself.");
-    if (off_->isChecked()) return tr("Nothing drives the output.");
+    if (off_->isChecked()) return offWords();
     if (state == InterlockState::Faulted) return tr("Nothing is delivered: there is a fault.");
     const bool armed = state == InterlockState::Armed || state == InterlockState::Delivering;
     if (state == InterlockState::Paused || (armed && telemetry.paused))
@@ -188,17 +235,16 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
     return tr("No train is due.");
 }
 
-/// While the fingertip drives, the sliders show what it feels and take no hand.
+/// While the fingertip drives, the sliders show what it feels and take no hand; while nothing does, what By hand would
+/// begin with.
 void DrivePanel::followFinger(const Telemetry& telemetry) {
     const bool finger = finger_->isChecked() && controller_.activity() == Activity::Live;
     for (const auto& [index, value] : {std::pair(&roughness_, telemetry.roughness), {&pressure_, telemetry.pressure}}) {
         index->slider->setEnabled(!finger);
         index->box->setEnabled(!finger);
-        if (!finger || !std::isfinite(value)) continue;
-        const QSignalBlocker quietSlider(index->slider), quietBox(index->box);
-        index->slider->setValue(int(std::lround(value * kSteps)));
-        index->box->setValue(value);
+        if (finger && std::isfinite(value)) showIndex(*index, value);
     }
+    if (off_->isChecked()) showHand();
 }
 
 void DrivePanel::refresh(const Telemetry& telemetry) {

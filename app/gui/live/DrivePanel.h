@@ -1,7 +1,8 @@
 // DrivePanel.h - what drives the output: nothing, two sliders, or the fingertip.
 //
 // What is chosen here is what the bench does: the bench turns driving off with every stop, disarm and fault, and the
-// panel follows it. Only a person's hand on a control asks anything of the bench.
+// panel follows it. Only a person's hand on a control asks anything of the bench. By hand begins with what was set by
+// hand on this bench, at first R = 0 and P = 0; it goes on with the fingertip's values only while those are delivered.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -13,6 +14,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSlider>
+#include <memory>
 #include <optional>
 
 #include "app/gui/controller/BenchController.h"
@@ -37,14 +39,19 @@ protected:
 
 private:
     struct Index {
-        QSlider* slider;
-        QDoubleSpinBox* box;
+        QSlider* slider = nullptr;
+        QDoubleSpinBox* box = nullptr;
+        double byHand = 0;  ///< as a person set it last on this bench; the fingertip's values do not count
     };
-    [[nodiscard]] Index addIndex(QGridLayout& grid, int row, const QString& label, const QString& name,
-                                 const QString& tip);
+    void addIndex(QGridLayout& grid, Index& index, const QString& label, const QString& name, const QString& tip);
+    void showHand();
+    static void showIndex(const Index& index, double value);
+    void choose();
     void drive();
     void follow(DriveSource driving);
     [[nodiscard]] QString outputText(const Telemetry& telemetry) const;
+    [[nodiscard]] QString trainText(double amplitude_v, double interval_s) const;
+    [[nodiscard]] QString offWords() const;
     [[nodiscard]] bool vibrates() const;  ///< a massager in place of the electrodes
     [[nodiscard]] QString words(const Telemetry& telemetry) const;
     void followFinger(const Telemetry& telemetry);
@@ -54,11 +61,13 @@ private:
     QPushButton* off_;
     QPushButton* byHand_;
     QPushButton* finger_;
-    Index roughness_{}, pressure_{};
+    Index roughness_, pressure_;
+    std::weak_ptr<BenchTap> bench_;  // the one that they were set on
     QLabel* output_;
     QLabel* says_;
     std::optional<DriveSource> asked_;  // of the bench, which has not answered yet
     QElapsedTimer askedAt_;
+    DriveSource last_ = DriveSource::Off;  // asked last, or what the bench turned to after that
 };
 
 }  // namespace tacto::gui

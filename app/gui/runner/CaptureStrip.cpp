@@ -10,7 +10,8 @@
 namespace tacto::gui {
 
 namespace {
-constexpr std::size_t kPoints = 2000;  // more than there are pixels; extremes kept
+constexpr std::size_t kPoints = 2000;                        // more than there are pixels; extremes kept
+constexpr double kVoltageReach = 1.15, kCurrentReach = 1.6;  // of what is shown
 constexpr int kMargin = 15, kMarginAbove = 6;
 }  // namespace
 
@@ -68,7 +69,8 @@ void CaptureStrip::show(const std::shared_ptr<const Capture>& capture, const QSt
         graph->setData(x, y, true);
         graph->rescaleKeyAxis();
         graph->rescaleValueAxis();
-        graph->valueAxis()->scaleRange(1.15);
+        // On a resistance both have one shape: the current is drawn smaller, so that neither hides the other.
+        graph->valueAxis()->scaleRange(graph == current_ ? kCurrentReach : kVoltageReach);
     }
     colour();
     replot(QCustomPlot::rpQueuedReplot);

@@ -19,9 +19,9 @@ NotesPanel::NotesPanel(DayNotes& day, QWidget* parent) : QGroupBox(tr("For the r
         fields_.push_back({edit, text});
     };
     const auto all = tr("The same for all sessions of today. ");
-    add(tr("O&perator"), "operator", &RunNotes::operatorName, tr("who does the run"),
+    add(tr("&Operator"), "operator", &RunNotes::operatorName, tr("who does the run"),
         all + tr("Stands on the report's first page, to be signed."));
-    add(tr("Samp&le"), "sample", &RunNotes::sample, tr("your id of what is measured"),
+    add(tr("Samp&le"), "sample", &RunNotes::sample, tr("your own id"),
         all + tr("Stands on the report's first page and in the list of sessions."));
     add(tr("Reviewer"), "reviewer", &RunNotes::reviewer, tr("who checks it"),
         all + tr("Stands on the report's first page, to be signed."));

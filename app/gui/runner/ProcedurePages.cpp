@@ -84,7 +84,7 @@ ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : QStackedWidget(
     form_ = new ParameterForm(this);
     addWidget(buildWiring());
     addWidget(buildReference());
-    addWidget(buildSettings());
+    addWidget(buildSettings(day));
     auto* run = new QWidget(this);
     auto* column = new QVBoxLayout(run);
     column->setContentsMargins(kPageSide, kPageTop / 2, kPageSide, kPageTop / 2);  // the plot has the room
@@ -93,7 +93,7 @@ ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : QStackedWidget(
     addWidget(run);
     auto* sign = new QWidget(this);
     auto* signColumn = pageLayout(sign, tr("Sign"), {});
-    sign_ = new SignPage(day, sign);
+    sign_ = new SignPage(sign);
     signColumn->addWidget(sign_, 1);
     addWidget(sign);
     showStep(kSettings);
@@ -133,11 +133,17 @@ QWidget* ProcedurePages::buildReference() {
     return page;
 }
 
-QWidget* ProcedurePages::buildSettings() {
+QWidget* ProcedurePages::buildSettings(DayNotes& day) {
     auto* page = new QWidget(this);
     auto* column = pageLayout(page, tr("Settings"), {});
     auto* row = turning();
-    auto* fields = scrolling(formColumn(form_), page);
+    auto* parts = new QWidget;
+    auto* below = new QVBoxLayout(parts);
+    below->setContentsMargins(0, 0, 0, 0);
+    below->addWidget(form_);
+    notes_ = new NotesPanel(day, parts);
+    below->addWidget(notes_);
+    auto* fields = scrolling(formColumn(parts), page);
     worst_ = new WorstPage(page);
     row->addWidget(fields, 2);
     row->addWidget(worst_, 3);
@@ -160,7 +166,7 @@ void ProcedurePages::showStep(Step step) {
 
 void ProcedurePages::setChangeable(bool changeable) {
     for (QWidget* part : {static_cast<QWidget*>(form_), &form_->referencePart(), static_cast<QWidget*>(wiring_),
-                          static_cast<QWidget*>(&sign_->notes())})
+                          static_cast<QWidget*>(notes_)})
         part->setEnabled(changeable);
 }
 

@@ -11,6 +11,7 @@
 namespace tacto::gui {
 
 class DayNotes;
+class NotesPanel;
 class ParameterForm;
 class RunViews;
 class SignPage;
@@ -40,11 +41,12 @@ public:
 private:
     [[nodiscard]] QWidget* buildWiring();
     [[nodiscard]] QWidget* buildReference();
-    [[nodiscard]] QWidget* buildSettings();
+    [[nodiscard]] QWidget* buildSettings(DayNotes& day);
     [[nodiscard]] QBoxLayout* turning();
     WiringPanel* wiring_ = nullptr;
     WiringPage* drawing_ = nullptr;
     ParameterForm* form_ = nullptr;
+    NotesPanel* notes_ = nullptr;
     WorstPage* worst_ = nullptr;
     RunViews* views_ = nullptr;
     SignPage* sign_ = nullptr;

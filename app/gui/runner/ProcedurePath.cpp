@@ -110,8 +110,8 @@ void ProcedurePath::showRun() {
     for (const auto step : {kRun, kResult}) steps_->setNote(step, {});
 }
 
-void ProcedurePath::showEnd(bool early) {
-    panel_->end(early);
+void ProcedurePath::showEnd(bool early, std::optional<Seconds> benchTime) {
+    panel_->end(early, benchTime);
     panel_->setLeading(false);
     steps_->setState(kRun, early ? StepList::State::Troubled : StepList::State::Done);
     steps_->setState(kResult, StepList::State::Done);

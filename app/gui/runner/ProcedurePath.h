@@ -27,7 +27,7 @@ public:
     void showNoRun(bool hasReference);
     void showRun();
     /// The result can be gone to. `early`: the run was stopped or failed.
-    void showEnd(bool early);
+    void showEnd(bool early, std::optional<Seconds> benchTime);
 
 protected:
     bool event(QEvent* event) override;

@@ -5,9 +5,7 @@
 #include <QLineEdit>
 #include <QShortcut>
 #include <QVBoxLayout>
-#include <set>
 
-#include "app/gui/runner/NotesPanel.h"
 #include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/ProcedurePath.h"
 #include "app/gui/runner/PromptPanel.h"
@@ -69,6 +67,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
         if (asked_) withdraw();  // it was asked of the profile and the bench as they were
         previewLater_.start();
         const auto open = controller_.open();
+        showBench();
         if (running_ && open) pages_->views().setSimulated(open->simulated());
     });
     connect(&controller_.windowOperator(), &WindowOperator::asked, this, [this](const OperatorQuestion& question) {
@@ -119,6 +118,7 @@ void ProtocolWorkspace::connectPath() {
     connect(panel_, &RunPanel::runWanted, this, &ProtocolWorkspace::runAsked);
     connect(panel_, &RunPanel::confirmed, this, &ProtocolWorkspace::runNow);
     connect(panel_, &RunPanel::lineWanted, this, [this](int line, const QString& why) { edit(source_, line, why); });
+    connect(panel_, &RunPanel::openAgainWanted, &controller_, &BenchController::openAgain);
     connect(panel_, &RunPanel::profileChangeWanted, this, &ProtocolWorkspace::profileChangeWanted);
 }
 
@@ -128,7 +128,11 @@ void ProtocolWorkspace::connectPages() {
     connect(&pages_->views(), &RunViews::scriptErrorChosen, this,
             [this](int line, const QString& why) { edit(source_, line, why); });
     connect(&pages_->views(), &RunViews::nextChosen, this, &ProtocolWorkspace::goOn);
-    connect(&pages_->sign(), &SignPage::stateChanged, this, [this] { steps_->setNote(kSign, pages_->sign().state()); });
+    connect(&pages_->sign(), &SignPage::stateChanged, this, [this] {
+        steps_->setNote(kSign, pages_->sign().state());
+        steps_->setState(kSign, pages_->sign().taken() ? State::Done : State::ToDo);
+    });
+    connect(&pages_->sign(), &SignPage::settingsWanted, this, [this] { goTo(kSettings); });
 }
 
 void ProtocolWorkspace::fillChooser(const QString& select) {
@@ -165,6 +169,7 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         pages_->offer(*declaration_);
     }
     path_->showNoRun(pages_->form().hasReference());
+    seen_.clear();
     showStep(kSettings);
     judge();
     showButtons();
@@ -179,6 +184,8 @@ void ProtocolWorkspace::set(const std::string& parameter, const QString& text) {
 void ProtocolWorkspace::showStep(Step step) {
     pages_->showStep(step);
     steps_->setShown(step);
+    seen_.insert(step);
+    showSetup();
 }
 
 void ProtocolWorkspace::goTo(Step step) {
@@ -191,23 +198,30 @@ void ProtocolWorkspace::goTo(Step step) {
 }
 
 void ProtocolWorkspace::judge() {
+    showSetup();
+    withdraw();
+    panel_->setReady(declaration_.has_value(), obstacle_, byProfile_);
+    previewLater_.start();
+}
+
+/// The steps before the run. A tick says that a step was seen, or that the run used it.
+void ProtocolWorkspace::showSetup() {
     auto& form = pages_->form();
     const auto devices = pages_->wiring().devices();
-    const auto state = [](bool troubled) { return troubled ? State::Troubled : State::Done; };
-    steps_->setState(kWiring, state(!devicesOf(devices)));
+    const bool begun = running_ || last_ != nullptr;
+    const auto state = [&](Step step, bool troubled) {
+        return troubled ? State::Troubled : begun || seen_.contains(step) ? State::Done : State::ToDo;
+    };
+    steps_->setState(kWiring, state(kWiring, !devicesOf(devices)));
     steps_->setNote(kWiring, devices == "sim:" ? tr("simulated bench") : devices);
-    steps_->setState(kReference, state(form.refused(true) > 0));
+    steps_->setState(kReference, state(kReference, form.refused(true) > 0));
     const auto load = form.text("reference").isEmpty() ? form.text("load") : form.text("reference");
     bool isNumber = false;
     const double ohms = load.toDouble(&isNumber);
     steps_->setNote(kReference, isNumber ? settingText(ohms, "ohm") : loadText(load));
     const int refused = form.refused(false);
-    const bool begun = running_ || last_ != nullptr;
     steps_->setState(kSettings, refused > 0 || !declaration_ ? State::Troubled : begun ? State::Done : State::UnderWay);
     steps_->setNote(kSettings, refused > 0 ? tr("%1 to fix").arg(refused) : declaration_ ? form.summary() : QString());
-    withdraw();
-    panel_->setReady(declaration_.has_value(), obstacle_, byProfile_);
-    previewLater_.start();
 }
 
 /// What was asked was about other settings, or another profile.
@@ -318,9 +332,10 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     prompt_->close();
     const auto& error = run->result.outcome.error;
     const bool watched = panel_->isAncestorOf(QApplication::focusWidget());
-    path_->showEnd(error.has_value());
+    path_->showEnd(error.has_value(), run->benchTime);
     if (const auto odd = pages_->views().end(*run); !odd.isEmpty()) panel_->say(odd);
     pages_->sign().show(*run);
+    showBench();
     steps_->setNote(kResult, pages_->views().word());
     showStep(kResult);
     showButtons();
@@ -329,6 +344,12 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     if (run->result.session.empty()) panel_->say(tr("%1 Output is off.").arg(sentence(*error)));
     if (editor_ != nullptr && editor_->isVisible() && run->result.outcome.line > 0)
         editor_->showError(run->result.outcome.line, QString::fromStdString(error->message));
+}
+
+/// Offered where the run that closed it ended.
+void ProtocolWorkspace::showBench() {
+    const auto activity = controller_.activity();
+    panel_->setBench(activity == Activity::Live, last_ && activity == Activity::Closed && controller_.closedByRun());
 }
 
 void ProtocolWorkspace::goOn(NextStep next) {

@@ -10,6 +10,7 @@
 #include <QElapsedTimer>
 #include <QFrame>
 #include <QTimer>
+#include <set>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/runner/NextSteps.h"
@@ -74,6 +75,7 @@ private:
     void choose(const QString& nameOrPath);
     void declared(const ProtocolSource& source, const Result<ProtocolDeclaration>& declaration);
     void showStep(Step step);
+    void showSetup();
     void judge();
     void withdraw();
     void preview();
@@ -81,6 +83,7 @@ private:
     void runNow();
     [[nodiscard]] bool anotherRuns() const;
     void ended(const std::shared_ptr<const FinishedRun>& run);
+    void showBench();
     void goOn(NextStep next);
     void useProfile();
     void showButtons();
@@ -99,6 +102,7 @@ private:
     QElapsedTimer askedSince_;
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
+    std::set<Step> seen_;  // of this protocol
     bool plotOnly_ = false;
     std::uint64_t run_ = 0;  ///< its number
 

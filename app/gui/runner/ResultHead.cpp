@@ -5,7 +5,11 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/NumberText.h"
+#include "app/report/TableContent.h"
+#include "core/base/JsonFields.h"
 #include "core/dsp/RoughnessFlags.h"
+#include "core/session/Marks.h"
 
 namespace tacto::gui {
 
@@ -101,11 +105,17 @@ void ResultHead::show(const FinishedRun& run) {
             "Output is off. Restart the program when you can.");
     }
     if (why.isEmpty()) why << tr("The protocol ran to its end; it judges nothing.");
-    why_->setText(keptTogether(titled(why.takeFirst())));
+    why_->setText(withSigns(keptTogether(titled(why.takeFirst()))));
     QStringList marks;
     for (const auto& mark : run.result.marks) marks << QString::fromStdString(flagSentence(mark));
+    const auto until = qtext(textOr(memberAt(outcome.results, "stored"), "valid_until"));
+    if (!until.isEmpty()) {
+        const auto before = marks.removeAll(qtext(kNotCalibratedBefore)) > 0;
+        marks << (before ? tr("Calibrated until %1; before this run it was not.") : tr("Calibrated until %1."))
+                     .arg(until);
+    }
     if (!marks.isEmpty()) why << marks.join(' ');
-    more_->setText(keptTogether(why.join("\n")));
+    more_->setText(withSigns(keptTogether(why.join("\n"))));
     more_->setVisible(!why.isEmpty());
     giveRoom();
     errorLine_ = outcome.line;

@@ -13,6 +13,13 @@ namespace {
 constexpr double kMinute_s = 60;
 constexpr double kMinutesFrom_s = 90;
 
+/// "5 min 43 s".
+QString exactTimeText(double seconds) {
+    const auto whole = std::llround(seconds);
+    if (double(whole) < kMinutesFrom_s) return QObject::tr("%1 s").arg(whole);
+    return QObject::tr("%1 min %2 s").arg(whole / int(kMinute_s)).arg(whole % int(kMinute_s));
+}
+
 QString timeText(double seconds) {
     if (seconds < kMinutesFrom_s) return QObject::tr("%1 s").arg(std::max(1, int(std::ceil(seconds))));
     return QObject::tr("%1 min").arg(int(std::ceil(seconds / kMinute_s)));
@@ -65,7 +72,9 @@ RunPanel::RunPanel(QWidget* parent)
     bar_->setValue(0);
     layout_->addWidget(bar_);
     bar_->hide();
-    left_ = new QLabel(tr("F5 runs; Esc stops."), this);
+    howLong_ = tr("F5 runs; Esc stops.");
+    left_ = new QLabel(howLong_, this);
+    left_->setWordWrap(true);
     left_->setTextFormat(Qt::PlainText);
     left_->setObjectName("timeLeft");
     setTone(*left_, Tone::Quiet);
@@ -104,6 +113,12 @@ void RunPanel::buildWords() {
     trouble_ = addWords("runTrouble");
     toLine_ = addButton(tr("Show the &line in the script"), "toLine", tr("Opens the script with that line marked."));
     connect(toLine_, &QPushButton::clicked, this, [this] { emit lineWanted(line_, said_); });
+    closed_ = addWords("closedByRun");
+    closed_->setText(tr("The run closed the bench that was open."));
+    setTone(*closed_, Tone::Quiet);
+    openAgain_ =
+        addButton(tr("Open the bench again"), "openAgain", tr("Opens the same devices; the output stays off."));
+    connect(openAgain_, &QPushButton::clicked, this, &RunPanel::openAgainWanted);
     question_ = buildQuestion();
     column->addWidget(question_);
 }
@@ -148,10 +163,23 @@ void RunPanel::setAcross(bool across) {
 
 /// In a line there is room for one of them.
 void RunPanel::sayHowFar(const QString& format, const QString& left) {
-    left_->setText(left);
+    howLong_ = left;
+    sayLeft();
     bar_->setFormat(across_ && running_ ? tr("%1 · %2").arg(format, left) : format);
     const int needed = bar_->fontMetrics().horizontalAdvance(bar_->format() + "00");
     bar_->setMinimumWidth(across_ ? std::max(needed, bar_->minimumWidth()) : 0);  // it does not jump
+}
+
+void RunPanel::sayLeft() {
+    const bool closes = benchOpen_ && !running_;
+    left_->setText(closes ? howLong_ + '\n' + tr("Running closes the open bench.") : howLong_);
+}
+
+void RunPanel::setBench(bool open, bool closedByRun) {
+    benchOpen_ = open;
+    sayLeft();
+    for (QWidget* part : {static_cast<QWidget*>(closed_), static_cast<QWidget*>(openAgain_)})
+        part->setVisible(closedByRun);
 }
 
 void RunPanel::setLeading(bool leading) {
@@ -229,14 +257,16 @@ void RunPanel::show(const ScriptProgress* progress, bool paused, bool waiting) {
                        : tr("time left: not known yet"));
 }
 
-void RunPanel::end(bool early) {
+void RunPanel::end(bool early, std::optional<Seconds> benchTime) {
     running_ = false;
     const auto steps = progress_.total > 0 ? tr(" after %1 of %2").arg(progress_.done).arg(progress_.total) : QString();
     bar_->setRange(0, std::max(1, int(progress_.total)));
     bar_->setValue(early ? int(progress_.done) : bar_->maximum());
     bar_->setVisible(early);
+    const auto took = timeText(double(since_.elapsed()) / 1000);
     sayHowFar(early ? tr("ended early%1").arg(steps) : tr("done"),
-              tr("took %1").arg(timeText(double(since_.elapsed()) / 1000)));
+              benchTime ? tr("took %1; %2 of the bench’s time").arg(took, exactTimeText(benchTime->count()))
+                        : tr("took %1").arg(took));
     showButtons();
 }
 

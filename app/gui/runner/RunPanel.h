@@ -12,6 +12,7 @@
 #include <QWidget>
 
 #include "app/scripting/engine/ScriptRun.h"
+#include "core/base/Units.h"
 
 namespace tacto::gui {
 
@@ -49,7 +50,10 @@ public:
     void begin();
     /// At each refresh while a run is on. `progress` may be null: nothing new. `waiting`: for an answer.
     void show(const ScriptProgress* progress, bool paused, bool waiting);
-    void end(bool early);
+    /// `benchTime`: of a simulated bench, whose time is its own.
+    void end(bool early, std::optional<Seconds> benchTime = {});
+    /// A run closes the bench that is open; afterwards it can be opened again.
+    void setBench(bool open, bool closedByRun);
     /// Its controls in one line, for a path that is a row; words() then stands wherever its owner puts it.
     void setAcross(bool across);
     /// What is in the way, what is asked, and the buttons that belong to it.
@@ -62,18 +66,22 @@ signals:
     void confirmed();
     void lineWanted(int line, const QString& why);
     void profileChangeWanted();
+    void openAgainWanted();
 
 private:
     void buildWords();
     [[nodiscard]] QWidget* buildQuestion();
     void showButtons();
     void sayHowFar(const QString& format, const QString& left);
+    void sayLeft();
     QBoxLayout* layout_;
     QWidget* words_;
     QLabel* obstacle_;
     QLabel* trouble_;
     QPushButton* toLine_;
     QPushButton* changeProfile_;
+    QLabel* closed_;
+    QPushButton* openAgain_;
     QWidget* question_;
     QLabel* questionText_ = nullptr;
     QPushButton* arm_ = nullptr;
@@ -85,6 +93,8 @@ private:
     TimeLeft timeLeft_;
     ScriptProgress progress_;
     QString said_;
+    QString howLong_;  // left, or taken
+    bool benchOpen_ = false;
     int line_ = 0;
     bool ready_ = false;
     bool running_ = false;

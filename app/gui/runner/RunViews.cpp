@@ -200,6 +200,7 @@ void RunViews::begin(Plot plot, const nlohmann::json& parameters) {
     matrix_->show({});
     disclosed_->clear();
     log_->clear();
+    log_->setPlaceholderText(tr("What the script says while it runs."));
     plane_->begin(false, featuresOf(plot));
     loads_->begin();
     calibration_->begin(parameters);
@@ -252,6 +253,7 @@ void RunViews::trace(const QString& limit, const QString& load, const QString& u
 }
 
 QString RunViews::end(const FinishedRun& run) {
+    log_->setPlaceholderText(tr("The script said nothing in this run."));
     session_ = run.result.session;
     setSimulated(run.result.simulated);
     QString odd;

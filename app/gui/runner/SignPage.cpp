@@ -1,9 +1,10 @@
 #include "app/gui/runner/SignPage.h"
 
+#include <QFormLayout>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
-#include "app/gui/runner/NotesPanel.h"
+#include "app/gui/runner/ReportPrinter.h"
 #include "app/gui/runner/ReportView.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/LookChange.h"
@@ -15,27 +16,21 @@ namespace {
 constexpr int kNotesWidth = 260;
 }  // namespace
 
-SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(this) {
+SignPage::SignPage(QWidget* parent) : QWidget(parent), maker_(this) {
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(16);
-    auto* left = new QVBoxLayout;
-    notes_ = new NotesPanel(day, this);
-    boundWidth(*notes_, kNotesWidth);
-    left->addWidget(notes_);
-    auto* tip =
-        new QLabel(tr("These are recorded when a run begins and appear on the first page of its report, beside the "
-                      "lines for signatures."),
-                   this);
-    tip->setWordWrap(true);
-    boundWidth(*tip, kNotesWidth);
-    setTone(*tip, Tone::Quiet);
-    left->addWidget(tip);
-    left->addStretch();
-    row->addLayout(left);
+    row->addWidget(buildWords());
     view_ = new ReportView(tr("The report appears here after a run."), this);
     row->addWidget(view_, 1);
     addStateTo(view_->row());
+    if (auto* open = view_->findChild<QPushButton*>("openReport")) {
+        makePrimary(*open);
+        connect(open, &QPushButton::clicked, this, &SignPage::take);
+    }
+    connect(view_->findChild<ReportPrinter*>(), &ReportPrinter::ended, this, [this](int pages) {
+        if (pages > 0) take();
+    });
     connect(&maker_, &ReportMaker::done, this,
             [this](const QString& out) { out.endsWith(".pdf") ? showReport(out) : showState(); });
     const auto note = [this](const QString& why) {
@@ -49,6 +44,69 @@ SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(thi
         showState();
     });
     clear();
+}
+
+QWidget* SignPage::buildWords() {
+    auto* holder = new QWidget(this);
+    boundWidth(*holder, kNotesWidth);
+    auto* column = new QVBoxLayout(holder);
+    column->setContentsMargins(0, 0, 0, 0);
+    auto* how = new QLabel(tr("Print the report and sign in ink, on the lines of its first page; or open it in the PDF "
+                              "viewer and sign there."),
+                           holder);
+    how->setObjectName("howToSign");
+    how->setWordWrap(true);
+    column->addWidget(how);
+    named_ = new QWidget(holder);
+    auto* named = new QVBoxLayout(named_);
+    named->setContentsMargins(0, fontMetrics().height() / 2, 0, 0);
+    auto* heading = new QLabel(tr("This report names"), named_);
+    setTextSize(*heading, TextSize::Body, true);
+    named->addWidget(heading);
+    auto* form = new QFormLayout;
+    const std::pair<QString, const char*> rows[] = {{tr("Operator"), "namedOperator"},
+                                                    {tr("Sample"), "namedSample"},
+                                                    {tr("Reviewer"), "namedReviewer"},
+                                                    {tr("Ambient"), "namedAmbient"}};
+    for (const auto& [title, name] : rows) {
+        auto* value = new QLabel(named_);
+        value->setObjectName(name);
+        value->setTextFormat(Qt::PlainText);
+        value->setWordWrap(true);
+        auto* what = new QLabel(title, named_);
+        setTone(*what, Tone::Quiet);
+        form->addRow(what, value);
+        notes_.push_back(value);
+    }
+    named->addLayout(form);
+    auto* tip = new QLabel(tr("As entered under Settings when the run began. For other names enter them there and run "
+                              "again."),
+                           named_);
+    tip->setWordWrap(true);
+    setTone(*tip, Tone::Quiet);
+    named->addWidget(tip);
+    auto* change = new QPushButton(tr("Change and run again…"), named_);
+    change->setObjectName("changeNotes");
+    change->setAutoDefault(false);
+    change->setToolTip(tr("Goes to Settings; this report stays as it is."));
+    connect(change, &QPushButton::clicked, this, &SignPage::settingsWanted);
+    named->addWidget(change, 0, Qt::AlignLeft);
+    column->addWidget(named_);
+    column->addStretch();
+    return holder;
+}
+
+void SignPage::showNotes(const RunNotes* notes) {
+    named_->setVisible(notes != nullptr);
+    if (notes == nullptr) return;
+    const std::string* texts[] = {&notes->operatorName, &notes->sample, &notes->reviewer, &notes->ambient};
+    for (std::size_t i = 0; i < notes_.size(); ++i)
+        notes_[i]->setText(texts[i]->empty() ? tr("not recorded") : QString::fromStdString(*texts[i]));
+}
+
+void SignPage::take() {
+    taken_ = true;
+    showState();
 }
 
 void SignPage::addStateTo(QHBoxLayout& row) {
@@ -95,6 +153,8 @@ void SignPage::clear() {
     maker_.cancel();
     fault_.clear();
     printed_.clear();
+    taken_ = false;
+    showNotes(nullptr);
     view_->clear();
     showState();
 }
@@ -103,6 +163,7 @@ void SignPage::show(const FinishedRun& run) {
     clear();
     const auto session = QString::fromStdString(run.result.session.string());
     if (session.isEmpty()) return;  // it never began
+    showNotes(&run.order.notes);
     if (!run.pdf.empty()) maker_.make(session, QString::fromStdString(run.pdf.string()));
     if (!run.html.empty()) maker_.make(session, QString::fromStdString(run.html.string()));
     showState();

@@ -1,6 +1,7 @@
-// SignPage.h - the report and who signs it: names for its first page before the run, the report itself after it.
+// SignPage.h - the report, to be signed: what signing is, who and what this report names, and its pages.
 //
-// A signature is by hand, on paper or in the PDF; the program keeps names and draws the lines.
+// A signature is by hand, on paper or in the PDF; the program keeps names and draws the lines. It counts as done once
+// the report was printed or opened from here.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -10,42 +11,48 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QWidget>
+#include <vector>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/runner/ReportMaker.h"
 
 namespace tacto::gui {
 
-class NotesPanel;
 class ReportView;
 
 class SignPage final : public QWidget {
     Q_OBJECT
 public:
-    /// `day` outlives the page.
-    explicit SignPage(DayNotes& day, QWidget* parent = nullptr);
-    [[nodiscard]] NotesPanel& notes() { return *notes_; }
+    explicit SignPage(QWidget* parent = nullptr);
     /// Before a run: no report, and what is being drawn is given up.
     void clear();
     /// Has the reports of the run drawn.
     void show(const FinishedRun& run);
     /// "written", "being drawn…", or why there is none; for the step.
     [[nodiscard]] QString state() const;
+    /// The report of this run was printed or opened from here.
+    [[nodiscard]] bool taken() const noexcept { return taken_; }
     /// A report that is written already.
     void showReport(const QString& pdf);
 
 signals:
     void stateChanged();
+    void settingsWanted();  ///< the names are entered there, before the run
 
 private:
+    [[nodiscard]] QWidget* buildWords();
     void addStateTo(QHBoxLayout& row);
+    void showNotes(const RunNotes* notes);
+    void take();
     void showState();
-    NotesPanel* notes_;
+    std::vector<QLabel*> notes_;  ///< operator, sample, reviewer, ambient
+    QWidget* named_ = nullptr;
     ReportView* view_;
     QPushButton* cancel_ = nullptr;
     QProgressBar* drawing_ = nullptr;
     QLabel* says_ = nullptr;
     ReportMaker maker_;
+    bool taken_ = false;
     QString fault_;    // of the first report that failed
     QString printed_;  // how far the printer is; empty: nothing was printed
 };

@@ -77,6 +77,12 @@ LimitBar::LimitBar(const QString& title, QWidget* parent, Shape shape)
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
 }
 
+void LimitBar::setTitle(const QString& title) {
+    if (std::exchange(title_, title) == title) return;
+    setAccessibleName(title);
+    update();
+}
+
 void LimitBar::show(const std::optional<ExposureRow>& row, std::span<const LimitSet> sets) {
     const auto before = text_;
     const auto shareBefore = share_;

@@ -21,6 +21,8 @@ public:
     enum class Shape { Stacked, Line };
     /// `title` is short: "RMS over 5 s". The tool tip has the full words.
     LimitBar(const QString& title, QWidget* parent = nullptr, Shape shape = Shape::Stacked);
+    /// Where what is shown changes with the row.
+    void setTitle(const QString& title);
     /// Nothing: no row of this quantity yet (no output is configured).
     /// `sets` names the limit by its title.
     void show(const std::optional<ExposureRow>& row, std::span<const LimitSet> sets = {});

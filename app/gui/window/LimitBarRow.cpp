@@ -6,7 +6,8 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kGap = 16;
-}
+constexpr double kStaysFor = 0.2;  // of the limit
+}  // namespace
 
 LimitBarRow::LimitBarRow(const QStringList& titles, QWidget* parent) : QWidget(parent) {
     for (const auto& title : titles) bars_.push_back(new LimitBar(title, this));
@@ -25,11 +26,15 @@ void LimitBarRow::arrange() {
     const auto fit = std::min(bars_.size(), std::size_t((width() + kGap) / (one.width() + kGap)));
     std::vector<LimitBar*> nearest = bars_;
     // A share that is not a number (no value yet, no limit) comes last; among equals the order of the row holds.
-    std::stable_sort(nearest.begin(), nearest.end(), [](const auto* a, const auto* b) {
-        const auto rank = [](const LimitBar* bar) { return std::isnan(bar->share()) ? -1 : bar->share(); };
+    std::stable_sort(nearest.begin(), nearest.end(), [this](const auto* a, const auto* b) {
+        const auto rank = [this](const LimitBar* bar) {
+            if (std::isnan(bar->share())) return -1.0;
+            return bar->share() + (std::ranges::find(seen_, bar) != seen_.end() ? kStaysFor : 0);
+        };
         return rank(a) > rank(b);
     });
     nearest.resize(fit);
+    seen_ = nearest;
     const int wide = fit > 0 ? (width() + kGap) / int(fit) - kGap : 0;
     int left = 0;
     for (auto* bar : bars_) {

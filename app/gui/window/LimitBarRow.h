@@ -1,4 +1,5 @@
-// LimitBarRow.h - limit bars beside each other, as many as fit: those that are nearest to their limits.
+// LimitBarRow.h - limit bars beside each other, as many as fit: those that are nearest to their limits. One that is
+// seen stays until another is clearly nearer.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -16,6 +17,7 @@ public:
     void show(std::size_t index, const std::optional<ExposureRow>& row, std::span<const LimitSet> sets = {}) {
         bars_[index]->show(row, sets);
     }
+    void setTitle(std::size_t index, const QString& title) { bars_[index]->setTitle(title); }
     /// After the last show(): chooses which bars are seen.
     void arrange();
     [[nodiscard]] QSize sizeHint() const override;
@@ -26,6 +28,7 @@ protected:
 
 private:
     std::vector<LimitBar*> bars_;
+    std::vector<LimitBar*> seen_;
 };
 
 }  // namespace tacto::gui

@@ -56,16 +56,30 @@ void Menus::addBench() {
     bench->addAction(tr("Open &simulated bench"), QKeySequence(Qt::CTRL | Qt::Key_B), &window_,
                      &MainWindow::openSimulatedBench);
     bench->addAction(tr("Simulated bench with &faults…"), &window_, &MainWindow::askForSimulatedBench);
-    bench->addAction(tr("&Close"), controller, &BenchController::close);
+    auto* close = bench->addAction(tr("&Close"), controller, &BenchController::close);
     bench->addAction(tr("Oscilloscope cer&tificates…"), &window_,
                      [this] { openDialog(new CertificateDialog(window_.controller(), &window_)); });
     bench->addSeparator();
-    bench->addAction(tr("&Arm…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A), &window_, &MainWindow::askToArm);
-    bench->addAction(tr("&Disarm"), controller, &BenchController::disarm);
-    bench->addAction(tr("&Pause"), &window_, [this] { window_.safetyBar().holdOutput(true); });
-    bench->addAction(tr("Res&ume"), &window_, [this] { window_.safetyBar().holdOutput(false); });
-    bench->addAction(tr("&Reset fault"), controller, &BenchController::resetFault);
-    bench->addAction(tr("Check &impedance"), &window_, &MainWindow::checkImpedance);
+    auto* arm =
+        bench->addAction(tr("&Arm…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A), &window_, &MainWindow::askToArm);
+    auto* disarm = bench->addAction(tr("&Disarm"), controller, &BenchController::disarm);
+    auto* pause = bench->addAction(tr("&Pause"), &window_, [this] { window_.safetyBar().holdOutput(true); });
+    auto* resume = bench->addAction(tr("Res&ume"), &window_, [this] { window_.safetyBar().holdOutput(false); });
+    auto* reset = bench->addAction(tr("&Reset fault"), controller, &BenchController::resetFault);
+    auto* check = bench->addAction(tr("Check &impedance"), &window_, &MainWindow::checkImpedance);
+    bench->setToolTipsVisible(true);
+    const auto follow = [controller, close, arm, disarm, pause, resume, reset, check] {
+        const auto activity = controller->activity();
+        const bool live = activity == Activity::Live;
+        const bool open = activity != Activity::Closed;
+        for (auto* action : {close, arm, reset, check}) action->setEnabled(live);
+        for (auto* action : {disarm, pause, resume}) action->setEnabled(open);
+        const auto why = open ? tr("A run has the bench.") : tr("No bench is open.");
+        for (auto* action : {close, arm, disarm, pause, resume, reset, check})
+            action->setToolTip(action->isEnabled() ? QString() : why);
+    };
+    connect(controller, &BenchController::changed, this, follow);
+    follow();
     bench->addSeparator();
     auto* mark = bench->addAction(tr("&Mark this moment…"), QKeySequence(Qt::CTRL | Qt::Key_M), &window_,
                                   &MainWindow::markMoment);

@@ -6,6 +6,8 @@
 
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/FaultBanner.h"
 #include "app/gui/window/LimitBarRow.h"
@@ -20,10 +22,12 @@ namespace {
 
 constexpr int kFlashFrames = 4;
 constexpr int kBarGap = 16;
-constexpr const char* kFactsWidth = "calibrated 12 d ago, until";
+constexpr const char* kFactsWidth = "calibrated until 2030-12-30";
 constexpr const char* kUnmeasured = QT_TRANSLATE_NOOP("SafetyBar", "impedance not measured");
 constexpr const char* kActions[] = {QT_TRANSLATE_NOOP("SafetyBar", "&Arm…"), QT_TRANSLATE_NOOP("SafetyBar", "Dis&arm"),
                                     QT_TRANSLATE_NOOP("SafetyBar", "&Reset")};
+
+constexpr std::size_t kPeakBar = 0;
 
 struct Bar {
     const char* title;
@@ -258,11 +262,13 @@ void SafetyBar::showState(const Telemetry& telemetry) {
     if (telemetry.trainsDelivered > trainsSeen_ && !blind_) pulse_ = kFlashFrames;
     trainsSeen_ = telemetry.trainsDelivered;
     // An empty presentation delivers nothing: while blind it looks as any other.
+    const bool closed = state_ == InterlockState::Disconnected && controller_.activity() == Activity::Closed &&
+                        controller_.closedByRun();
     const bool hidden = blind_ && (state_ == InterlockState::Delivering || state_ == InterlockState::Armed);
     if (hidden)
         block_->show(InterlockState::Armed, tr("The session presents and asks. Space stops."), false);
     else
-        block_->show(telemetry.state, reasonOf(telemetry), pulse_ > 0);
+        block_->show(telemetry.state, closed ? tr("A run closed the open bench.") : reasonOf(telemetry), pulse_ > 0);
     if (pulse_ > 0) --pulse_;
 }
 
@@ -296,11 +302,14 @@ void SafetyBar::showCalibration() {
     const auto standing = stimulator ? std::optional(calibrations_.standing(*stimulator)) : std::nullopt;
     const bool counts = !standing || standing->state == CalibrationState::Valid;
     auto text = standing ? standingText(*standing) : QString();
+    const auto whole = text;
+    // Where it counts the bar has room for its end; how old it is says the tip.
+    if (standing && counts) text = tr("calibrated until %1").arg(qtext(dateText(standing->newest->validUntil)));
     if (!counts) text = "⚠ " + text;
     if (calibration_->text() != text) {
         calibration_->setText(text);
         calibration_->setToolTip(
-            standing ? text + ". " + standingTip(*standing)
+            standing ? titled(whole) + ". " + standingTip(*standing)
                      : tr("Calibration of the stimulator. Without a valid one it is for bench loads only."));
     }
     setTone(*calibration_, counts ? Tone::Text : Tone::Warning);
@@ -311,6 +320,8 @@ void SafetyBar::showExposure(const Telemetry& telemetry) {
         const auto& quantities = allBars()[i].quantities;
         const auto row = quantities.empty() ? netCharge(telemetry) : tightest(telemetry.exposure(), quantities);
         bars_->show(i, row, controller_.limits().sets);
+        // The command against the profile's ceiling and the peak against the limit set's are two things.
+        if (i == kPeakBar) bars_->setTitle(i, row ? shortRowTitle(*row) : tr(allBars()[i].title));
     }
     bars_->arrange();
 }

@@ -14,9 +14,10 @@ namespace {
 
 constexpr int kLookInterval_ms = 60;
 constexpr int kWidthChars = 46;
-constexpr int kTallest = 10'000;  // px, of a text that has all the room
-constexpr int kMargin = 24;       // from the window's edges
-constexpr int kAboveStatus = 48;  // from its lower edge
+constexpr int kTallest = 10'000;        // px, of a text that has all the room
+constexpr int kMargin = 24;             // from the window's edges
+constexpr int kAboveStatus = 48;        // from its lower edge
+constexpr double kControlCounts = 100;  // as much as so many of what else the text speaks of
 
 }  // namespace
 
@@ -75,7 +76,6 @@ void Tour::go(std::size_t step, bool back) {
     done_.invalidate();
     shown_ = nullptr;
     title_->setText(now.title);
-    text_->setText(now.text);
     place_->setText(tr("%1 of %2").arg(step_ + 1).arg(steps_.size()));
     back_->setEnabled(step_ > 0);
     next_->setText(step_ + 1 < steps_.size() ? tr("Next") : tr("Done"));
@@ -103,6 +103,7 @@ void Tour::look() {
     bringIntoView(target.widget);
     if (!frame_) frame_ = new TourFrame(window());  // it went with a dialog
     frame_->follow(target);
+    if (const auto text = now.text(); !done_.isValid() && text_->text() != text) text_->setText(text);
     const bool isDone = now.done && now.done();
     if (!isDone) waits_ = false;
     if (isDone && !waits_ && !done_.isValid()) {
@@ -122,8 +123,8 @@ void Tour::bringIntoView(QWidget* control) {
     }
 }
 
-/// In the corner where it hides least of the control, the lower right one first, and below the safety bar: STOP is
-/// never covered.
+/// Where it hides least of the control, then of what else the text speaks of; the lower right corner first, and below
+/// the safety bar: STOP is never covered.
 void Tour::place() {
     const int wide = std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() - 4 * kMargin);
     // Measured here: the label's own answer is that of the size of text before, when that has just changed.
@@ -139,16 +140,25 @@ void Tour::place() {
     const int bottom = std::max(top, room.height() - size.height() - kAboveStatus);
     QRect control;
     if (frame_ && frame_->isVisible() && frame_->parentWidget() == parentWidget()) control = frame_->geometry();
+    std::vector<QRect> others;
+    if (const auto& about = steps_[step_].about) {
+        for (auto* widget : about()) {
+            if (widget != nullptr && widget->window() == window()) others.push_back(visiblePart({widget}));
+        }
+    }
+    const auto areaOf = [](const QRect& part) { return part.isEmpty() ? 0.0 : double(part.width()) * part.height(); };
     QRect best;
-    int least = std::numeric_limits<int>::max();
-    for (const auto corner :
-         {QPoint(right, bottom), QPoint(kMargin, bottom), QPoint(right, top), QPoint(kMargin, top)}) {
-        const QRect here(corner, size);
-        const auto hidden = here & control;
-        const int hides = hidden.isEmpty() ? 0 : hidden.width() * hidden.height();
-        if (hides >= least) continue;
-        least = hides;
-        best = here;
+    double least = std::numeric_limits<double>::max();
+    const int centre = (room.width() - size.width()) / 2, middle = (top + bottom) / 2;
+    for (const int y : {bottom, top, middle}) {
+        for (const int x : {right, kMargin, centre}) {
+            const QRect here(QPoint(x, y), size);
+            double hides = kControlCounts * areaOf(here & control);
+            for (const auto& other : others) hides += areaOf(here & other);
+            if (hides >= least) continue;
+            least = hides;
+            best = here;
+        }
     }
     if (geometry() != best) setGeometry(best);
     raise();

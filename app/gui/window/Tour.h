@@ -1,8 +1,9 @@
 // Tour.h - the first run's tour, on the simulated bench: steps that are done, not read.
 //
-// A panel over a corner of the window, where it covers neither the safety bar nor the control that it talks about, and
-// a frame around that control. A step is over when what it asks for was done at the window's own controls; Next passes
-// it over, Back returns. Never modal: STOP, its keys and all else stay within reach. What is left can be resumed.
+// A panel in the window, where it covers neither the safety bar nor the control that it talks about, and least of what
+// else its text speaks of; and a frame around that control. A step is over when what it asks for was done at the
+// window's own controls; Next passes it over, Back returns. Never modal: STOP, its keys and all else stay within reach.
+// What is left can be resumed.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -22,11 +23,12 @@ namespace tacto::gui {
 
 struct TourStep {
     QString title;
-    QString text;
+    std::function<QString()> text;       ///< as things stand now
     std::function<void()> enter;         ///< brings the control into view and notes how things stand; may be empty
     std::function<TourTarget()> target;  ///< as things stand now; may be empty
     std::function<bool()> done;          ///< since enter()
     int linger_ms = 1200;                ///< how long it stays when it is done, to be seen
+    std::function<std::vector<QWidget*>()> about = {};  ///< what else the text speaks of; may be empty
 };
 
 class Tour final : public QFrame {
@@ -36,6 +38,10 @@ public:
     /// From this step on, from 0; beyond the last: from the first.
     void begin(int step);
     [[nodiscard]] int step() const { return int(step_); }
+    /// A text that stays as it is.
+    [[nodiscard]] static std::function<QString()> always(const QString& text) {
+        return [text] { return text; };
+    }
 
 signals:
     /// Another step is shown.

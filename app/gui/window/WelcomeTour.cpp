@@ -3,8 +3,17 @@
 #include <QSettings>
 #include <QTabBar>
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
+#include "app/gui/runner/ParameterForm.h"
+#include "app/gui/runner/ResultHead.h"
+#include "app/gui/runner/TrialPlane.h"
+#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/sessions/SessionDetails.h"
+#include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/MainWindow.h"
 
@@ -18,8 +27,12 @@ constexpr int kSeparabilityPage = 3;
 constexpr int kSessionsPage = 5;
 constexpr int kTouchTab = 0;
 constexpr int kScopeTab = 1;
-constexpr int kOpenStep = 1;       // of the tour: the simulated bench
+constexpr int kOpenStep = 1;  // of the tour: the simulated bench
+constexpr int kInside = 8;
+constexpr int kSee_ms = 1200;
 constexpr int kReadFor_ms = 6000;  // where something is to be read when it is done
+
+std::function<QString()> say(const char* text) { return Tour::always(WelcomeTour::tr(text)); }
 
 }  // namespace
 
@@ -47,6 +60,7 @@ WelcomeTour::WelcomeTour(MainWindow& window) : QObject(&window), window_(window)
     });
     connect(&controller_, &BenchController::finished, this, [this](const std::shared_ptr<const FinishedRun>& run) {
         if (!run->result.outcome.error) ++judged_;
+        newest_ = QString::fromStdString(run->result.session.string());
     });
     connect(tour_, &Tour::stepped, this, [](int step) { QSettings().setValue("tourStep", step); });
     connect(tour_, &Tour::ended, this, [](bool finished) {
@@ -76,52 +90,60 @@ std::vector<TourStep> WelcomeTour::onTheBench() {
     };
     return {
         {tr("First, how to stop"),
-         tr("This bench turns what a fingertip feels into pulse trains: texture into amplitude, pressure into the "
-            "interval. The tour runs on simulated devices alone: while a real one is open it points at nothing. Esc, "
-            "Pause and this button switch "
-            "the output off, at any time and in any window. Press Esc."),
+         say("This bench turns what a fingertip feels into pulse trains: texture into amplitude, pressure into the "
+             "interval. The tour runs on simulated devices alone: while a real one is open it points at nothing. Esc, "
+             "Pause and this button switch "
+             "the output off, at any time and in any window; outside a field of text Space does too. Press Esc."),
          {},
          [this] { return TourTarget{window_.findChild<QWidget*>("safetyBar")->findChild<QWidget*>("stopButton")}; },
          [this] { return controller_.stoppedSince(begun_); }},
         {tr("Open the simulated bench"),
-         tr("A fingertip, a stimulator on 1 kΩ and an oscilloscope. Press the framed button, or Ctrl+B. From then on "
-            "everything is recorded."),
+         say("A fingertip, a stimulator on 1 kΩ and an oscilloscope. Press the framed button, or Ctrl+B. From then on "
+             "everything is recorded."),
          [this, toTouch] {
              toTouch();
              window_.showDock("deviceDock");
          },
-         [this] { return TourTarget{named("openBench")}; },
+         [this] { return openTarget(); },
          [this] {
              const auto open = controller_.open();
              return controller_.activity() == Activity::Live && open && open->source && open->simulated();
          }},
-        {tr("Put a surface under the finger"),
-         tr("Choose P120, a coarse sandpaper. Acceleration, force and taxels become roughness R and pressure P: the "
-            "point in the tactile plane."),
-         toTouch, [this] { return TourTarget{named("surface")}; }, [this] { return presented_ > 0; }},
+        {tr("Put a surface under the finger"), [this] { return surfaceText(); },
+         [this, toTouch] {
+             toTouch();
+             rough_.reset();
+         },
+         [this] { return TourTarget{named("surface")}; }, [this] { return presented_ > 0; }},
         {tr("Arm, in two steps"),
-         tr("The first opens a question, the second measures the load with one small pulse. The bars at the top show "
-            "how far each limit is."),
+         say("The first opens a question, the second measures the load with one small pulse. The bars at the top show "
+             "how far each limit is."),
          {},
          [this] { return armTarget(); },
          [this] { return state() == InterlockState::Armed || state() == InterlockState::Delivering; }},
         {tr("Let the fingertip drive"),
-         tr("Nothing is delivered until something drives. Choose Fingertip: amplitude and interval then follow what is "
-            "felt."),
+         say("Nothing is delivered until something drives. Choose Fingertip: amplitude and interval then follow what "
+             "is "
+             "felt."),
          [this] { window_.showDock("driveDock"); }, [this] { return TourTarget{named("driveFingertip")}; },
-         [this] { return state() == InterlockState::Delivering && controller_.telemetry().trainsDelivered > 0; }},
+         [this] { return state() == InterlockState::Delivering && controller_.telemetry().trainsDelivered > 0; },
+         kSee_ms,
+         [this] {
+             return std::vector{named("exposureDock"), named("driveDock")};
+         }},
     };
 }
 
 std::vector<TourStep> WelcomeTour::toTheVerdict() {
     return {
         {tr("See a measured pulse"),
-         tr("Open the oscilloscope. What really came out is captured, and each pulse is measured: amplitude, phase "
-            "width, gap and charge stand under Measurements."),
+         say("Open the oscilloscope. What really came out is captured, and each pulse is measured: amplitude, phase "
+             "width and gap stand under Measurements, charge further down."),
          [this] { window_.showDock("measurementDock"); }, [this] { return scopeTarget(); },
-         [this] { return showsScope() && captured_ > 0; }, kReadFor_ms},
+         [this] { return showsScope() && captured_ > 0; }, kReadFor_ms,
+         [this] { return std::vector<QWidget*>{window_.findChild<ScopeScreen*>()}; }},
         {tr("Disarm"),
-         tr("Done with the output: the same button switches it off."),
+         say("Done with the output: the same button switches it off."),
          {},
          [this] { return TourTarget{named("armButton")}; },
          [this] {
@@ -129,20 +151,64 @@ std::vector<TourStep> WelcomeTour::toTheVerdict() {
                     state() != InterlockState::Paused;
          }},
         {tr("Run a protocol"),
-         tr("Separability asks whether an oscilloscope can tell four conditions apart. Open it and press Run: on "
-            "simulated devices it takes less than a minute, and ends with a verdict and a report."),
+         say("Separability asks whether an oscilloscope can tell four conditions apart. Open it and press Run: on "
+             "simulated devices it takes less than a minute, and ends with a verdict and a report."),
          {},
          [this] { return runTarget(); },
          [this] { return judged_ > 0; },
-         kReadFor_ms},
+         kReadFor_ms,
+         [this] { return ofTheRun(); }},
         {tr("Everything is kept"),
-         tr("The verdict is at the top, with the reasons below it. Each bench and each run is a session: find it, "
-            "replay it, compare, export and verify it here. ? shows all keys, F1 explains what has the focus."),
+         say("Each bench and each run is a session. Open Sessions and look at the newest one: its verdict, trials and "
+             "captures, and below them Report, Replay and Open capture. ? shows all keys, F1 explains what has the "
+             "focus."),
          {},
-         [this] { return workspaceButton(kSessionsPage); },
+         [this] { return sessionsTarget(); },
          [this] { return window_.workspace() == kSessionsPage; },
          kReadFor_ms},
     };
+}
+
+/// The button in the middle where it is in sight: it has the step's own title.
+TourTarget WelcomeTour::openTarget() const {
+    for (auto* empty : window_.findChildren<EmptyState*>()) {
+        if (!empty->isVisible()) continue;
+        for (auto* button : empty->findChildren<QPushButton*>())
+            if (button->property("role") == "primary") return {button};
+    }
+    return {named("openBench")};
+}
+
+/// One that changes what is shown.
+QString WelcomeTour::surfaceText() {
+    const double now = controller_.telemetry().roughness;
+    if (!rough_ && std::isfinite(now)) rough_ = now > 0.5;
+    const auto choice = !rough_   ? tr("Choose another surface: glass is smooth, P120 a coarse sandpaper.")
+                        : *rough_ ? tr("What it feels now is rough. Choose glass, which is smooth.")
+                                  : tr("What it feels now is smooth. Choose P120, a coarse sandpaper.");
+    return tr("%1 Acceleration, force and taxels become roughness R and pressure P: the point in the tactile plane.")
+        .arg(choice);
+}
+
+std::vector<QWidget*> WelcomeTour::ofTheRun() const {
+    std::vector<QWidget*> all;
+    const auto add = [&](const auto& found) {
+        for (auto* widget : found)
+            if (widget->isVisible()) all.push_back(widget);
+    };
+    add(window_.findChildren<ParameterForm*>());
+    add(window_.findChildren<ResultHead*>());
+    add(window_.findChildren<ExposureTable*>());
+    add(window_.findChildren<TrialPlane*>());
+    return all;
+}
+
+/// Once they are open, the newest one.
+TourTarget WelcomeTour::sessionsTarget() {
+    if (window_.workspace() != kSessionsPage) return workspaceButton(kSessionsPage);
+    if (!newest_.isEmpty()) window_.openFile(std::exchange(newest_, {}));
+    auto* details = window_.findChild<SessionDetails*>();
+    return {details, details->rect().adjusted(kInside, kInside, -kInside, -kInside)};  // the frame stays off STOP
 }
 
 QWidget* WelcomeTour::named(const char* name) const { return window_.findChild<QWidget*>(name); }

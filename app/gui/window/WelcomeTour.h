@@ -5,6 +5,7 @@
 #pragma once
 
 #include <QObject>
+#include <optional>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/window/Tour.h"
@@ -29,7 +30,11 @@ private:
     [[nodiscard]] QWidget* named(const char* name) const;
     [[nodiscard]] TourTarget workspaceButton(int index) const;
     [[nodiscard]] TourTarget armTarget() const;
+    [[nodiscard]] TourTarget openTarget() const;
+    [[nodiscard]] QString surfaceText();
     [[nodiscard]] TourTarget scopeTarget() const;
+    [[nodiscard]] std::vector<QWidget*> ofTheRun() const;
+    [[nodiscard]] TourTarget sessionsTarget();
     [[nodiscard]] TourTarget runTarget() const;
     [[nodiscard]] bool showsScope() const;
     [[nodiscard]] InterlockState state() const;
@@ -44,6 +49,8 @@ private:
     int presented_ = 0;
     int captured_ = 0;
     int judged_ = 0;
+    std::optional<bool> rough_;  ///< what the finger felt first
+    QString newest_;             ///< session of a run, to be shown
 };
 
 }  // namespace tacto::gui

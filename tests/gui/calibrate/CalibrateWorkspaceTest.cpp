@@ -95,6 +95,11 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_EQ(workspace.runner().findChild<QTableWidget*>("calibrationLevels")->rowCount(), 11);
     EXPECT_THAT(workspace.runner().findChild<QLabel*>("verdictWhy")->text().toStdString(),
                 HasSubstr("of its tolerance at"));
+    const auto more = workspace.runner().findChild<QLabel*>("verdictMore")->text().toStdString();
+    EXPECT_THAT(more, HasSubstr("before this run it was not."));
+    EXPECT_THAT(more, HasSubstr("Calibrated until 20"));
+    EXPECT_THAT(more, Not(HasSubstr("(-"))) << "minus signs, as in the report";
+    EXPECT_THAT(more, Not(HasSubstr("is not calibrated")));
     QTest::qWait(20);  // drawn with the next event
     shot(workspace, "calibrate_done");
     gui::applyTheme(gui::Theme::Dark);

@@ -115,6 +115,80 @@ TEST_F(LiveBench, AStopComesBackToOffAndArmingAgainDeliversNothing) {
     EXPECT_TRUE(find<QPushButton>(drive, "Off")->isChecked());
 }
 
+TEST_F(LiveBench, FromOffByHandBeginsAtNothingWhateverTheFingertipFelt) {
+    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H12");
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(armed());
+    auto* hand = find<QPushButton>(drive, "By hand");
+    auto* roughness = find<QSlider>(drive, "Roughness R");
+    auto* pressure = find<QSlider>(drive, "Pressure P");
+    controller.present("P120", 50, 1);
+    click(*find<QPushButton>(drive, "Fingertip"));
+    ASSERT_IN_TIME(comesTrue([&] { return roughness->value() > 30 && controller.telemetry().trainsDelivered > 1; }));
+    click(*find<QPushButton>(drive, "Off"));
+    ASSERT_IN_TIME(comesTrue([&] { return roughness->value() == 0 && pressure->value() == 0; }));
+    EXPECT_THAT(textOf(drive, "driveSays").toStdString(), HasSubstr("By hand asks for 10.0"))
+        << "it is said before the click";
+    click(*hand);
+    EXPECT_EQ(controller.lastDrive().source, DriveSource::Manual);
+    EXPECT_EQ(controller.lastDrive().roughness, 0);
+    EXPECT_EQ(controller.lastDrive().pressure, 0);
+    // What a person sets is what By hand begins with the next time; the fingertip's values are not.
+    roughness->setFocus();
+    for (int i = 0; i < 2; ++i) QTest::keyClick(roughness, Qt::Key_PageUp);
+    click(*find<QPushButton>(drive, "Fingertip"));
+    ASSERT_IN_TIME(comesTrue([&] { return roughness->value() > 30; }));
+    controller.stop("test");
+    ASSERT_IN_TIME(comesTrue([&] { return roughness->value() == 20; }));
+    ASSERT_IN_TIME(armed());
+    click(*hand);
+    EXPECT_EQ(controller.lastDrive().roughness, 0.2);
+    EXPECT_EQ(controller.lastDrive().pressure, 0);
+}
+
+TEST_F(LiveBench, ByHandGoesOnWithWhatTheFingertipDelivers) {
+    RecordProperty("hazard", "H6");
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(armed());
+    auto* hand = find<QPushButton>(drive, "By hand");
+    auto* roughness = find<QSlider>(drive, "Roughness R");
+    controller.present("P120", 50, 1);
+    click(*find<QPushButton>(drive, "Fingertip"));
+    ASSERT_IN_TIME(comesTrue([&] { return roughness->value() > 30 && controller.telemetry().trainsDelivered > 1; }));
+    click(*hand);
+    ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().driving == DriveSource::Manual; }));
+    EXPECT_GT(controller.telemetry().amplitude_v, 15) << "it does not jump";
+    // Lifted, the fingertip delivers nothing, and there is nothing to go on with.
+    click(*find<QPushButton>(drive, "Fingertip"));
+    controller.present("", 0, 0);
+    ASSERT_IN_TIME(comesTrue([this] {
+        return controller.telemetry().driving == DriveSource::Sensor &&
+               !std::isfinite(controller.telemetry().amplitude_v);
+    }));
+    click(*hand);
+    EXPECT_EQ(roughness->value(), 0);
+    EXPECT_EQ(controller.lastDrive().source, DriveSource::Manual);
+    EXPECT_EQ(controller.lastDrive().roughness, 0);
+    EXPECT_EQ(controller.lastDrive().pressure, 0);
+}
+
+TEST_F(LiveBench, WhatWasSetByHandEndsWithItsBench) {
+    RecordProperty("hazard", "H12");
+    ASSERT_IN_TIME(openSimulated());
+    auto* roughness = find<QSlider>(drive, "Roughness R");
+    roughness->setFocus();
+    QTest::keyClick(roughness, Qt::Key_PageUp);
+    EXPECT_EQ(roughness->value(), 10);
+    controller.setProfile(controller.profile());
+    ASSERT_IN_TIME(passes(0.2));
+    EXPECT_EQ(roughness->value(), 10) << "the same bench";
+    controller.close();
+    ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Closed; }));
+    ASSERT_IN_TIME(openSimulated());
+    EXPECT_EQ(roughness->value(), 0);
+}
+
 TEST_F(LiveBench, AStopWhileDisarmedShowsAsOffToo) {
     ASSERT_IN_TIME(openSimulated());
     auto* hand = find<QPushButton>(drive, "By hand");

@@ -97,6 +97,63 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     shot(*workspace, "report");
 }
 
+TEST_F(Workspace, TheReportIsPrintedToBeSignedAndSaysWhomItNames) {
+    RecordProperty("hazard", "H9");
+    open("separability");
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
+    using State = gui::StepList::State;
+    EXPECT_EQ(step("Wiring").state(), State::ToDo) << "not seen yet";
+    workspace->goTo(gui::kWiring);
+    EXPECT_EQ(step("Wiring").state(), State::Done);
+    workspace->goTo(gui::kSettings);
+    type("operator", "A. Lind");
+    EXPECT_TRUE(step("Settings").isChecked()) << "asked for before the run";
+    type("repeats", "2");
+    workspace->goTo(gui::kSign);
+    EXPECT_EQ(find<QLineEdit>(*workspace, "operator"), nullptr) << "nothing entered there would reach a report";
+    EXPECT_THAT(says("howToSign").toStdString(), HasSubstr("sign in ink"));
+    click(the<QPushButton>("runButton"));
+    ASSERT_IN_TIME(ends());
+    click(the<QPushButton>("Sign report…"));
+    EXPECT_EQ(says("namedOperator"), "A. Lind");
+    EXPECT_EQ(says("namedSample"), "not recorded");
+    EXPECT_EQ(says("namedReviewer"), "not recorded");
+    EXPECT_EQ(step("Sign").state(), State::ToDo);
+    ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(*workspace, "openReport") != nullptr; }, 60'000));
+    EXPECT_THAT(primaries(), testing::ElementsAre("Open in the PDF viewer"));
+    click(the<QPushButton>("openReport"));
+    EXPECT_EQ(step("Sign").state(), State::Done);
+    click(the<QPushButton>("changeNotes"));
+    EXPECT_TRUE(step("Settings").isChecked()) << "names are changed there, and the run done again";
+}
+
+TEST_F(Workspace, ARunSaysThatItClosesTheBenchAndOpensItAgain) {
+    RecordProperty("hazard", "H12");
+    open("separability");
+    ASSERT_IN_TIME(ready());
+    EXPECT_FALSE(says("timeLeft").contains("closes"));
+    gui::LiveOrder order;
+    order.uris.push_back(*DeviceUri::parse("sim:"));
+    order.profile = controller.profile();
+    controller.openLive(order);
+    ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Live; }));
+    EXPECT_THAT(says("timeLeft").toStdString(), HasSubstr("Running closes the open bench"));
+    type("repeats", "2");
+    click(the<QPushButton>("runButton"));
+    ASSERT_IN_TIME(ends());
+    EXPECT_EQ(controller.activity(), gui::Activity::Closed);
+    EXPECT_THAT(says("closedByRun").toStdString(), HasSubstr("The run closed the bench"));
+    EXPECT_THAT(says("timeLeft").toStdString(), HasSubstr("of the bench’s time")) << "of a simulated bench";
+    click(the<QPushButton>("openAgain"));
+    ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Live; }));
+    EXPECT_EQ(controller.telemetry().driving, DriveSource::Off);
+    EXPECT_EQ(controller.telemetry().state, InterlockState::Disarmed);
+    EXPECT_EQ(find<QPushButton>(*workspace, "openAgain"), nullptr);
+    controller.close();
+    ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Closed; }));
+    EXPECT_FALSE(controller.closedByRun()) << "the person closed it";
+}
+
 TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
     RecordProperty("hazard", "H1");
     open("separability");

@@ -7,6 +7,9 @@
 #include <QScrollArea>
 #include <QScrollBar>
 
+#include "app/gui/calibrate/CalibrationPlot.h"
+#include "app/gui/runner/LimitMatrixView.h"
+#include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/ScopeModel.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/theme/TabbedPage.h"
@@ -39,6 +42,28 @@ protected:
             }
         }
         gui::applyTheme(gui::Theme::Light);
+    }
+    /// How much of the column between the verdict's head and the buttons below the main plot has: 0 to 1.
+    [[nodiscard]] double shareOf(const QWidget& plot) {
+        const auto onWindow = [this](const QWidget& part) { return QRect(part.mapTo(&window, QPoint()), part.size()); };
+        const auto* head = find<QWidget>(window, "verdictReasons");
+        const auto* next = find<QWidget>(window, "nextSteps");
+        const int top = onWindow(*head).bottom() + 1, bottom = onWindow(*next).top();
+        return double(plot.height()) / (bottom - top);
+    }
+    template <class Plot>
+    void plotHas(double leastSmall, double leastLarge, const char* name) {
+        for (const auto size : {QSize(1280, 720), QSize(1920, 1080)}) {
+            window.resize(size);
+            QTest::qWait(200);
+            Plot* plot = nullptr;
+            for (auto* one : window.findChildren<Plot*>())
+                if (one->isVisible()) plot = one;
+            ASSERT_NE(plot, nullptr);
+            const double share = shareOf(*plot);
+            EXPECT_GE(share, size.height() < 1000 ? leastSmall : leastLarge) << name << " at " << size.height();
+            RecordProperty(QString("%1 %2").arg(name).arg(size.height()).toStdString(), std::to_string(share));
+        }
     }
     void type(const char* field, const QString& text) {
         QLineEdit* line = nullptr;
@@ -74,6 +99,8 @@ TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
     window.findChild<QLineEdit*>("warm_up_s")->setText("0");
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-calibrate");
+    // Below it stand the cards, one for each quantity.
+    plotHas<gui::CalibrationPlot>(0.7, 0.8, "residuals");
 }
 
 TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
@@ -81,12 +108,15 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
     ASSERT_NO_FATAL_FAILURE(type("area", "4"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-safety");
+    // Below it stands the tracing of the strongest output.
+    plotHas<gui::LimitMatrixView>(0.6, 0.65, "matrix");
 }
 
 TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
     window.showWorkspace(3);
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-separability");
+    plotHas<gui::TrialPlane>(0.95, 0.95, "plane");
 }
 
 TEST_F(ResultsInTheWindow, AFaultLooksRight) {

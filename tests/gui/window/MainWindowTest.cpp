@@ -47,6 +47,23 @@ TEST_F(WithoutResources, ItSaysSoAtOnceAndWhatWouldHelp) {
     EXPECT_THAT(banner().toStdString(), HasSubstr("TACTOSCOPE_RESOURCES is /no/such/folder, a folder with protocols/"));
 }
 
+TEST_F(Window, TheBenchMenuOffersWhatCanBeDone) {
+    RecordProperty("hazard", "H12");
+    const auto offered = [this](const QString& text) {
+        for (const auto* action : window.findChildren<QAction*>())
+            if (QString(action->text()).remove('&') == text) return action->isEnabled();
+        ADD_FAILURE() << "no menu has " << text.toStdString();
+        return false;
+    };
+    for (const auto* text : {"Close", "Arm…", "Disarm", "Pause", "Resume", "Reset fault", "Check impedance"})
+        EXPECT_FALSE(offered(text)) << text;
+    EXPECT_TRUE(offered("STOP (Esc)")) << "always";
+    open();
+    for (const auto* text : {"Close", "Arm…", "Disarm", "Pause", "Resume"}) EXPECT_TRUE(offered(text)) << text;
+    window.controller().close();
+    EXPECT_IN_TIME(comesTrue([&] { return !offered("Close") && !offered("Arm…"); }));
+}
+
 TEST_F(Window, ArmingTakesTwoSteps) {
     RecordProperty("hazard", "H12");
     open();

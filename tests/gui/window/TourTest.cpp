@@ -2,6 +2,7 @@
 #include <QComboBox>
 #include <QSettings>
 #include <QTabBar>
+#include <QTableWidget>
 #include <gmock/gmock.h>
 
 #include "app/gui/theme/TabbedPage.h"
@@ -54,6 +55,9 @@ protected:
         return *found;
     }
     [[nodiscard]] QWidget& stopButton() { return *named<QWidget>("safetyBar").findChild<QWidget*>("stopButton"); }
+    [[nodiscard]] bool tourCovers(const QWidget& widget) {
+        return tour().geometry().intersects(QRect(widget.mapTo(&window, QPoint()), widget.size()));
+    }
     void press(const char* button) { click(*find<QPushButton>(tour(), button)); }
     void picture(const char* name) { shot(window, QString("tour-%1").arg(name)); }
 };
@@ -67,12 +71,17 @@ TEST_F(TourOfTheWindow, IsWalkedByDoingEachThing) {
     key(Qt::Key_Escape);
 
     ASSERT_IN_TIME(comesTo("Open the simulated bench"));
-    ASSERT_IN_TIME(frames(named<QPushButton>("openBench")));
+    auto* middle = find<QPushButton>(window, "Open the simulated bench");
+    ASSERT_NE(middle, nullptr);
+    ASSERT_IN_TIME(frames(*middle)) << "the large one has the step's own title";
     picture("2-open");
-    click(named<QPushButton>("openBench"));
+    click(*middle);
     ASSERT_IN_TIME(comesTo("Put a surface under the finger"));
     auto& surface = named<QComboBox>("surface");
     ASSERT_IN_TIME(frames(surface));
+    const auto says = [this] { return tour().findChild<QLabel*>("tourText")->text(); };
+    ASSERT_IN_TIME(comesTrue([&] { return says().startsWith("What it feels now is "); }));
+    EXPECT_TRUE(says().contains("is rough. Choose glass")) << "of itself the simulated finger feels rough";
     picture("3-surface");
     surface.setCurrentIndex(surface.findText("P120"));
 
@@ -93,6 +102,7 @@ TEST_F(TourOfTheWindow, IsWalkedByDoingEachThing) {
     ASSERT_IN_TIME(frames(finger));
     EXPECT_EQ(window.controller().telemetry().trainsDelivered, 0U) << "the tour drives nothing by itself";
     picture("5-drive");
+    EXPECT_FALSE(tourCovers(named<QWidget>("exposureDock")));
     click(finger);
 
     ASSERT_IN_TIME(comesTo("See a measured pulse"));
@@ -124,14 +134,25 @@ TEST_F(TourOfTheWindow, IsWalkedByDoingEachThing) {
     }));
     ASSERT_IN_TIME(frames(*run));
     picture("7-run");
+    for (auto* table : window.findChildren<QTableWidget*>()) {
+        if (!table->inherits("tacto::gui::ExposureTable") || !table->isVisible()) continue;
+        EXPECT_FALSE(tourCovers(*table)) << "the limits, of which the run is judged";
+    }
     click(*run);
     ASSERT_IN_TIME(
         comesTrue([this] { return tour().findChild<QLabel*>("tourPlace")->text().contains("done"); }, 120'000));
     picture("7b-verdict");
+    ASSERT_NE(find<QWidget>(window, "verdictReasons"), nullptr);
+    EXPECT_FALSE(tourCovers(*find<QWidget>(window, "verdictReasons")));
     ASSERT_IN_TIME(comesTo("Everything is kept"));
     auto* sessions = window.findChildren<QWidget*>("workspaceButton").value(5);
     ASSERT_IN_TIME(frames(*sessions));
     click(*sessions);
+    ASSERT_IN_TIME(comesTrue([this] {
+        auto* report = find<QPushButton>(window, "Report");
+        return report != nullptr && report->isEnabled() && !tourCovers(*report);
+    })) << "the newest session is chosen, and what it offers is in sight";
+    picture("8-sessions");
     ASSERT_IN_TIME(comesTrue([this] { return !tour().isVisible(); }, 20'000));
     EXPECT_EQ(frame(), nullptr);
     EXPECT_TRUE(QSettings().value("tourDone").toBool()) << "it does not come again by itself";

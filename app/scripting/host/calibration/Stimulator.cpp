@@ -1,6 +1,8 @@
 // The calibration of a stimulator: its ranges, what was found of a quantity, and the verdict.
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/analysis/CalibrationAsked.h"
@@ -22,6 +24,17 @@ std::string worstOf(const Json& judged) {
         return std::ranges::any_of(judged, [&](const Json& one) { return textIn(one, "verdict") == verdict; });
     };
     return any("fail") ? "fail" : any("indeterminate") ? "indeterminate" : "pass";
+}
+
+/// How much of its tolerance the worst level uses; 0 where nothing says so.
+double worstUse(const Json& found) {
+    double worst = 0;
+    for (const auto& level : listIn(found, "levels")) {
+        const double use = (std::abs(numberIn(level, "worst_error")) + numberIn(level, "worst_expanded_uncertainty")) /
+                           numberIn(level, "tolerance");
+        if (use > worst) worst = use;
+    }
+    return worst;
 }
 
 }  // namespace
@@ -101,9 +114,13 @@ Result<Json> stimulatorVerdict(ScriptSession&, const Arguments& arguments) {
         if (verdict == "pass") verdict = "indeterminate";
         reasons.push_back(clock + (arguments.flag("store") ? "; nothing was stored" : ""));
     }
-    for (const auto& one : found) {
-        const auto title = report::titleOfQuantity(textIn(one, "quantity"));
-        for (const auto& reason : listIn(one, "reasons"))
+    // The nearest to its tolerance comes first: it is the headline.
+    std::vector<const Json*> nearestFirst;
+    for (const auto& one : found) nearestFirst.push_back(&one);
+    std::ranges::stable_sort(nearestFirst, std::greater(), [](const Json* one) { return worstUse(*one); });
+    for (const auto* one : nearestFirst) {
+        const auto title = report::titleOfQuantity(textIn(*one, "quantity"));
+        for (const auto& reason : listIn(*one, "reasons"))
             reasons.push_back(title + ": " + (reason.is_string() ? reason.get<std::string>() : shown(reason)));
     }
     return Json{{"verdict", verdict}, {"reasons", std::move(reasons)}};
