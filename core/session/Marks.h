@@ -16,7 +16,7 @@ namespace tacto {
 
 class SessionReader;
 
-/// Of a run whose readings make a calibration.
+/// The mark that a run has whose readings make a calibration.
 inline constexpr const char* kNotCalibratedBefore = "Before this run the stimulator was not calibrated.";
 
 /// Sentences, and the flags as science.md names them ("uncalibrated R"). Errors: as SessionReader::events() and

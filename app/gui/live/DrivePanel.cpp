@@ -129,7 +129,7 @@ void DrivePanel::begin() {
     asked_.reset();
     last_ = DriveSource::Off;
     off_->setChecked(true);
-    // Another bench: what was set by hand on the one before is no setting of this one.
+    // Another bench begins anew: what was set by hand belongs to the one before.
     if (const auto bench = controller_.tap(); bench != bench_.lock() || !bench) {
         bench_ = bench;
         for (auto* index : {&roughness_, &pressure_}) index->byHand = 0;

@@ -124,6 +124,8 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
     open();
     ASSERT_IN_TIME(comesTrue([this] { return says().rfind("calibrated until ", 0) == 0; })) << says();
     EXPECT_FALSE(warns());
+    const auto* age = window.findChild<QLabel*>("calibrationAge");
+    EXPECT_LE(age->fontMetrics().horizontalAdvance(age->text()), age->width()) << "the year is not cut";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Readings of a calibration as they come: which way, which stand out, in which band.
+#include <QComboBox>
 #include <QTest>
 #include <gmock/gmock.h>
 
@@ -48,6 +49,18 @@ protected:
     }
     gui::CalibrationView view;
 };
+
+TEST_F(View, EachPlotHasItsOwnTitleAndLegend) {
+    sweep();
+    auto* title = view.findChild<QLabel*>("calibrationShown");
+    EXPECT_EQ(title->text(), "Amplitude: residuals in their tolerance");
+    view.findChild<QComboBox*>("calibrationPlotKind")->setCurrentIndex(1);
+    EXPECT_EQ(title->text(), "Amplitude: measured against commanded");
+    EXPECT_TRUE(measured().legend->visible());
+    EXPECT_GE(measured().legend->itemCount(), 3);
+    view.findChild<QComboBox*>("calibrationPlotKind")->setCurrentIndex(0);
+    EXPECT_EQ(title->text(), "Amplitude: residuals in their tolerance");
+}
 
 TEST_F(View, WaysAreToldApartAndWhatStandsOutIsMarkedAndKept) {
     shot(view, "calibrate_view_empty");

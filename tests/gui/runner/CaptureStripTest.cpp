@@ -59,6 +59,20 @@ TEST(CaptureStrip, GrownItHasTheNumbersThatItHasRoomFor) {
     }
 }
 
+TEST(CaptureStrip, VoltageAndCurrentOfOneShapeDoNotHideEachOther) {
+    gui::CaptureStrip strip;
+    strip.resize(600, 300);
+    static_cast<QWidget&>(strip).show();
+    strip.show(captureOf(1e-3, 40));
+    strip.replot();
+    ASSERT_EQ(strip.graphCount(), 2);
+    const auto topOf = [&](int graph) {
+        bool found = false;
+        return strip.graph(graph)->valueAxis()->coordToPixel(strip.graph(graph)->getValueRange(found).upper);
+    };
+    EXPECT_GT(topOf(1), topOf(0) + 10) << "the current is drawn smaller";
+}
+
 TEST(CaptureStrip, TheNumbersAtItsAxesNeverTouch) {
     for (const int percent : {100, 200}) {
         gui::applyTextSize(percent);

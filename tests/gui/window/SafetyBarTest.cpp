@@ -49,6 +49,26 @@ TEST(LimitBar, IsNoFinerThanAHundredthOfALimitInPercentThatIsFar) {
     EXPECT_EQ(said(0), "0 % of 1 %");
 }
 
+TEST(LimitBarRow, ABarThatIsSeenStaysUntilAnotherIsClearlyNearer) {
+    RecordProperty("hazard", "H12");
+    gui::LimitBarRow bars({"Energy", "Charge"}, nullptr);
+    bars.resize(bars.sizeHint().width() / 2 + 20, 60);  // room for one
+    const auto seen = [&](double energy, double charge) {
+        bars.show(0, row(Quantity::PulseEnergy, energy, 1, "J"));
+        bars.show(1, row(Quantity::NetCharge, charge, 1, "%"));
+        bars.arrange();
+        for (const auto* bar : bars.findChildren<gui::LimitBar*>())
+            if (!bar->isHidden()) return bar->accessibleName().toStdString();
+        return std::string();
+    };
+    EXPECT_EQ(seen(0.1, 0), "Energy");
+    EXPECT_EQ(seen(0.1, 0.15), "Energy") << "both are far";
+    EXPECT_EQ(seen(0.1, 0.5), "Charge");
+    EXPECT_EQ(seen(0.55, 0.5), "Charge");
+    bars.setTitle(1, "Net charge");
+    EXPECT_EQ(seen(0.55, 0.5), "Net charge") << "named as what it shows";
+}
+
 TEST(LimitBar, InALineItSaysTheNumberInTheUnitOfItsLimit) {
     RecordProperty("hazard", "H9");
     const auto said = [](Quantity quantity, double value, double limit, const char* unit) {
