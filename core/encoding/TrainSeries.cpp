@@ -17,7 +17,12 @@ bool TrainSeries::goesOn(Instant onset) const noexcept {
 }
 
 Command TrainSeries::limited(Instant onset) const noexcept {
-    return goesOn(onset) ? encoder_.limited(last_->command, *wanted_, Seconds(onset - last_->onset)) : *wanted_;
+    if (!goesOn(onset)) return *wanted_;
+    auto next = encoder_.limited(last_->command, *wanted_, Seconds(onset - last_->onset));
+    if (!startsAgain_) return next;
+    next.amplitude = std::min(next.amplitude, wanted_->amplitude);
+    next.interval = std::max(next.interval, wanted_->interval);
+    return next;
 }
 
 void TrainSeries::want(const Command& wanted, Instant now) noexcept {
@@ -35,6 +40,7 @@ void TrainSeries::wantNothing() noexcept {
     wanted_.reset();
     command_.reset();
     scheduler_.off();
+    startsAgain_ = true;
 }
 
 Command TrainSeries::begin(Instant onset) noexcept {
@@ -51,6 +57,7 @@ Command TrainSeries::begin(Instant onset) noexcept {
 
 void TrainSeries::delivered() noexcept {
     if (begun_) last_ = begun_;
+    startsAgain_ = false;
 }
 
 }  // namespace tacto

@@ -104,6 +104,40 @@ TEST(TrainSeries, AfterASilenceATrainBeginsAnew) {
     EXPECT_EQ(series.command()->amplitude, Volts(40)) << "no train within 4 s to compare it with";
 }
 
+TEST(TrainSeries, SwitchedOnAgainNothingBeginsStrongerOrMoreOftenThanItIsWanted) {
+    RecordProperty("hazard", "H6");
+    TrainSeries series(limited());
+    const auto after = [&](const Command& wanted) {
+        series.want(command(40, 0.5), seconds(0));
+        static_cast<void>(series.begin(seconds(0)));
+        series.delivered();
+        series.wantNothing();
+        series.want(wanted, seconds(1));
+        return series.begin(seconds(1));
+    };
+    EXPECT_EQ(after(command(10, 2)).amplitude, Volts(10)) << "not a step down from 40 V";
+    EXPECT_EQ(after(command(10, 2)).interval, Seconds(2));
+    // Up it goes in steps, however often it is switched.
+    TrainSeries again(limited());
+    again.want(command(10, 2), seconds(0));
+    static_cast<void>(again.begin(seconds(0)));
+    again.delivered();
+    again.wantNothing();
+    again.want(command(40, 0.5), seconds(1));
+    EXPECT_NEAR(again.begin(seconds(1)).amplitude.value(), 12, 1e-9);
+    again.delivered();
+    again.want(command(10, 2), seconds(1));
+    EXPECT_NEAR(again.command()->amplitude.value(), 10, 1e-9);
+    // While it is driven it steps down as before.
+    again.want(command(40, 0.5), seconds(1));
+    for (double now = 2; now < 12; now += 1) {
+        static_cast<void>(again.begin(seconds(now)));
+        again.delivered();
+    }
+    again.want(command(10, 0.5), seconds(12));
+    EXPECT_NEAR(again.begin(seconds(12)).amplitude.value(), 40 / 1.2, 1e-9);
+}
+
 TEST(TrainSeries, ARefusedTrainIsNoneToStepFrom) {
     RecordProperty("hazard", "H6");
     TrainSeries series(limited());

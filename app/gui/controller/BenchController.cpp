@@ -363,11 +363,12 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     // A stop between start and publishing has switched off the bench, and has not reached the script. One that the
     // script asked for itself, as a pilot session's stop test does, ends nothing.
     if (const auto by = published_.publish(run.bench(), *run.script())) run.script()->stop(by->c_str());
-    become(Activity::Running, describeBench(run.opened()), tap);
+    const auto bench = describeBench(run.opened());  // asks the devices: not again once the script has ended
+    become(Activity::Running, bench, tap);
     const auto clock = run.opened().clock;
     const auto began = clock->now();
     static_cast<void>(run.script()->wait());
-    if (describeBench(run.opened())->paced) finished->benchTime = Seconds(clock->now() - began);
+    if (bench->paced) finished->benchTime = Seconds(clock->now() - began);
     published_.publish(nullptr);
     become(Activity::Closing, nullptr, tap);
     finished->result = prepared->finish();
