@@ -126,7 +126,9 @@ void Tour::bringIntoView(QWidget* control) {
 /// Where it hides least of the control, then of what else the text speaks of; the lower right corner first, and below
 /// the safety bar: STOP is never covered.
 void Tour::place() {
-    const int wide = std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() - 4 * kMargin);
+    // Never half of the window: a control beside it has room.
+    const int wide =
+        std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() / 2 - 4 * kMargin);
     // Measured here: the label's own answer is that of the size of text before, when that has just changed.
     const auto lines = text_->fontMetrics().boundingRect(QRect(0, 0, wide, kTallest), Qt::TextWordWrap, text_->text());
     text_->setFixedSize(wide, lines.height() + 2);

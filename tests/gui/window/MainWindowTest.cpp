@@ -2,6 +2,7 @@
 #include <QAbstractButton>
 #include <QDialog>
 #include <QLineEdit>
+#include <QMenu>
 #include <QMenuBar>
 #include <QPointer>
 #include <QPushButton>
@@ -50,8 +51,11 @@ TEST_F(WithoutResources, ItSaysSoAtOnceAndWhatWouldHelp) {
 TEST_F(Window, TheBenchMenuOffersWhatCanBeDone) {
     RecordProperty("hazard", "H12");
     const auto offered = [this](const QString& text) {
-        for (const auto* action : window.findChildren<QAction*>())
-            if (QString(action->text()).remove('&') == text) return action->isEnabled();
+        for (const auto* menu : window.findChildren<QMenu*>()) {
+            if (menu->title().remove('&') != "Bench") continue;
+            for (const auto* action : menu->actions())
+                if (action->text().remove('&') == text) return action->isEnabled();
+        }
         ADD_FAILURE() << "no menu has " << text.toStdString();
         return false;
     };
