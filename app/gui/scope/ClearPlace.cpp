@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kBesideTheBox = 4;  // pixels: what runs along its side is not hidden by it
 
-double hidden(const QRectF& whole, const std::vector<QRectF>& drawn) {
+}  // namespace
+
+double hiddenBy(const QRectF& whole, const std::vector<QRectF>& drawn) {
     const auto box = whole.adjusted(kBesideTheBox, 0, -kBesideTheBox, 0);
     double area = 0;
     for (const auto& its : drawn) {
@@ -19,8 +21,6 @@ double hidden(const QRectF& whole, const std::vector<QRectF>& drawn) {
     return area;
 }
 
-}  // namespace
-
 QRectF atClearHeight(const QRectF& box, const QRectF& within, const std::vector<QRectF>& drawn) {
     constexpr double kStep = 8;           // pixels
     constexpr double kClearlyLess = 0.8;  // of what is hidden now: noise moves no box
@@ -28,14 +28,14 @@ QRectF atClearHeight(const QRectF& box, const QRectF& within, const std::vector<
     std::copy_if(drawn.begin(), drawn.end(), std::back_inserter(below),
                  [&](const QRectF& its) { return its.right() > box.left() && its.left() < box.right(); });
     QRectF best = box;
-    double least = hidden(box, below);
+    double least = hiddenBy(box, below);
     const double farthest = within.height();
     for (double away = kStep; least > 0 && away < farthest; away += kStep) {
         for (const double top : {box.top() - away, box.top() + away}) {
             if (top < within.top() || top + box.height() > within.bottom()) continue;
             QRectF moved = box;
             moved.moveTop(top);
-            const double its = hidden(moved, below);
+            const double its = hiddenBy(moved, below);
             if (!(its < kClearlyLess * least)) continue;
             least = its;
             best = moved;

@@ -99,11 +99,18 @@ std::vector<QRectF> ScopeOverlay::flagBoxes() const {
     for (std::size_t i = 0; i < 2; ++i) {
         const auto size = sizeOf(state.flags[i]);
         const double at = x(state.timeCursors_s[i]);
+        const auto beside = [&](bool left) {
+            const double from = std::clamp(left ? at - size.width() : at, a.left(), a.right() - size.width());
+            return atClearHeight(QRectF(QPointF(from, top), size), room, drawn);
+        };
         bool left = ordered == (i == 0);
-        if (left && at - size.width() < a.left()) left = false;
-        if (!left && at + size.width() > a.right()) left = true;
-        const double from = std::clamp(left ? at - size.width() : at, a.left(), a.right() - size.width());
-        boxes.push_back(atClearHeight(QRectF(QPointF(from, top), size), room, drawn));
+        const bool fitsLeft = at - size.width() >= a.left(), fitsRight = at + size.width() <= a.right();
+        if (fitsLeft != fitsRight) left = fitsLeft;
+        auto box = beside(left);
+        if (const auto other = beside(!left);
+            fitsLeft && fitsRight && hiddenBy(other, drawn) < hiddenBy(box, drawn) / 2)
+            box = other;
+        boxes.push_back(box);
         drawn.push_back(boxes.back());
     }
     if (boxes[0].intersects(boxes[1])) boxes[1].moveTop(boxes[0].bottom() + kFlagPadding);

@@ -54,7 +54,8 @@ struct OverlayState {
         double from_s = 0, to_s = 0;
         double low = 0, high = 0;
     };
-    /// What a cursor reads; it stands beyond what the two cursors enclose, where it hides least of the traces.
+    /// What a cursor reads; it stands where it hides least of the traces: beyond what the two
+    /// cursors enclose, unless there is much more room between them.
     struct Flag {
         struct Row {
             QString letter;  ///< of the lane

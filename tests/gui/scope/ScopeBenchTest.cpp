@@ -242,6 +242,7 @@ TEST_F(Summary, AnUntriggeredRecordChangesNoNumber) {
     summary.measure(std::make_shared<const Capture>(twoPulses(300, 20)));
     EXPECT_IN_TIME(comesTrue([&] { return figure(summary, "Amplitude of Voltage") != before; }));
     EXPECT_THAT(head(), testing::Not(HasSubstr("no trigger since")));
+    EXPECT_THAT(head(), HasSubstr("the run's latest train, not the one on the oscilloscope"));
 }
 
 TEST_F(Scope, OthersAreFedThoughTheOscilloscopeIsNotVisible) {
