@@ -5,9 +5,19 @@
 
 namespace tacto::gui {
 
-void ElidedLabel::paintEvent(QPaintEvent*) {
-    QPainter painter(this);
+namespace {
+constexpr int kFewestLetters = 3;  // fewer before the "…" say nothing
+}
+
+QString ElidedLabel::shownText() const {
     const auto shown = fontMetrics().elidedText(text(), Qt::ElideRight, contentsRect().width());
+    return shown == text() || shown.size() > kFewestLetters ? shown : QString();
+}
+
+void ElidedLabel::paintEvent(QPaintEvent*) {
+    const auto shown = shownText();
+    if (shown.isEmpty()) return;
+    QPainter painter(this);
     style()->drawItemText(&painter, contentsRect(), int(alignment()), palette(), isEnabled(), shown, foregroundRole());
 }
 

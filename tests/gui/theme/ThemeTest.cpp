@@ -8,6 +8,7 @@
 #include <QTest>
 #include <gtest/gtest.h>
 
+#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/TurningRow.h"
 #include "app/gui/theme/Verdict.h"
@@ -222,6 +223,23 @@ TEST(Mnemonics, AreUnderlinedOnlyWhileAltIsHeld) {
     EXPECT_NE(button.grab().toImage(), plain);
     QTest::keyRelease(&button, Qt::Key_Alt);
     EXPECT_EQ(button.grab().toImage(), plain);
+}
+
+TEST(ElidedLabel, ShowsNothingWhereAFewLettersAloneHaveRoom) {
+    gui::ElidedLabel label("Exposure within limits");
+    const auto wide = label.fontMetrics().horizontalAdvance(label.text());
+    label.resize(wide + 2, 20);
+    EXPECT_EQ(label.shownText(), label.text());
+    label.resize(wide / 2, 20);
+    EXPECT_TRUE(label.shownText().startsWith("Exp") && label.shownText().endsWith("…"))
+        << label.shownText().toStdString();
+    for (const int width : {0, 6, 14, 24}) {
+        label.resize(width, 20);
+        EXPECT_EQ(label.shownText(), "") << width << " px";
+    }
+    label.setText("12");
+    label.resize(30, 20);
+    EXPECT_EQ(label.shownText(), "12") << "a short text is whole";
 }
 
 }  // namespace
