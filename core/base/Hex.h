@@ -13,4 +13,7 @@ namespace tacto {
     return text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
+/// A SHA-256 digest, as this program writes it.
+[[nodiscard]] constexpr bool isSha256(std::string_view text) noexcept { return isHex(text, 64); }
+
 }  // namespace tacto

@@ -15,8 +15,6 @@ constexpr Word<CheckVerdict> kCheckVerdicts[] = {
     {"fail", CheckVerdict::Fail},       {"indeterminate", CheckVerdict::Indeterminate},
     {"stopped", CheckVerdict::Stopped}, {"none", CheckVerdict::None}};
 
-bool isSha256(std::string_view text) { return isHex(text, 64); }
-
 Result<void> checkWhole(const LoadSafetyCheck& c) {
     const auto wants = [&](std::string_view what) {
         return fail(ErrorCode::InvalidArgument, "a load-safety check of stimulator \"{}\" without {}; one was expected",

@@ -75,12 +75,10 @@ const RecordFields<StoredCalibration>& calibrationFields() {
     return fields;
 }
 
-bool isDigest(std::string_view text) { return isHex(text, 64); }
-
 }  // namespace
 
 Result<void> checkProvenance(const StoredCalibration& c) {
-    if (c.session.empty() || !isDigest(c.sessionHead) || c.readings == 0) {
+    if (c.session.empty() || !isSha256(c.sessionHead) || c.readings == 0) {
         return fail(ErrorCode::InvalidArgument,
                     "the calibration of stimulator {} of {} does not say from which readings it was computed, so it is "
                     "not applied; a new calibration is expected",

@@ -1,9 +1,9 @@
 #include "core/study/StudyFiles.h"
 
-#include <algorithm>
 #include <fstream>
 
 #include "core/base/Csv.h"
+#include "core/base/Hex.h"
 #include "core/base/JsonFields.h"
 #include "core/session/Digest.h"
 #include "core/session/Durable.h"
@@ -66,8 +66,7 @@ Result<StudySettings> parseStudy(std::string_view text, const std::string& sourc
     if (auto whole = checkWhole(*json, studyFields().infos(), source); !whole) return failure(whole);
     auto settings = studyFields().read(*json, RecordPlace{.file = source});
     if (!settings) return tl::unexpected<Error>(asParseError(settings.error()));
-    const auto isHex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
-    if (settings->id.size() != 16 || !std::ranges::all_of(settings->id, isHex))
+    if (!isHex(settings->id, 16))
         return fail(ErrorCode::ParseError, "{}: the id is \"{}\"; 16 hexadecimal digits are expected", source,
                     settings->id);
     return settings;

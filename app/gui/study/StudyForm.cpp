@@ -142,7 +142,7 @@ StudySettings shownIn(const std::optional<StudySettings>& amended) {
     return settings;
 }
 
-/// One encoding, or both in an order. `held` is among them as it is.
+/// The standard encoding, or both. What a study `held` before is among them as it is.
 std::vector<std::pair<std::string, std::string>> encodingChoices(const std::string& held) {
     const auto word = [](const char* text) { return translated(text).toStdString(); };
     std::vector<std::pair<std::string, std::string>> all{

@@ -76,10 +76,10 @@ PersonalRangeResult PersonalRange::result() const {
                                  grid_.textOf(grid_.highest()), inWords(grid_.limitedBy()));
     } else {
         out.reason = fmt::format(
-            "from the lowest level of {} to the highest of {}, limited by {}, there are {} steps of the device; {} or "
+            "from the lowest level of {} to the highest of {}, limited by {}, the device has {} step{}; {} or "
             "more are needed",
             grid_.textOf(out.min), grid_.textOf(grid_.level(max_)), inWords(limitedBy_), out.steps,
-            settings_.leastSteps);
+            out.steps == 1 ? "" : "s", settings_.leastSteps);
     }
     return out;
 }

@@ -56,7 +56,7 @@ TEST(PersonalRange, IsNotUsableWithFewerThanTwoSteps) {
     EXPECT_EQ(
         result.reason,
         "from the lowest level of 4 mA to the highest of 4.5 mA, limited by what they would feel for half an hour, "
-        "there are 1 steps of the device; 2 "
+        "the device has 1 step; 2 "
         "or more are needed");
     EXPECT_FALSE(range.answer(true));
     EXPECT_TRUE(rangeOf(3.1, 5.6).done()) << "asked nothing: 4 to 4 mA";
