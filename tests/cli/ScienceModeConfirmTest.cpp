@@ -49,16 +49,18 @@ TEST_F(ScienceModeConfirm, TheTypedWordDelivers) {
     EXPECT_THAT(cli.screen(), HasSubstr("verdict  pass"));
 }
 
-TEST_F(ScienceModeConfirm, AnythingElseDeliversNothing) {
-    for (const auto* typed : {"\n", "y\n", "yes\n", "bench\n", "bench loads\n", "Bench load\n", "\x04"}) {
-        TerminalCli cli(desk_, words());
-        ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
-        cli.type(typed);
-        expectUnconfirmed(cli);
-        EXPECT_THAT(cli.screen(), HasSubstr("not confirmed: nothing was delivered"));
-    }
-    EXPECT_EQ(putOut(), 0U);
+class ScienceModeUnconfirmed : public ScienceModeConfirm, public testing::WithParamInterface<const char*> {};
+
+TEST_P(ScienceModeUnconfirmed, AnythingElseDeliversNothing) {
+    TerminalCli cli(desk_, words());
+    ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
+    cli.type(GetParam());
+    expectUnconfirmed(cli);
+    EXPECT_THAT(cli.screen(), HasSubstr("not confirmed: nothing was delivered"));
 }
+
+INSTANTIATE_TEST_SUITE_P(Typed, ScienceModeUnconfirmed,
+                         testing::Values("\n", "y\n", "yes\n", "bench\n", "bench loads\n", "Bench load\n", "\x04"));
 
 TEST_F(ScienceModeConfirm, WhatWasTypedBeforeTheQuestionIsNoAnswer) {
     TerminalCli cli(desk_, words());
