@@ -15,6 +15,7 @@
 #include "app/gui/runner/StepList.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
 #include "app/run/Shipped.h"
 #include "app/run/StudyProgram.h"
 #include "core/study/Study.h"
@@ -185,6 +186,11 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     page().findChild<QRadioButton*>("goOnWithIt")->click();
     begin();
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 100'000));
+    const auto& path = *pilot->findChild<gui::StepList*>();
+    EXPECT_EQ(pixelsOf(path.window()->grab().copy(QRect(path.mapTo(path.window(), QPoint()), path.size())).toImage(),
+                       gui::colours().selection),
+              0)
+        << "steps that cannot be clicked do not look chosen";
     const auto headline = said("pilotHeadline");
     EXPECT_THAT(headline, HasSubstr(code.toStdString()));
     shot(window, "study-window-result");

@@ -250,6 +250,34 @@ TEST_F(Layout, DocksCollapseToAStripThatKeepsTheirKeyFigures) {
     EXPECT_FALSE(bar("dockStrip").isVisible()) << "each workspace keeps its own";
 }
 
+TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen) {
+    RecordProperty("hazard", "H2");
+    open();
+    gui::applyTextSize(200);
+    window.resize(1280, 720);
+    const auto wide = [this] {
+        std::string all;
+        for (const auto* each : window.findChildren<QWidget*>())
+            if (each->isVisible() && each->minimumSizeHint().width() > 300)
+                all += fmt::format("{} {} {}\n", widgetName(*each), each->minimumSizeHint().width(), each->width());
+        return all;
+    };
+    for (int page = 0; page < 7; ++page) {
+        window.showWorkspace(page);
+        for (const bool opened : {false, true}) {
+            window.findChild<gui::DockColumn*>()->setCollapsed(!opened);
+            QTest::qWait(100);
+            window.resize(1280, 720);
+            QTest::qWait(50);
+            EXPECT_LE(window.width(), 1280) << page << opened << "\n" << wide();
+            EXPECT_LE(window.height(), 720) << page << opened;
+        }
+        shot(window, QString("docks-open-200-%1").arg(page));
+    }
+    gui::applyTextSize(100);
+    window.showWorkspace(0);
+}
+
 TEST_F(Layout, ADockFoldsToItsHeader) {
     auto& exposure = dock("exposureDock");
     auto* fold = find<QToolButton>(exposure, "Fold Exposure");
