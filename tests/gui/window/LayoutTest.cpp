@@ -9,6 +9,7 @@
 #include <QTabWidget>
 #include <QToolBar>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
@@ -274,8 +275,15 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
         }
         shot(window, QString("docks-open-200-%1").arg(page));
     }
-    gui::applyTextSize(100);
     window.showWorkspace(0);
+    QTest::qWait(100);
+    ASSERT_TRUE(dock("measurementDock").folded());
+    EXPECT_GE(dock("measurementDock").height(), dock("driveDock").titleBarWidget()->height()) << "a whole header";
+    const auto* list = dock("deviceDock").findChild<QTreeWidget*>();
+    const auto* item = list->topLevelItem(0);
+    EXPECT_GE(list->visualItemRect(item).height(), QFontMetrics(item->font(0)).height()) << "whole rows";
+    shot(window, "docks-open-200-live");
+    gui::applyTextSize(100);
 }
 
 TEST_F(Layout, ADockFoldsToItsHeader) {
