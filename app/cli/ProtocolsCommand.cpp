@@ -30,6 +30,8 @@ std::string rangeOf(const nlohmann::json& parameter) {
     } else if (!textOf(parameter, "min").empty() || !textOf(parameter, "max").empty()) {
         text = fmt::format("{} to {}", textOf(parameter, "min"), textOf(parameter, "max"));
     }
+    if (const auto zero = textOf(parameter, "zero"); !zero.empty())
+        text += fmt::format("{}0: {}", text.empty() ? "" : "; ", zero);
     return text;
 }
 

@@ -145,9 +145,11 @@ public:
     }
 
 private:
-    /// A choice in the words that its protocol gives it: "1 MS/s" of "1M".
-    static QString chosenText(const QJsonObject& parameter) {
-        return parameter.contains("shown") ? parameter["shown"].toString() : plainText(parameter["value"]);
+    /// A choice, or a 0, in the words that its protocol gives it: "1 MS/s" of "1M", "from the profile" of 0.
+    static QString settingOf(const QJsonObject& parameter) {
+        if (parameter.contains("shown")) return parameter["shown"].toString();
+        const auto value = parameter["value"];
+        return value.isDouble() ? settingText(value.toDouble(), parameter["unit"].toString()) : plainText(value);
     }
 
     void takeAbout(const QJsonObject& item) {
@@ -161,10 +163,7 @@ private:
         model_.settings.clear();
         for (const auto& element : item["parameters"].toArray()) {
             const auto parameter = element.toObject();
-            const auto value = parameter["value"];
-            model_.settings.push_back({parameter["label"].toString(),
-                                       value.isDouble() ? settingText(value.toDouble(), parameter["unit"].toString())
-                                                        : chosenText(parameter)});
+            model_.settings.push_back({parameter["label"].toString(), settingOf(parameter)});
         }
     }
 

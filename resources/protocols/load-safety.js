@@ -11,7 +11,8 @@ protocol({
   view: "loads",
   parameters: {
     area: {
-      label: "Smallest electrode's area (0: profile)",
+      label: "Area of the smallest electrode",
+      zero: "from the profile",
       unit: "cm2",
       min: 0,
       max: 1000,
@@ -26,7 +27,8 @@ protocol({
     area_tolerance: { label: "Electrode area, uncertainty", unit: "%", min: 0.01, max: 50, value: 5 },
     amplitude_tolerance: { label: "Amplitude over the command", unit: "%", min: 0.1, max: 20, value: 2 },
     reference_v: {
-      label: "Reference source on the oscilloscope (0: none)",
+      label: "Reference source on the oscilloscope",
+      zero: "none",
       unit: "V",
       min: 0,
       max: 500,

@@ -19,7 +19,8 @@ protocol({
       value: 1.6,
     },
     smooth_rz_um: {
-      label: "Rz of the smooth reference (0: not stated)",
+      label: "Rz of the smooth reference",
+      zero: "not stated",
       unit: "um",
       min: 0,
       max: 10000,
@@ -37,7 +38,8 @@ protocol({
       value: 42,
     },
     rough_rz_um: {
-      label: "Rz of the rough reference (0: not stated)",
+      label: "Rz of the rough reference",
+      zero: "not stated",
       unit: "um",
       min: 0,
       max: 10000,
@@ -73,16 +75,25 @@ protocol({
     gravity_m_s2: { label: "Local gravity", unit: "m/s2", min: 9.7, max: 9.9, step: "reference", value: 9.80665 },
     // Sea level: 9.780 m/s2 at the equator, 9.832 m/s2 at the poles (WGS 84).
     gravity_tolerance_pct: {
-      label: "Uncertainty of local gravity, ± (0: not known)",
+      label: "Uncertainty of local gravity, ±",
+      zero: "not known",
       unit: "%",
       min: 0,
       max: 1,
       step: "reference",
       value: 0.27,
     },
-    contact_area_cm2: { label: "Contact area under a weight (0: not known)", unit: "cm2", min: 0, max: 100, value: 1 },
+    contact_area_cm2: {
+      label: "Contact area under a weight",
+      zero: "not known",
+      unit: "cm2",
+      min: 0,
+      max: 100,
+      value: 1,
+    },
     contact_area_tolerance_pct: {
-      label: "Uncertainty of the contact area, ± (0: not known)",
+      label: "Uncertainty of the contact area, ±",
+      zero: "not known",
       unit: "%",
       min: 0,
       max: 90,

@@ -43,7 +43,8 @@ protocol({
       value: 5,
     },
     reference_v: {
-      label: "Reference source on the oscilloscope (0: none)",
+      label: "Reference source on the oscilloscope",
+      zero: "none",
       unit: "V",
       min: 0,
       max: 500,
@@ -70,7 +71,8 @@ protocol({
     tolerance_pct: { label: "Tolerance of amplitude", unit: "%", min: 0.01, max: 50, value: 2 },
     timing_tolerance_pct: { label: "Tolerance of interval, width and gap", unit: "%", min: 0.01, max: 50, value: 1 },
     scope_gain_pct: {
-      label: "Oscilloscope gain, ± (0: as it declares)",
+      label: "Oscilloscope gain, ±",
+      zero: "as it declares",
       unit: "%",
       min: 0,
       max: 20,
@@ -78,7 +80,8 @@ protocol({
       value: 0,
     },
     timebase_ppm: {
-      label: "Oscilloscope time base, ± (0: as it declares)",
+      label: "Oscilloscope time base, ±",
+      zero: "as it declares",
       unit: "ppm",
       min: 0,
       max: 10000,

@@ -39,13 +39,14 @@ protocol({
       value: "profile",
     },
     slew_amplitude_ratio: {
-      label: "Amplitude, at most times the one before (0: no limit)",
+      label: "Amplitude, at most times the one before",
+      zero: "no limit",
       min: 0,
       max: 10,
       value: 1.2,
     },
-    slew_v_per_s: { label: "Amplitude, at most (0: no limit)", unit: "V/s", min: 0, max: 1000, value: 0 },
-    slew_ratio: { label: "Interval, at most times the one before (0: no limit)", min: 0, max: 10, value: 1.34 },
+    slew_v_per_s: { label: "Amplitude, at most", zero: "no limit", unit: "V/s", min: 0, max: 1000, value: 0 },
+    slew_ratio: { label: "Interval, at most times the one before", zero: "no limit", min: 0, max: 10, value: 1.34 },
   },
 });
 

@@ -31,7 +31,7 @@ protocol({
     },
     width: { label: "Wanted width of the 95 % interval", unit: "%", min: 2, max: 100, value: 10 },
     pilot: { label: "Participants of the pilot", type: "integer", min: 1, max: 1000, value: 5 },
-    area: { label: "Area of each electrode (0: the profile's)", unit: "cm2", min: 0, max: 1000, value: 0 },
+    area: { label: "Area of each electrode", zero: "from the profile", unit: "cm2", min: 0, max: 1000, value: 0 },
     skin_spread: { label: "Skin, spread (geometric s.d.)", min: 1, max: 10, value: 1.5 },
     detection: { label: "Perception threshold, median", unit: "mA", min: 0.1, max: 50, value: 3.5 },
     attention: { label: "Attention threshold, median", unit: "mA", min: 0.1, max: 200, value: 6.9 },
@@ -84,7 +84,7 @@ function volts(range) {
 
 function fixedRange(found) {
   const papers = found.range_v[0] === 10 && found.range_v[1] === 40;
-  return (papers ? "The paper's own " : "The profile's ") + volts(found.range_v);
+  return (papers ? "The design paper's " : "The profile's ") + volts(found.range_v);
 }
 
 // How many are served stands before anything else that is found.

@@ -235,7 +235,8 @@ TEST_F(ScienceModeCommand, WhatTheGateRefusesIsNotDelivered) {
     RecordProperty("hazard", "H1");
     ASSERT_IN_TIME(pulse("40", "1000").code == 0) << "40 V are allowed";
     const auto before = putOut().size();
-    expectRefused(pulse("40.5", "1000"), 4, {"40.5 V", "at most 40 V is allowed (The paper's own limits"});
+    expectRefused(pulse("40.5", "1000"), 4,
+                  {"40.5 V", "at most 40 V is allowed (Project's design paper, reference not on record"});
     expectRefused(pulse("50", "1000", {"--json"}), 4, {"paper"});
     expectRefused(pulse("0.3", "1000"), 4, {"0.3 mA", "step"});
     expectRefused(pulse("0.5", "100k"), 4, {"50 V"});

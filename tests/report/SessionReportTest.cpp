@@ -107,11 +107,14 @@ TEST_F(SessionReport, GivesAChoiceInItsProtocolsWordsAndAKeepAliveItsTime) {
         Instant{0},
         {{"kind", "about"},
          {"title", "x"},
-         {"parameters", {{{"name", "rate"}, {"label", "Sampling rate"}, {"value", "1M"}, {"shown", "1 MS/s"}}}}}));
+         {"parameters",
+          {{{"name", "rate"}, {"label", "Sampling rate"}, {"value", "1M"}, {"shown", "1 MS/s"}},
+           {{"name", "area"}, {"label", "Area"}, {"value", 0}, {"unit", "cm2"}, {"shown", "from the profile"}}}}}));
     ASSERT_TRUE(writer_->event(toInstant(1), "keep-alive", {{"longest_gap_s", 0.25}, {"text", "the longest time"}}));
     const auto model = closedAndRead();
-    ASSERT_EQ(model.settings.size(), 1U);
+    ASSERT_EQ(model.settings.size(), 2U);
     EXPECT_EQ(model.settings[0].value, "1 MS/s");
+    EXPECT_EQ(model.settings[1].value, "from the profile") << "what 0 stands for";
     ASSERT_EQ(model.events.size(), 1U);
     EXPECT_EQ(model.events[0].text, "the longest time: 250\u202fms");
 }

@@ -40,7 +40,7 @@ TEST(SafetyGate, ApprovesThePapersRoughHighFrom500OhmUpAndRefusesItAt100) {
     // Quantity, value, the nominal figure, limit and source.
     EXPECT_EQ(refused.error().message.rfind(
                   "RMS current over 5 s would be 14.14 mA in the worst case (11.31 mA into 100 ohm); "
-                  "less than 10 mA is allowed (The paper's own limits; ",
+                  "less than 10 mA is allowed (Project's design paper, reference not on record; ",
                   0),
               0U)
         << refused.error().message;

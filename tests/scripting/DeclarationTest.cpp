@@ -146,7 +146,7 @@ TEST(ProtocolDeclaration, KnowsDaysFilesTheReferenceAndWhatTheVerdictNeeds) {
     const auto read = readDeclaration(probe(R"js(protocol({ title: "x", parameters: {
   due: { type: "date", value: "2027-03-01", step: "reference" },
   table: { type: "file", value: "" },
-  area: { label: "electrode", unit: "cm2", value: 0, needed: "density is not evaluated" },
+  area: { label: "electrode", unit: "cm2", value: 0, needed: "density is not evaluated", zero: "from the profile" },
 } });
 function run() {})js"));
     ASSERT_TRUE(read) << read.error().message;
@@ -163,6 +163,10 @@ function run() {})js"));
     EXPECT_EQ(json["parameters"][0]["type"], "date");
     EXPECT_EQ(json["parameters"][0]["step"], "reference");
     EXPECT_EQ(json["parameters"][2]["needed"], "density is not evaluated");
+    EXPECT_EQ(json["parameters"][2]["zero"], "from the profile");
+    EXPECT_EQ(parameterError("{ value: 1, min: 0.5, zero: 'none' }"),
+              "/lab/probe.js:2: parameter load: zero says what 0 stands for, and 0 is not accepted");
+    EXPECT_NE(parameterError("{ value: '', type: 'text', zero: 'none' }"), "");
     EXPECT_EQ(parameterError("{ value: 1, step: 'settings' }"),
               "/lab/probe.js:2: parameter load: step is \"settings\", reference is expected, or none");
     EXPECT_NE(parameterError("{ value: 'soon', type: 'date' }"), "");

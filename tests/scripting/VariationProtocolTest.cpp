@@ -51,7 +51,7 @@ TEST(VariationProtocol, PredictsWithoutADevice) {
     EXPECT_GT(found["served"].get<int>(), 0);
     // What is served comes first, in the results and in the session.
     ASSERT_GE(found["reasons"].size(), 2U);
-    EXPECT_TRUE(found["headline"].get<std::string>().starts_with("The paper's own 10 to 40 V serves "));
+    EXPECT_TRUE(found["headline"].get<std::string>().starts_with("The design paper's 10 to 40 V serves "));
     EXPECT_EQ(found["reasons"][0], outcome.reasons.at(0));
     EXPECT_EQ(found["readings"].size(), 3U);
     EXPECT_EQ(found["pilots"].back()["people"], 5);

@@ -149,13 +149,14 @@ PilotResult::PilotResult(QWidget* parent)
     connect(goOn_, &QPushButton::clicked, this, &PilotResult::goOnWanted);
     connect(another_, &QPushButton::clicked, this, &PilotResult::anotherWanted);
     connect(back_, &QPushButton::clicked, this, &PilotResult::backWanted);
-    connect(place_, &QPushButton::clicked, this, &PilotResult::folderWanted);
+    connect(place_, &QPushButton::clicked, this, [this] { emit folderWanted(folder_); });
 }
 
 void PilotResult::say(const QString& what) { note_->setText(note_->text() + '\n' + what); }
 
-void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStudy) {
-    const auto& outcome = run.result.outcome;
+void PilotResult::show(const RunResult& result, const QString& folder, bool ofStudy) {
+    folder_ = folder;
+    const auto& outcome = result.outcome;
     const auto& results = outcome.results;
     const auto said = resultSentence(results);
     head_->setText(!said.isEmpty() ? keptTogether(said)
@@ -170,7 +171,7 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
         const auto text = qtext(reason);
         if (!outcome.error && text != said) why << sentence(text);
     }
-    for (const auto& trouble : run.result.troubles) why << sentence(trouble);
+    for (const auto& trouble : result.troubles) why << sentence(trouble);
     why_->setText(keptTogether(why.join('\n')));
     why_->setVisible(!why.isEmpty());
 
@@ -206,9 +207,9 @@ void PilotResult::show(const FinishedRun& run, const QString& folder, bool ofStu
     }
     blocks_->setText(blocks.isEmpty() ? QString() : tr("Right in ") + blocks.join(", ") + '.');
     blocks_->setVisible(!blocks.isEmpty());
-    note_->setText((run.result.simulated ? tr("Simulated. ") : QString()) +
+    note_->setText((result.simulated ? tr("Simulated. ") : QString()) +
                    (ofStudy ? tr("In the study at %1.") : tr("In the rehearsal at %1.")).arg(folder) +
-                   (run.result.markers ? ' ' + qtext(markersSentence(*run.result.markers)) : QString()));
+                   (result.markers ? ' ' + qtext(markersSentence(*result.markers)) : QString()));
     goOn_->setVisible(outcome.error.has_value() && !ofStudy);
     another_->setVisible(!ofStudy);
     makePrimary(*another_, !outcome.error);

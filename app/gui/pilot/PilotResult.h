@@ -11,7 +11,7 @@
 #include <QWidget>
 #include <nlohmann/json.hpp>
 
-#include "app/gui/controller/BenchController.h"
+#include "app/run/ProtocolRun.h"
 
 namespace tacto::gui {
 
@@ -26,7 +26,7 @@ public:
     explicit PilotResult(QWidget* parent = nullptr);
     /// `folder`: of the study. `ofStudy`: it leads back there, where an interrupted session is offered for
     /// continuation.
-    void show(const FinishedRun& run, const QString& folder, bool ofStudy = false);
+    void show(const RunResult& result, const QString& folder, bool ofStudy = false);
     /// A sentence below the result.
     void say(const QString& what);
 
@@ -34,10 +34,11 @@ signals:
     void anotherWanted();  ///< a new rehearsal
     void backWanted();
     void goOnWanted();  ///< the unfinished session
-    void folderWanted();
+    void folderWanted(const QString& folder);
 
 private:
     void showMatrix(const nlohmann::json& results);
+    QString folder_;
     QLabel* head_;
     QLabel* why_;
     QLabel* more_;

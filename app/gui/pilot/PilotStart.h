@@ -37,6 +37,7 @@ struct PilotStart {
     std::uint64_t seed = 1;          ///< of plan and order, and in a rehearsal of the virtual participant
     std::string modality = "study";  ///< of a new rehearsal: "electrodes", "massager"; "study": as the study says
     std::optional<int> blocks{};     ///< of a rehearsal's test; nothing: the study's
+    bool realTime = false;           ///< a virtual participant's session lasts as long as a person's
     bool blind = true;
     KeySet keys = KeySet::Figures;
     std::vector<SeatedDevice> inputs{};              ///< game pads and foot switches, each assigned to one person

@@ -82,6 +82,7 @@ QWidget* PilotWorkspace::buildHome() {
     home_->addTab(studies_, tr("Study"));
     connect(rehearsal_, &RehearsalPage::beginWanted, this, [this] { beginRehearsal(false); });
     connect(studies_, &StudyPage::sessionWanted, this, &PilotWorkspace::prepareStart);
+    connect(&study_, &OpenStudy::resultRead, this, &PilotWorkspace::showRecorded);
     return home_;
 }
 
@@ -109,9 +110,10 @@ void PilotWorkspace::connectSession() {
     connect(session, &SessionConduct::refused, this, &PilotWorkspace::sayWhereItBegan);
     connect(session, &SessionConduct::ended, this, [this, session](const std::shared_ptr<const FinishedRun>& run) {
         const auto& outcome = run->result.outcome;
+        reopened_ = false;
         showPage(kResult);
         path_->end(outcome.error.has_value() || run->result.verdict() == "stopped");
-        result_->show(*run, session->start().folder, ofStudy_);
+        result_->show(run->result, session->start().folder, ofStudy_);
         if (ofStudy_) study_.takeBack();
     });
     connect(session, &SessionConduct::attentionWanted, this, &PilotWorkspace::attentionWanted);
@@ -128,8 +130,8 @@ void PilotWorkspace::connectResult() {
         showPage(kHome);
     });
     connect(result_, &PilotResult::goOnWanted, this, [this] { beginRehearsal(true); });
-    connect(result_, &PilotResult::folderWanted, this, [this] {
-        if (const auto why = openOnDesktop(session_->start().folder); !why.isEmpty()) result_->say(why);
+    connect(result_, &PilotResult::folderWanted, this, [this](const QString& folder) {
+        if (const auto why = openOnDesktop(folder); !why.isEmpty()) result_->say(why);
     });
 }
 
@@ -147,7 +149,8 @@ void PilotWorkspace::showBeside(Page page) {
     // Large text in a small window: the session's own page comes first, then the path.
     const auto* shown = pages_->widget(page);
     const int room = (parentWidget() != nullptr ? parentWidget() : this)->width() - shown->minimumSizeHint().width();
-    const bool path = !plotOnly_ && (page == kSession || page == kResult) && room >= path_->maximumWidth();
+    const bool ofASession = page == kSession || (page == kResult && !reopened_);
+    const bool path = !plotOnly_ && ofASession && room >= path_->maximumWidth();
     const bool side = page == kSession && room >= path_->maximumWidth() + side_->maximumWidth();
     for (auto* left : {static_cast<QWidget*>(path_), static_cast<QWidget*>(pathEdge_)}) left->setVisible(path);
     for (auto* right : {static_cast<QWidget*>(side_), static_cast<QWidget*>(sideEdge_)}) right->setVisible(side);
@@ -170,6 +173,13 @@ void PilotWorkspace::prepareStart(const QString& code) {
     if (!who) return studies_->list().say(sentence(who.error()));
     start_->prepare(*study, *who);
     showPage(kStart);
+}
+
+void PilotWorkspace::showRecorded(const RunResult& result) {
+    if (running()) return;  // the session's own page stays
+    ofStudy_ = reopened_ = true;
+    result_->show(result, study_.folder(), ofStudy_);
+    showPage(kResult);
 }
 
 void PilotWorkspace::beginRehearsal(bool goOn) {

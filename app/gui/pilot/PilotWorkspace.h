@@ -61,13 +61,15 @@ private:
     void showPage(Page page);
     void showBeside(Page page);
     void prepareStart(const QString& code);
+    void showRecorded(const RunResult& result);
     void beginRehearsal(bool goOn);
     void beginOfStudy();
     void sayWhereItBegan(const QString& why);
 
     OpenStudy study_;
     bool plotOnly_ = false;
-    bool ofStudy_ = false;  ///< the session that runs, or ran last
+    bool ofStudy_ = false;   ///< the session that runs, or whose result is shown
+    bool reopened_ = false;  ///< the result that is shown was read from its record
     SessionPath* path_;
     QStackedWidget* pages_;
     TabbedPage* home_ = nullptr;

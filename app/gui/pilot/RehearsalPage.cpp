@@ -2,7 +2,6 @@
 
 #include <QDateTime>
 #include <QDir>
-#include <QFormLayout>
 #include <QHBoxLayout>
 #include <QStandardPaths>
 #include <QVBoxLayout>
@@ -54,6 +53,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
       folder_(new QLineEdit(newFolder(), this)),
       offer_(new UnfinishedOffer(this)),
       who_(new QComboBox(this)),
+      pace_(new QComboBox(this)),
       seed_(new QSpinBox(this)),
       modality_(new QComboBox(this)),
       protocol_(new QComboBox(this)),
@@ -78,7 +78,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
         inside));
     auto* holder = new QWidget(inside);
     boundWidth(*holder, kFormWide);
-    auto* form = new QFormLayout(holder);
+    auto* form = rows_ = new QFormLayout(holder);
     form->setContentsMargins(0, 8, 0, 0);
     form->setVerticalSpacing(12);
 
@@ -105,9 +105,14 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     who_->setObjectName("whoAnswers");
     who_->addItem(tr("a virtual participant"), false);
     who_->addItem(tr("you, in their window"), true);
-    who_->setToolTip(tr(
-        "A virtual participant answers by itself, within seconds. Either way nothing but simulated devices is used."));
+    who_->setToolTip(tr("A virtual participant answers by itself. Either way nothing but simulated devices is used."));
     form->addRow(tr("Participant"), who_);
+    pace_->setObjectName("rehearsalPace");
+    pace_->addItem(tr("as fast as possible"), false);
+    pace_->addItem(tr("the session’s own"), true);
+    pace_->setToolTip(
+        tr("As fast as possible: seconds. The session’s own: as long as with a person, to watch what is delivered."));
+    form->addRow(tr("Pace"), pace_);
     seed_->setObjectName("rehearsalSeed");
     seed_->setRange(1, kMaxSeed);
     seed_->setToolTip(tr("The same seed gives the same order, and the same virtual participant."));
@@ -163,6 +168,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     connect(folder_, &QLineEdit::textChanged, this, &RehearsalPage::look);
     connect(seed_, &QSpinBox::valueChanged, this, &RehearsalPage::look);
     connect(who_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
+    connect(pace_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
     connect(protocol_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
     connect(offer_, &UnfinishedOffer::changed, this, &RehearsalPage::judge);
     connect(&seats_->inputs(), &InputRows::changed, this, &RehearsalPage::judge);
@@ -177,6 +183,7 @@ PilotStart RehearsalPage::rehearsal() const {
     made.seed = std::uint64_t(seed_->value());
     made.participant = fmt::format("virtual:{}", made.seed);
     made.person = who_->currentData().toBool();
+    made.realTime = !made.person && pace_->currentData().toBool();
     made.who = made.person ? tr("you") : tr("virtual, seed %1").arg(made.seed);
     made.protocol = protocol_->currentData().toString().toStdString();
     made.method = method_->currentData().toString().toStdString();
@@ -204,11 +211,13 @@ void RehearsalPage::judge() {
     const bool goesOn = offer_->chosen() == "resume";
     if (goesOn) protocol_->setCurrentIndex(protocol_->findData(qtext(offer_->offered()->protocol)));
     const bool tests = protocol_->currentIndex() == 0;
-    seats_->showFor(who_->currentData().toBool());
+    const bool person = who_->currentData().toBool();
+    rows_->setRowVisible(pace_, !person);
+    seats_->showFor(person, pace_->currentData().toBool());
     for (auto* field : {protocol_, method_}) field->setEnabled(!goesOn);
     blocks_->setEnabled(!goesOn && tests);
     const bool chosen = !offer_->asks() || !offer_->chosen().empty();
-    const auto lacks = seats_->missing(who_->currentData().toBool());
+    const auto lacks = seats_->missing(person);
     begin_->setEnabled(chosen && lacks.isEmpty() && !folder_->text().trimmed().isEmpty());
     begin_->setToolTip(
         !lacks.isEmpty() ? lacks : tr("Opens both windows. Nothing is delivered before the checklist is answered."));

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <QComboBox>
+#include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -41,9 +42,11 @@ signals:
 private:
     void judge();
     QLabel* title_;
+    QFormLayout* rows_ = nullptr;
     QLineEdit* folder_;
     UnfinishedOffer* offer_;
     QComboBox* who_;
+    QComboBox* pace_;
     QSpinBox* seed_;
     QComboBox* modality_;
     QComboBox* protocol_;

@@ -84,12 +84,15 @@ void SeatRows::setBlind(bool study) {
                                            "ended."));
 }
 
-void SeatRows::showFor(bool person) {
+void SeatRows::showFor(bool person, bool realTime) {
     form_.setRowVisible(screen_, person);
     form_.setRowVisible(keys_, person);
     form_.setRowVisible(inputs_, person);
     about_->setText(
-        !person
+        !person && realTime
+            ? QObject::tr("The virtual participant answers every question of both people, and the session takes about "
+                          "an hour. Where it is not blind, Live and Oscilloscope show what is delivered.")
+        : !person
             ? QObject::tr(
                   "The virtual participant answers every question of both people, and the session is done in seconds.")
         : ScreenChoice::isOnly()

@@ -30,8 +30,8 @@ public:
     [[nodiscard]] QString missing(bool person) const;
     /// What is remembered of `place` (RememberedInputs.h), and the markers' port: chosen before is forgotten.
     void recall(const QString& place);
-    /// Screen, keys and buttons are a person's.
-    void showFor(bool person);
+    /// Screen, keys and buttons are a person's. `realTime`: of a virtual participant's session.
+    void showFor(bool person, bool realTime = false);
     /// A blind study's sessions are blind: that is part of its approval.
     void setBlind(bool study);
     /// What that means, to be placed below the form.

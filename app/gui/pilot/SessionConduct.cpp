@@ -146,7 +146,7 @@ Result<RunOrder> SessionConduct::order() const {
     order.uris = start_.devices;
     order.needed = order.declaration.needs;
     order.seed = start_.seed;
-    order.realtime = start_.person;
+    order.realtime = start_.person || start_.realTime;
     order.notes = controller_.day().notes();
     order.profile = controller_.profile();
     order.limits = controller_.limits();

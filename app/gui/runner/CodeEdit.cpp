@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QTextBlock>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -34,6 +35,10 @@ CodeEdit::CodeEdit(QWidget* parent) : QPlainTextEdit(parent), margin_(new Margin
             margin_->update(0, rect.y(), margin_->width(), rect.height());
     });
     setViewportMargins(marginWidth(), 0, 0, 0);
+    onLookChange(*this, [this] {
+        highlighter_->recolour();
+        showMarks();
+    });
 }
 
 int CodeEdit::marginWidth() const {
@@ -45,14 +50,6 @@ void CodeEdit::resizeEvent(QResizeEvent* event) {
     QPlainTextEdit::resizeEvent(event);
     const auto room = contentsRect();
     margin_->setGeometry(room.left(), room.top(), marginWidth(), room.height());
-}
-
-void CodeEdit::changeEvent(QEvent* event) {
-    QPlainTextEdit::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange && highlighter_ != nullptr) {
-        highlighter_->recolour();
-        showMarks();
-    }
 }
 
 void CodeEdit::paintNumbers(QPaintEvent* event, QWidget& margin) {

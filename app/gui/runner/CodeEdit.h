@@ -21,7 +21,6 @@ public:
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
-    void changeEvent(QEvent* event) override;
 
 private:
     void paintNumbers(QPaintEvent* event, QWidget& margin);

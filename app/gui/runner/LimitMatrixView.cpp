@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -140,6 +141,10 @@ LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
     header->setHighlightSections(false);
     header->setSectionsClickable(false);
     setTextSize(*header, TextSize::Small);
+    afterLookChange(*this, [this] {
+        fitColumns();
+        viewport()->update();
+    });
 }
 
 void LimitMatrixView::show(const json& matrix) {
@@ -243,12 +248,6 @@ void LimitMatrixView::fitColumns() {
 void LimitMatrixView::resizeEvent(QResizeEvent* event) {
     QTableWidget::resizeEvent(event);
     fitColumns();
-}
-
-void LimitMatrixView::changeEvent(QEvent* event) {
-    QTableWidget::changeEvent(event);
-    if (event->type() == QEvent::FontChange) fitColumns();
-    if (event->type() == QEvent::PaletteChange) viewport()->update();
 }
 
 }  // namespace tacto::gui

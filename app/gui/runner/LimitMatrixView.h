@@ -28,7 +28,6 @@ signals:
     void chosen(const QString& limit, const QString& load, const QString& unit);
 
 protected:
-    void changeEvent(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
 
 private:

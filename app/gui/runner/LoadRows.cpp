@@ -2,6 +2,7 @@
 
 #include <QHeaderView>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
@@ -38,6 +39,7 @@ LoadRows::LoadRows(QWidget* parent) : QTableWidget(0, kColumns, parent) {
     setHorizontalScrollMode(ScrollPerPixel);
     verticalHeader()->setDefaultSectionSize(fontMetrics().height() * 3 / 2);
     begin();
+    onLookChange(*this, [this] { colour(); });
 }
 
 void LoadRows::begin() {
@@ -130,11 +132,6 @@ void LoadRows::colour() {
         if (const auto verdict = cell->data(kVerdictRole).toString(); !verdict.isEmpty())
             cell->setForeground(verdictStyle(verdict).colour);
     }
-}
-
-void LoadRows::changeEvent(QEvent* event) {
-    QTableWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange) colour();
 }
 
 }  // namespace tacto::gui

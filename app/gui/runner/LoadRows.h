@@ -22,9 +22,6 @@ public:
     /// "✔ pass", as it stands there; empty for a load ("500 ohm") that is not listed.
     [[nodiscard]] QString verdictOf(const QString& load) const;
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     enum Column { kLoad, kVerdict, kMeasured, kCommands, kPeak, kRms, kColumns };
     [[nodiscard]] int rowOf(const QString& load);

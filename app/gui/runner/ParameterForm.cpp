@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QFocusEvent>
 #include <QLineEdit>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -35,6 +36,11 @@ QString plain(const nlohmann::json& value) {
     if (value.is_string()) return QString::fromStdString(value.get<std::string>());
     if (value.is_number()) return QString::number(value.get<double>(), 'g', 10);
     return QString::fromStdString(dumpJson(value));
+}
+
+/// As a field shows it: empty where 0 stands for something.
+QString shown(const ProtocolParameter& parameter, const nlohmann::json& value) {
+    return !parameter.zero.empty() && value == 0 ? QString() : plain(value);
 }
 
 QFormLayout* rowsIn(QWidget& part) {
@@ -92,15 +98,16 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
     }
     if (field.whole == nullptr) field.whole = field.editor;
     field.editor->setObjectName(QString::fromStdString(parameter.name));
+    field.editor->installEventFilter(this);
     const auto range = rangeText(parameter);
     const auto label = QString::fromStdString(parameter.label);
     field.editor->setAccessibleName(label);
-    field.editor->setToolTip(tr("%1. The script calls it \"%2\"%3.")
-                                 .arg(label, QString::fromStdString(parameter.name),
-                                      range.isEmpty() ? QString()
-                                      : parameter.unit.empty()
-                                          ? tr(" and takes %1").arg(range)
-                                          : tr(" and takes %1 %2").arg(range, shownUnit(parameter))));
+    const auto takes = range.isEmpty()          ? QString()
+                       : parameter.unit.empty() ? tr(" and takes %1").arg(range)
+                                                : tr(" and takes %1 %2").arg(range, shownUnit(parameter));
+    auto tip = tr("%1. The script calls it \"%2\"%3.").arg(label, QString::fromStdString(parameter.name), takes);
+    if (!parameter.zero.empty()) tip += tr(" 0, or nothing: %1.").arg(QString::fromStdString(parameter.zero));
+    field.editor->setToolTip(tip);
     return field;
 }
 
@@ -113,9 +120,11 @@ void ParameterForm::addLine(Field& field) {
     } else {
         line = new QLineEdit(this);
     }
-    line->setText(plain(field.parameter.value));
+    line->setText(shown(field.parameter, field.parameter.value));
     connect(line, &QLineEdit::textChanged, this, &ParameterForm::judge);
-    field.text = [line] { return line->text(); };
+    field.text = [line, zero = !field.parameter.zero.empty()] {
+        return zero && line->text().trimmed().isEmpty() ? QString("0") : line->text();
+    };
     field.write = [line](const QString& text) { line->setText(text); };
     field.editor = line;
     if (field.parameter.type == ParameterType::File) addFileChooser(field);
@@ -141,10 +150,10 @@ void ParameterForm::addFileChooser(Field& field) {
 }
 
 void ParameterForm::show(const ProtocolDeclaration& declaration) {
+    fields_.clear();
     for (auto* rows : {settingsRows_, referenceRows_}) {
         while (rows->rowCount() > 0) rows->removeRow(0);
     }
-    fields_.clear();
     declaration_ = declaration;
     for (const bool decisive : {true, false}) {
         for (const auto& parameter : declaration.parameters) {
@@ -207,6 +216,7 @@ bool ParameterForm::hasReference() const {
 Result<ProtocolSettings> ParameterForm::read() {
     std::map<std::string, std::string> settings;
     for (const auto& field : fields_) settings[field.parameter.name] = field.text().trimmed().toStdString();
+    askForAll();
     auto applied = applySettings(declaration_, settings);
     if (!applied) return applied;
     // A default that was left as it is stays the script's word, to the last digit and blank: what a field shows of it
@@ -273,13 +283,14 @@ QString ParameterForm::summary() const {
 
 int ParameterForm::refused(bool reference) const {
     return int(std::count_if(fields_.begin(), fields_.end(), [reference](const Field& field) {
-        return field.parameter.reference == reference && !field.trouble->isHidden();
+        return field.parameter.reference == reference && !field.why.isEmpty();
     }));
 }
 
 std::optional<bool> ParameterForm::goToRefused() {
+    askForAll();
     for (const auto& field : fields_) {
-        if (field.trouble->isHidden()) continue;
+        if (field.why.isEmpty()) continue;
         field.editor->setFocus();
         return field.parameter.reference;
     }
@@ -287,15 +298,43 @@ std::optional<bool> ParameterForm::goToRefused() {
 }
 
 void ParameterForm::judge() {
-    for (const auto& field : fields_) {
+    for (auto& field : fields_) {
         const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
-        const auto why = !value         ? QString::fromStdString(value.error().message)
-                         : lacks(field) ? tr("Without it %1.").arg(QString::fromStdString(field.parameter.needed))
-                                        : QString();
-        field.trouble->setText(why.isEmpty() ? QString() : "⚠ " + why);
-        field.trouble->setVisible(!why.isEmpty());
+        const bool lacking = lacks(field);
+        field.why = !value    ? QString::fromStdString(value.error().message)
+                    : lacking ? tr("Without it %1.").arg(QString::fromStdString(field.parameter.needed))
+                              : QString();
+        if (auto* line = qobject_cast<QLineEdit*>(field.editor); line != nullptr && !field.parameter.zero.empty())
+            line->setPlaceholderText(lacking ? tr("not stated") : QString::fromStdString(field.parameter.zero));
+        say(field, lacking);
     }
     emit edited();
+}
+
+void ParameterForm::say(const Field& field, bool lacking) const {
+    const bool said = !field.why.isEmpty() && (!lacking || !missingSaidOnceLeft_ || field.left);
+    field.trouble->setText(said ? "⚠ " + field.why : QString());
+    field.trouble->setVisible(said);
+}
+
+bool ParameterForm::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::FocusOut) {
+        const auto reason = static_cast<QFocusEvent*>(event)->reason();
+        const bool comesBack = reason == Qt::PopupFocusReason || reason == Qt::ActiveWindowFocusReason;
+        for (auto& field : fields_) {
+            if (field.editor != watched || comesBack) continue;
+            field.left = true;
+            say(field, lacks(field));
+        }
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+void ParameterForm::askForAll() {
+    for (auto& field : fields_) {
+        field.left = true;
+        say(field, lacks(field));
+    }
 }
 
 }  // namespace tacto::gui

@@ -2,7 +2,8 @@
 // chosen in a calendar, files by a dialog. What decides the verdict stands first. The parameters of the known reference
 // are a part of their own.
 //
-// Every field is text checked by the same rules as the command line; a refusal stands below its field.
+// Every field is text checked by the same rules as the command line; a refusal stands below its field. Where the
+// script says what 0 stands for, those words stand in an empty field, which reads as 0.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -33,6 +34,8 @@ public:
     void set(const std::string& name, const QString& text);
     /// Parameters whose answer is known from elsewhere, as the electrode's area from the profile: 0 will do there.
     void setKnown(std::set<std::string> names);
+    /// What is missing is said of a field only once the operator has left it, or read() or goToRefused() was called.
+    void setMissingSaidOnceLeft() { missingSaidOnceLeft_ = true; }
     /// The sentence about the first parameter that decides the verdict and has no answer; empty for none.
     [[nodiscard]] QString unanswered() const;
     /// What decides the verdict, and how much differs from the script's own: "4 cm² · 2 changed".
@@ -45,6 +48,9 @@ public:
 signals:
     void edited();
 
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
 private:
     struct Field {
         ProtocolParameter parameter;
@@ -55,6 +61,8 @@ private:
         QLabel* trouble = nullptr;
         QLabel* label = nullptr;
         QString atFirst{};  // the text as the script's default shows it
+        QString why{};      // it is refused as it stands
+        bool left = false;  // once, or what it lacks was asked for
     };
     [[nodiscard]] Field makeField(const ProtocolParameter& parameter);
     void addLine(Field& field);
@@ -63,12 +71,15 @@ private:
     [[nodiscard]] bool lacks(const Field& field) const;
     void fitLabels();
     void judge();
+    void say(const Field& field, bool lacking) const;
+    void askForAll();
     ProtocolDeclaration declaration_;
     QFormLayout* settingsRows_;
     QWidget* reference_;
     QFormLayout* referenceRows_;
     std::vector<Field> fields_;
     std::set<std::string> known_;
+    bool missingSaidOnceLeft_ = false;
 };
 
 }  // namespace tacto::gui

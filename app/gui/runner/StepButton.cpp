@@ -126,7 +126,7 @@ void StepButton::paintEvent(QPaintEvent* /*event*/) {
 
 void StepButton::paintGround(QPainter& painter) const {
     const auto& c = colours();
-    if (isChecked()) {
+    if (isChecked() && isEnabled()) {
         painter.fillRect(rect(), c.selection);
         const QRect below(0, height() - kChosenBar, width(), kChosenBar), left(0, 0, kChosenBar, height());
         painter.fillRect(across_ ? below : left, c.primary);
@@ -162,7 +162,7 @@ void StepButton::paintDown(QPainter& painter) const {
     paintShape(painter, shape);
     const QRect words(scaledPx(kWordsLeft), top, width() - scaledPx(kWordsLeft) - 8, above.height());
     painter.setFont(name);
-    painter.setPen(isEnabled() ? c.text : c.quiet);
+    painter.setPen(isEnabled() || isChecked() ? c.text : c.quiet);
     painter.drawText(words, Qt::AlignLeft | Qt::AlignVCenter, above.elidedText(text(), Qt::ElideRight, words.width()));
     if (!two) return;
     painter.setFont(small);

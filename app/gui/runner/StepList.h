@@ -23,7 +23,8 @@ public:
     [[nodiscard]] State state(int step) const;
     /// "sim:", "3 of 8", "PASS"; empty for nothing.
     void setNote(int step, const QString& note);
-    /// `why`: the sentence that says why a click does not go there yet; empty: it does.
+    /// `why`: the sentence that says why a click does not go there; empty: it does. Such a step does not look like a
+    /// button.
     void setOutOfReach(int step, const QString& why);
     void setName(int step, const QString& name);
     /// A procedure may lack a step.

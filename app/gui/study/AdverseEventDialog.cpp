@@ -31,6 +31,7 @@ AdverseEventDialog::AdverseEventDialog(OpenStudy& study, const QString& code, QW
                         dialogField("action", tr("What was done"), ParameterType::Text, {}),
                         dialogField("outcome", tr("What became of it"), ParameterType::Text, {}), reported})
         fields.parameters.push_back(field);
+    form_->setMissingSaidOnceLeft();
     form_->show(fields);
     form_->referencePart().hide();
     scroll(form_, scaledPx(kLeastForm));

@@ -24,6 +24,7 @@ NextDayDialog::NextDayDialog(OpenStudy& study, const QString& code, QWidget* par
     const auto needed = tr("the site is not known to be well");
     fields.parameters.push_back(scoreField("erythema", tr("Redness of the skin"), kSkinScores, needed, 0));
     fields.parameters.push_back(scoreField("oedema", tr("Swelling of the skin"), kSkinScores, needed, 0));
+    form_->setMissingSaidOnceLeft();
     form_->show(fields);
     form_->referencePart().hide();
     auto* inside = new QWidget;

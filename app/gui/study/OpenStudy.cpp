@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/gui/study/RecordedResult.h"
 #include "app/gui/theme/Text.h"
 #include "app/run/Shipped.h"
 #include "core/sharing/results/BidsExport.h"
@@ -99,6 +100,28 @@ void OpenStudy::exportBids(const QString& place, const BidsWith& with) {
                     else
                         emit refused(sentence(done.error()));
                 });
+    emit changed();
+}
+
+void OpenStudy::readResult(const QString& id) {
+    if (study() == nullptr) return;
+    const auto session = study_->session(id.toStdString());
+    if (!session) return emit refused(sentence(session.error()));
+    const auto read = std::make_shared<RunResult>();
+    work_.start(
+        [this, read, session = *session](const WorkPort&) -> Result<void> {
+            auto found = recordedResult(*study_, session);
+            if (!found) return failure(found);
+            *read = std::move(*found);
+            return {};
+        },
+        [this, read](const Result<void>& done) {
+            emit changed();
+            if (done)
+                emit resultRead(*read);
+            else
+                emit refused(sentence(done.error()));
+        });
     emit changed();
 }
 

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "app/gui/sessions/Background.h"
+#include "app/run/ProtocolRun.h"
 #include "core/bench/Profile.h"
 #include "core/sharing/BidsFiles.h"
 #include "core/study/Study.h"
@@ -47,6 +48,8 @@ public:
     void takeBack();
     /// exported() or refused() follows.
     void exportBids(const QString& place, const BidsWith& with = {});
+    /// What the session `id` came to, beside the window. resultRead() or refused() follows.
+    void readResult(const QString& id);
     /// The profile that its sessions are run with: an approval is for it. The shipped one until it is set.
     void setProfile(std::function<Profile()> profile) { profile_ = std::move(profile); }
     [[nodiscard]] Profile profile() const;
@@ -58,6 +61,7 @@ signals:
     void opened();
     void refused(const QString& why);
     void exported(const QString& place);
+    void resultRead(const tacto::RunResult& result);
 
 private:
     using Make = std::function<Result<Study>()>;

@@ -229,6 +229,7 @@ StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
         auto* form = new ParameterForm(this);
         connect(form, &ParameterForm::edited, this, &StudyForm::edited);
         form->referencePart().hide();  // a study has none
+        form->setMissingSaidOnceLeft();
         column->addWidget(form);
         column->addSpacing(scaledPx(16));
         groups_.push_back(form);

@@ -1,6 +1,5 @@
 #include "app/gui/study/StudyList.h"
 
-#include <QDateTime>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -13,13 +12,13 @@
 #include "app/gui/study/EndPartDialog.h"
 #include "app/gui/study/EnrolDialog.h"
 #include "app/gui/study/NextDayDialog.h"
+#include "app/gui/study/StudySessions.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "core/session/ResultKind.h"
 #include "core/study/StudyFiles.h"
 
 namespace tacto::gui {
@@ -42,38 +41,11 @@ QString stateWords(ParticipantState state) {
     return QObject::tr("has withdrawn");
 }
 
-QString stateWords(StudySessionState state) {
-    switch (state) {
-        case StudySessionState::Unfinished:
-            return QObject::tr("interrupted, can continue");
-        case StudySessionState::Complete:
-            return QObject::tr("complete");
-        case StudySessionState::Stopped:
-            break;
-    }
-    return QObject::tr("ended before its end");
-}
-
 QString consentWords(const Study& study, const Participant& participant) {
     if (participant.consents.empty()) return QObject::tr("none yet");
     const auto& last = participant.consents.back();
     const auto words = QObject::tr("version %1, %2").arg(qtext(last.version), qtext(dateText(last.date)));
     return consentGate(study.settings(), participant, study.today()) ? words : "⚠ " + words;
-}
-
-QString protocolWords(const std::string& protocol) {
-    switch (resultTraits(protocol).kind) {
-        case ResultKind::PilotIdentification:
-            return QObject::tr("identification");
-        case ResultKind::PilotThresholds:
-            return QObject::tr("thresholds");
-        default:
-            return qtext(protocol);
-    }
-}
-
-std::string localText(std::chrono::sys_seconds at) {
-    return QDateTime::fromSecsSinceEpoch(at.time_since_epoch().count()).toString("yyyy-MM-dd HH:mm").toStdString();
 }
 
 }  // namespace
@@ -94,18 +66,6 @@ json participantRows(const Study& study) {
     return rows;
 }
 
-json sessionRows(const Study& study) {
-    auto rows = json::array();
-    for (const auto& one : study.sessions())
-        rows.push_back({{"code", one.code.empty() ? json() : json(one.code)},
-                        {"number", one.number},
-                        {"protocol", protocolWords(one.protocol).toStdString()},
-                        {"state", stateWords(one.state).toStdString()},
-                        {"answered", one.answered},
-                        {"begun", localText(one.parts.front().begun)}});
-    return rows;
-}
-
 StudyList::StudyList(OpenStudy& study, QWidget* parent)
     : QWidget(parent),
       study_(study),
@@ -114,7 +74,7 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
       trouble_(new QLabel(this)),
       tables_(new QVBoxLayout),
       withdrawn_(new QLabel(this)),
-      sessionsTitle_(new QLabel(tr("Sessions"), this)) {
+      sessions_(new StudySessions(this)) {
     setObjectName("studyList");
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(kListPad, kListPad, kListPad, kListPad);
@@ -141,6 +101,10 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
     column->addStretch();
     column->addWidget(buildFoot());
     connect(&study_, &OpenStudy::changed, this, &StudyList::refresh);
+    connect(sessions_, &StudySessions::resultWanted, this, [this](const QString& id) {
+        say({});
+        study_.readResult(id);
+    });
     connect(&study_, &OpenStudy::exported, this,
             [this](const QString& place) { say(tr("The results lie in %1.").arg(place), false); });
     connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
@@ -317,7 +281,7 @@ void StudyList::showTables(const Study& study) {
                               .arg(settings.participantsMax));
     if (const auto approved = study.stillApproved(); !approved)
         say(tr("No session can begin: %1").arg(sentence(approved.error())));
-    for (auto** table : {&participants_, &sessions_}) delete std::exchange(*table, nullptr);
+    delete std::exchange(participants_, nullptr);
     const auto people = participantRows(study);
     participants_ = makeRecordTable({{tr("Code"), "code"},
                                      {tr("Who"), "who"},
@@ -338,44 +302,30 @@ void StudyList::showTables(const Study& study) {
     layOut();
     choose(std::exchange(code_, QString()));
     if (code_.isEmpty() && participants_->rowCount() > 0) participants_->selectRow(participants_->rowCount() - 1);
-    const auto runs = sessionRows(study);
-    sessions_ = makeRecordTable({{tr("Participant"), "code"},
-                                 {tr("Session"), "number", RecordColumn::As::Number},
-                                 {tr("Begun"), "begun"},
-                                 {tr("Protocol"), "protocol"},
-                                 {tr("Answers"), "answered", RecordColumn::As::Number},
-                                 {tr("State"), "state"}},
-                                runs, this);
-    sessions_->setObjectName("studySessions");
-    sessions_->setAccessibleName(tr("Sessions"));
     const auto gone = std::ranges::count(study.participants(), ParticipantState::Withdrawn, &Participant::state);
     withdrawn_->setText(people.empty() && gone == 0 ? tr("No participant is enrolled. Enrol one first.")
                         : gone == 0                 ? QString()
                         : gone == 1                 ? tr("One more has withdrawn.")
                                                     : tr("%1 more have withdrawn.").arg(gone));
     withdrawn_->setVisible(!withdrawn_->text().isEmpty());
-    setTextSize(*sessionsTitle_, TextSize::Body, true);
     tables_->addWidget(participants_);
     tables_->addWidget(withdrawn_);
     tables_->addWidget(ofOneRow_);
-    tables_->addWidget(sessionsTitle_);
     tables_->addWidget(sessions_);
     participants_->setVisible(!people.empty());
     ofOneRow_->setVisible(!people.empty());
-    sessionsTitle_->setVisible(!runs.empty());
-    sessions_->setVisible(!runs.empty());
+    sessions_->show(study);
     layOut();
 }
 
 /// In the style and size of text that they have where they stand.
 void StudyList::layOut() {
-    for (auto* table : {participants_, sessions_}) {
-        if (table == nullptr) continue;
-        table->ensurePolished();
-        table->horizontalHeader()->ensurePolished();
-        layOutRecordTable(*table);
-    }
-    if (participants_ != nullptr) participants_->setSelectionMode(QAbstractItemView::SingleSelection);
+    sessions_->layOut();
+    if (participants_ == nullptr) return;
+    participants_->ensurePolished();
+    participants_->horizontalHeader()->ensurePolished();
+    layOutRecordTable(*participants_);
+    participants_->setSelectionMode(QAbstractItemView::SingleSelection);
 }
 
 void StudyList::judge() {
@@ -383,6 +333,7 @@ void StudyList::judge() {
     const bool there = study != nullptr;
     for (auto* each : all_) each->setEnabled(there);
     for (auto* each : ofOne_) each->setEnabled(there && !code_.isEmpty());
+    sessions_->setReadable(there);
 }
 
 void StudyList::makeReport(const QString& title, const QString& name, const QStringList& more) {

@@ -17,8 +17,7 @@ namespace tacto::gui {
 
 /// As RecordColumns.h shows them: {code, who, group, state, consent, sessions}; without those who withdrew.
 [[nodiscard]] nlohmann::json participantRows(const Study& study);
-/// {code, number, protocol, state, answered, begun}.
-[[nodiscard]] nlohmann::json sessionRows(const Study& study);
+class StudySessions;
 
 class StudyList final : public QWidget {
     Q_OBJECT
@@ -56,9 +55,8 @@ private:
     QLabel* trouble_;
     QVBoxLayout* tables_;
     QTableWidget* participants_ = nullptr;
-    QTableWidget* sessions_ = nullptr;
     QLabel* withdrawn_;
-    QLabel* sessionsTitle_;
+    StudySessions* sessions_;
     std::vector<QPushButton*> ofOne_;  ///< need a participant
     std::vector<QPushButton*> all_;    ///< need the study
     QWidget* ofOneRow_ = nullptr;

@@ -5,6 +5,7 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/DeviceText.h"
@@ -99,6 +100,10 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     });
     connect(&controller_.watch(), &DeviceWatch::changed, this, &DeviceDock::list);
     connect(&calibrations_, &CalibrationBook::changed, this, &DeviceDock::describe);
+    afterLookChange(*tree_, [this] {
+        listed_.clear();
+        list();
+    });
     list();
     refresh(Telemetry{});
 }

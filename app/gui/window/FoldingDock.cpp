@@ -52,7 +52,10 @@ FoldingDock::FoldingDock(const QString& title, const QString& iconName, const QS
     setTextSize(*title_, TextSize::Body, true);
     setTitleBarWidget(header_);
     dress();
-    onLookChange(*this, [this] { dress(); });
+    onLookChange(*this, [this] {
+        dress();
+        limitHeight();
+    });
 }
 
 void FoldingDock::setContent(QWidget* content, Room room) {
@@ -98,7 +101,7 @@ void FoldingDock::fold(bool folded) {
 void FoldingDock::limitHeight() {
     int most = QWIDGETSIZE_MAX;
     if (folded_) {
-        most = header_->height() + 1;
+        most = header_->sizeHint().height() + 1;
     } else if (room_ == Room::First && inside_ != nullptr && !isFloating()) {
         most = wantedHeight();
     }

@@ -2,7 +2,6 @@
 
 #include <QApplication>
 #include <QCloseEvent>
-#include <QFileInfo>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
@@ -14,19 +13,13 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <cmath>
 
-#include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/pilot/PilotWorkspace.h"
-#include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/ScopeFiles.h"
 #include "app/gui/scope/ScopeWorkspace.h"
-#include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/ScrollingPage.h"
-#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/ArmQuestion.h"
 #include "app/gui/window/CloseQuestion.h"
 #include "app/gui/window/DayDialog.h"
@@ -37,7 +30,6 @@
 #include "app/gui/window/MarkLine.h"
 #include "app/gui/window/Menus.h"
 #include "app/gui/window/NoticeBanner.h"
-#include "app/gui/window/RecentFiles.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/gui/window/SimulatedBenchDialog.h"
@@ -45,9 +37,7 @@
 #include "app/gui/window/WelcomeTour.h"
 #include "app/gui/window/WindowPlace.h"
 #include "app/gui/window/WorkspaceRail.h"
-#include "app/run/AllDrivers.h"
-#include "app/run/CaptureFormatsList.h"
-#include "core/devices/Driver.h"
+#include "app/gui/window/Workspaces.h"
 
 namespace tacto::gui {
 
@@ -56,25 +46,6 @@ namespace {
 constexpr int kFrame_ms = 33;
 constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 constexpr int kDocksFrom = 960;      // narrower windows, as with large text, begin with the docks in a strip
-
-/// A workspace, made where it stands.
-template <typename Workspace, typename... Arguments>
-Workspace* makeIn(ScrollingPage& page, Arguments&&... arguments) {
-    auto* workspace = new Workspace(std::forward<Arguments>(arguments)..., page.viewport());
-    page.hold(workspace);
-    return workspace;
-}
-
-template <typename Workspace, typename... Arguments>
-Workspace* addPage(QStackedWidget& pages, Arguments&&... arguments) {
-    auto* page = new ScrollingPage(&pages);
-    auto* workspace = makeIn<Workspace>(*page, std::forward<Arguments>(arguments)...);
-    pages.addWidget(page);
-    return workspace;
-}
-
-enum LiveTab { kTouch, kScope };
-enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
 
 }  // namespace
 
@@ -89,8 +60,9 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, 
     applyTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
     new StopKeys(
         [this](const char* by) {
-            const bool theirs = pilot_ != nullptr && std::string_view(by).starts_with("participant");
-            theirs ? static_cast<void>(pilot_->stopAsParticipant(by)) : controller_.stop(by);
+            auto* pilot = workspaces_ == nullptr ? nullptr : workspaces_->pilot();
+            const bool theirs = pilot != nullptr && std::string_view(by).starts_with("participant");
+            theirs ? static_cast<void>(pilot->stopAsParticipant(by)) : controller_.stop(by);
         },
         this);
 
@@ -114,8 +86,8 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, 
     line_ = new RecordingLine(controller_, *statusBar());
     banner_ = new NoticeBanner(controller_, *line_, centre);
     layout->addWidget(banner_);
-    pages_ = new QStackedWidget(centre);
-    layout->addWidget(pages_, 1);
+    workspaces_ = new Workspaces(controller_, calibrations_, centre);
+    layout->addWidget(workspaces_, 1);
     setCentralWidget(centre);
     mark_ = new MarkLine(controller_, *line_, *centre);
     connect(mark_, &MarkLine::refused, banner_, &NoticeBanner::complain);
@@ -126,12 +98,12 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, 
         statusBar()->addPermanentWidget(limits);
     }
 
-    buildLive();
+    connectWorkspaces();
     rail_ = new WorkspaceRail(this);
     addToolBar(Qt::LeftToolBarArea, rail_);
     connect(rail_, &WorkspaceRail::chosen, this, [this](int index) {
         showWorkspace(index);
-        focusWorkspace();
+        workspaces_->takeFocus();
     });
     buildDocks();
     new Menus(*this, rail_->workspaces(), *docks_, *line_);
@@ -148,7 +120,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, 
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
     connect(safety_, &SafetyBar::detailsRequested, line_, &RecordingLine::showLog);
     connect(&controller_, &BenchController::changed, this, &MainWindow::noteChange);
-    if (pages == Pages::AtOnce) buildOthers();
+    if (pages == Pages::AtOnce) workspaces_->complete();
     restore();
     connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
     frame_.start(kFrame_ms);
@@ -161,162 +133,95 @@ MainWindow::~MainWindow() {
     hide();
 }
 
-void MainWindow::buildLive() {
-    livePage_ = new TabbedPage(pages_);
-    livePage_->setObjectName("livePage");
-    auto* touch = new ScrollingPage(livePage_->room());
-    live_ = makeIn<LiveWorkspace>(*touch, controller_);
-    livePage_->addTab(touch, tr("&Touch"), live_->tools());
-    auto* oscilloscope = new ScrollingPage(livePage_->room());
-    scope_ = makeIn<ScopeWorkspace>(*oscilloscope, controller_);
-    livePage_->addTab(oscilloscope, tr("&Oscilloscope"), scope_->tools());
-    pages_->addWidget(livePage_);
-    connect(live_, &LiveWorkspace::refusedRecording, banner_, &NoticeBanner::complain);
-    connect(live_, &LiveWorkspace::markWanted, this, &MainWindow::markMoment);
-    connect(scope_, &ScopeWorkspace::openBenchWanted, this, &MainWindow::openSimulatedBench);
+void MainWindow::connectWorkspaces() {
+    connect(workspaces_, &Workspaces::complained, banner_, &NoticeBanner::complain);
+    connect(workspaces_, &Workspaces::markWanted, this, &MainWindow::markMoment);
+    connect(workspaces_, &Workspaces::simulatedBenchWanted, this, &MainWindow::openSimulatedBench);
+    connect(workspaces_, &Workspaces::completed, this, &MainWindow::noteComplete);
 }
 
-void MainWindow::buildOthers() {
-    if (closing_ != nullptr) return;
-    calibrate_ = addPage<CalibrateWorkspace>(*pages_, controller_, calibrations_);
-    safetyCheck_ = addPage<ProtocolWorkspace>(*pages_, controller_, "load-safety");
-    separability_ = addPage<ProtocolWorkspace>(*pages_, controller_, "separability");
-    pilot_ = addPage<PilotWorkspace>(*pages_, controller_);
-    pilot_->setButtonDevices(buttonDevices());
-    connect(pilot_, &PilotWorkspace::attentionWanted, this, [this] { showWorkspace(kPilot); });
-    connect(pilot_, &PilotWorkspace::runningChanged, this, &MainWindow::noteBlind);
-    sessions_ = addPage<SessionsWorkspace>(*pages_, controller_);
-    protocols_ = addPage<ProtocolWorkspace>(*pages_, controller_, QString());
-    for (auto* runner : calibrate_->runners())
-        connect(runner, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kCalibrate); });
-    connect(safetyCheck_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSafetyCheck); });
-    connect(separability_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSeparability); });
-    connect(protocols_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kProtocols); });
-    for (auto* runner : runners()) {
-        connect(runner, &ProtocolWorkspace::profileChangeWanted, live_, [this] { live_->editProfile(); });
-        connect(runner, &ProtocolWorkspace::sessionWanted, this, &MainWindow::openFile);
-        connect(runner, &ProtocolWorkspace::safetyCheckWanted, this, [this] { showWorkspace(kSafetyCheck); });
-        connect(runner, &ProtocolWorkspace::liveWanted, this, [this] { showWorkspace(kLive); });
-        connect(runner, &ProtocolWorkspace::captured, summary_, &MeasurementSummary::measure);
-    }
-    connect(sessions_, &SessionsWorkspace::captureChosen, this, [this](std::shared_ptr<const Capture> capture) {
-        scope_->show(std::move(capture));
-        showScope();
-    });
-    connect(sessions_, &SessionsWorkspace::recordingReady, this, [this](const QString& folder) {
-        if (!live_->openRecording(folder)) return;
-        showWorkspace(kLive);
-        livePage_->setCurrentIndex(kTouch);
-    });
-    const auto all = runners();
-    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()}, [this] { return pilot_->running(); });
+void MainWindow::noteComplete() {
+    auto* pilot = workspaces_->pilot();
+    connect(pilot, &PilotWorkspace::runningChanged, this, &MainWindow::noteBlind);
+    connect(workspaces_, &Workspaces::captured, summary_, &MeasurementSummary::measure);
+    const auto all = workspaces_->runners();
+    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()}, [pilot] { return pilot->running(); });
 }
 
 void MainWindow::buildDocks() {
     drive_ = new DriveDock(controller_, this);
     measurements_ = new FoldingDock(tr("Measurements"), "measurements", "measurementDock", this);
     summary_ = new MeasurementSummary(measurements_);
-    summary_->follow(scope_->readings());
+    auto& scope = workspaces_->scope();
+    summary_->follow(scope.readings());
     measurements_->setContent(summary_);
     exposure_ = new ExposureDock(controller_, this);
     devices_ = new DeviceDock(controller_, calibrations_, this);
     docks_ = new DockColumn(*this, {drive_, measurements_, exposure_, devices_});
-    connect(scope_, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
-    connect(exposure_, &ExposureDock::areaWanted, live_, [this] { live_->editProfile("electrode_area_cm2"); });
-    connect(scope_, &ScopeWorkspace::driveWanted, this, [this] {
+    connect(&scope, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
+    connect(exposure_, &ExposureDock::areaWanted, this,
+            [this] { workspaces_->live().editProfile("electrode_area_cm2"); });
+    connect(&scope, &ScopeWorkspace::driveWanted, this, [this] {
         docks_->show(*drive_);
         drive_->takeFocus();
     });
-    connect(livePage_, &TabbedPage::currentChanged, this, &MainWindow::enterDocks);
-    connect(measurements_, &QDockWidget::visibilityChanged, scope_, &ScopeWorkspace::setWatched);
+    connect(workspaces_, &Workspaces::shown, this, [this] {
+        rail_->setCurrent(workspace());
+        enterDocks();
+    });
+    connect(measurements_, &QDockWidget::visibilityChanged, &scope, &ScopeWorkspace::setWatched);
     connect(devices_, &DeviceDock::simulatedBenchRequested, this, &MainWindow::askForSimulatedBench);
     connect(devices_, &DeviceDock::recordingRequested, this, &MainWindow::chooseRecording);
     connect(devices_, &DeviceDock::checkRequested, this, &MainWindow::checkImpedance);
 }
 
-std::array<ProtocolWorkspace*, 5> MainWindow::runners() const {
-    const auto [stimulator, sensor] = calibrate_->runners();
-    return {stimulator, sensor, safetyCheck_, separability_, protocols_};
-}
-
 void MainWindow::tick() {
     const auto telemetry = controller_.telemetry();
     safety_->refresh(telemetry);
-    if (pilot_ != nullptr && pilot_->blind()) safety_->setParticipantsStop(pilot_->stopWords());
+    const auto* pilot = workspaces_->pilot();
+    if (pilot != nullptr && pilot->blind()) safety_->setParticipantsStop(pilot->stopWords());
     banner_->refresh(telemetry);
     devices_->refresh(telemetry);
     drive_->refresh(telemetry);
     exposure_->refresh(telemetry);
     docks_->refresh();
     line_->refresh();
-    const bool live = workspace() == kLive;
-    live_->refresh(telemetry, live && livePage_->currentIndex() == kTouch);
     const bool measured = measurements_->isVisible();
-    if (measured || (live && livePage_->currentIndex() == kScope)) scope_->refresh(telemetry);
+    workspaces_->refresh(telemetry, measured);
     if (measured) summary_->refresh(telemetry);
-    if (closing_ == nullptr) return;  // nothing runs where there is no page for it
-    // One of them takes what a run says: the one it was started from, told apart by themselves.
-    for (auto* protocol : runners()) protocol->refresh();
-    pilot_->refresh(telemetry);
 }
 
-void MainWindow::showWorkspace(int index) {
-    if (index != kLive) buildOthers();
-    if (index < 0 || index >= pages_->count() || (pilot_ != nullptr && pilot_->blind() && index != kPilot)) return;
-    pages_->setCurrentIndex(index);
-    rail_->setCurrent(index);
-    enterDocks();
-}
+int MainWindow::workspace() const { return workspaces_->currentIndex(); }
+
+void MainWindow::showWorkspace(int index) { workspaces_->showPage(index); }
 
 /// Live work has the docks open, those of what is looked at unfolded; everything else gives the room to its plot.
 void MainWindow::enterDocks() {
     const int page = workspace();
-    const bool scope = page == kLive && livePage_->currentIndex() == kScope;
+    const bool live = page == Workspaces::kLive, scope = workspaces_->showsScope();
     const auto name = scope ? QString("oscilloscope") : QString::number(page);
     std::vector<FoldingDock*> folded;
-    if (page == kLive) folded.push_back(scope ? static_cast<FoldingDock*>(devices_) : measurements_);
+    if (live) folded.push_back(scope ? static_cast<FoldingDock*>(devices_) : measurements_);
     hasRoomForDocks_ = width() >= scaledPx(kDocksFrom);
-    docks_->enter({page, name, page == kLive && hasRoomForDocks_, folded});
-}
-
-/// The keys that follow are meant for the workspace. Not for a field of text in it: there Space would not stop.
-void MainWindow::focusWorkspace() {
-    const auto* page = pages_->currentWidget();
-    for (auto* next = page->nextInFocusChain(); next != page; next = next->nextInFocusChain()) {
-        const bool takesText = next->inherits("QLineEdit") || next->inherits("QAbstractSpinBox") ||
-                               next->inherits("QPlainTextEdit") || next->inherits("QTextEdit");
-        if (!page->isAncestorOf(next) || takesText || !next->isVisible() || !next->isEnabled()) continue;
-        if ((next->focusPolicy() & Qt::TabFocus) != 0) return next->setFocus(Qt::ShortcutFocusReason);
-    }
-    pages_->currentWidget()->setFocus(Qt::ShortcutFocusReason);  // nothing but text: the page itself
+    docks_->enter({page, name, live && hasRoomForDocks_, folded});
 }
 
 void MainWindow::showPlotOnly(bool only) {
-    buildOthers();
     rail_->setVisible(!only);
     statusBar()->setVisible(!only);
     menuBar()->setVisible(!only);
-    for (auto* page : findChildren<TabbedPage*>()) page->setHeadVisible(!only);
-    calibrate_->showPlotOnly(only);
-    pilot_->showPlotOnly(only);
-    live_->showPlotOnly(only);
-    for (auto* runner : runners()) runner->showPlotOnly(only);
+    workspaces_->showPlotOnly(only);
     docks_->setHidden(DockColumn::Hidden::PlotOnly, only);
     // What had the keys may be hidden: Space must stop.
-    if (only) focusWorkspace();
+    if (only) workspaces_->takeFocus();
 }
 
 void MainWindow::resetLayout() {
     docks_->reset();
     enterDocks();
     for (auto* splitter : findChildren<QSplitter*>()) layOutAnew(*splitter);
-    scope_->resetLayout();
+    workspaces_->scope().resetLayout();
     line_->say(tr("Docks and columns are where they were at first."));
-}
-
-void MainWindow::showScope() {
-    showWorkspace(kLive);
-    livePage_->setCurrentIndex(kScope);
 }
 
 void MainWindow::noteChange() {
@@ -329,14 +234,15 @@ void MainWindow::askToArm() { arming_->ask(ArmDialog::Purpose::Arm); }
 
 /// Lanes, bars and docks show levels and trains as they are delivered.
 void MainWindow::noteBlind() {
-    const bool blind = pilot_->blind();
-    if (blind) showWorkspace(kPilot);
-    rail_->keepTo(blind ? std::optional<int>(kPilot) : std::nullopt,
+    auto* pilot = workspaces_->pilot();
+    const bool blind = pilot->blind();
+    if (blind) showWorkspace(Workspaces::kPilot);
+    rail_->keepTo(blind ? std::optional<int>(Workspaces::kPilot) : std::nullopt,
                   tr("Hidden until the session ends: it would show what is delivered."));
-    const bool pauses = pilot_->running() && pilot_->participantWindow() != nullptr;
+    const bool pauses = pilot->running() && pilot->participantWindow() != nullptr;
     std::optional<PauseInstead> instead;
     if (pauses)
-        instead = {[this](bool pause) { pilot_->pauseSession(pause); }, [this] { return pilot_->sessionPaused(); }};
+        instead = {[pilot](bool pause) { pilot->pauseSession(pause); }, [pilot] { return pilot->sessionPaused(); }};
     safety_->setPauseInstead(std::move(instead));
     docks_->setHidden(DockColumn::Hidden::Blind, blind);
     safety_->setBlind(blind);
@@ -353,28 +259,7 @@ void MainWindow::openSimulatedBench() {
     controller_.openLive(order);
 }
 
-void MainWindow::openFile(const QString& path) {
-    buildOthers();
-    const QFileInfo file(path);
-    bool opened = false;
-    if (file.isDir() || file.suffix() == "json") {
-        opened = live_->openRecording(path);
-        if (opened) {
-            showWorkspace(kLive);
-            livePage_->setCurrentIndex(kTouch);
-        }
-    } else if (file.suffix() == "tacto") {
-        opened = sessions_->openSession(path);
-        if (opened) showWorkspace(kSessions);
-    } else if (captureFormats()->knowsSuffix(path.toStdString())) {
-        opened = scope_->openCaptureFile(path);
-        if (opened) showScope();
-    } else {
-        banner_->complain(tr("%1 is not a recording (a folder or recording.json), session (*.tacto) or capture (%2)")
-                              .arg(path, ScopeFiles::captureGlobs()));
-    }
-    if (opened) rememberRecentFile(path);
-}
+void MainWindow::openFile(const QString& path) { workspaces_->openFile(path); }
 
 void MainWindow::chooseFile() {
     FileQuestion question;
@@ -392,7 +277,7 @@ void MainWindow::chooseRecording() {
 }
 
 void MainWindow::closeUnasked() {
-    buildOthers();
+    workspaces_->complete();
     closing_->closeUnasked();
 }
 
@@ -449,7 +334,8 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 
 /// What is built afterwards does not delay the first picture.
 bool MainWindow::event(QEvent* event) {
-    if (event->type() == QEvent::Paint && closing_ == nullptr) QTimer::singleShot(0, this, &MainWindow::buildOthers);
+    if (event->type() == QEvent::Paint && closing_ == nullptr)
+        QTimer::singleShot(0, workspaces_, &Workspaces::complete);
     return QMainWindow::event(event);
 }
 
@@ -463,7 +349,7 @@ void MainWindow::changeEvent(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-    buildOthers();
+    workspaces_->complete();
     const bool ran = closing_->runs();
     controller_.stop("the window closes");  // before anything is asked
     if (!closing_->mayClose(ran)) return event->ignore();

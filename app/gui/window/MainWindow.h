@@ -6,11 +6,8 @@
 #pragma once
 
 #include <QMainWindow>
-#include <QStackedWidget>
 #include <QTimer>
-#include <array>
 #include <functional>
-#include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/controller/BenchController.h"
@@ -19,26 +16,20 @@
 namespace tacto::gui {
 
 class ArmQuestion;
-class CalibrateWorkspace;
 class CloseQuestion;
 class DeviceDock;
 class DockColumn;
 class DriveDock;
 class ExposureDock;
 class FoldingDock;
-class LiveWorkspace;
 class MarkLine;
 class MeasurementSummary;
 class NoticeBanner;
-class PilotWorkspace;
-class ProtocolWorkspace;
 class RecordingLine;
 class SafetyBar;
-class ScopeWorkspace;
-class SessionsWorkspace;
-class TabbedPage;
 class WelcomeTour;
 class WorkspaceRail;
+class Workspaces;
 
 class MainWindow final : public QMainWindow {
     Q_OBJECT
@@ -54,7 +45,7 @@ public:
     [[nodiscard]] BenchController& controller() noexcept { return controller_; }
     /// 0 to 6, in the order at the left.
     void showWorkspace(int index);
-    [[nodiscard]] int workspace() const { return pages_->currentIndex(); }
+    [[nodiscard]] int workspace() const;
     /// A recording (a folder or its JSON), a session or a capture. Says so when it is none of them.
     void openFile(const QString& path);
 
@@ -91,34 +82,21 @@ protected:
     void dropEvent(QDropEvent* event) override;
 
 private:
-    void buildLive();
-    void buildOthers();
+    void connectWorkspaces();
+    void noteComplete();
     void buildDocks();
     void restore();
     void tick();
-    /// All that run protocols.
-    [[nodiscard]] std::array<ProtocolWorkspace*, 5> runners() const;
     void noteChange();
     /// While a pilot session hides what is delivered: this workspace alone, no docks, no bars.
     void noteBlind();
-    void showScope();
-    void focusWorkspace();
     void enterDocks();
 
     BenchController controller_;
     CalibrationBook calibrations_{controller_};
     SafetyBar* safety_ = nullptr;
     NoticeBanner* banner_ = nullptr;
-    QStackedWidget* pages_ = nullptr;
-    TabbedPage* livePage_ = nullptr;
-    LiveWorkspace* live_ = nullptr;
-    ScopeWorkspace* scope_ = nullptr;
-    CalibrateWorkspace* calibrate_ = nullptr;
-    ProtocolWorkspace* safetyCheck_ = nullptr;
-    ProtocolWorkspace* separability_ = nullptr;
-    ProtocolWorkspace* protocols_ = nullptr;
-    PilotWorkspace* pilot_ = nullptr;
-    SessionsWorkspace* sessions_ = nullptr;
+    Workspaces* workspaces_ = nullptr;
     DeviceDock* devices_ = nullptr;
     ExposureDock* exposure_ = nullptr;
     DriveDock* drive_ = nullptr;
@@ -128,7 +106,7 @@ private:
     RecordingLine* line_ = nullptr;
     MarkLine* mark_ = nullptr;
     WelcomeTour* tour_ = nullptr;
-    CloseQuestion* closing_ = nullptr;
+    CloseQuestion* closing_ = nullptr;  ///< once all workspaces are there
     ArmQuestion* arming_ = nullptr;
     WorkspaceRail* rail_ = nullptr;
     bool hasRoomForDocks_ = true;

@@ -176,7 +176,7 @@ Result<ProtocolParameter> parseParameter(const std::string& name, const Json& gi
     if (!given.is_object())
         return fail(ErrorCode::InvalidArgument, "{} is {}, an object is expected", where, shown(given));
     const auto known =
-        onlyKeys(given, {"label", "type", "unit", "min", "max", "choices", "value", "step", "needed"}, where);
+        onlyKeys(given, {"label", "type", "unit", "min", "max", "choices", "value", "step", "needed", "zero"}, where);
     if (!known) return failure(known.map_error(asInvalidArgument));
     ProtocolParameter out;
     out.name = name;
@@ -209,6 +209,12 @@ Result<ProtocolParameter> parseParameter(const std::string& name, const Json& gi
     auto needed = declaredText(given, where, "needed", false, kMaxDeclaredTitle);
     if (!needed) return failure(needed);
     out.needed = *needed;
+    auto zero = declaredText(given, where, "zero", false, kMaxDeclaredTitle);
+    if (!zero) return failure(zero);
+    out.zero = *zero;
+    if (!out.zero.empty() && (out.type > ParameterType::Integer || !accepted(out, 0))) {
+        return fail(ErrorCode::InvalidArgument, "{}: zero says what 0 stands for, and 0 is not accepted", where);
+    }
     const auto value = given.find("value");
     if (value == given.end()) return fail(ErrorCode::InvalidArgument, "{} has no value, its default", where);
     if (value->is_string()) {
@@ -250,6 +256,7 @@ Json toJson(const ProtocolParameter& p) {
     one["max"] = p.max ? Json(*p.max) : Json();
     if (p.reference) one["step"] = kReferenceStep;
     if (!p.needed.empty()) one["needed"] = p.needed;
+    if (!p.zero.empty()) one["zero"] = p.zero;
     if (p.type == ParameterType::Choice) {
         one["choices"] = Json::array();
         for (const auto& [key, text] : p.choices) one["choices"].push_back({{"value", key}, {"label", text}});

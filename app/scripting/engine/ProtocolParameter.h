@@ -32,6 +32,8 @@ struct ProtocolParameter {
     bool reference = false;  ///< of the known reference that is read first: `step: "reference"`
     /// What is not known without it; 0 or nothing is not an answer then, and a window asks for it first. May be empty.
     std::string needed;
+    /// What 0 stands for: "from the profile"; Number and Integer that take 0. Empty: for the number.
+    std::string zero{};
     [[nodiscard]] bool operator==(const ProtocolParameter&) const = default;
 };
 

@@ -181,6 +181,7 @@ void ScriptRun::State::writeAbout() {
                               {"label", parameter.label},
                               {"value", request.parameters.value(parameter.name, parameter.value)},
                               {"unit", parameter.unit}});
+        if (!parameter.zero.empty() && parameters.back()["value"] == 0) parameters.back()["shown"] = parameter.zero;
         for (const auto& [key, words] : parameter.choices)
             if (parameters.back()["value"] == key) parameters.back()["shown"] = words;
     }

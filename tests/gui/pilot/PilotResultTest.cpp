@@ -49,11 +49,11 @@ TEST(PilotResult, SaysFirstWhatEveryResultSaysFirst) {
 
 TEST(PilotResult, SaysTheHeadlineOnceWhateverItIs) {
     for (const char* headline : {kHeadline, "P-7K3M answered no test trial."}) {
-        gui::FinishedRun run;
+        RunResult run;
         auto results = someResults();
         results["headline"] = headline;
-        run.result.outcome.results = results;
-        run.result.outcome.reasons = {"No usable range: too narrow", headline};
+        run.outcome.results = results;
+        run.outcome.reasons = {"No usable range: too narrow", headline};
         gui::PilotResult view;
         view.show(run, "/home/lab/rehearsal-1");
         auto said = view.findChild<QLabel*>("pilotHeadline")->text();
@@ -65,9 +65,9 @@ TEST(PilotResult, SaysTheHeadlineOnceWhateverItIs) {
 }
 
 TEST(PilotResult, ANumberAndItsUnitStandOnOneLine) {
-    gui::FinishedRun run;
-    run.result.outcome.results = someResults();
-    run.result.outcome.reasons = {"the range is 2 mA wide, 3 mA were expected"};
+    RunResult run;
+    run.outcome.results = someResults();
+    run.outcome.reasons = {"the range is 2 mA wide, 3 mA were expected"};
     gui::PilotResult view;
     view.show(run, "/home/lab/rehearsal-1");
     static const QRegularExpression breaks("\\d (mA|V|kΩ|%)");
@@ -80,9 +80,9 @@ TEST(PilotResult, ANumberAndItsUnitStandOnOneLine) {
 }
 
 TEST(PilotResult, ShowsTheMatrixAndLooksRight) {
-    gui::FinishedRun run;
-    run.result.outcome.results = someResults();
-    run.result.simulated = true;
+    RunResult run;
+    run.outcome.results = someResults();
+    run.simulated = true;
     gui::PilotResult view;
     view.show(run, "/home/lab/rehearsal-1");
     static_cast<QWidget&>(view).show();
@@ -98,8 +98,8 @@ TEST(PilotResult, ShowsTheMatrixAndLooksRight) {
 }
 
 TEST(PilotResult, AnEarlyEndSaysWhyAndOffersToGoOn) {
-    gui::FinishedRun run;
-    run.result.outcome.error = Error{ErrorCode::Stopped, "the operator stopped"};
+    RunResult run;
+    run.outcome.error = Error{ErrorCode::Stopped, "the operator stopped"};
     gui::PilotResult view;
     view.show(run, "/home/lab/rehearsal-1");
     static_cast<QWidget&>(view).show();

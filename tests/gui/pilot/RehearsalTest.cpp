@@ -1,4 +1,5 @@
 // From "new rehearsal" to the result, in the whole window: with a virtual participant, and with the window's own.
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLineEdit>
 #include <QPointer>
@@ -95,6 +96,26 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     click(*pilot->findChild<QPushButton*>("backFromResult"));
     EXPECT_EQ(text("rehearsalTitle"), "Another session of this rehearsal");
     EXPECT_TRUE(pilot->findChild<gui::TabbedPage*>()->isVisible()) << "the way to the study";
+}
+
+TEST_F(RehearsalInTheWindow, AtTheSessionsOwnPaceThereIsSomethingToWatch) {
+    auto* page = window.findChild<gui::RehearsalPage*>();
+    auto* pace = page->findChild<QComboBox*>("rehearsalPace");
+    EXPECT_FALSE(page->rehearsal().realTime) << "else it is over in seconds";
+    page->findChild<QComboBox*>("whoAnswers")->setCurrentIndex(1);
+    EXPECT_FALSE(pace->isVisible()) << "a person has a pace of their own";
+    page->findChild<QComboBox*>("whoAnswers")->setCurrentIndex(0);
+    EXPECT_TRUE(pace->isVisible());
+    pace->setCurrentIndex(1);
+    page->findChild<QCheckBox*>("blind")->setChecked(false);
+    shot(window, "pilot-new-own-pace");
+    begin(false);
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Running; }, 20'000));
+    EXPECT_FALSE(window.controller().open()->about.virtualClock) << "a second takes a second";
+    window.showWorkspace(0);
+    EXPECT_EQ(window.workspace(), 0) << "trains are seen there as they come";
+    window.controller().stop("operator (STOP)");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
 }
 
 TEST_F(RehearsalInTheWindow, ANewOneHasAFolderOfItsOwnAndKeepsTheRest) {

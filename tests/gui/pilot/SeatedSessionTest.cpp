@@ -185,7 +185,7 @@ TEST_F(SeatedSession, IsAnsweredByKeysAndClicksAndComesToTheMatrixOfTheseAnswers
     gui::FinishedRun finished;
     finished.result.outcome = outcome;
     gui::PilotResult view;
-    view.show(finished, "/study");
+    view.show(finished.result, "/study");
     const auto* matrix = view.findChild<QTableWidget*>("confusion");
     ASSERT_EQ(matrix->rowCount(), 4);
     std::set<std::string> columns;

@@ -8,12 +8,14 @@
 
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantWindow.h"
+#include "app/gui/pilot/PilotResult.h"
 #include "app/gui/pilot/PilotWorkspace.h"
 #include "app/gui/pilot/SessionStartPage.h"
 #include "app/gui/runner/StepButton.h"
 #include "app/gui/runner/StepList.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
 #include "app/run/Shipped.h"
 #include "app/run/StudyProgram.h"
 #include "core/study/Study.h"
@@ -119,6 +121,31 @@ protected:
         for (const auto& file : std::filesystem::directory_iterator(folder)) names.insert(file.path().filename());
         return names;
     }
+    [[nodiscard]] QPushButton& showResult() { return *pilot->findChild<QPushButton*>("showResult"); }
+    [[nodiscard]] std::string said(const char* label) { return pilot->findChild<QLabel*>(label)->text().toStdString(); }
+    void expectTheResultReopens(const std::string& headline) {
+        pilot->findChild<QLabel*>("pilotHeadline")->clear();
+        ASSERT_IN_TIME(comesTrue([this] { return showResult().isEnabled(); }));
+        click(showResult());
+        auto* result = pilot->findChild<gui::PilotResult*>();
+        ASSERT_IN_TIME(comesTrue([&] { return result->isVisible(); }, 20'000));
+        EXPECT_EQ(said("pilotHeadline"), headline);
+        EXPECT_EQ(pilot->findChild<QTableWidget*>("confusion")->rowCount(), 4);
+        EXPECT_THAT(said("pilotNote"), HasSubstr("Simulated. In the study at " + place().string()));
+        EXPECT_FALSE(pilot->findChild<gui::StepList*>()->isVisible()) << "nothing is under way";
+        looksRight(*pilot, "pilot-reopened-result", {QSize(1280, 720), QSize(1280, 720)}, &window);
+        click(*pilot->findChild<QPushButton*>("backFromResult"));
+        ASSERT_NO_FATAL_FAILURE(seeList());
+        looksRight(*pilot, "pilot-study-with-a-session", {QSize(1280, 720), QSize(1280, 720)}, &window);
+    }
+    void expectABrokenRecordIsNamed() {
+        const auto file = *std::filesystem::directory_iterator(place() / "sessions");
+        std::filesystem::resize_file(file.path(), std::filesystem::file_size(file.path()) / 2);
+        click(showResult());
+        ASSERT_IN_TIME(comesTrue([this] { return !said("studyTrouble").empty(); }, 20'000));
+        EXPECT_THAT(said("studyTrouble"), HasSubstr(file.path().filename().string()));
+        EXPECT_FALSE(pilot->findChild<gui::PilotResult*>()->isVisible());
+    }
     void begin() { click(*page().findChild<QPushButton*>("beginSession")); }
     [[nodiscard]] gui::SessionStartPage& page() { return *pilot->findChild<gui::SessionStartPage*>(); }
     [[nodiscard]] std::string trouble() { return page().findChild<QLabel*>("sessionTrouble")->text().toStdString(); }
@@ -150,6 +177,8 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     click(*pilot->findChild<QPushButton*>("backFromResult"));
     ASSERT_NO_FATAL_FAILURE(seeList());
     EXPECT_EQ(cell(0, 5), "interrupted, can continue");
+    EXPECT_FALSE(showResult().isEnabled());
+    EXPECT_THAT(showResult().toolTip().toStdString(), HasSubstr("complete"));
     ASSERT_NO_FATAL_FAILURE(start());
     const auto says = page().findChild<QLabel*>("unfinishedSays")->text().toStdString();
     EXPECT_THAT(says, HasSubstr("Session 1 was interrupted at "));
@@ -157,13 +186,21 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     page().findChild<QRadioButton*>("goOnWithIt")->click();
     begin();
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 100'000));
-    EXPECT_THAT(pilot->findChild<QLabel*>("pilotHeadline")->text().toStdString(), HasSubstr(code.toStdString()));
+    const auto& path = *pilot->findChild<gui::StepList*>();
+    EXPECT_EQ(pixelsOf(path.window()->grab().copy(QRect(path.mapTo(path.window(), QPoint()), path.size())).toImage(),
+                       gui::colours().selection),
+              0)
+        << "steps that cannot be clicked do not look chosen";
+    const auto headline = said("pilotHeadline");
+    EXPECT_THAT(headline, HasSubstr(code.toStdString()));
     shot(window, "study-window-result");
     EXPECT_EQ(faultsOf(window), "");
     click(*pilot->findChild<QPushButton*>("backFromResult"));
     ASSERT_NO_FATAL_FAILURE(seeList());
     EXPECT_EQ(pilot->findChild<QTableWidget*>("studySessions")->rowCount(), 1) << "the same session";
     EXPECT_EQ(cell(0, 5), "complete");
+    expectTheResultReopens(headline);
+    expectABrokenRecordIsNamed();
 }
 
 TEST_F(StudyInTheWindow, WithNothingPluggedInAPersonsSessionCannotBegin) {

@@ -1,7 +1,10 @@
 // The form of a protocol's parameters.
+#include <QLineEdit>
+#include <QTest>
 #include <gtest/gtest.h>
 
 #include "app/gui/runner/ParameterForm.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -29,6 +32,80 @@ TEST(ParameterForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBla
     const auto chosen = form.read().value();
     EXPECT_EQ(chosen.given, (std::set<std::string>{"area", "file"}));
     EXPECT_EQ(chosen.parameters.at("area"), 5);
+}
+
+ProtocolParameter areaFromTheProfile() {
+    ProtocolParameter area;
+    area.name = "area";
+    area.label = "Area of the smallest electrode";
+    area.unit = "cm2";
+    area.min = 0;
+    area.max = 1000;
+    area.value = 0;
+    area.zero = "from the profile";
+    return area;
+}
+
+TEST(ParameterForm, WhatZeroStandsForIsSaidInAnEmptyField) {
+    ProtocolDeclaration declaration;
+    declaration.parameters = {areaFromTheProfile()};
+    gui::ParameterForm form;
+    form.show(declaration);
+    auto* area = form.findChild<QLineEdit*>("area");
+    EXPECT_EQ(area->text(), "");
+    EXPECT_EQ(area->placeholderText(), "from the profile");
+    const auto untouched = form.read().value();
+    EXPECT_EQ(untouched.parameters.at("area"), 0);
+    EXPECT_TRUE(untouched.given.empty());
+    area->setText("4");
+    EXPECT_EQ(form.read().value().parameters.at("area"), 4);
+    area->clear();
+    EXPECT_EQ(form.read().value().parameters.at("area"), 0);
+
+    declaration.parameters[0].needed = "density is not evaluated";
+    form.show(declaration);
+    area = form.findChild<QLineEdit*>("area");
+    EXPECT_EQ(area->placeholderText(), "not stated") << "the profile has none";
+    form.setKnown({"area"});
+    EXPECT_EQ(area->placeholderText(), "from the profile");
+}
+
+TEST(ParameterForm, WhatIsMissingIsSaidOnceTheFieldWasLeftOrTheFormWasTried) {
+    ProtocolDeclaration declaration;
+    for (const char* name : {"title", "reference"}) {
+        ProtocolParameter text;
+        text.name = text.label = name;
+        text.type = ParameterType::Text;
+        text.value = "";
+        text.needed = "no session can begin";
+        declaration.parameters.push_back(text);
+    }
+    gui::ParameterForm form;
+    form.setMissingSaidOnceLeft();
+    form.show(declaration);
+    static_cast<QWidget&>(form).show();
+    form.activateWindow();
+    ASSERT_IN_TIME(QTest::qWaitForWindowActive(&form));
+    const auto says = [&](const char* name) {
+        return form.findChild<QLabel*>(QString("trouble-") + name)->isVisible();
+    };
+    auto* title = form.findChild<QLineEdit*>("title");
+    title->setFocus();
+    EXPECT_FALSE(says("title"));
+    EXPECT_FALSE(form.unanswered().isEmpty()) << "and is known all the same";
+    EXPECT_EQ(form.refused(false), 2);
+    QTest::keyClicks(title, "x");
+    QTest::keyClick(title, Qt::Key_Backspace);
+    EXPECT_FALSE(says("title")) << "while it is typed";
+    QTest::keyClick(title, Qt::Key_Tab);
+    EXPECT_TRUE(says("title"));
+    EXPECT_FALSE(says("reference"));
+    EXPECT_TRUE(form.goToRefused());
+    EXPECT_TRUE(says("reference"));
+    form.set("reference", "EC-1");
+    EXPECT_FALSE(says("reference"));
+    form.show(declaration);
+    EXPECT_FALSE(says("title")) << "a new form";
 }
 
 }  // namespace

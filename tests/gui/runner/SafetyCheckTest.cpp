@@ -124,7 +124,7 @@ TEST_F(SafetyCheck, AsksForTheElectrodeAreaFirst) {
         EXPECT_LT(area.mapTo(workspace.get(), QPoint()).y(), other->mapTo(workspace.get(), QPoint()).y());
     }
     EXPECT_EQ(step("Settings").state(), gui::StepList::State::Troubled);
-    ASSERT_IN_TIME(comesTrue([this] { return says("runObstacle").contains("Smallest electrode"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return says("runObstacle").contains("smallest electrode"); }));
     EXPECT_EQ(find<QPushButton>(*workspace, "changeProfile"), nullptr) << "the profile is not in the way";
     EXPECT_FALSE(the<QPushButton>("runButton").isEnabled());
     shot(*workspace, "safety_area_dark");

@@ -9,6 +9,7 @@
 #include <QTabWidget>
 #include <QToolBar>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
@@ -248,6 +249,41 @@ TEST_F(Layout, DocksCollapseToAStripThatKeepsTheirKeyFigures) {
     EXPECT_TRUE(bar("dockStrip").isVisible()) << "elsewhere the plot has the room";
     window.showWorkspace(0);
     EXPECT_FALSE(bar("dockStrip").isVisible()) << "each workspace keeps its own";
+}
+
+TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen) {
+    RecordProperty("hazard", "H2");
+    open();
+    gui::applyTextSize(200);
+    window.resize(1280, 720);
+    const auto wide = [this] {
+        std::string all;
+        for (const auto* each : window.findChildren<QWidget*>())
+            if (each->isVisible() && each->minimumSizeHint().width() > 300)
+                all += fmt::format("{} {} {}\n", widgetName(*each), each->minimumSizeHint().width(), each->width());
+        return all;
+    };
+    for (int page = 0; page < 7; ++page) {
+        window.showWorkspace(page);
+        for (const bool opened : {false, true}) {
+            window.findChild<gui::DockColumn*>()->setCollapsed(!opened);
+            QTest::qWait(100);
+            window.resize(1280, 720);
+            QTest::qWait(50);
+            EXPECT_LE(window.width(), 1280) << page << opened << "\n" << wide();
+            EXPECT_LE(window.height(), 720) << page << opened;
+        }
+        shot(window, QString("docks-open-200-%1").arg(page));
+    }
+    window.showWorkspace(0);
+    QTest::qWait(100);
+    ASSERT_TRUE(dock("measurementDock").folded());
+    EXPECT_GE(dock("measurementDock").height(), dock("driveDock").titleBarWidget()->height()) << "a whole header";
+    const auto* list = dock("deviceDock").findChild<QTreeWidget*>();
+    const auto* item = list->topLevelItem(0);
+    EXPECT_GE(list->visualItemRect(item).height(), QFontMetrics(item->font(0)).height()) << "whole rows";
+    shot(window, "docks-open-200-live");
+    gui::applyTextSize(100);
 }
 
 TEST_F(Layout, ADockFoldsToItsHeader) {

@@ -1,0 +1,83 @@
+// Workspaces.h - the window's seven workspaces, one of them shown. Live is there from the start; the others take as
+// long to make as all the rest of the window, and are made when they are first needed.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QStackedWidget>
+#include <array>
+#include <memory>
+
+#include "app/gui/calibrate/CalibrationBook.h"
+#include "app/gui/controller/BenchController.h"
+
+namespace tacto::gui {
+
+class CalibrateWorkspace;
+class LiveWorkspace;
+class PilotWorkspace;
+class ProtocolWorkspace;
+class ScopeWorkspace;
+class SessionsWorkspace;
+class TabbedPage;
+
+class Workspaces final : public QStackedWidget {
+    Q_OBJECT
+public:
+    /// In the order at the left.
+    enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
+    enum LiveTab { kTouch, kScope };
+    /// Both outlive it.
+    Workspaces(BenchController& controller, CalibrationBook& calibrations, QWidget* parent);
+    /// Makes the others, once.
+    void complete();
+    [[nodiscard]] bool isComplete() const { return protocols_ != nullptr; }
+
+    /// Nothing for a number that there is none of, and for another than Pilot's while a session there is blind.
+    void showPage(int page);
+    void showLive(LiveTab tab);
+    /// Whether the oscilloscope is what is shown.
+    [[nodiscard]] bool showsScope() const;
+    /// The keys that follow are meant for the workspace. Not for a field of text in it: there Space would not stop.
+    void takeFocus();
+    /// Without tabs, tools and paths.
+    void showPlotOnly(bool only);
+    /// `measured`: the oscilloscope's readings are shown beside the workspace, whichever it is.
+    void refresh(const Telemetry& telemetry, bool measured);
+    /// A recording (a folder or its JSON), a session or a capture; complained() says so when it is none of them.
+    void openFile(const QString& path);
+
+    [[nodiscard]] LiveWorkspace& live() const { return *live_; }
+    [[nodiscard]] ScopeWorkspace& scope() const { return *scope_; }
+    /// Null before complete().
+    [[nodiscard]] PilotWorkspace* pilot() const { return pilot_; }
+    /// All that run protocols; after complete().
+    [[nodiscard]] std::array<ProtocolWorkspace*, 5> runners() const;
+
+signals:
+    /// Another workspace, or another page of Live.
+    void shown();
+    void completed();
+    void complained(const QString& why);  ///< about a file or a recording that was not opened
+    void markWanted();
+    void simulatedBenchWanted();
+    void captured(std::shared_ptr<const tacto::Capture> capture);  ///< by a run
+
+private:
+    void connectRunners();
+    void connectSessions();
+
+    BenchController& controller_;
+    CalibrationBook& calibrations_;
+    TabbedPage* livePage_;
+    LiveWorkspace* live_ = nullptr;
+    ScopeWorkspace* scope_ = nullptr;
+    CalibrateWorkspace* calibrate_ = nullptr;
+    ProtocolWorkspace* safetyCheck_ = nullptr;
+    ProtocolWorkspace* separability_ = nullptr;
+    PilotWorkspace* pilot_ = nullptr;
+    SessionsWorkspace* sessions_ = nullptr;
+    ProtocolWorkspace* protocols_ = nullptr;
+};
+
+}  // namespace tacto::gui
