@@ -61,12 +61,19 @@ ParameterForm::ParameterForm(QWidget* parent)
     onFontChange(*this, [this] { fitLabels(); });
 }
 
-/// A label wraps where it is long, and not between two short words.
+/// A label wraps where it is long, and not between two short words. All fields end where the widest range begins.
 void ParameterForm::fitLabels() {
+    int widest = 0;
     for (const auto& field : fields_) {
+        field.range->ensurePolished();
+        if (!field.range->text().isEmpty()) widest = std::max(widest, field.range->sizeHint().width());
         if (field.label == nullptr) continue;
         field.label->setMinimumWidth(
             std::min(scaledPx(kLabelWidth), 2 * fontMetrics().averageCharWidth() * int(field.label->text().size())));
+    }
+    for (const auto& field : fields_) {
+        field.range->setMinimumWidth(widest);
+        field.range->setVisible(widest > 0);
     }
 }
 
@@ -182,13 +189,10 @@ void ParameterForm::addRow(Field& field) {
     stack->setSpacing(1);
     auto* line = new QHBoxLayout;
     line->addWidget(field.whole, 1);
-    if (const auto range = rangeText(parameter); !range.isEmpty()) {
-        auto* quiet = new QLabel(range, column);
-        quiet->setTextFormat(Qt::PlainText);
-        setTone(*quiet, Tone::Quiet);
-        line->addSpacing(fontMetrics().averageCharWidth());
-        line->addWidget(quiet);
-    }
+    field.range = new QLabel(rangeText(parameter), column);
+    field.range->setTextFormat(Qt::PlainText);
+    setTone(*field.range, Tone::Quiet);
+    line->addWidget(field.range);
     stack->addLayout(line);
     field.trouble = new QLabel(column);
     field.trouble->setTextFormat(Qt::PlainText);

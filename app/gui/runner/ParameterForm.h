@@ -60,9 +60,10 @@ private:
         QWidget* whole = nullptr;   // the editor with its buttons
         QLabel* trouble = nullptr;
         QLabel* label = nullptr;
-        QString atFirst{};  // the text as the script's default shows it
-        QString why{};      // it is refused as it stands
-        bool left = false;  // once, or what it lacks was asked for
+        QLabel* range = nullptr;  // empty where it has none
+        QString atFirst{};        // the text as the script's default shows it
+        QString why{};            // it is refused as it stands
+        bool left = false;        // once, or what it lacks was asked for
     };
     [[nodiscard]] Field makeField(const ProtocolParameter& parameter);
     void addLine(Field& field);

@@ -46,6 +46,30 @@ ProtocolParameter areaFromTheProfile() {
     return area;
 }
 
+TEST(ParameterForm, AllFieldsEndInOneLine) {
+    ProtocolDeclaration declaration;
+    auto area = areaFromTheProfile();
+    auto load = area;
+    load.name = "load";
+    load.max = 1'000'000;
+    ProtocolParameter free;
+    free.name = free.label = "note";
+    free.type = ParameterType::Text;
+    free.value = "";
+    declaration.parameters = {area, load, free};
+    gui::ParameterForm form;
+    form.show(declaration);
+    form.resize(400, form.sizeHint().height());
+    form.setVisible(true);
+    std::set<int> ends;
+    for (const auto* name : {"area", "load", "note"}) {
+        const auto* field = form.findChild<QLineEdit*>(name);
+        ends.insert(field->mapTo(&form, QPoint(field->width(), 0)).x());
+    }
+    EXPECT_EQ(ends.size(), 1U);
+    EXPECT_LT(*ends.begin(), 400) << "the ranges have no room";
+}
+
 TEST(ParameterForm, WhatZeroStandsForIsSaidInAnEmptyField) {
     ProtocolDeclaration declaration;
     declaration.parameters = {areaFromTheProfile()};
