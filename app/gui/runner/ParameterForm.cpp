@@ -61,11 +61,13 @@ ParameterForm::ParameterForm(QWidget* parent)
     onFontChange(*this, [this] { fitLabels(); });
 }
 
-/// A label wraps where it is long, and not between two short words. All fields end where the widest range begins.
+/// A label wraps where it is long, and not between two short words. Fields with a range end where the widest range
+/// begins.
 void ParameterForm::fitLabels() {
     int widest = 0;
     for (const auto& field : fields_) {
         field.range->ensurePolished();
+        field.range->setVisible(!field.range->text().isEmpty());
         if (!field.range->text().isEmpty()) widest = std::max(widest, field.range->sizeHint().width());
         if (field.label == nullptr) continue;
         field.label->setMinimumWidth(
@@ -73,7 +75,6 @@ void ParameterForm::fitLabels() {
     }
     for (const auto& field : fields_) {
         field.range->setMinimumWidth(widest);
-        field.range->setVisible(widest > 0);
     }
 }
 
