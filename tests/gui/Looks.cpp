@@ -1,6 +1,7 @@
 #include "tests/gui/Looks.h"
 
 #include <QAbstractButton>
+#include <QAbstractItemView>
 #include <QComboBox>
 #include <QHeaderView>
 #include <QLabel>
@@ -157,6 +158,23 @@ bool fills(const QWidget& widget) {
            widget.testAttribute(Qt::WA_StyledBackground);
 }
 
+/// Cells with an ink of their own.
+void addPaleCells(const QAbstractItemView& view, QStringList& pale) {
+    const auto* model = view.model();
+    if (model == nullptr || !view.isEnabled()) return;
+    const auto paper = view.palette().color(QPalette::Base);
+    for (int row = 0; row < model->rowCount(); ++row) {
+        for (int column = 0; column < model->columnCount(); ++column) {
+            const auto cell = model->index(row, column);
+            const auto text = cell.data().toString();
+            const auto own = cell.data(Qt::ForegroundRole);
+            if (text.isEmpty() || !own.isValid() || !cell.flags().testFlag(Qt::ItemIsEnabled)) continue;
+            if (const auto ink = own.value<QBrush>().color(); contrast(ink, paper) < 4.5)
+                pale << QString("\"%1\" in %2: %3 on %4").arg(text, nameOf(view), ink.name(), paper.name());
+        }
+    }
+}
+
 }  // namespace
 
 QStringList paleTexts(const QWidget& in) {
@@ -172,6 +190,9 @@ QStringList paleTexts(const QWidget& in) {
         if (contrast(ink, paper) < 4.5)
             pale << QString("%1: %2 on %3, the ground of %4")
                         .arg(nameOf(*widget), ink.name(), paper.name(QColor::HexArgb), nameOf(*ground));
+    }
+    for (const auto* view : in.findChildren<QAbstractItemView*>()) {
+        if (view->isVisibleTo(&in) && qobject_cast<const QHeaderView*>(view) == nullptr) addPaleCells(*view, pale);
     }
     return pale;
 }

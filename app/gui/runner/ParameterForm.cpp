@@ -193,6 +193,7 @@ void ParameterForm::addRow(Field& field) {
     field.range = new QLabel(rangeText(parameter), column);
     field.range->setTextFormat(Qt::PlainText);
     setTone(*field.range, Tone::Quiet);
+    line->setSpacing(fontMetrics().averageCharWidth());
     line->addWidget(field.range);
     stack->addLayout(line);
     field.trouble = new QLabel(column);

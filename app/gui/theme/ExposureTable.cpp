@@ -134,7 +134,10 @@ ExposureTable::ExposureTable(QWidget* parent) : QTableWidget(0, 4, parent) {
     header->setHighlightSections(false);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     measure();
-    onFontChange(*this, [this] { measure(); });
+    onLookChange(*this, [this] {
+        measure();
+        fill();
+    });
 }
 
 void ExposureTable::measure() {
@@ -217,7 +220,7 @@ void ExposureTable::fill() {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         const auto& row = rows_[i];
         if (i == 0 || !(row.set == rows_[i - 1].set))
-            showSection(line++, row.set.empty() ? tr("shown, without a limit") : titled(titleOfSet(row)));
+            showSection(line++, row.set.empty() ? tr("Shown without a limit") : titled(titleOfSet(row)));
         showRow(line++, row);
     }
 }
