@@ -131,26 +131,26 @@ Result<PulseFinding> BenchPulse::send(Result<ApprovedTrain> approved, bool isChe
         return fail(ErrorCode::Stopped, "stopped. Output is off.");
     }
     session_.post(std::move(*approved), clock_.now(), isCheck);
-    const TrainReport told = report();
+    const TrainReport reported = report();
     // On every return the destructor switches off, and the session did where the device failed.
     if (stopped_) return fail(ErrorCode::Stopped, "stopped. Output is off.");
-    if (told.outcome == TrainOutcome::Voided) {
+    if (reported.outcome == TrainOutcome::Voided) {
         return fail(ErrorCode::Timeout,
                     "the approval expired before the pulse was written, and it was not sent: the machine is too busy");
     }
-    if (told.outcome != TrainOutcome::Delivered) {
-        const bool silent = told.outcome == TrainOutcome::LoopSilent;
-        interlock_.fault(silent ? FaultCause::LoopSilent : FaultCause::DeviceFault, told.error.view());
-        return fail(ErrorCode::Device, "{}", told.error.view());
+    if (reported.outcome != TrainOutcome::Delivered) {
+        const bool silent = reported.outcome == TrainOutcome::LoopSilent;
+        interlock_.fault(silent ? FaultCause::LoopSilent : FaultCause::DeviceFault, reported.error.view());
+        return fail(ErrorCode::Device, "{}", reported.error.view());
     }
-    const auto judgement = judgeTrain(OutputMode::BenchLoad, readBackOf(told), told.end, told.statusAt);
+    const auto judgement = judgeTrain(OutputMode::BenchLoad, readBackOf(reported), reported.end, reported.statusAt);
     const bool isElectrode = judgement.finding == TrainFinding::Open || judgement.finding == TrainFinding::Short;
     if (judgement.stops() && !isElectrode) {
         interlock_.fault(causeOf(judgement.finding), judgement.reason.view());
         return fail(ErrorCode::Device, "{}", judgement.reason.view());
     }
     auto reading = device_.lastReading();
-    return PulseFinding{current, told.electrode, reading.impedance, reading.samples};
+    return PulseFinding{current, reported.electrode, reading.impedance, reading.samples};
 }
 
 /// Serves the session until it has an answer: it bounds every wait of its own.

@@ -1,15 +1,13 @@
 // study: studies with people or virtual participants - made, enrolled in, consented to, shown, left, withdrawn from.
-#include <algorithm>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
 #include "app/cli/StudyOptions.h"
 #include "app/cli/StudyPassphrase.h"
+#include "app/cli/StudyText.h"
 #include "app/run/PilotRows.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/pilot/PilotRecord.h"
-#include "core/study/ProcedureWords.h"
 #include "core/study/Study.h"
 
 namespace tacto::cli {
@@ -27,119 +25,11 @@ Result<std::uint64_t> seedGiven(const QCommandLineParser& parser) {
                 parser.value("virtual").toStdString());
 }
 
-Json consentJson(const Participant& participant) {
-    if (participant.consents.empty()) return nullptr;
-    return participant.consents.back().version;
-}
-
-Json toJson(const Participant& participant) {
-    return {{"code", participant.readable ? Json(participant.code) : Json()},
-            {"virtual", participant.virtualSeed ? Json(*participant.virtualSeed) : Json()},
-            {"state", wordFor(tacto::Words<ParticipantState>(kParticipantStates), participant.state)},
-            {"consent", consentJson(participant)},
-            {"sessions", participant.sessions}};
-}
-
-Json toJson(const StudySession& session) {
-    return {{"id", session.id},
-            {"code", session.code.empty() ? Json() : Json(session.code)},
-            {"number", session.number},
-            {"protocol", session.protocol},
-            {"state", nameOf(session.state)},
-            {"answered", session.answered}};
-}
-
-std::string dayOf(const StudyAmendment& amendment) {
-    return dateText(std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(amendment.at)));
-}
-
-Json toJson(const StudyAmendment& amendment) {
-    return {{"reference", amendment.reference}, {"date", dayOf(amendment)}, {"changed", amendment.changed}};
-}
-
-std::string changesText(const StudyAmendment& amendment, Modality modality) {
-    std::vector<std::string> words;
-    for (const auto& key : amendment.changed) words.push_back(amendedWords(key, modality));
-    return words.empty() ? "no setting" : fmt::format("{}", fmt::join(words, ", "));
-}
-
-Json procedureJson(const StudySettings& settings) {
-    if (!settings.procedure) return nullptr;
-    const auto& procedure = *settings.procedure;
-    return {{"interval_min_s", procedure.intervalMin_s},
-            {"interval_max_s", procedure.intervalMax_s},
-            {"method", nameOf(procedure.method)},
-            {"conditions_sha256", procedure.conditionsSha256},
-            {"comparison", procedure.comparison}};
-}
-
-Json toJson(const Study& study) {
-    const auto& settings = study.settings();
-    const auto& approval = settings.approval;
-    auto participants = Json::array();
-    int withdrawn = 0;
-    for (const auto& participant : study.participants()) {
-        if (participant.state == ParticipantState::Withdrawn)
-            ++withdrawn;
-        else
-            participants.push_back(toJson(participant));
-    }
-    auto sessions = Json::array();
-    for (const auto& session : study.sessions()) sessions.push_back(toJson(session));
-    auto amendments = Json::array();
-    for (const auto& amendment : study.amendments()) amendments.push_back(toJson(amendment));
-    return {{"title", settings.title},
-            {"rehearsal", study.isRehearsal()},
-            {"modality", nameOf(settings.modality)},
-            {"approval",
-             {{"reference", approval.reference},
-              {"from", dateText(approval.from)},
-              {"expires", dateText(approval.expires)},
-              {"valid", approvalGate(settings, study.today()).has_value()}}},
-            {"procedure", procedureJson(settings)},
-            {"amendments", std::move(amendments)},
-            {"consent_version", settings.consentVersion},
-            {"participants", std::move(participants)},
-            {"withdrawn", withdrawn},
-            {"sessions", std::move(sessions)},
-            {"adverse_events", study.adverseEventCount()},
-            {"ledger_head", study.ledgerHead()}};
-}
-
 int show(const Study& study, const QCommandLineParser& parser) {
-    const auto all = toJson(study);
-    if (parser.isSet("json")) {
-        printJson(all);
-        return kDone;
-    }
-    const auto& settings = study.settings();
-    say("{}{}\n  modality {}\n", settings.title, study.isRehearsal() ? " (rehearsal)" : "", nameOf(settings.modality));
-    say("  approval {}, {} to {}{}\n  consent form {}\n", settings.approval.reference, dateText(settings.approval.from),
-        dateText(settings.approval.expires), all["approval"]["valid"] == true ? "" : ": not valid today",
-        settings.consentVersion);
-    for (const auto& fact : approvedProcedure(settings)) say("    {}: {}\n", fact.what, fact.words);
-    for (const auto& amendment : study.amendments())
-        say("  amendment {} of {}: changed {}\n", amendment.reference, dayOf(amendment),
-            changesText(amendment, settings.modality));
-    for (const auto& participant : study.participants()) {
-        if (participant.state == ParticipantState::Withdrawn) continue;
-        const auto name = participant.readable ? participant.code : std::string("(sealed)");
-        const auto consented = participant.consents.empty() ? std::string(participant.readable ? "none" : "sealed")
-                                                            : participant.consents.back().version;
-        say("  {}{}: {}, consent {}, sessions {}\n", name,
-            participant.virtualSeed ? fmt::format(" (virtual:{})", *participant.virtualSeed) : "",
-            wordFor(tacto::Words<ParticipantState>(kParticipantStates), participant.state), consented,
-            participant.sessions);
-    }
-    if (all["withdrawn"] != 0) say("  withdrawn: {}\n", all["withdrawn"].get<int>());
-    for (const auto& session : study.sessions()) {
-        say("  session {} of {}: {}, {}, answered {}\n", session.number,
-            session.code.empty() ? std::string("(sealed)") : session.code, session.protocol, nameOf(session.state),
-            session.answered);
-    }
-    if (const auto events = study.adverseEventCount(); events > 0) say("  adverse events: {}\n", events);
-    say("  ledger head {}\n", study.ledgerHead());
-    if (!study.hasKey()) say(stderr, "Codes, consents and who took part are sealed; --passphrase-file shows them.\n");
+    if (parser.isSet("json"))
+        printJson(studyJson(study));
+    else
+        sayStudy(study);
     return kDone;
 }
 
@@ -156,7 +46,7 @@ int create(const QCommandLineParser& parser, const std::string& folder) {
         (Study::defaultKeyFolder() / (study->settings().id + ".json")).string());
     if (const auto valid = approvalGate(study->settings(), study->today()); !valid)
         say(stderr, "No session can begin today: {}.\n", valid.error().message);
-    if (parser.isSet("json")) printJson(toJson(*study));
+    if (parser.isSet("json")) printJson(studyJson(*study));
     return kDone;
 }
 
@@ -169,7 +59,7 @@ int amend(Study& study, const QCommandLineParser& parser, const QStringList&) {
         say(stderr, "No session can begin today: {}.\n", valid.error().message);
     const auto& made = study.amendments().back();
     if (parser.isSet("json"))
-        printJson(toJson(made));
+        printJson(amendmentJson(made));
     else
         say("{}: changed {}\n", made.reference, changesText(made, study.settings().modality));
     return kDone;
@@ -216,7 +106,7 @@ int enrol(Study& study, const QCommandLineParser& parser, const QStringList& wor
     const auto enrolled = study.enrol(std::move(participant));
     if (!enrolled) return failWith(enrolled.error());
     if (parser.isSet("json"))
-        printJson(toJson(*enrolled));
+        printJson(participantJson(*enrolled));
     else
         say("{}\n", enrolled->code);
     return kDone;
@@ -227,7 +117,7 @@ int changed(const Result<void>& done, const Study& study, const std::string& cod
     if (!done) return failWith(done.error());
     if (!parser.isSet("json")) return kDone;
     const auto participant = study.find(code);
-    printJson(participant ? toJson(*participant) : Json{{"withdrawn", true}});
+    printJson(participant ? participantJson(*participant) : Json{{"withdrawn", true}});
     return kDone;
 }
 

@@ -1,75 +1,16 @@
 #include "app/report/StudyReport.h"
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include "app/report/Captions.h"
-#include "app/report/FigureDrawing.h"
 #include "app/report/StudyFlow.h"
-#include "app/report/StudyOverSessions.h"
-#include "app/report/StudyPredicted.h"
+#include "app/report/StudyPerson.h"
 #include "app/report/StudyPreferences.h"
 #include "app/report/StudyText.h"
-#include "app/report/StudyVibration.h"
-#include "core/analysis/identification/Encodings.h"
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/IdentificationText.h"
-#include "core/base/Statistics.h"
 
 namespace tacto {
 
 namespace {
-
-QString qtext(const std::string& value) { return QString::fromStdString(value); }
-
-std::vector<IdentificationTrial> trialsOf(const BidsSession& session) {
-    std::vector<IdentificationTrial> trials;
-    for (const auto& row : session.trials) trials.push_back(row.trial);
-    return trials;
-}
-
-PresentedRange rangeOf(const BidsSession& session) {
-    PresentedRange range;
-    if (std::isfinite(session.low.value()) && std::isfinite(session.high.value())) {
-        range.low = session.low;
-        range.high = session.high;
-        range.impedance = session.impedance;
-        range.lowVoltage = Volts(session.low.value() * session.impedance.value() / 1000);
-        range.highVoltage = Volts(session.high.value() * session.impedance.value() / 1000);
-    }
-    if (std::isfinite(session.lowIntensity) && std::isfinite(session.highIntensity)) {
-        range.lowIntensity = session.lowIntensity;
-        range.highIntensity = session.highIntensity;
-    }
-    return range;
-}
-
-double medianResponse_s(const BidsSession& session) {
-    std::vector<double> times;
-    for (const auto& row : session.trials) {
-        if (row.trial.phase == TrialPhase::Test && std::isfinite(row.trial.rt_s)) times.push_back(row.trial.rt_s);
-    }
-    return statisticsOf(times).median;
-}
-
-/// In their order.
-Result<std::vector<AnalysedSession>> analysedAll(const ParticipantRecord& participant) {
-    std::vector<AnalysedSession> all;
-    for (const auto& session : participant.sessions) {
-        auto found = identify(trialsOf(session.results), session.results.labels);
-        if (!found) return failure(found);
-        all.push_back({&session, std::move(*found)});
-    }
-    return all;
-}
-
-/// Those with test trials.
-Result<std::vector<AnalysedSession>> analysed(const ParticipantRecord& participant) {
-    auto all = analysedAll(participant);
-    if (all) std::erase_if(*all, [](const AnalysedSession& one) { return one.found.all.n == 0; });
-    return all;
-}
 
 ReportContent begun(const StudyRecord& study, const QString& title, const QString& subtitle) {
     ReportContent content;
@@ -89,125 +30,6 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
             "not what people do."});
     }
     return content;
-}
-
-void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const AnalysedSession& one,
-                  const QString& caption, bool simulated) {
-    ConfusionFigure figure;
-    figure.answers = "answered";
-    for (const auto& label : one.found.labels) figure.labels << qtext(label);
-    for (const auto& column : one.found.columns) figure.columns << qtext(column);
-    for (const auto& row : one.found.confusion) figure.counts.emplace_back(row.begin(), row.end());
-    figure.accuracy = one.found.all.accuracy;
-    const Figure drawn{figure, {}};
-    blocks.emplace_back(
-        FigureBlock{captions.figure(caption, simulated), figureLegend(drawn), drawFigure(drawn, simulated)});
-}
-
-QString learningText(const Identification& found) {
-    if (!std::isfinite(found.learning.value)) return "cannot be determined";
-    return QString("%1 (%2 to %3) in log odds per block")
-        .arg(figureText(found.learning.value, 2), figureText(found.learning.low, 2),
-             figureText(found.learning.high, 2));
-}
-
-void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
-    const auto& found = one.found;
-    FactsBlock facts;
-    facts.oneColumn = true;
-    const auto chance = qtext(chanceText(found.all.pChance));
-    facts.facts = {{"By chance", QString("p %1, exact and one-sided against %2 %")
-                                     .arg(chance.startsWith('<') ? chance : "= " + chance)
-                                     .arg(100 * found.all.chance, 0, 'f', 0)},
-                   {"Information", QString("%1 bit, of which chance gives %2 bit; corrected %3 bit")
-                                       .arg(figureText(found.all.it_bits, 2), figureText(found.all.itBias_bits, 2),
-                                            figureText(found.all.itCorrected_bits, 2))}};
-    for (const auto& [name, feature] :
-         {std::pair{"Texture alone", &found.texture}, {"Pressure alone", &found.pressure}}) {
-        if (!*feature) continue;
-        const auto& figures = (*feature)->figures;
-        facts.facts.push_back(
-            {name, QString("%1 of %2, %3; corrected information %4 bit, d′ %5, criterion %6")
-                       .arg(figures.hits)
-                       .arg(figures.n)
-                       .arg(shareText(figures.accuracy), figureText(figures.itCorrected_bits, 2),
-                            figureText((*feature)->dPrime, 2), figureText((*feature)->criterion, 2))});
-    }
-    facts.facts.push_back({"Catch trials", QString("%1 of %2 answered with a name, exact 95 % interval up to %3 %")
-                                               .arg(found.catches.falseAlarms)
-                                               .arg(found.catches.n)
-                                               .arg(100 * found.catches.rate.high, 0, 'f', 0)});
-    facts.facts.push_back({"Learning over blocks", learningText(found)});
-    facts.facts.push_back(
-        {"After the same condition", shareText(wilsonInterval(found.afterSame.hits, found.afterSame.n))});
-    facts.facts.push_back({"After another", shareText(wilsonInterval(found.afterOther.hits, found.afterOther.n))});
-    facts.facts.push_back({"Precision", qtext(precisionSentence(found.all.n, found.all.chance))});
-    if (found.noAnswer > 0) facts.facts.push_back({"Without an answer", QString("%1 trial(s)").arg(found.noAnswer)});
-    blocks.emplace_back(std::move(facts));
-}
-
-void addRatings(std::vector<ReportBlock>& blocks, Captions& captions, const BidsSession& session,
-                const std::string& name) {
-    if (session.ratings.empty()) return;
-    constexpr std::string_view kItems[] = {"intensity", "unpleasantness", "pain", "naturalness", "qualities"};
-    TableBlock table;
-    table.caption = captions.table(QString("%1, session %2: ratings").arg(qtext(name)).arg(session.number));
-    table.columns = {
-        {"Condition"}, {"Intensity, 0 to 10", true}, {"Unpleasantness", true}, {"Pain", true}, {"Naturalness"},
-        {"Felt like"}};
-    for (const auto& label : session.labels) {
-        QStringList row = {qtext(label)};
-        for (const auto item : kItems) {
-            const auto rated = std::ranges::find_if(session.ratings, [&](const BidsRating& rating) {
-                return rating.condition == label && rating.item == item;
-            });
-            const bool isRated = rated != session.ratings.end() && !rated->value.empty();
-            row << (isRated ? qtext(rated->value).replace(',', ", ").replace('-', ' ') : QString("–"));
-        }
-        table.rows.push_back(std::move(row));
-    }
-    blocks.emplace_back(std::move(table));
-}
-
-void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const std::string& name,
-                  const std::vector<AnalysedSession>& sessions) {
-    std::vector<EncodingResult> results;
-    std::set<std::string> met;
-    for (const auto& one : sessions) {
-        const auto& encoding = one.session->results.encoding;
-        if (!met.insert(encoding).second) continue;  // the first session with each
-        std::set<std::size_t> training;
-        for (const auto& row : one.session->results.trials) {
-            if (row.trial.phase == TrialPhase::Training) training.insert(row.trial.block);
-        }
-        results.push_back({.encoding = encoding,
-                           .n = one.found.all.n,
-                           .hits = one.found.all.hits,
-                           .trainingBlocks = training.size(),
-                           .medianResponse_s = medianResponse_s(one.session->results),
-                           .naturalness = naturalnessOf(one.session->results)});
-    }
-    if (results.size() < 2) return;
-    const auto compared = compareEncodings(std::move(results));
-    TableBlock table;
-    table.caption = captions.table(qtext(name) + ": encodings, in the order in which the person had them");
-    table.columns = {{"Encoding"},
-                     {"Right", true},
-                     {"Trials", true},
-                     {"Training blocks", true},
-                     {"Median response (s)", true},
-                     {"Naturalness, 1 to 5", true}};
-    for (const auto& each : compared.encodings) {
-        table.rows.push_back({qtext(each.encoding), QString::number(each.hits), QString::number(each.n),
-                              QString::number(each.trainingBlocks), figureText(each.medianResponse_s, 2),
-                              figureText(each.naturalness, 1)});
-    }
-    blocks.emplace_back(std::move(table));
-    for (const auto& pair : compared.pairs) {
-        blocks.emplace_back(
-            ParagraphBlock{QString("%1 minus %2: %3 percentage points (Newcombe).")
-                               .arg(qtext(pair.a), qtext(pair.b), shareText(pair.difference).remove(" %"))});
-    }
 }
 
 void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vector<PersonResult> people) {
@@ -234,18 +56,6 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vect
         "Answers of different people are not pooled: no proportion, p or interval is given over all trials.", true});
 }
 
-/// A sentence for each session in which there was no room for the test.
-QStringList unusableRanges(const ParticipantRecord& participant) {
-    QStringList said;
-    for (const auto& session : participant.sessions) {
-        if (session.results.rangeNotUsable.empty()) continue;
-        said << QString("Session %1 had no usable range, and so no test: %2.")
-                    .arg(session.results.number)
-                    .arg(qtext(session.results.rangeNotUsable));
-    }
-    return said;
-}
-
 void addApproval(std::vector<ReportBlock>& blocks, Captions& captions, const StudyRecord& study) {
     blocks.emplace_back(captions.heading("Approval and consent"));
     blocks.emplace_back(approvalFacts(study));
@@ -260,82 +70,26 @@ const ParticipantRecord* withCode(const StudyRecord& study, const std::string& c
     return nullptr;
 }
 
-/// As they measured it last.
-double amplitudeWeberOf(const ParticipantRecord& participant) {
-    double weber = kNaN;
-    for (const auto& session : participant.sessions) {
-        if (std::isfinite(session.results.amplitudeWeber)) weber = session.results.amplitudeWeber;
-    }
-    return weber;
-}
-
-Result<void> addOver(std::vector<ReportBlock>& blocks, Captions& captions, const StudyRecord& study,
-                     const std::string& code) {
-    const auto* participant = withCode(study, code);
-    if (participant == nullptr) return {};
-    const auto sessions = analysedAll(*participant);
-    if (!sessions) return failure(sessions);
-    return addOverSessions(blocks, captions, code, *sessions, study.settings.modality == Modality::Massager);
-}
-
 }  // namespace
 
 Result<ReportContent> studyReport(const StudyRecord& study) {
     auto content = begun(study, qtext(study.settings.title), "Pilot study  ·  for those who run it: names codes");
     auto& blocks = content.blocks;
-    const bool massager = study.settings.modality == Modality::Massager;
     Captions captions(content.simulated);
+    std::vector<StudyPerson> persons;
     std::vector<PersonResult> people;
-    std::vector<std::pair<std::string, std::vector<AnalysedSession>>> all;
     for (const auto& participant : study.participants) {
         if (participant.about.state == ParticipantState::Withdrawn) continue;
-        auto sessions = analysed(participant);
-        if (!sessions) return failure(sessions);
-        if (!participant.sessions.empty()) {
-            PersonResult person{.name = participant.about.code, .usable = true, .figures = {}};
-            if (sessions->empty())
-                person.usable = hasUsableRange(participant.sessions.back().results);
-            else
-                person.figures = sessions->front().found.all;
-            people.push_back(std::move(person));
-        }
-        all.emplace_back(participant.about.code, std::move(*sessions));
+        auto person = StudyPerson::analysed(participant);
+        if (!person) return failure(person);
+        if (!participant.sessions.empty()) people.push_back(person->result());
+        persons.push_back(std::move(*person));
     }
-    for (const auto& [name, sessions] : all) {
-        for (const auto& one : sessions)
-            blocks.emplace_back(ParagraphBlock{qtext(headline(name, one.found, rangeOf(one.session->results)))});
-    }
+    for (const auto& person : persons) person.addHeadlines(blocks);
     addTogether(blocks, captions, std::move(people));
-    for (const auto& [name, sessions] : all) {
-        const auto* who = withCode(study, name);
-        const auto unusable = who == nullptr ? QStringList() : unusableRanges(*who);
-        if (sessions.empty() && unusable.empty() && (who == nullptr || who->sessions.size() < 2)) continue;
-        blocks.emplace_back(captions.heading(qtext(name)));
-        for (const auto& sentence : unusable) blocks.emplace_back(ParagraphBlock{sentence});
-        for (const auto& one : sessions) {
-            const auto& results = one.session->results;
-            addConfusion(blocks, captions, one,
-                         QString("%1, session %2, encoding %3: presented and answered")
-                             .arg(qtext(name))
-                             .arg(results.number)
-                             .arg(qtext(results.encoding)),
-                         content.simulated);
-            addFacts(blocks, one);
-            const auto predicted = QString("%1, session %2: predicted from the detection threshold, and answered")
-                                       .arg(qtext(name))
-                                       .arg(results.number);
-            const double weber = who == nullptr ? kNaN : amplitudeWeberOf(*who);
-            if (auto added = addPredicted(blocks, captions, predicted, one, weber, massager); !added)
-                return failure(added);
-            addRatings(blocks, captions, results, name);
-            if (massager) {
-                if (auto added = addVibration(blocks, captions, results, name); !added) return failure(added);
-            }
-        }
-        addEncodings(blocks, captions, name, sessions);
-        if (who != nullptr && !preferenceText(*who).isEmpty())
-            blocks.emplace_back(ParagraphBlock{preferenceText(*who)});
-        if (auto added = addOver(blocks, captions, study, name); !added) return failure(added);
+    for (const auto& person : persons) {
+        if (auto added = person.add(blocks, captions, study.settings.modality, content.simulated); !added)
+            return failure(added);
     }
     if (auto table = preferencesTable(study)) {
         blocks.emplace_back(captions.heading("Preferred encodings"));
@@ -380,8 +134,9 @@ ReportContent committeeReport(const StudyRecord& study) {
 Result<ReportContent> participantReport(const StudyRecord& study, const std::string& code) {
     const auto* participant = withCode(study, code);
     if (participant == nullptr) return fail(ErrorCode::NotFound, "no participant of this study has the code {}", code);
-    const auto sessions = analysed(*participant);
-    if (!sessions) return failure(sessions);
+    const auto person = StudyPerson::analysed(*participant);
+    if (!person) return failure(person);
+    const auto sessions = person->tested();
     auto content = begun(study, qtext(study.settings.title), "What you felt  ·  for the participant");
     auto& blocks = content.blocks;
     const bool massager = study.settings.modality == Modality::Massager;
@@ -389,7 +144,7 @@ Result<ReportContent> participantReport(const StudyRecord& study, const std::str
         QString("Thank you for taking part. You felt four kinds of touch, made by short %1 on your skin: rough or "
                 "smooth, firm or light. After each one you said which it was.")
             .arg(massager ? "vibrations" : "pulses")});
-    for (const auto& one : *sessions) {
+    for (const auto& one : sessions) {
         const auto& all = one.found.all;
         blocks.emplace_back(ParagraphBlock{
             QString(
@@ -406,7 +161,7 @@ Result<ReportContent> participantReport(const StudyRecord& study, const std::str
                                    .arg(one.found.pressure->figures.hits)});
         }
     }
-    if (sessions->empty()) {
+    if (sessions.empty()) {
         blocks.emplace_back(
             ParagraphBlock{"Your sessions did not get to the part in which you name them. That happens, and it is a "
                            "result too."});

@@ -1,14 +1,16 @@
-// StudyText.h - numbers of a study as its reports write them.
+// StudyText.h - texts and numbers of a study as its reports write them.
 //
 // Thread-safety: pure functions.
 #pragma once
 
 #include <QString>
+#include <string>
 
 #include "core/analysis/statistics/Estimate.h"
 
 namespace tacto {
 
+[[nodiscard]] inline QString qtext(const std::string& value) { return QString::fromStdString(value); }
 /// "–" for what is not known.
 [[nodiscard]] QString figureText(double value, int decimals);
 /// "85 % (76 to 91)"; "–" for what is not known.

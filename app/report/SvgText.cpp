@@ -21,7 +21,8 @@ double advanceOf(const QString& escaped, double size, int weight) {
 
 QString withWholeTexts(const QString& svg) {
     static const QRegularExpression kText(
-        R"re(<text ([^>]*?)x="([^"]*)" y="([^"]*)" ([^>]*?font-size="([^"]*)" font-weight="([^"]*)"[^>]*)>([^<]*)</text>)re");
+        R"re(<text ([^>]*?)x="([^"]*)" y="([^"]*)" )re"
+        R"re(([^>]*?font-size="([^"]*)" font-weight="([^"]*)"[^>]*)>([^<]*)</text>)re");
     QString out;
     qsizetype taken = 0;
     double end = 0;  // where the text before ends

@@ -6,13 +6,14 @@
 #include <QTcpSocket>
 #include <QThread>
 #include <algorithm>
-#include <charconv>
 #include <deque>
 #include <future>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
+
+#include "core/base/WholeNumber.h"
 
 namespace tacto {
 
@@ -93,7 +94,7 @@ Result<MarkerAddress> MarkerAddress::parse(std::string_view text) {
             ErrorCode::InvalidArgument,
             "markers are to go to \"{}\"; a port from {} to 65535 is expected, or ADDRESS:PORT with an address of "
             "this computer",
-            text, kLeastPort);
+            text, kMinPort);
     };
     MarkerAddress made;
     auto port = text;
@@ -109,8 +110,9 @@ Result<MarkerAddress> MarkerAddress::parse(std::string_view text) {
         if (address.isNull()) return refused();
         made.host = address.toString().toStdString();
     }
-    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), made.port);
-    if (error != std::errc() || end != port.data() + port.size() || made.port < kLeastPort) return refused();
+    const auto number = parseWhole<std::uint16_t>(port);
+    if (!number || *number < kMinPort) return refused();
+    made.port = *number;
     return made;
 }
 
@@ -154,7 +156,7 @@ struct MarkerServer::State {
     MarkerTally tally;
     std::uint64_t last = 0;  ///< number of the marker that was taken last
 
-    static constexpr std::size_t kMostWaiting = 4096;
+    static constexpr std::size_t kMaxWaiting = 4096;
     std::mutex mutex;
     // Guarded; held for moments:
     std::vector<Waiting> waiting;
@@ -188,7 +190,7 @@ void MarkerServer::State::serve(const MarkerAddress& at, std::promise<Result<voi
 
 void MarkerServer::State::accept(QTcpServer& from) {
     while (auto* socket = from.nextPendingConnection()) {
-        if (recorders.size() >= kMostRecorders) {
+        if (recorders.size() >= kMaxRecorders) {
             socket->abort();
             socket->deleteLater();
             continue;
@@ -271,7 +273,7 @@ void MarkerServer::send(Instant at, std::string_view name) {
     const std::scoped_lock lock(state.mutex);
     if (state.loop == nullptr) return;
     ++state.made;
-    if (state.waiting.size() >= State::kMostWaiting) {
+    if (state.waiting.size() >= State::kMaxWaiting) {
         ++state.dropped;
         return;
     }

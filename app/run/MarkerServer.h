@@ -28,7 +28,7 @@ struct MarkerAddress {
     std::string host = "127.0.0.1";  ///< of this computer; others reach the usual one from this computer alone
     std::uint16_t port = 0;
 
-    static constexpr std::uint16_t kLeastPort = 1024;
+    static constexpr std::uint16_t kMinPort = 1024;
     /// "5005", "192.168.1.20:5005", "[::1]:5005". Errors: InvalidArgument with what was given and what is accepted.
     [[nodiscard]] static Result<MarkerAddress> parse(std::string_view text);
     [[nodiscard]] std::string text() const;  ///< "127.0.0.1:5005", "[::1]:5005"
@@ -49,8 +49,8 @@ struct MarkerTally {
 
 class MarkerServer {
 public:
-    static constexpr std::size_t kMostRecorders = 8;  ///< one more is hung up on
-    static constexpr std::int64_t kBacklog = 65536;   ///< bytes that wait for one recorder
+    static constexpr std::size_t kMaxRecorders = 8;  ///< one more is hung up on
+    static constexpr std::int64_t kBacklog = 65536;  ///< bytes that wait for one recorder
 
     /// Recorders can connect from now on. Errors: Io where the port is taken or the address is not this computer's.
     [[nodiscard]] static Result<std::unique_ptr<MarkerServer>> listen(const MarkerAddress& at);

@@ -6,32 +6,21 @@
 // Thread-safety: as ProtocolRun.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/run/MarkerServer.h"
-#include "app/run/PilotRows.h"
+#include "app/run/OpenedStudy.h"
+#include "app/run/PilotOrder.h"
 #include "app/run/ProtocolRun.h"
+#include "app/run/UnfinishedSession.h"
 #include "core/pilot/PilotSession.h"
 #include "core/pilot/VirtualPilotParticipant.h"
 #include "core/study/Study.h"
 
 namespace tacto {
-
-/// Where and with whom.
-struct PilotOrder {
-    std::filesystem::path study;
-    std::optional<Passphrase> passphrase;
-    /// The participant's and operator's windows; null: headless, and then a person is refused.
-    PilotParticipant* people = nullptr;
-    bool codeConfirmed = false;  ///< a person read the code on their screen
-    /// Empty: a virtual participant's, who answers no to each but those of `--set exclusions`.
-    std::vector<ExclusionAnswer> exclusions;
-    std::optional<MarkerAddress> markers;  ///< nothing: none are sent
-};
 
 class PilotRun {
 public:
@@ -54,42 +43,25 @@ public:
 
     [[nodiscard]] ProtocolRun& run() noexcept { return *run_; }
     [[nodiscard]] PilotSession& session() noexcept { return *session_; }
-    [[nodiscard]] const Study& study() const noexcept { return *study_; }
+    [[nodiscard]] const Study& study() const noexcept { return study_; }
     /// What was done by itself, a sentence each: a rehearsal made, a participant enrolled, a session ended.
     [[nodiscard]] const std::vector<std::string>& remarks() const noexcept { return remarks_; }
 
 private:
-    /// An unfinished session, and as what it ends.
-    struct SessionToEnd {
-        StudySession session;
-        StudySessionState state;
-    };
-    PilotRun() = default;
-    [[nodiscard]] Result<void> openStudy(const RunOrder& order, const PilotOrder& pilot);
-    [[nodiscard]] Result<void> chooseSession(const RunOrder& order);
-    [[nodiscard]] Result<void> mayResume() const;
+    PilotRun(OpenedStudy opened, std::shared_ptr<MarkerServer> markers);
     void cancelBooked();
     [[nodiscard]] Result<void> mayGoOn() const;
     [[nodiscard]] Result<void> noteSkin(const std::string& moment, int score);
-    /// What ends an unfinished session, for messages: an option, or what the window offers.
-    [[nodiscard]] std::string_view whatEnds() const;
-    [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
-    [[nodiscard]] Result<void> sameProcedure() const;
     [[nodiscard]] std::optional<MarkerTally> endMarkers();
-    [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
     void fitOrder(RunOrder& order, const PilotOrder& pilot);
-    void chooseEncoding();
     [[nodiscard]] Result<RunSession> makeSession(const SessionAbout& about, const Clock& clock,
                                                  const DeviceSet& devices);
 
-    std::optional<Study> study_;
+    Study study_;
     Participant who_;
-    bool inWindow_ = false;
-    std::optional<SessionToEnd> toEnd_;       // once another may begin
-    std::optional<StudySession> unfinished_;  // The one that is continued
+    UnfinishedSession unfinished_;
     std::optional<BegunSession> begun_;
     SessionRequest request_;
-    PilotRows earlier_;
     PilotSettings settings_;
     std::vector<std::string> remarks_;
 

@@ -1,9 +1,9 @@
 #include "app/run/RunFiles.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "core/base/Clock.h"
+#include "core/base/DataFolder.h"
 
 namespace tacto {
 
@@ -14,12 +14,7 @@ fs::path RunFiles::report(const char* ending) const {
     return path.replace_extension(ending);
 }
 
-fs::path userSessionsFolder() {
-    const auto* data = std::getenv("XDG_DATA_HOME");
-    if (data != nullptr && *data != '\0') return fs::path(data) / "tactoscope" / "sessions";
-    const auto* home = std::getenv("HOME");
-    return fs::path(home != nullptr ? home : ".") / ".local" / "share" / "tactoscope" / "sessions";
-}
+fs::path userSessionsFolder() { return dataFolder() / "sessions"; }
 
 namespace {
 

@@ -12,10 +12,10 @@ namespace tacto {
 
 namespace {
 
-constexpr Seconds kArmWithin{2};
+constexpr Seconds kArmTimeout{2};
 constexpr Instant kCaptureGrace = std::chrono::seconds(1);
 constexpr Instant kPresentedGrace = std::chrono::seconds(1);
-constexpr Instant kPresentedLook = std::chrono::milliseconds(1);
+constexpr Instant kPresentedPoll = std::chrono::milliseconds(1);
 
 }  // namespace
 
@@ -107,7 +107,7 @@ Result<void> Bench::arm(const ArmRequest& request) {
         return noted;
     }
     s.loop->arm(command);
-    const Seconds within = look ? CheckCapture::kWithin : kArmWithin;
+    const Seconds within = look ? CheckCapture::kTimeout : kArmTimeout;
     std::optional<Result<void>> outcome;
     bool passedOn = !look;
     const auto finished = s.time.advance(s.time.now() + toInstant(within), [&] {
@@ -273,7 +273,7 @@ Result<Presented> Bench::present(const Presentation& presentation,
     const auto passed = s.time.advance(until + kPresentedGrace, isOver);
     // A stop or a fault ends the wait first: the loop says what was delivered until then.
     for (const Instant last = s.time.now() + kPresentedGrace; !ended && !isOver() && s.time.now() < last;)
-        s.time.pass(last, kPresentedLook);
+        s.time.pass(last, kPresentedPoll);
     if (!ended) {
         disarm();
         if (!passed) return failure(passed);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Milliamps kContinuousStep{0.1};  // of a source without a grid (choice)
 constexpr Instant kAnswerTimeout = std::chrono::milliseconds(500);
-constexpr Instant kLevelLook = std::chrono::milliseconds(1);
+constexpr Instant kLevelPoll = std::chrono::milliseconds(1);
 
 }  // namespace
 
@@ -128,7 +128,7 @@ Result<StimulusLevel> BenchLevels::tell(const LevelRequest& request) {
     desk.ask(request);
     const Instant until = time_.now() + kAnswerTimeout;
     std::optional<Result<StimulusLevel>> answer;
-    while (!(answer = desk.answer()) && time_.now() < until) time_.pass(until, kLevelLook);
+    while (!(answer = desk.answer()) && time_.now() < until) time_.pass(until, kLevelPoll);
     if (answer) return *answer;
     return fail(ErrorCode::Device, "the control loop does not run: it has not heard of a level within 0.5 s");
 }

@@ -33,7 +33,7 @@ ScopeSettings CheckCapture::settings() const {
 Result<void> CheckCapture::begin() {
     scope_.request(settings(), time_.now(), 1);
     const auto waiting =
-        time_.advance(time_.now() + toInstant(kWithin), [this] { return scope_.waiting() || scope_.failed(); });
+        time_.advance(time_.now() + toInstant(kTimeout), [this] { return scope_.waiting() || scope_.failed(); });
     if (!waiting) return failure(waiting);
     if (const auto taken = scope_.take(); !taken) {
         return fail(ErrorCode::NotArmed, "not armed: the oscilloscope that confirms the check pulse failed: {}",

@@ -14,7 +14,7 @@ namespace tacto {
 class CheckCapture {
 public:
     /// An oscilloscope may be slow to arm, and as slow to read.
-    static constexpr Seconds kWithin{5};
+    static constexpr Seconds kTimeout{5};
 
     /// The pulse that `command` begins with. All but it outlive this.
     CheckCapture(ScopeSession& scope, BenchTime& time, ControlLoop& loop, const ArmCommand& command);

@@ -21,10 +21,10 @@ Result<void> FaultExit::ask(Session& session, Role role, Instant within, const c
 /// being left; judged after the reset it would be the next one.
 Result<void> FaultExit::letReportsBeJudged() {
     constexpr std::uint64_t kSteps = 2;  // one may be under way
-    constexpr Instant kWithin = std::chrono::milliseconds(500);
+    constexpr Instant kStepsTimeout = std::chrono::milliseconds(500);
     constexpr Instant kPollInterval = std::chrono::milliseconds(1);
     const auto begin = loop_.telemetry().steps;
-    const Instant until = time_.now() + kWithin;
+    const Instant until = time_.now() + kStepsTimeout;
     while (loop_.telemetry().steps < begin + kSteps && time_.now() < until) time_.pass(until, kPollInterval);
     if (loop_.telemetry().steps >= begin + kSteps) return {};
     return fail(ErrorCode::NotArmed, "not reset: the control loop does not run");
@@ -39,12 +39,12 @@ Result<void> FaultExit::leave() {
     // A massager is not asked anything: the next burst shows whether it is there.
     if (auto* massager = output_.massager()) massager->forceOff();
     if (auto* stimulator = output_.stimulator()) {
-        constexpr Instant kAnswerWithin = std::chrono::milliseconds(500);
-        if (const auto well = ask(*stimulator, Role::Stimulator, kAnswerWithin, "stimulator"); !well) return well;
+        constexpr Instant kStimulatorTimeout = std::chrono::milliseconds(500);
+        if (const auto well = ask(*stimulator, Role::Stimulator, kStimulatorTimeout, "stimulator"); !well) return well;
     }
     if (sensor_ != nullptr) {
-        constexpr Instant kOpenWithin = std::chrono::seconds(3);
-        if (const auto well = ask(*sensor_, Role::Sensor, kOpenWithin, "fingertip sensor"); !well) return well;
+        constexpr Instant kSensorTimeout = std::chrono::seconds(3);
+        if (const auto well = ask(*sensor_, Role::Sensor, kSensorTimeout, "fingertip sensor"); !well) return well;
     }
     if (const auto judged = letReportsBeJudged(); !judged) return judged;
     for (int cause = 0; cause < kFaultCauseCount; ++cause) interlock_.causeGone(static_cast<FaultCause>(cause));

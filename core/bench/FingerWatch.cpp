@@ -6,7 +6,7 @@
 namespace tacto {
 
 namespace {
-constexpr Instant kReportLook = std::chrono::milliseconds(100);
+constexpr Instant kReportPoll = std::chrono::milliseconds(100);
 constexpr Instant kReportEvery = std::chrono::seconds(10);  // of a line that goes on losing
 }  // namespace
 
@@ -61,7 +61,7 @@ std::optional<LoopFault> FingerWatch::failure() noexcept {
 void FingerWatch::noteLosses(Instant now) noexcept {
     if (!finger_ || report_ == nullptr || now < lossesDue_) return;
     const auto report = report_->deviceReport();
-    lossesDue_ = now + kReportLook;
+    lossesDue_ = now + kReportPoll;
     if (report.losses <= lossesNoted_) return;
     lossesNoted_ = report.losses;
     lossesDue_ = now + kReportEvery;

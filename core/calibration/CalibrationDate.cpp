@@ -1,20 +1,17 @@
 #include "core/calibration/CalibrationDate.h"
 
-#include <charconv>
 #include <fmt/format.h>
 
 #include "core/base/RecordFields.h"
+#include "core/base/WholeNumber.h"
 
 namespace tacto {
 
 std::optional<CalibrationDate> parseDate(std::string_view text) {
     if (text.size() != 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
     const auto number = [&](std::size_t from, std::size_t length) -> std::optional<int> {
-        int value = 0;
-        const char* end = text.data() + from + length;
-        const auto read = std::from_chars(text.data() + from, end, value);
-        if (read.ec != std::errc() || read.ptr != end || value < 0) return std::nullopt;
-        return value;
+        const auto value = parseWhole<int>(text.substr(from, length));
+        return value && *value >= 0 ? value : std::nullopt;
     };
     const auto year = number(0, 4), month = number(5, 2), day = number(8, 2);
     if (!year || !month || !day) return std::nullopt;

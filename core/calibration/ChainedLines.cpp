@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/base/Csv.h"
+#include "core/base/DataFolder.h"
 #include "core/base/JsonText.h"
 #include "core/session/Digest.h"
 #include "core/session/Durable.h"
@@ -178,11 +178,6 @@ Result<void> ChainedLines::append(const std::function<Result<nlohmann::json>()>&
     return noteEnd();
 }
 
-std::filesystem::path labFile(std::string_view name) {
-    const char* data = std::getenv("XDG_DATA_HOME");
-    if (data != nullptr && *data != '\0') return std::filesystem::path(data) / "tactoscope" / name;
-    const char* home = std::getenv("HOME");
-    return std::filesystem::path(home != nullptr ? home : ".") / ".local" / "share" / "tactoscope" / name;
-}
+std::filesystem::path labFile(std::string_view name) { return dataFolder() / name; }
 
 }  // namespace tacto

@@ -11,11 +11,11 @@ namespace tacto {
 
 namespace {
 
-constexpr Seconds kAnswerWithin{10};  // from the appearance of the targets
+constexpr Seconds kTargetsTimeout{10};  // from the appearance of the targets
 constexpr Seconds kFeedback{1.5};
 constexpr Seconds kDriftRest{300};  // recovery took about 15 min (Kaczmarek 2000): three of them
 constexpr int kMaxOnDemand = 5;     // of each condition
-constexpr std::uint64_t kMostBlocks = 50;
+constexpr std::uint64_t kMaxBlocks = 50;
 
 nlohmann::json toJson(const std::vector<PlannedTrial>& planned, const std::vector<Condition>& conditions) {
     nlohmann::json all = nlohmann::json::array();
@@ -51,11 +51,11 @@ Result<void> PilotIdentification::plan(bool withTrials) {
     });
     if (!stored) return failure(stored);
     const auto blocks = countOr(*stored, "blocks");
-    if (textOr(*stored, "encoding") != settings.encoding || blocks < 1 || blocks > kMostBlocks)
+    if (textOr(*stored, "encoding") != settings.encoding || blocks < 1 || blocks > kMaxBlocks)
         return fail(ErrorCode::ParseError,
                     "the stored plan is of the encoding \"{}\" and {} blocks, and the session of {} and up to {}: it "
                     "cannot be gone on with",
-                    textOr(*stored, "encoding"), blocks, settings.encoding, kMostBlocks);
+                    textOr(*stored, "encoding"), blocks, settings.encoding, kMaxBlocks);
     settings.seed = countOr(*stored, "seed");
     settings.blocks = static_cast<int>(blocks);
     plan_ = valueOr(*stored, "trials");
@@ -112,7 +112,7 @@ StageTrial PilotIdentification::stageTrial(const PlannedTrial& planned) const {
     trial.level = planned.condition ? presented_[*planned.condition].level : 0;
     trial.presentation = testPresentation(stage_.levelOf(trial.level), interval, stage_.settings().window);
     trial.prompt = conditionPrompt(labels());
-    trial.prompt.within = kAnswerWithin;
+    trial.prompt.within = kTargetsTimeout;
     trial.screen.state = ScreenState::Feel;
     trial.screen.phase = nameOf(planned.phase);
     trial.screen.block = static_cast<int>(planned.block);

@@ -10,13 +10,11 @@ namespace tacto {
 
 namespace {
 
-constexpr Seconds kWayLook{0.1};  // between two looks at what is in the way
-constexpr Seconds kReasonTakes{300};
+constexpr Seconds kHindrancePoll{0.1};  // between two looks at what is in the way
+constexpr Seconds kReasonTimeout{300};
 
 /// The check pulse found no load that the bench is armed on.
 bool isUnseated(const Error& why) { return why.code == ErrorCode::NotArmed || why.code == ErrorCode::LimitExceeded; }
-
-bool isParticipants(std::string_view by) { return by.starts_with("participant"); }
 
 }  // namespace
 
@@ -24,22 +22,9 @@ bool isParticipants(std::string_view by) { return by.starts_with("participant");
 
 void PilotOutput::stop(const char* by) noexcept {
     const auto pressed = std::chrono::steady_clock::now();
-    if (std::string_view(by).starts_with(kScreenGone))
-        screenGone_ = true;
-    else if (std::string_view(by) == kOperatorAborts)
-        aborted_ = true;
-    else if (std::string_view(by) == kOperatorPauses)
-        paused_ = true;
-    else
-        stoppedBy_.store(by);
+    stops_.note(by);
     stage_.bench().stop(by);
-    stopTook_.store(std::chrono::nanoseconds(std::chrono::steady_clock::now() - pressed).count());
-}
-
-std::optional<PilotOutput::PressedStop> PilotOutput::takeStop() noexcept {
-    const char* by = stoppedBy_.exchange(nullptr);
-    if (by == nullptr) return std::nullopt;
-    return PressedStop{isParticipants(by), std::chrono::nanoseconds(stopTook_.load())};
+    stops_.noteTook(std::chrono::steady_clock::now() - pressed);
 }
 
 void PilotOutput::rest() noexcept {
@@ -49,11 +34,11 @@ void PilotOutput::rest() noexcept {
 
 Result<PilotAnswer> PilotOutput::insist(const PilotPrompt& prompt) {
     for (;;) {
-        stage_.bench().attend(PilotStage::kAskingTakes);
+        stage_.bench().attend(PilotStage::kAskingTimeout);
         auto said = stage_.participant().ask(prompt);
         if (said) return said;
         const bool over = stage_.ended() != PilotEnd::Unfinished;
-        if (over && (takeStop() || paused_.exchange(false))) {  // off for good: what is asked after it stays asked
+        if (over && (takeStop() || stops_.takePaused())) {  // off for good: what is asked after it stays asked
             stage_.participant().show({});
             continue;
         }
@@ -109,9 +94,7 @@ Result<void> PilotOutput::measureTouched() {
 
 Result<void> PilotOutput::ready() {
     if (auto armed = arm(); !armed) return armed;
-    if (!rampDue_) return {};
-    rampDue_ = false;
-    return ramp();
+    return ramp_.reach();
 }
 
 Result<double> PilotOutput::measureImpedance(const std::string& name) {
@@ -144,7 +127,8 @@ Result<void> PilotOutput::afterArmingFailed(const std::string& during, const Err
 Result<void> PilotOutput::seatAgain(const std::string& during, const std::string& why) {
     rest();
     if (auto kept = stage_.record().write(row::kGate, during, {{"holds", false}, {"said", why}}); !kept) return kept;
-    rampDue_ = unmeasured_ = true;
+    electrodesTouched();
+    ramp_.becomeDue();
     return askToSee(why);
 }
 
@@ -154,55 +138,6 @@ Result<void> PilotOutput::askToSee(const std::string& why) {
         goOnPrompt(fmt::format("Output is off: {}. See to the {}, then go on.", why, stage_.settings().modality()),
                    PromptTo::Operator));
     return seen ? Result<void>() : failure(seen);
-}
-
-Result<void> PilotOutput::judged(double level, bool tooStrong, const std::string& trial, bool replayed) {
-    if (level <= 0) return {};
-    auto& bench = stage_.bench();
-    if (tooStrong) {
-        tooStrong_ = std::min(tooStrong_, level);
-        auto told = bench.reportDiscomfort(stage_.levelOf(level));
-        rest();  // Armed anew under the lower limit before anything else is presented
-        return told;
-    }
-    accepted_.try_emplace(level, trial);
-    return replayed ? Result<void>() : bench.accept(stage_.levelOf(level));
-}
-
-Result<void> PilotOutput::ramp() {
-    const auto accepted = accepted_;
-    auto& bench = stage_.bench();
-    // Each ramp is presented: none takes the answers of another.
-    std::size_t number = 0;
-    const auto named = [&number](double level) { return fmt::format("ramp {} {}", number, level); };
-    while (!accepted.empty() && stage_.record().begun(named(accepted.begin()->first)) > 0) ++number;
-    for (const auto& [level, first] : accepted) {
-        if (level >= tooStrong_ || (settled_ && level > *settled_)) break;
-        StageTrial again;
-        again.name = named(level);
-        again.about = {{row::kRamp, true}};
-        again.level = level;
-        again.presentation = ascendingPresentation(stage_.levelOf(level), stage_.settings().shortest);
-        again.prompt = strengthPrompt();
-        again.screen.state = ScreenState::Feel;
-        again.screen.phase = "ascending";
-        again.held = true;
-        again.counts = false;   // So that a session that was resumed goes on as one that was not
-        again.drawnAs = first;  // A virtual participant says of a level what they said of it before
-        const auto answer = stage_.trial(again);
-        if (!answer) return failure(answer);
-        if (answer->response == row::kTooStrong) {
-            if (auto told = bench.reportDiscomfort(stage_.levelOf(level)); !told) return told;
-            return stage_.end(PilotEnd::Stopped, tooStrongNow(textOf(stage_.levelOf(level))));
-        }
-        if (auto told = bench.accept(stage_.levelOf(level)); !told) return told;
-    }
-    if (accepted.empty()) return {};
-    PilotScreen letGo;  // levels rise no more
-    letGo.phase = "ascending";
-    letGo.text = "You can let go now.";
-    stage_.participant().show(letGo);
-    return {};
 }
 
 // What is in the way of a presentation
@@ -219,9 +154,9 @@ Result<void> PilotOutput::clearTheWay(const StageTrial& trial) {
             auto kept = stage_.record().write(row::kFocusLost, trial.name, {{"why", hindrance->why}});
             if (!kept) return kept;
         }
-        if (waited >= kFocusTakes && armed_) rest();
-        waited += kWayLook;
-        if (const auto passed = stage_.bench().wait(kWayLook); !passed) {
+        if (waited >= kFocusTimeout && armed_) rest();
+        waited += kHindrancePoll;
+        if (const auto passed = stage_.bench().wait(kHindrancePoll); !passed) {
             if (auto goesOn = recover("before " + trial.name, passed.error()); !goesOn) return goesOn;
         }
     }
@@ -237,7 +172,7 @@ void PilotOutput::whileAsked() {
         return;
     }
     keysGone_ += kWaitingLook;
-    if (keysGone_ < kFocusTakes) return;
+    if (keysGone_ < kFocusTimeout) return;
     rest();
     static_cast<void>(stage_.record().write(row::kFocusLost, "question", {{"why", hindrance->why}}));
 }
@@ -271,7 +206,7 @@ Result<void> PilotOutput::idleWhile(const std::string& during, const PilotScreen
     people.show(screen);
     auto mark = bench.stops().mark();
     while (lasts()) {
-        bench.idle(kWayLook);
+        bench.idle(kHindrancePoll);
         if (!bench.stops().movedSince(mark) && !stopped()) continue;
         mark = bench.stops().mark();
         const Error why{ErrorCode::Stopped, "stopped in a break"};
@@ -282,7 +217,7 @@ Result<void> PilotOutput::idleWhile(const std::string& during, const PilotScreen
 }
 
 bool PilotOutput::isPaused() {
-    stage_.bench().idle(kWayLook);
+    stage_.bench().idle(kHindrancePoll);
     return stage_.bench().telemetry().paused;
 }
 
@@ -304,9 +239,9 @@ Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
 Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
     rest();
     if (stage_.ended() != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
-    const bool atScreen = screenGone_ || !stage_.participant().hasScreen();
-    if (why.code == ErrorCode::Device && !atScreen && !aborted_) return afterTheFault(during, why);
-    const bool paused = paused_;
+    const bool atScreen = stops_.screenGone() || !stage_.participant().hasScreen();
+    if (why.code == ErrorCode::Device && !atScreen && !stops_.aborted()) return afterTheFault(during, why);
+    const bool paused = stops_.paused();
     if (auto goesOn = interrupted(during, why); !goesOn) return goesOn;
     if (const auto hindrance = stage_.participant().hindrance(); paused && hindrance && hindrance->isBreak)
         return takeBreak(during, {});
@@ -314,16 +249,16 @@ Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
 }
 
 Result<void> PilotOutput::interrupted(const std::string& during, const Error& why) {
-    if (aborted_) return noteAbort(during);
-    if (paused_.exchange(false)) {
+    if (stops_.aborted()) return noteAbort(during);
+    if (stops_.takePaused()) {
         const auto wanted = stage_.participant().hindrance();
         auto kept = stage_.record().write(
             row::kPause, during, {{"why", wanted && wanted->isBreak ? wanted->why : "the operator wants a break now"}});
-        if (!kept || (stoppedBy_.load() == nullptr && !screenGone_)) return kept;
+        if (!kept || (stops_.by() == nullptr && !stops_.screenGone())) return kept;
     }
-    const bool gone = screenGone_.exchange(false) || !stage_.participant().hasScreen();
+    const bool gone = stops_.takeScreenGone() || !stage_.participant().hasScreen();
     if (!gone) return noteStop(during, why);
-    if (const char* by = stoppedBy_.load(); by != nullptr && isParticipants(by)) {  // theirs counts all the same
+    if (const char* by = stops_.by(); by != nullptr && isParticipants(by)) {  // theirs counts all the same
         if (auto noted = noteStop(during, why); !noted) return noted;
     }
     return seatTheirScreen(during);
@@ -334,10 +269,11 @@ Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
     auto& bench = stage_.bench();
     auto kept = stage_.record().write(row::kPause, during, {{"why", "the participant's screen is gone"}});
     if (!kept) return kept;
-    rampDue_ = unmeasured_ = true;
+    electrodesTouched();
+    ramp_.becomeDue();
     people.show({});
     const auto until =
-        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::seconds>(kScreenTakes);
+        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::seconds>(kScreenTimeout);
     auto prompt = goOnPrompt(
         "Output is off: the participant's screen is gone. Seat the participant at it again, then "
         "go on.",
@@ -354,12 +290,11 @@ Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
             return fail(ErrorCode::Stopped,
                         "the participant's screen was gone for {:.0f} min, so the session is interrupted; it can go on "
                         "within 2 h",
-                        kScreenTakes.count() / 60);
+                        kScreenTimeout.count() / 60);
         const auto begun = asked ? bench.begin(mark) : Result<void>(failure(asked));
         if (begun && people.hasScreen()) return {};
-        if (begun || screenGone_.exchange(false) || paused_.exchange(false))
-            continue;  // not there yet, or gone once more
-        if (aborted_) return noteAbort(during);
+        if (begun || stops_.takeScreenGone() || stops_.takePaused()) continue;  // not there yet, or gone once more
+        if (stops_.aborted()) return noteAbort(during);
         if (auto noted = noteStop(kScreenPrompt, begun.error()); !noted) return noted;
         people.show({});
     }
@@ -378,7 +313,7 @@ Result<void> PilotOutput::noteAbort(const std::string& during) {
     prompt.name = kReasonPrompt;
     prompt.kind = PromptKind::Text;
     prompt.targets.clear();
-    prompt.within = kReasonTakes;
+    prompt.within = kReasonTimeout;
     const auto said = stage_.participant().ask(prompt);
     const auto reason = said && said->given ? std::string(said->key()) : std::string();
     auto kept = record.write(row::kNote, kReasonPrompt,
@@ -390,7 +325,7 @@ Result<void> PilotOutput::noteAbort(const std::string& during) {
 Result<void> PilotOutput::noteStop(const std::string& during, const Error& why) {
     if (why.code != ErrorCode::Stopped) return tl::unexpected<Error>(why);
     auto& record = stage_.record();
-    const char* by = stoppedBy_.exchange(nullptr);
+    const char* by = stops_.takeBy();
     if (by == nullptr || !isParticipants(by)) {
         const auto kept = record.write(row::kOperatorStop, during, {{"why", why.message}});
         return kept ? Result<void>(tl::unexpected<Error>(why)) : kept;
@@ -413,7 +348,7 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
     if (auto kept = record.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
     if (record.count(row::kFault) >= kMaxFaults)
         return stage_.end(PilotEnd::Stopped, fmt::format("{}: {}", kSecondFault, why.message));
-    if (const char* by = stoppedBy_.exchange(nullptr); by != nullptr && isParticipants(by)) {  // and they pressed too
+    if (const char* by = stops_.takeBy(); by != nullptr && isParticipants(by)) {  // and they pressed too
         if (auto noted = noteParticipantStop(during, by); !noted) return noted;
     }
     auto cause = why.message;
@@ -424,7 +359,8 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
         if (tries >= kSeatings) return reset;
         cause = reset.error().message;  // it is still there
     }
-    rampDue_ = unmeasured_ = true;
+    electrodesTouched();
+    ramp_.becomeDue();
     return askToGoOn("The output was off because of a fault. Go on when you want to.");
 }
 

@@ -1,8 +1,8 @@
 // PilotOutput.h - the output of a pilot session: armed before something is presented, off again after a stop, a fault,
-// a pause and a participant's screen that is gone, and the levels that were accepted reached again step by step.
+// a pause and a participant's screen that is gone.
 //
 // What PilotStage is made of. What is in the way of a presentation is waited for here: in the operator's break and
-// while the bench is paused the output is off; without the keys it is off after kFocusTakes, also while a question
+// while the bench is paused the output is off; without the keys it is off after kFocusTimeout, also while a question
 // waits.
 //
 // Errors of all calls: as PilotStage.
@@ -10,17 +10,15 @@
 // Thread-safety: one caller, the session's thread; stop() and takeStop() from any thread.
 #pragma once
 
-#include <atomic>
-#include <chrono>
 #include <functional>
-#include <limits>
-#include <map>
 #include <optional>
 #include <string>
 
 #include "core/base/NaN.h"
 #include "core/bench/Bench.h"
+#include "core/pilot/LevelRamp.h"
 #include "core/pilot/Participant.h"
+#include "core/pilot/PressedStops.h"
 
 namespace tacto {
 
@@ -29,27 +27,21 @@ struct StageTrial;
 
 class PilotOutput {
 public:
-    static constexpr int kSeatings = 3;          ///< in a row, of electrodes that are not as they have to be
-    static constexpr Seconds kFocusTakes{10};    ///< it stays armed so long while the keys are elsewhere
-    static constexpr Seconds kScreenTakes{600};  ///< a participant's screen may be gone so long
+    static constexpr int kSeatings = 3;            ///< in a row, of electrodes that are not as they have to be
+    static constexpr Seconds kFocusTimeout{10};    ///< it stays armed so long while the keys are elsewhere
+    static constexpr Seconds kScreenTimeout{600};  ///< a participant's screen may be gone so long
 
     /// `stage` outlives it. `rampDue`: the levels were accepted in an earlier part.
-    PilotOutput(PilotStage& stage, bool rampDue) : stage_(stage), rampDue_(rampDue) {}
+    PilotOutput(PilotStage& stage, bool rampDue) : stage_(stage), ramp_(stage, rampDue) {}
     PilotOutput(const PilotOutput&) = delete;
     PilotOutput& operator=(const PilotOutput&) = delete;
 
     /// A stop of the output by one of the people, or because the participant's screen is gone. Does not block.
     void stop(const char* by) noexcept;
-    struct PressedStop {
-        bool participants = false;
-        std::chrono::nanoseconds took{0};
-    };
     /// See PilotStage.
-    [[nodiscard]] std::optional<PressedStop> takeStop() noexcept;
+    [[nodiscard]] std::optional<PressedStops::Press> takeStop() noexcept { return stops_.takePress(); }
     /// A stop came since the last one was handled.
-    [[nodiscard]] bool stopped() const noexcept {
-        return stoppedBy_.load() != nullptr || screenGone_ || aborted_ || paused_;
-    }
+    [[nodiscard]] bool stopped() const noexcept { return stops_.any(); }
 
     // As those of PilotStage.
     [[nodiscard]] bool isArmed() const noexcept { return armed_; }
@@ -57,14 +49,13 @@ public:
     [[nodiscard]] Result<void> ready();
     void rest() noexcept;
     [[nodiscard]] Result<double> measureImpedance(const std::string& name);
-    [[nodiscard]] Result<void> judged(double level, bool tooStrong, const std::string& trial, bool replayed);
-    void settle(double level) noexcept { settled_ = level; }
+    [[nodiscard]] LevelRamp& ramp() noexcept { return ramp_; }
     [[nodiscard]] double impedance() const noexcept { return impedance_; }
     void setImpedance(double ohm) noexcept { impedance_ = ohm; }
 
     /// Waits until nothing is in the way of `trial`; a break of the operator's is taken meanwhile.
     [[nodiscard]] Result<void> clearTheWay(const StageTrial& trial);
-    /// The bench is paused: looks for kWayLook, in which it says so.
+    /// The bench is paused: looks for kHindrancePoll, in which it says so.
     [[nodiscard]] bool isPaused();
     /// The bench was paused while `trial` was presented: waits until the pause is over and the participant goes on.
     [[nodiscard]] Result<void> afterThePause(const StageTrial& trial);
@@ -88,7 +79,6 @@ private:
     [[nodiscard]] Result<ArmRequest> confirmed(const char* question);
     [[nodiscard]] Result<void> afterArmingFailed(const std::string& during, const Error& why, int& seatings);
     [[nodiscard]] Result<void> notOver() const;
-    [[nodiscard]] Result<void> ramp();
     [[nodiscard]] Result<void> takeBreak(const std::string& during, PilotScreen screen);
     /// Shows `screen` while `lasts`, with the output off; a stop meanwhile is handled as one in a break.
     [[nodiscard]] Result<void> idleWhile(const std::string& during, const PilotScreen& screen,
@@ -106,19 +96,12 @@ private:
     [[nodiscard]] Result<void> measureTouched();
 
     PilotStage& stage_;
-    std::atomic<const char*> stoppedBy_{nullptr};
-    std::atomic<std::chrono::nanoseconds::rep> stopTook_{0};
-    std::atomic<bool> screenGone_{false};
-    std::atomic<bool> aborted_{false};
-    std::atomic<bool> paused_{false};
+    LevelRamp ramp_;
+    PressedStops stops_;
     bool armed_ = false;
     bool reasonAsked_ = false;
-    bool rampDue_ = false;
-    bool unmeasured_ = false;                                     // Since electrodes may have been touched
-    Seconds keysGone_{0};                                         // While a question waits
-    std::map<double, std::string> accepted_;                      // Level and the trial in which it was accepted first
-    double tooStrong_ = std::numeric_limits<double>::infinity();  // Lowest so far
-    std::optional<double> settled_;
+    bool unmeasured_ = false;  // Since electrodes may have been touched
+    Seconds keysGone_{0};      // While a question waits
     double impedance_ = kNaN;
 };
 

@@ -229,7 +229,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     if (trial.asks) {
         auto prompt = trial.prompt;
         prompt.targetsAt = presented->ended;
-        bench_.attend(prompt.within ? *prompt.within + kAskingTakes : kAskingTakes);
+        bench_.attend(prompt.within ? *prompt.within + kAskingTimeout : kAskingTimeout);
         const auto said = participant_.ask(prompt);
         if (auto noted = writeEarly(trial); !noted) return failure(noted);
         if (!said) return failure(said);

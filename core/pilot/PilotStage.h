@@ -108,16 +108,16 @@ public:
     /// what it does not know: of a replayed answer that it was too strong. An accepted level is reached again by
     /// ready() where the session was resumed.
     [[nodiscard]] Result<void> judged(double level, bool tooStrong, const std::string& trial, bool replayed) {
-        return output_.judged(level, tooStrong, trial, replayed);
+        return output_.ramp().judged(level, tooStrong, trial, replayed);
     }
     /// Nothing is presented above `level` from now on: the top of a resumed session's ramp.
-    void settle(double level) noexcept { output_.settle(level); }
+    void settle(double level) noexcept { output_.ramp().settle(level); }
     /// Writes the row and ends the session, once. The error is what the script is to throw; none for Complete.
     [[nodiscard]] Result<void> end(PilotEnd how, const std::string& why);
     [[nodiscard]] PilotEnd ended() const noexcept { return end_; }
     /// A stop that was pressed since the last one was handled: by the participant or not, and how long it took until
     /// the output was told. For the test of the STOPs; any other stop is handled where it interrupts.
-    using PressedStop = PilotOutput::PressedStop;
+    using PressedStop = PressedStops::Press;
     [[nodiscard]] std::optional<PressedStop> takeStop() noexcept { return output_.takeStop(); }
     [[nodiscard]] bool stopped() const noexcept { return output_.stopped(); }
     [[nodiscard]] bool isArmed() const noexcept { return output_.isArmed(); }
@@ -139,7 +139,7 @@ public:
     /// The next first train comes no sooner than a pause after this moment.
     void noteAnswered() noexcept { lastAnswer_ = bench_.clock().now(); }
     /// Until when a bench in person mode may wait for an answer: prompts of trials are shorter.
-    static constexpr Seconds kAskingTakes{60};
+    static constexpr Seconds kAskingTimeout{60};
 
 private:
     [[nodiscard]] Result<StageAnswer> replay(const StageTrial& trial, const Json& row);

@@ -70,6 +70,21 @@ Result<void> keysLieOutside(const StudyFiles& files, const Study::Surroundings& 
                 around.keyFolder.string(), files.folder.string());
 }
 
+StudySettings asRehearsal(StudySettings settings, CalibrationDate today) {
+    constexpr int kAsManyAsWanted = 10'000;
+    settings.kind = StudyKind::Rehearsal;
+    if (settings.title.empty()) settings.title = "Rehearsal";
+    if (settings.consentVersion.empty()) settings.consentVersion = "rehearsal";
+    settings.participantsMax = settings.sessionsMax = kAsManyAsWanted;
+    auto& approval = settings.approval;
+    if (approval.reference.empty()) {
+        approval.reference = "rehearsal";
+        approval.from = today;
+        approval.expires = {today.year() + std::chrono::years(50), std::chrono::January, std::chrono::day(1)};
+    }
+    return settings;
+}
+
 nlohmann::json settingsRow(const StudySettings& settings, std::string_view text) {
     return {{"settings", studyFields().write(settings)}, {"sha256", sha256Hex(text)}};
 }

@@ -19,6 +19,9 @@ namespace tacto {
 /// Errors: Unsupported when the key folder lies inside the study's.
 [[nodiscard]] Result<void> keysLieOutside(const StudyFiles& files, const Study::Surroundings& around);
 
+/// `settings` as those of a rehearsal: what is empty is filled in, and it takes as many participants as are wanted.
+[[nodiscard]] StudySettings asRehearsal(StudySettings settings, CalibrationDate today);
+
 /// The body of the ledger's rows "study" and "amendment"; `text` is that of study.json.
 [[nodiscard]] nlohmann::json settingsRow(const StudySettings& settings, std::string_view text);
 

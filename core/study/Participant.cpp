@@ -32,6 +32,8 @@ Result<void> oneOf(std::string_view what, std::string_view given, std::span<cons
 
 }  // namespace
 
+std::string virtualName(std::uint64_t seed) { return fmt::format("{}{}", kVirtualPrefix, seed); }
+
 std::optional<char> checkCharacter(std::string_view lettersAndDigits) noexcept {
     // ISO 7064, MOD 37,36: hybrid system with modulus 36.
     unsigned p = 36;

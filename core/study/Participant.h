@@ -50,6 +50,10 @@ struct Participant {
     bool operator==(const Participant&) const = default;
 };
 
+/// What names a virtual participant before a code does: "virtual:SEED".
+inline constexpr std::string_view kVirtualPrefix = "virtual:";
+[[nodiscard]] std::string virtualName(std::uint64_t seed);
+
 /// Age, sex and handedness may each be left out. Errors: InvalidArgument for an age that is not a whole number from 1
 /// to 120 and for other words than kSexes and kHandednesses.
 [[nodiscard]] Result<void> checkAbout(const Participant& participant);

@@ -1,18 +1,16 @@
 #include "core/study/Study.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 
-#include "core/base/Csv.h"
+#include "core/base/DataFolder.h"
 #include "core/base/JsonFields.h"
 #include "core/seal/SealedText.h"
 #include "core/session/Digest.h"
 #include "core/session/SessionReader.h"
-#include "core/session/SessionVerify.h"
 #include "core/study/NewStudy.h"
 #include "core/study/StudyBook.h"
-#include "core/study/StudyLock.h"
+#include "core/study/StudyGates.h"
 
 namespace tacto {
 
@@ -41,14 +39,11 @@ fs::path withoutEnd(const fs::path& folder) {
 
 }  // namespace
 
-struct Study::State : StudyBook {};
+struct Study::State : StudyBook {
+    explicit State(StudyBook book) : StudyBook(std::move(book)) {}
+};
 
-fs::path Study::defaultKeyFolder() {
-    const char* data = std::getenv("XDG_DATA_HOME");
-    if (data != nullptr && *data != '\0') return fs::path(data) / "tactoscope" / "keys";
-    const char* home = std::getenv("HOME");
-    return fs::path(home != nullptr ? home : ".") / ".local" / "share" / "tactoscope" / "keys";
-}
+fs::path Study::defaultKeyFolder() { return dataFolder() / "keys"; }
 
 bool Study::isThere(const fs::path& folder) {
     std::error_code error;
@@ -86,20 +81,10 @@ Result<Study> Study::create(const fs::path& folder, StudySettings settings, cons
 }
 
 Result<Study> Study::createRehearsal(const fs::path& folder, StudySettings settings, const Surroundings& around) {
-    constexpr int kAsManyAsWanted = 10'000;
     const StudyFiles files{withoutEnd(folder)};
+    settings = asRehearsal(std::move(settings), localDay(around.time->wall()));
     settings.id = randomHex(kIdDigits);
-    settings.kind = StudyKind::Rehearsal;
-    if (settings.title.empty()) settings.title = "Rehearsal";
-    if (settings.consentVersion.empty()) settings.consentVersion = "rehearsal";
-    settings.participantsMax = settings.sessionsMax = kAsManyAsWanted;
-    auto& approval = settings.approval;
-    if (approval.reference.empty()) {
-        approval.reference = "rehearsal";
-        approval.from = localDay(around.time->wall());
-        approval.expires = {approval.from.year() + std::chrono::years(50), std::chrono::January, std::chrono::day(1)};
-    }
-    approval.protocolSha256 = protocolHash(settings);
+    settings.approval.protocolSha256 = protocolHash(settings);
     if (auto sound = studyFields().check(settings, RecordPlace{}); !sound) return failure(sound);
     if (auto made = makeStudy(files, settings, nullptr, around); !made) return failure(made);
     return open(files.folder, nullptr, Access::Change, around);
@@ -107,56 +92,9 @@ Result<Study> Study::createRehearsal(const fs::path& folder, StudySettings setti
 
 Result<Study> Study::open(const fs::path& folder, const Passphrase* passphrase, Access access,
                           const Surroundings& around) {
-    auto state = std::make_unique<State>();
-    state->files.folder = withoutEnd(folder);
-    state->around = around;
-    const auto& files = state->files;
-    if (!isThere(files.folder)) return fail(ErrorCode::NotFound, "there is no study in {}", files.folder.string());
-    const auto text = readTextFile(files.settings());
-    if (!text) return failure(text);
-    // Its version comes before everything else: what a newer program wrote is not judged.
-    const auto first = parseStudy(*text, files.settings().string());
-    if (!first) return failure(first);
-    if (access == Access::Change) {
-        auto lock = StudyLock::take(files);
-        if (!lock) return failure(lock);
-        state->lock.emplace(std::move(*lock));
-    }
-    const auto verified = verifySession(files.ledger());
-    if (!verified) return failure(verified);
-    if (verified->status != SessionStatus::Intact) {
-        return fail(ErrorCode::ParseError, "the ledger of the study in {} is damaged: {}", files.folder.string(),
-                    verified->problems.empty() ? "it is not a ledger" : verified->problems.front());
-    }
-    state->settings = *first;
-    const bool rehearsal = first->kind == StudyKind::Rehearsal;
-    if (rehearsal || passphrase != nullptr) {
-        if (!rehearsal) {
-            if (auto outside = keysLieOutside(files, around); !outside) return failure(outside);
-        }
-        auto keys =
-            StudyKeys::open(keyFileOf(files, *first, around), first->id, rehearsal ? nullptr : passphrase, around.cost);
-        if (!keys) return failure(keys);
-        state->keys.emplace(std::move(*keys));
-    }
-    if (auto read = state->read(); !read) return failure(read);
-    const auto current = readStudy(files, state->known.settingsSha256);
-    if (!current) return failure(current);
-    auto settings = parseStudy(*current, files.settings().string());
-    if (!settings) return failure(settings);
-    state->settings = std::move(*settings);
-    if (access == Access::Change) {
-        if (*current != *text) {
-            if (auto published = publishStudy(files); !published) return failure(published);
-        }
-        auto opened = Ledger::open(files.ledger());
-        if (!opened) return failure(opened);
-        state->ledger.emplace(std::move(*opened));
-        if (state->keys) {
-            if (auto finished = state->finishWithdrawals(); !finished) return failure(finished);
-        }
-    }
-    return Study(std::move(state));
+    auto book = StudyBook::open(withoutEnd(folder), passphrase, access, around);
+    if (!book) return failure(book);
+    return Study(std::make_unique<State>(std::move(*book)));
 }
 
 const fs::path& Study::folder() const noexcept { return state_->files.folder; }
@@ -165,7 +103,7 @@ bool Study::isRehearsal() const noexcept { return state_->settings.kind == Study
 bool Study::hasKey() const noexcept { return state_->keys.has_value(); }
 std::string Study::ledgerHead() const { return state_->known.head; }
 CalibrationDate Study::today() const { return state_->today(); }
-Result<void> Study::stillApproved() const { return state_->stillApproved(); }
+Result<void> Study::stillApproved() const { return StudyGates(*state_).stillApproved(); }
 std::vector<Participant> Study::participants() const { return state_->known.participants; }
 Result<Participant> Study::find(std::string_view code) const { return state_->find(code); }
 fs::path Study::pathOf(std::string_view file) const { return state_->files.session(file); }
@@ -200,9 +138,9 @@ Result<Participant> Study::enrol(Participant participant) {
         return fail(kGateRefused, "{} participants are enrolled, as many as approval {} allows",
                     state_->known.participants.size(), settings.approval.reference);
     }
-    if (participant.virtualSeed && state_->find(fmt::format("{}{}", kVirtualPrefix, *participant.virtualSeed))) {
-        return fail(ErrorCode::Unsupported, "virtual:{} is enrolled already; another seed is expected",
-                    *participant.virtualSeed);
+    if (participant.virtualSeed && state_->find(virtualName(*participant.virtualSeed))) {
+        return fail(ErrorCode::Unsupported, "{} is enrolled already; another seed is expected",
+                    virtualName(*participant.virtualSeed));
     }
     const auto taken = [&](const std::string& code) {  // with or without its hyphens
         return std::ranges::any_of(state_->known.participants, [&](const Participant& each) {
@@ -303,7 +241,7 @@ Result<void> Study::noteExclusions(const SessionRequest& request) {
 Result<void> Study::mayBegin(const SessionRequest& request) const {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(request.code);
-    return participant ? state_->gates(request, *participant, false) : failure(participant);
+    return participant ? StudyGates(*state_).session(request, *participant, false) : failure(participant);
 }
 
 Result<BegunSession> Study::beginSession(const SessionRequest& request) {
@@ -314,7 +252,7 @@ Result<BegunSession> Study::beginSession(const SessionRequest& request) {
         return fail(ErrorCode::Unsupported, "session {} of {} is unfinished; resume it or end it first", open->number,
                     participant->code);
     }
-    if (auto holds = state_->gates(request, *participant, false); !holds) return failure(holds);
+    if (auto holds = StudyGates(*state_).session(request, *participant, false); !holds) return failure(holds);
     const auto id = randomHex(kIdDigits);
     auto noted = state_->appendOf(*participant, ledger::kSessionBegun,
                                   {{"session", id},
@@ -339,7 +277,7 @@ Result<BegunSession> Study::continueSession(std::string_view id, const SessionRe
         return fail(kGateRefused, "session {} of {} is {}; only an unfinished one goes on", before->number,
                     participant->code, nameOf(before->state));
     }
-    if (auto holds = state_->gates(request, *participant, true); !holds) return failure(holds);
+    if (auto holds = StudyGates(*state_).session(request, *participant, true); !holds) return failure(holds);
     for (const auto& each : before->parts) {
         if (auto whole = part(each.file); !whole) return failure(whole);
     }
@@ -388,32 +326,8 @@ Result<void> Study::endSession(std::string_view id, StudySessionState ended, std
     return state_->append(ledger::kSessionEnded, endedBody(*session, ended, head));
 }
 
-Result<std::shared_ptr<const RowSeal>> Study::sealOf(std::string_view file) const {
-    const auto* session = state_->known.sessionOfFile(file);
-    if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session file {}", file);
-    return state_->sealFor(*session, file);
-}
-
-Result<std::optional<SessionReader>> Study::part(std::string_view file) const {
-    auto seal = sealOf(file);
-    if (!seal) return failure(seal);
-    const auto noted = state_->known.heads.find(std::string(file));
-    const auto head = noted != state_->known.heads.end() ? noted->second : std::string();
-    auto reader = SessionReader::open(pathOf(file), std::move(*seal));
-    if (!reader && reader.error().code == ErrorCode::NotFound && head.empty()) return std::nullopt;
-    if (!reader) return failure(reader);
-    if (auto whole = reader->checkChain(); !whole) return failure(whole);
-    if (!reader->sealed()) {
-        return fail(ErrorCode::ParseError, "the record {} is not sealed, and those of a study are: it is another file",
-                    pathOf(file).filename().string());
-    }
-    if (!head.empty() && reader->chainHead() != head) {
-        return fail(ErrorCode::ParseError,
-                    "the record {} is not the one that the ledger notes; put it back from your copy",
-                    pathOf(file).filename().string());
-    }
-    return std::optional(std::move(*reader));
-}
+Result<std::shared_ptr<const RowSeal>> Study::sealOf(std::string_view file) const { return state_->sealOf(file); }
+Result<std::optional<SessionReader>> Study::part(std::string_view file) const { return state_->part(file); }
 
 Result<std::vector<SessionRow>> Study::events(const StudySession& session) const {
     std::vector<SessionRow> all;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <ctime>
 
+#include "core/base/Csv.h"
 #include "core/base/JsonFields.h"
 #include "core/seal/SealedText.h"
 #include "core/session/SessionReader.h"
+#include "core/session/SessionVerify.h"
 #include "core/study/LedgerEnd.h"
 #include "core/study/NewStudy.h"
 #include "core/study/SessionSeal.h"
@@ -29,41 +31,68 @@ CalibrationDate localDay(std::chrono::sys_seconds at) {
             std::chrono::day(static_cast<unsigned>(here.tm_mday))};
 }
 
+std::chrono::seconds zoneAt(std::chrono::sys_seconds at) { return std::chrono::seconds(localTime(at).tm_gmtoff); }
+
 std::string headOf(const std::filesystem::path& file) {
     const auto reader = SessionReader::open(file);
     return reader && reader->checkChain() ? reader->chainHead() : std::string();
 }
 
-Result<std::vector<std::string>> strangersIn(const StudyFiles& files, const LedgerState& known) {
-    std::error_code error;
-    std::vector<std::string> strangers;
-    for (const auto& entry : std::filesystem::directory_iterator(files.sessions(), error)) {
-        if (entry.path().extension() != ".tacto") continue;
-        if (known.sessionOfFile(entry.path().stem().string()) == nullptr)
-            strangers.push_back(entry.path().filename().string());
+Result<StudyBook> StudyBook::open(const std::filesystem::path& folder, const Passphrase* passphrase,
+                                  Study::Access access, const Study::Surroundings& around) {
+    StudyBook book;
+    book.files.folder = folder;
+    book.around = around;
+    const auto& files = book.files;
+    if (!Study::isThere(folder)) return fail(ErrorCode::NotFound, "there is no study in {}", folder.string());
+    const auto text = readTextFile(files.settings());
+    if (!text) return failure(text);
+    // Its version comes before everything else: what a newer program wrote is not judged.
+    const auto first = parseStudy(*text, files.settings().string());
+    if (!first) return failure(first);
+    if (access == Study::Access::Change) {
+        auto taken = StudyLock::take(files);
+        if (!taken) return failure(taken);
+        book.lock.emplace(std::move(*taken));
     }
-    if (error) return fail(ErrorCode::Io, "{} cannot be read: {}", files.sessions().string(), error.message());
-    std::ranges::sort(strangers);
-    return strangers;
+    const auto verified = verifySession(files.ledger());
+    if (!verified) return failure(verified);
+    if (verified->status != SessionStatus::Intact) {
+        return fail(ErrorCode::ParseError, "the ledger of the study in {} is damaged: {}", folder.string(),
+                    verified->problems.empty() ? "it is not a ledger" : verified->problems.front());
+    }
+    book.settings = *first;
+    if (auto unlocked = book.unlock(passphrase); !unlocked) return failure(unlocked);
+    if (auto replayed = book.read(); !replayed) return failure(replayed);
+    const auto current = readStudy(files, book.known.settingsSha256);
+    if (!current) return failure(current);
+    auto inForce = parseStudy(*current, files.settings().string());
+    if (!inForce) return failure(inForce);
+    book.settings = std::move(*inForce);
+    if (access == Study::Access::Read) return book;
+    if (*current != *text) {
+        if (auto published = publishStudy(files); !published) return failure(published);
+    }
+    auto opened = Ledger::open(files.ledger());
+    if (!opened) return failure(opened);
+    book.ledger.emplace(std::move(*opened));
+    if (book.keys) {
+        if (auto finished = book.finishWithdrawals(); !finished) return failure(finished);
+    }
+    return book;
 }
 
-std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files, const StudySession& session) {
-    constexpr std::string_view kTrialBegin = "trial-begin";
-    if (!session.opened) return {};
-    std::optional<std::chrono::sys_seconds> last;
-    for (const auto& part : session.parts) {
-        const auto reader = SessionReader::open(files.session(part.file));
-        const auto events = reader ? reader->events() : Result<std::vector<SessionRow>>(failure(reader));
-        if (!events || !reader->checkChain()) {  // gone, unreadable or changed: unknown is not none
-            last = part.begun;
-            continue;
-        }
-        const auto first = std::ranges::find(*events, kTrialBegin, &SessionRow::name);
-        if (first == events->end()) continue;
-        const bool runsAhead = reader->about().virtualClock;
-        last = part.begun + (runsAhead ? std::chrono::seconds(0) : std::chrono::floor<std::chrono::seconds>(first->at));
+Result<void> StudyBook::unlock(const Passphrase* passphrase) {
+    const bool rehearsal = settings.kind == StudyKind::Rehearsal;
+    if (!rehearsal && passphrase == nullptr) return {};
+    if (!rehearsal) {
+        if (auto outside = keysLieOutside(files, around); !outside) return outside;
     }
-    return last;
+    auto opened =
+        StudyKeys::open(keyFileOf(files, settings, around), settings.id, rehearsal ? nullptr : passphrase, around.cost);
+    if (!opened) return failure(opened);
+    keys.emplace(std::move(*opened));
+    return {};
 }
 
 CalibrationDate StudyBook::today() const { return localDay(now()); }
@@ -125,8 +154,7 @@ Result<Participant> StudyBook::find(std::string_view code) const {
     const auto usable = [](const Participant& one) { return one.state != ParticipantState::Withdrawn; };
     if (code.starts_with(kVirtualPrefix)) {
         for (const auto& one : known.participants) {
-            if (usable(one) && one.virtualSeed && fmt::format("{}{}", kVirtualPrefix, *one.virtualSeed) == code)
-                return one;
+            if (usable(one) && one.virtualSeed && virtualName(*one.virtualSeed) == code) return one;
         }
         return fail(ErrorCode::NotFound, "the study has no participant {}; enrol it first", code);
     }
@@ -218,70 +246,38 @@ std::filesystem::path StudyBook::endFile() const {
     return around.keyFolder / (settings.id + ".end");
 }
 
-Result<void> StudyBook::recordGate() const {
-    if (const auto end = endFile(); !end.empty()) {
-        const auto ledgerFile = SessionReader::open(files.ledger());
-        if (!ledgerFile) return failure(ledgerFile);
-        if (auto whole = reachesEnd(*ledgerFile, end); !whole) return whole;
-    }
-    const auto strangers = strangersIn(files, known);
-    if (!strangers) return fail(kGateRefused, "{}", strangers.error().message);
-    if (!strangers->empty()) {
-        return fail(kGateRefused,
-                    "sessions/{} is not in the ledger: the ledger is an older one, or the file is another study's; put "
-                    "the ledger back from your copy, or the file where it belongs",
-                    strangers->front());
-    }
-    for (const auto& [file, head] : known.heads) {
-        if (head.empty() || headOf(files.session(file)) == head) continue;
-        return fail(kGateRefused,
-                    "the record of session {} is not the one that the ledger notes: it is gone or was changed; put "
-                    "it back from your copy",
-                    file);
-    }
-    if (auto zone = zoneGate(std::chrono::seconds(localTime(now()).tm_gmtoff)); !zone) return zone;
-    return clockGate(known.last, now());
-}
-
-Result<void> StudyBook::stillApproved() const {
-    if (auto sound = recordGate(); !sound) return sound;
-    return approvalGate(settings, today());
-}
-
-Result<void> StudyBook::gates(const SessionRequest& request, Participant participant, bool again) const {
-    if (auto holds = stillApproved(); !holds) return holds;
-    if (auto holds = scriptGate(settings, request.script); !holds) return holds;
-    if (auto holds = procedureGate(settings, request.procedure); !holds) return holds;
-    if (again) --participant.sessions;
-    participant.sessions -= static_cast<int>(std::ranges::count_if(
-        known.sessions, [&](const StudySession& each) { return each.participant == participant.id && !each.opened; }));
-    if (auto holds = participantGate(settings, participant); !holds) return holds;
-    std::optional<std::chrono::sys_seconds> last;
-    for (const auto& session : known.sessions) {
-        if (again || session.participant != participant.id) continue;
-        if (const auto at = stimulatedAt(files, session)) last = at;
-    }
-    if (auto holds = gapGate(settings, last, now()); !holds) return holds;
-    if (auto holds = consentGate(settings, participant, today()); !holds) return holds;
-    if (!request.codeConfirmed) {
-        return fail(kGateRefused, "the participant has not confirmed that the code {} is theirs", participant.code);
-    }
-    if (const auto yes = known.excluded.find(participant.id);
-        yes != known.excluded.end() && !(localDay(yes->second) < today())) {
-        return fail(kGateRefused,
-                    "{} answered yes to the exclusion checklist today; a session begins tomorrow at the "
-                    "earliest",
-                    participant.code);
-    }
-    if (auto holds = exclusionGate(request.exclusions); !holds) return holds;
-    return simulationGate(settings, participant, request.devicesSimulated);
-}
-
 Result<std::shared_ptr<const RowSeal>> StudyBook::sealFor(const StudySession& session, std::string_view file) const {
     const auto entry = keyOf(session.participant);
     if (!entry) return failure(entry);
     return std::make_shared<SessionSeal>(settings.id, std::string(file),
                                          subkey((*entry)->key, static_cast<std::uint64_t>(session.number)));
+}
+
+Result<std::shared_ptr<const RowSeal>> StudyBook::sealOf(std::string_view file) const {
+    const auto* session = known.sessionOfFile(file);
+    if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session file {}", file);
+    return sealFor(*session, file);
+}
+
+Result<std::optional<SessionReader>> StudyBook::part(std::string_view file) const {
+    auto seal = sealOf(file);
+    if (!seal) return failure(seal);
+    const auto noted = known.heads.find(std::string(file));
+    const auto head = noted != known.heads.end() ? noted->second : std::string();
+    auto reader = SessionReader::open(files.session(file), std::move(*seal));
+    if (!reader && reader.error().code == ErrorCode::NotFound && head.empty()) return std::nullopt;
+    if (!reader) return failure(reader);
+    if (auto whole = reader->checkChain(); !whole) return failure(whole);
+    if (!reader->sealed()) {
+        return fail(ErrorCode::ParseError, "the record {} is not sealed, and those of a study are: it is another file",
+                    files.session(file).filename().string());
+    }
+    if (!head.empty() && reader->chainHead() != head) {
+        return fail(ErrorCode::ParseError,
+                    "the record {} is not the one that the ledger notes; put it back from your copy",
+                    files.session(file).filename().string());
+    }
+    return std::optional(std::move(*reader));
 }
 
 Result<BegunSession> StudyBook::begun(std::string_view id) {

@@ -20,8 +20,6 @@
 
 namespace tacto {
 
-inline constexpr std::string_view kVirtualPrefix = "virtual:";
-
 struct StudyBook {
     StudyFiles files;
     Study::Surroundings around;
@@ -31,9 +29,15 @@ struct StudyBook {
     std::optional<Ledger> ledger;   ///< nothing when opened for reading
     LedgerState known;
 
+    /// As Study::open().
+    [[nodiscard]] static Result<StudyBook> open(const std::filesystem::path& folder, const Passphrase* passphrase,
+                                                Study::Access access, const Study::Surroundings& around);
+
     [[nodiscard]] std::chrono::sys_seconds now() const { return around.time->wall(); }
     [[nodiscard]] CalibrationDate today() const;
 
+    /// Takes the keys: a rehearsal's without a passphrase; none for a study without one. Errors: as StudyKeys::open().
+    [[nodiscard]] Result<void> unlock(const Passphrase* passphrase);
     /// Takes over what the ledger says. Errors: as replay().
     [[nodiscard]] Result<void> read();
     /// Errors: Unsupported without the key or when opened for reading.
@@ -58,15 +62,11 @@ struct StudyBook {
 
     /// Where this account notes how far the ledger goes (LedgerEnd.h); empty for a rehearsal.
     [[nodiscard]] std::filesystem::path endFile() const;
-    /// The ledger goes as far as it was written and knows every session's file, the chains of the sessions that ended
-    /// are those that it noted, and the clock was not set back.
-    [[nodiscard]] Result<void> recordGate() const;
-    [[nodiscard]] Result<void> stillApproved() const;
-    /// Every gate of the study; `again`: of a session that goes on.
-    [[nodiscard]] Result<void> gates(const SessionRequest& request, Participant participant, bool again) const;
-
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealFor(const StudySession& session,
                                                                  std::string_view file) const;
+    // As those of Study.
+    [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealOf(std::string_view file) const;
+    [[nodiscard]] Result<std::optional<SessionReader>> part(std::string_view file) const;
     /// The session as it stands in the ledger now, with the seal of its last part.
     [[nodiscard]] Result<BegunSession> begun(std::string_view id);
     /// A program was killed between the note of a withdrawal and the end of the key.
@@ -75,13 +75,8 @@ struct StudyBook {
 
 /// The day of `at` where the computer stands.
 [[nodiscard]] CalibrationDate localDay(std::chrono::sys_seconds at);
-/// When the participant was first stimulated in the session's last part in which they were; nothing where they never
-/// were. A part that cannot be read counts from its beginning.
-[[nodiscard]] std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files,
-                                                                   const StudySession& session);
+/// How far the clock of the computer is ahead of UTC then.
+[[nodiscard]] std::chrono::seconds zoneAt(std::chrono::sys_seconds at);
 /// The chain head of a session's file; empty for one that was never made, cannot be read or was changed.
 [[nodiscard]] std::string headOf(const std::filesystem::path& file);
-/// Session files that the ledger does not know. Errors: Io.
-[[nodiscard]] Result<std::vector<std::string>> strangersIn(const StudyFiles& files, const LedgerState& known);
-
 }  // namespace tacto

@@ -1,13 +1,14 @@
 #include "core/study/StudyLock.h"
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <optional>
 #include <sys/file.h>
 #include <sys/stat.h>
+
+#include "core/base/WholeNumber.h"
 
 namespace tacto {
 
@@ -23,10 +24,9 @@ std::optional<std::int64_t> holderOf(const fs::path& file) {
     const auto inode = fmt::format(":{}", about.st_ino);
     for (std::string number, kind, mode, access, process, place, rest;
          locks >> number >> kind >> mode >> access >> process >> place; std::getline(locks, rest)) {
-        std::int64_t id = 0;
         const bool isHere = kind == "FLOCK" && place.ends_with(inode);
-        if (isHere && std::from_chars(process.data(), process.data() + process.size(), id).ec == std::errc() && id > 0)
-            return id;
+        const auto id = isHere ? parseWhole<std::int64_t>(process) : std::nullopt;
+        if (id && *id > 0) return id;
     }
     return std::nullopt;
 }

@@ -4,7 +4,7 @@
 
 #include "core/base/Csv.h"
 #include "core/session/SessionReader.h"
-#include "core/study/StudyBook.h"
+#include "core/study/StudyGates.h"
 
 namespace tacto {
 

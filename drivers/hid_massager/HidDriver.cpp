@@ -1,10 +1,10 @@
 #include "drivers/hid_massager/HidDriver.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/ranges.h>
 #include <tuple>
 
+#include "core/base/WholeNumber.h"
 #include "core/devices/UriParameters.h"
 #include "drivers/hid_massager/Haptics.h"
 #include "drivers/hid_massager/HidMassager.h"
@@ -24,11 +24,7 @@ struct Wanted {
 };
 
 std::optional<std::uint16_t> hex16(std::string_view text) {
-    std::uint16_t value = 0;
-    const auto* const end = text.data() + text.size();
-    const auto read = std::from_chars(text.data(), end, value, 16);
-    if (text.size() != 4 || read.ec != std::errc() || read.ptr != end) return std::nullopt;
-    return value;
+    return text.size() == 4 ? parseWhole<std::uint16_t>(text, 16) : std::nullopt;
 }
 
 Result<Wanted> readUri(const DeviceUri& uri) {

@@ -1,8 +1,9 @@
 #include "drivers/hid_massager/StopWay.h"
 
-#include <charconv>
 #include <fmt/format.h>
 #include <string_view>
+
+#include "core/base/WholeNumber.h"
 
 namespace tacto::hid {
 
@@ -17,18 +18,11 @@ std::string hex(const std::vector<std::uint8_t>& bytes) {
     return text;
 }
 
-std::optional<std::uint8_t> byteOf(std::string_view text) {
-    std::uint8_t value = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), value, 16);
-    if (text.empty() || read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 std::optional<std::vector<std::uint8_t>> bytesOf(std::string_view text) {
     std::vector<std::uint8_t> bytes;
     if (text.empty() || text.size() % 2 != 0 || text.size() > 2 * kMaxBytes) return std::nullopt;
     for (std::size_t i = 0; i < text.size(); i += 2) {
-        const auto byte = byteOf(text.substr(i, 2));
+        const auto byte = parseWhole<std::uint8_t>(text.substr(i, 2), 16);
         if (!byte) return std::nullopt;
         bytes.push_back(*byte);
     }

@@ -1,10 +1,10 @@
 // Reading a template from its text and from its file.
 #include <algorithm>
-#include <charconv>
 
 #include "core/base/Csv.h"
 #include "core/base/RecordFields.h"
 #include "core/base/Text.h"
+#include "core/base/WholeNumber.h"
 #include "drivers/hid_massager/MassagerTemplate.h"
 
 namespace tacto::hid {
@@ -19,10 +19,7 @@ constexpr Word<ByteOrder> kByteOrders[] = {{"little", ByteOrder::Little}, {"big"
 
 template <class T>
 std::optional<T> hexIn(std::string_view text) {
-    T value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
-    if (text.size() != 2 * sizeof(T) || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
+    return text.size() == 2 * sizeof(T) ? parseWhole<T>(text, 16) : std::nullopt;
 }
 
 /// As USB identities are printed on the device and by lsusb.

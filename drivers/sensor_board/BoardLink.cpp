@@ -35,7 +35,7 @@ void BoardLink::listen() {
 void BoardLink::run() noexcept {
     Chunk chunk{};
     while (!ending_.load(std::memory_order_acquire)) {
-        const auto got = transport_->read(chunk.bytes, kListenFor);
+        const auto got = transport_->read(chunk.bytes, kListenTimeout);
         if (got) {
             chunk.arrival = clock_.now();
             chunk.size = static_cast<std::uint32_t>(std::min(*got, chunk.bytes.size()));

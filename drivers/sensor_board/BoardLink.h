@@ -30,7 +30,7 @@ public:
 
     BoardLink(std::unique_ptr<Transport> transport, const Clock& clock)
         : transport_(std::move(transport)), clock_(clock) {}
-    /// Waits for the thread: kListenFor at most.
+    /// Waits for the thread: kListenTimeout at most.
     ~BoardLink();
     BoardLink(const BoardLink&) = delete;
     BoardLink& operator=(const BoardLink&) = delete;
@@ -70,8 +70,8 @@ private:
         std::uint32_t size;
         std::array<std::uint8_t, 500> bytes;
     };
-    static constexpr std::size_t kChunks = 512;  ///< seconds of a board's stream
-    static constexpr Seconds kListenFor{0.05};   ///< at a time
+    static constexpr std::size_t kChunks = 512;     ///< seconds of a board's stream
+    static constexpr Seconds kListenTimeout{0.05};  ///< at a time
 
     void run() noexcept;
     [[nodiscard]] Result<bool> take();

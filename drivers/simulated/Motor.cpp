@@ -10,19 +10,12 @@ void Motor::start(Instant at, double command, Instant end) {
     Motion from;
     if (!commands_.empty()) {
         auto& before = commands_.back();
-        before.off = std::min(before.off, Instant(cut_.load(std::memory_order_acquire)));
+        before.off = std::min(before.off, cut_.at());
         from = motionIn(before, before.off, at);
     }
     commands_.push_back({from, at, command, end});
     if (commands_.size() > kRemembered) commands_.pop_front();
-    cut_.store(kNever.count(), std::memory_order_release);
-}
-
-void Motor::cut(Instant now) noexcept {
-    Instant::rep known = cut_.load(std::memory_order_acquire);
-    while (now.count() < known &&
-           !cut_.compare_exchange_weak(known, now.count(), std::memory_order_acq_rel, std::memory_order_acquire)) {
-    }
+    cut_.forget();
 }
 
 Motor::Motion Motor::run(Motion from, double command, double seconds) const noexcept {
@@ -44,8 +37,7 @@ Motor::Vibration Motor::at(Instant moment) const {
     const auto after = std::ranges::find_if(commands_, [&](const Command& each) { return each.at > moment; });
     if (after == commands_.begin()) return {};
     const auto& command = *std::prev(after);
-    const Instant off =
-        after == commands_.end() ? std::min(command.off, Instant(cut_.load(std::memory_order_acquire))) : command.off;
+    const Instant off = after == commands_.end() ? std::min(command.off, cut_.at()) : command.off;
     const double speed = std::max(0.0, motionIn(command, off, moment).speed);
     return {settings_.topAcceleration_m_s2 * speed * speed, settings_.topFrequency.value() * speed};
 }

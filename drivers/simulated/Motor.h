@@ -7,12 +7,11 @@
 // Thread-safety: start() has one caller; at() any thread; cut() any thread, lock-free.
 #pragma once
 
-#include <atomic>
 #include <deque>
-#include <limits>
 #include <mutex>
 
 #include "core/base/Units.h"
+#include "drivers/simulated/CutTime.h"
 
 namespace tacto::sim {
 
@@ -34,12 +33,11 @@ public:
     /// A command, 0 to 1, from `at` to `end`, in place of the one before.
     void start(Instant at, double command, Instant end);
     /// Ends the newest command.
-    void cut(Instant now) noexcept;
+    void cut(Instant now) noexcept { cut_.cut(now); }
     /// What is felt at a moment of the last kRemembered commands; nothing before them.
     [[nodiscard]] Vibration at(Instant moment) const;
 
     static constexpr std::size_t kRemembered = 64;
-    static constexpr Instant kNever{std::numeric_limits<Instant::rep>::max()};
 
 private:
     struct Motion {
@@ -50,15 +48,15 @@ private:
         Motion from;
         Instant at{0};
         double level = 0;
-        Instant off{kNever};
+        Instant off{CutTime::kNever};
     };
     [[nodiscard]] Motion run(Motion from, double command, double seconds) const noexcept;
     [[nodiscard]] Motion motionIn(const Command& command, Instant off, Instant moment) const noexcept;
 
     const MotorSettings settings_;
     mutable std::mutex mutex_;
-    std::deque<Command> commands_;                   // guarded by mutex_; the newest last
-    std::atomic<Instant::rep> cut_{kNever.count()};  // of the newest
+    std::deque<Command> commands_;  // guarded by mutex_; the newest last
+    CutTime cut_;                   // of the newest
 };
 
 }  // namespace tacto::sim

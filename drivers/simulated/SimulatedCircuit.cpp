@@ -33,7 +33,7 @@ void SimulatedCircuit::play(const DrivenTrain& train, Instant now, Instant allow
     const std::lock_guard lock(mutex_);
     cut(now);
     advance(toSeconds(now));
-    cut_.store(std::numeric_limits<Instant::rep>::max(), std::memory_order_release);
+    cut_.forget();
     allowedUntil_ = toSeconds(allowedUntil);
     train_ = train;
     trainOnset_ = train.onset_s;
@@ -45,13 +45,6 @@ void SimulatedCircuit::allowUntil(Instant moment, Instant now) {
     const std::lock_guard lock(mutex_);
     advance(toSeconds(now));
     if (train_) allowedUntil_ = toSeconds(moment);
-}
-
-void SimulatedCircuit::cut(Instant now) noexcept {
-    Instant::rep known = cut_.load(std::memory_order_acquire);
-    while (now.count() < known &&
-           !cut_.compare_exchange_weak(known, now.count(), std::memory_order_acq_rel, std::memory_order_acquire)) {
-    }
 }
 
 bool SimulatedCircuit::active(Instant now) {
@@ -78,8 +71,8 @@ std::optional<PulseTotals> SimulatedCircuit::lastPulse(Instant now) {
 }
 
 double SimulatedCircuit::endOfOutput() const noexcept {
-    const auto cut = cut_.load(std::memory_order_acquire);
-    const double cut_s = cut == std::numeric_limits<Instant::rep>::max() ? kInfinity : toSeconds(Instant(cut));
+    const auto cut = cut_.at();
+    const double cut_s = cut == CutTime::kNever ? kInfinity : toSeconds(cut);
     return std::min(cut_s, allowedUntil_);
 }
 

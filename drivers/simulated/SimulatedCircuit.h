@@ -10,7 +10,6 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <limits>
@@ -21,6 +20,7 @@
 
 #include "core/base/Units.h"
 #include "core/electrode/PulseResponse.h"
+#include "drivers/simulated/CutTime.h"
 #include "drivers/simulated/FaultSchedule.h"
 
 namespace tacto::sim {
@@ -76,7 +76,7 @@ public:
     /// Moves the dead-man moment; too late once output has ended by it.
     void allowUntil(Instant moment, Instant now);
     /// Output off at `now`. Undone only by the next play().
-    void cut(Instant now) noexcept;
+    void cut(Instant now) noexcept { cut_.cut(now); }
 
     [[nodiscard]] bool active(Instant now);
     /// Trains that began so far.
@@ -111,7 +111,7 @@ private:
     [[nodiscard]] double endOfOutput() const noexcept;
 
     mutable std::mutex mutex_;
-    std::atomic<Instant::rep> cut_{std::numeric_limits<Instant::rep>::max()};
+    CutTime cut_;
     // All below guarded by mutex_.
     double allowedUntil_ = kInfinity;
     Load load_;

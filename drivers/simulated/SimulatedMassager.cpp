@@ -26,7 +26,7 @@ Result<void> SimulatedMassager::vibrate(ApprovedBurst&& burst) {
     const double asked = consumed.burst().intensity;
     const double level = settings_.step > 0 ? std::round(asked / settings_.step) * settings_.step : asked;
     const bool stuck = settings_.faults.active(Fault::StuckOn, now);
-    motor_->start(now, level, stuck ? Motor::kNever : now + toInstant(consumed.burst().duration));
+    motor_->start(now, level, stuck ? CutTime::kNever : now + toInstant(consumed.burst().duration));
     if (settings_.faults.active(Fault::Late, now)) {
         return fail(ErrorCode::Timeout, "the simulated massager did not answer within 50 ms");
     }

@@ -1,12 +1,13 @@
 #include "drivers/system/FileHolders.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <fstream>
 #include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/base/WholeNumber.h"
 
 namespace tacto {
 
@@ -20,13 +21,7 @@ bool isSame(const struct stat& a, const struct stat& b) {
     return (a.st_dev == b.st_dev && a.st_ino == b.st_ino) || a.st_rdev == b.st_rdev;
 }
 
-std::optional<pid_t> processOf(const fs::path& folder) {
-    const auto name = folder.filename().string();
-    pid_t process = 0;
-    const auto read = std::from_chars(name.data(), name.data() + name.size(), process);
-    if (read.ec != std::errc() || read.ptr != name.data() + name.size()) return std::nullopt;
-    return process;
-}
+std::optional<pid_t> processOf(const fs::path& folder) { return parseWhole<pid_t>(folder.filename().string()); }
 
 bool hasOpen(const fs::path& process, const struct stat& wanted) {
     std::error_code error;

@@ -16,25 +16,12 @@ protocol({
   },
 });
 
-const MOST_STATES = 2000;
-
 function run(p) {
   bench.drive("sensor");
   bench.arm();
 
-  // A long run is shown more coarsely, so that the figure stays readable and the memory flat.
   const begin = bench.time;
-  let states = [];
-  let step = 0.05;
-  const duration = bench.replayed ? Infinity : p.duration;
-  while (!bench.finished && bench.time - begin < duration) {
-    bench.wait(Math.min(step, Math.max(0.001, duration - (bench.time - begin))));
-    states[states.length] = bench.live();
-    if (states.length >= MOST_STATES) {
-      states = states.filter((state, index) => index % 2 === 1);
-      step *= 2;
-    }
-  }
+  const states = bench.watch(p.duration);
   bench.disarm();
 
   const last = bench.live();

@@ -103,6 +103,7 @@ TEST(Arguments, AreRefusedForWrongTypeNanInfinityAndRangeInOneSentence) {
                 case ValueType::Text:
                     bad = {1, true, Json::array()};
                     if (!parameter.words.empty()) bad.push_back("no such word");
+                    if (parameter.mostCharacters > 0) bad.push_back(std::string(parameter.mostCharacters + 1, 'a'));
                     break;
                 case ValueType::Flag:
                     bad = {1, "true", Json::object()};
@@ -130,6 +131,15 @@ TEST(Arguments, AreRefusedForWrongTypeNanInfinityAndRangeInOneSentence) {
                 EXPECT_THAT(refusal, StartsWith(function.fullName() + ": " + spoken(parameter) + " is "));
                 EXPECT_THAT(refusal, EndsWith(" is expected"));
             }
+        }
+    }
+}
+
+TEST(Arguments, AQuestionToTheOperatorIsNoLongerThanAWindowShows) {
+    for (const auto& function : hostFunctions()) {
+        for (const auto& parameter : passedTo(function)) {
+            if (function.object != "operator" || parameter.name != "text") continue;
+            EXPECT_EQ(parameter.accepted(), "a text of at most 2000 characters") << function.fullName();
         }
     }
 }

@@ -131,7 +131,8 @@ TEST(CalibrationVerdict, IsTheWorstQuantitysAndNamesEachReason) {
           failed: calibration.stimulatorVerdict([good, bad, open], "clock", true),
           clock: calibration.stimulatorVerdict([good], "clock", true),
           looked: calibration.stimulatorVerdict([good], "clock", false),
-          holds: calibration.checkVerdict([good, good], stored), lost: calibration.checkVerdict([good, open], stored) });)"));
+          holds: calibration.checkVerdict([good, good], stored),
+          lost: calibration.checkVerdict([good, open], stored) });)"));
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     const auto is = [&](const char* which, const char* verdict, const nlohmann::json& reasons) {
         EXPECT_EQ(outcome.results[which]["verdict"], verdict) << which;

@@ -157,14 +157,14 @@ TEST_F(Markers, OneThatGoesMidwayTakesNoOtherAlong) {
 TEST_F(Markers, WhatARecorderSaysIsNotReadAndOneTooManyIsHungUpOn) {
     RecordProperty("hazard", "H10");
     std::vector<std::unique_ptr<MarkerRecorder>> all;
-    for (std::size_t i = 0; i < MarkerServer::kMostRecorders; ++i) all.push_back(recorder());
+    for (std::size_t i = 0; i < MarkerServer::kMaxRecorders; ++i) all.push_back(recorder());
     for (int i = 0; i < 100; ++i) all.front()->say(std::string(1000, 'x') + "\r\nGET / HTTP/1.1\r\n");
     const MarkerRecorder many(at_.port);
     ASSERT_IN_TIME(comes([&] { return many.ended(); }));
     EXPECT_TRUE(many.lines().empty());
     send(1);
     for (const auto& each : all) ASSERT_IN_TIME(comes([&] { return each->lines().size() == 2; }));
-    EXPECT_EQ(server_->end(), (MarkerTally{1, 0, 0, MarkerServer::kMostRecorders}));
+    EXPECT_EQ(server_->end(), (MarkerTally{1, 0, 0, MarkerServer::kMaxRecorders}));
 }
 
 TEST_F(Markers, AfterTheEndNothingIsSentAndThePortIsFree) {

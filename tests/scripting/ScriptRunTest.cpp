@@ -53,6 +53,24 @@ TEST(ScriptRun, DisarmsByWhateverDoorRunIsLeft) {
     }
 }
 
+/// As live.js and massager.js watch a finger.
+TEST(ScriptRun, WatchesTheBenchLessOftenTheLongerItTakes) {
+    for (const auto& [seconds, step] : {std::pair(2.0, 0.05), std::pair(180.0, 0.1)}) {
+        RunBench rig;
+        const auto outcome =
+            rig.run(withRun(fmt::format("const states = bench.watch({});"
+                                        "const first = states[0].time_s, second = states[1].time_s;"
+                                        "return verdict({{ verdict: null, states: states.length, step: second - first,"
+                                        "  last: states[states.length - 1].time_s - first }});",
+                                        seconds)));
+        ASSERT_FALSE(outcome.error) << outcome.error->message;
+        EXPECT_NEAR(outcome.results["step"].get<double>(), step, 0.006);
+        EXPECT_NEAR(outcome.results["states"].get<double>(), seconds / step, 5 + 0.02 * seconds / step);
+        EXPECT_LE(outcome.results["states"].get<int>(), 2000);
+        EXPECT_NEAR(outcome.results["last"].get<double>(), seconds - step, 0.02 * seconds);
+    }
+}
+
 TEST(ScriptRun, ReportsProgressAndLogs) {
     RunBench rig;
     std::vector<std::string> seen;

@@ -18,7 +18,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kBesideTheName = 2;  ///< channels; more stand below it
-constexpr std::size_t kMostInLine = 3;     ///< of those below; more stand in lines of two
+constexpr std::size_t kMaxInLine = 3;      ///< of those below; more stand in lines of two
 constexpr int kRowHeight = 24;
 constexpr int kIndent = 2;  ///< of the names that are buttons
 
@@ -204,7 +204,7 @@ bool MeasurementSummary::below() const { return statistics_.channels().size() > 
 
 int MeasurementSummary::inLine() const {
     const auto channels = statistics_.channels().size();
-    return static_cast<int>(channels > kMostInLine ? kBesideTheName : channels);
+    return static_cast<int>(channels > kMaxInLine ? kBesideTheName : channels);
 }
 
 std::pair<int, int> MeasurementSummary::placeOf(std::size_t channel) const {

@@ -8,22 +8,15 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kMaxMoments = 1000;
-constexpr std::size_t kMaxInRoll = 600;
-constexpr std::size_t kMaxSamplesKept = 40'000'000;
-
 double lengthOf(const ShownCapture& shown) { return shown.end_s() - shown.capture->start_s; }
 
 }  // namespace
 
 std::unique_ptr<ScopeModel> ScopeModel::still() const {
     auto still = std::make_unique<ScopeModel>();
-    still->shown_ = shown_;
-    still->older_ = older_;
+    still->captures_ = captures_;
     still->lanes_ = lanes_;
     still->active_ = active_;
-    still->persistence_ = persistence_;
-    still->roll_ = roll_;
     still->held_ = held_;
     still->frame_ = frame_;
     still->cursors_ = cursors_;
@@ -38,54 +31,40 @@ void ScopeModel::setHeld(bool held) {
 
 void ScopeModel::show(ShownPtr shown) {
     setHeld(false);
-    if (shown_ && shown_->source.isEmpty() && shown->source.isEmpty()) {
-        older_.push_front(std::move(shown_));
-    } else {
-        frame_.keepChosen(scene());
-        older_.clear();
-    }
-    shown_ = std::move(shown);
-    dropOldest();
+    if (!captures_.isFollowedBy(*shown)) frame_.keepChosen(scene());
+    captures_.show(std::move(shown));
     const bool others = takeLanes();
-    older_.empty() ? frame_.begin(scene()) : frame_.follow(scene(), *older_.front());
+    const auto& behind = captures_.behind();
+    behind.empty() ? frame_.begin(scene()) : frame_.follow(scene(), *behind.front());
     tellTraces(others);
 }
 
 void ScopeModel::clear() {
-    if (!shown_) return;
+    if (!shown()) return;
     frame_.keepChosen(scene());
     setHeld(false);
-    shown_.reset();
-    older_.clear();
+    captures_.clear();
     frame_.forgetHistory();
     hovered_.reset();
     lanes_.clear();
-    lanes_.fill(shown_, older_, roll_, persistence_);
+    fillLanes();
     chooseActive();
     tellTraces(true);
 }
 
-void ScopeModel::dropOldest() {
-    const std::size_t most = roll_ ? kMaxInRoll : static_cast<std::size_t>(kMaxBehind);
-    std::size_t keep = 0;
-    std::size_t samples = 0;
-    while (keep < older_.size() && keep < most) {
-        samples += older_[keep]->capture->samples() * older_[keep]->traces.size();
-        if (samples > kMaxSamplesKept) break;
-        ++keep;
-    }
-    older_.resize(keep);
+void ScopeModel::replaceMath(ShownPtr shown) {
+    captures_.replaceNewest(std::move(shown));
+    tellTraces(takeLanes());
 }
 
-void ScopeModel::replaceMath(ShownPtr shown) {
-    shown_ = std::move(shown);
-    tellTraces(takeLanes());
+void ScopeModel::fillLanes() {
+    lanes_.fill(captures_.newest(), captures_.behind(), captures_.roll(), captures_.persistence());
 }
 
 /// Returns whether the lanes are others than before.
 bool ScopeModel::takeLanes() {
-    const bool others = lanes_.take(*shown_);
-    lanes_.fill(shown_, older_, roll_, persistence_);
+    const bool others = lanes_.take(*shown());
+    fillLanes();
     chooseActive();
     frame_.addLanes(scene());
     return others;
@@ -104,19 +83,18 @@ void ScopeModel::tellTraces(bool lanesToo) {
 }
 
 void ScopeModel::setPersistence(int captures) {
-    persistence_ = std::clamp(captures, 0, kMaxBehind);
-    lanes_.fill(shown_, older_, roll_, persistence_);
+    captures_.setPersistence(captures);
+    fillLanes();
     tellTraces(false);
 }
 
 void ScopeModel::setRoll(bool roll) {
-    if (roll == roll_) return;
-    roll_ = roll;
+    if (roll == captures_.roll()) return;
     cursors_.hideTime();
     trigger_.forgetMoment();
-    if (!roll_ || !shown_) dropOldest();
+    captures_.setRoll(roll);
     frame_.changeMode(scene());
-    lanes_.fill(shown_, older_, roll_, persistence_);
+    fillLanes();
     tellCursors();
     tellTraces(false);
 }
@@ -130,7 +108,7 @@ QString ScopeModel::channelIn(const QString& unit) const {
 TracePtr ScopeModel::trace(const QString& key) const {
     const auto* its = lane(key);
     if (its == nullptr) return nullptr;
-    return its->stored ? its->stored : shown_ ? shown_->trace(key) : nullptr;
+    return its->stored ? its->stored : shown() ? shown()->trace(key) : nullptr;
 }
 
 void ScopeModel::setActiveLane(const QString& key) {
@@ -172,7 +150,7 @@ QString ScopeModel::storeReference() {
     const auto source = trace(active_);
     if (!source || active()->reference()) return {};
     const auto key = lanes_.store(active_, *source);
-    lanes_.fill(shown_, older_, roll_, persistence_);
+    fillLanes();
     tellTraces(true);
     return key;
 }
@@ -185,7 +163,7 @@ void ScopeModel::removeReference(const QString& key) {
 }
 
 void ScopeModel::fit() {
-    if (!shown_) return;
+    if (!shown()) return;
     frame_.fit(scene());
     emit viewChanged();
 }
@@ -211,7 +189,7 @@ bool ScopeModel::undoZoom() {
 
 double ScopeModel::restingTime_s() const {
     const auto& view = viewport();
-    const bool triggerInView = !roll_ && view.left_s <= 0 && view.right_s() >= 0;
+    const bool triggerInView = !roll() && view.left_s <= 0 && view.right_s() >= 0;
     return triggerInView ? 0 : view.left_s + view.width_s() / 2;
 }
 
@@ -219,11 +197,11 @@ void ScopeModel::setTimePerDivision(double perDivision_s) {
     if (!(perDivision_s > 0)) return;
     const double base_s = std::max(perDivision_s, leastTimePerDivision_s());
     auto next = withTimeBase(viewport(), base_s, restingTime_s());
-    if (roll_ && shown_) next.left_s = ScopeFrame::rollLeft(scene(), base_s);
+    if (roll() && shown()) next.left_s = ScopeFrame::rollLeft(scene(), base_s);
     go(next, "time base");
 }
 
-double ScopeModel::leastTimePerDivision_s() const { return shown_ ? leastPerDivision(shown_->capture->rate_hz) : 0; }
+double ScopeModel::leastTimePerDivision_s() const { return shown() ? leastPerDivision(shown()->capture->rate_hz) : 0; }
 
 void ScopeModel::setTimeCentre(double centre_s) {
     if (!std::isfinite(centre_s)) return;
@@ -362,8 +340,7 @@ void ScopeModel::hover(std::optional<double> time_s) {
 }
 
 void ScopeModel::addMark(MomentMark mark) {
-    if (marks_.size() == kMaxMoments) marks_.erase(marks_.begin());
-    marks_.push_back(std::move(mark));
+    marks_.add(std::move(mark));
     emit overlayChanged();
 }
 
@@ -373,21 +350,14 @@ void ScopeModel::clearMarks() {
 }
 
 std::vector<MomentMark> ScopeModel::marksOnAxis() const {
-    std::vector<MomentMark> seen;
-    if (!shown_ || !shown_->source.isEmpty()) return seen;
-    for (const auto& mark : marks_) {
-        const double at = mark.at_s - zero_s();
-        if (at >= viewport().left_s && at <= viewport().right_s()) seen.push_back({at, mark.word});
-    }
-    return seen;
+    if (!showsBench()) return {};
+    return marks_.between(viewport().left_s, viewport().right_s(), zero_s());
 }
 
 QString ScopeModel::markBeside() const {
-    if (!shown_ || !shown_->source.isEmpty() || roll_ || marks_.empty()) return {};
-    const auto& last = marks_.back();
-    if (last.at_s > shown_->end_s()) return tr("after it: “%1”").arg(last.word);
-    const bool between = !older_.empty() && last.at_s > older_.front()->end_s() && last.at_s < shown_->capture->start_s;
-    return between ? tr("before it: “%1”").arg(last.word) : QString();
+    if (!showsBench() || roll()) return {};
+    const auto& behind = captures_.behind();
+    return marks_.beside(*shown(), behind.empty() ? nullptr : behind.front().get());
 }
 
 void ScopeModel::setTrigger(const QString& key, double level, bool held) {
@@ -402,11 +372,11 @@ void ScopeModel::dragTriggerLevel(double height) {
 }
 
 void ScopeModel::dragTriggerMoment(double time_s) {
-    if (shown_ && trigger_.dragMoment(time_s, lengthOf(*shown_))) emit overlayChanged();
+    if (shown() && trigger_.dragMoment(time_s, lengthOf(*shown()))) emit overlayChanged();
 }
 
 void ScopeModel::dropTrigger() {
-    if (const auto chosen = trigger_.drop(shown_ ? lengthOf(*shown_) : 1)) emit preTriggerChosen(*chosen);
+    if (const auto chosen = trigger_.drop(shown() ? lengthOf(*shown()) : 1)) emit preTriggerChosen(*chosen);
     emit overlayChanged();
 }
 

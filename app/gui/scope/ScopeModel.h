@@ -13,21 +13,17 @@
 #include "app/gui/scope/ScopeCursors.h"
 #include "app/gui/scope/ScopeFrame.h"
 #include "app/gui/scope/ScopeLanes.h"
+#include "app/gui/scope/ScopeMarks.h"
 #include "app/gui/scope/ScopeTrigger.h"
+#include "app/gui/scope/ShownCaptures.h"
 #include "app/gui/scope/TraceEdges.h"
 
 namespace tacto::gui {
 
-/// A moment that the operator marked, on the session's time base.
-struct MomentMark {
-    double at_s = 0;
-    QString word;
-};
-
 class ScopeModel final : public QObject {
     Q_OBJECT
 public:
-    static constexpr int kMaxBehind = 32;
+    static constexpr int kMaxBehind = ShownCaptures::kMaxBehind;
     using QObject::QObject;
 
     /// All of it as it is now; nothing that is shown later changes that.
@@ -39,17 +35,17 @@ public:
     void clear();
     /// The same captures with other calculations.
     void replaceMath(ShownPtr shown);
-    [[nodiscard]] const ShownPtr& shown() const noexcept { return shown_; }
+    [[nodiscard]] const ShownPtr& shown() const noexcept { return captures_.newest(); }
     /// Captures before the newest that stay, faded.
     void setPersistence(int captures);
     /// Captures one after the other on the session's time.
     void setRoll(bool roll);
-    [[nodiscard]] bool roll() const noexcept { return roll_; }
+    [[nodiscard]] bool roll() const noexcept { return captures_.roll(); }
     /// What is shown is the last train of an output that is off: faint, until another capture comes.
     [[nodiscard]] bool held() const noexcept { return held_; }
     void setHeld(bool held);
     /// Time 0 of the axis on the session's time base.
-    [[nodiscard]] double zero_s() const noexcept { return roll_ || !shown_ ? 0 : shown_->zero_s; }
+    [[nodiscard]] double zero_s() const noexcept { return roll() || !shown() ? 0 : shown()->zero_s; }
 
     [[nodiscard]] const std::vector<ScopeLane>& lanes() const noexcept { return lanes_.all(); }
     /// Null without one; so for all that take a key.
@@ -116,7 +112,7 @@ public:
     void hover(std::optional<double> time_s);
     [[nodiscard]] const std::optional<EdgeReading>& hovered() const noexcept { return hovered_; }
 
-    /// Marks of the bench's session; the newest thousand are kept.
+    /// Marks of the bench's session.
     void addMark(MomentMark mark);
     void clearMarks();
     /// Those that the axis reaches, with their time on it; none where a file is shown.
@@ -147,28 +143,29 @@ private:
     [[nodiscard]] const ScopeLane* active() const { return lanes_.find(active_); }
     [[nodiscard]] bool takeLanes();
     void chooseActive();
-    void dropOldest();
+    void fillLanes();
+    /// Not a file, which has a time of its own.
+    [[nodiscard]] bool showsBench() const { return shown() && shown()->source.isEmpty(); }
     void tellTraces(bool lanesToo);
-    [[nodiscard]] ScopeFrame::Scene scene() const { return {shown_, older_, lanes_, active_, roll_}; }
+    [[nodiscard]] ScopeFrame::Scene scene() const {
+        return {captures_.newest(), captures_.behind(), lanes_, active_, captures_.roll()};
+    }
     void movedBy(Viewport& view, double time_s, double height) const;
     /// Becomes the view, after remembering the present one under `kind`.
     void go(const Viewport& next, const QString& kind);
     void become(const Viewport& next);
     void tellCursors();
 
-    ShownPtr shown_;
-    std::deque<ShownPtr> older_;  ///< newest first: for persistence, or the roll with shown_ left out
+    ShownCaptures captures_;
     ScopeLanes lanes_;
     QString active_;
-    int persistence_ = 0;
-    bool roll_ = false;
     bool held_ = false;
 
     ScopeFrame frame_;
     ScopeCursors cursors_;
     ScopeTrigger trigger_;
     std::optional<EdgeReading> hovered_;
-    std::vector<MomentMark> marks_;
+    ScopeMarks marks_;
 };
 
 }  // namespace tacto::gui

@@ -31,8 +31,8 @@ void ScopeStatus::tell(const QString& done, const QString& problem) {
 }
 
 void ScopeStatus::forget() {
-    constexpr qint64 kToBeRead_ms = 8000;
-    if (told_.isValid() && !told_.hasExpired(kToBeRead_ms)) return;
+    constexpr qint64 kMessageTimeout_ms = 8000;
+    if (told_.isValid() && !told_.hasExpired(kMessageTimeout_ms)) return;
     done_.clear();
     problem_.clear();
 }

@@ -50,6 +50,7 @@ ScopeWorkspace::ScopeWorkspace(BenchController& controller, QWidget* parent)
       table_(new MeasurementTable(readings_, this)),
       stack_(new QStackedWidget(this)) {
     acquisition_ = std::make_unique<ScopeAcquisition>(controller_, controls_->acquisition());
+    feed_ = std::make_unique<ScopeFeed>(model_, *acquisition_);
     setAcceptDrops(true);
     files_->show(*screen_, *table_, [this] { return caption(); });
     layOut();
@@ -164,7 +165,7 @@ void ScopeWorkspace::connectBench() {
     });
     connect(&controller_, &BenchController::marked, this, [this](double at_s, const QString& word) {
         const auto open = controller_.open();  // a run's session has a time of its own
-        if (open && open->session == session_) model_.addMark({at_s, word});
+        if (open && open->session == feed_->session()) model_.addMark({at_s, word});
     });
     connect(&controller_, &BenchController::loadFitted, this, [this] {  // a mean is of one load
         pipe_.beginAnew();
@@ -240,19 +241,13 @@ void ScopeWorkspace::restore() {
 }
 
 void ScopeWorkspace::benchChanged() {
-    // A bench that has just been opened is looked at, not the file that was.
     const auto session = controller_.open() ? controller_.open()->session : std::filesystem::path();
-    if (acquisition_->possible() && std::exchange(session_, session) != session) {
-        framed_ = false;
+    const bool file = model_.shown() && !model_.shown()->source.isEmpty();
+    if (feed_->begin(session)) {
         pipe_.beginAnew();
-        model_.clearMarks();
+        if (file) pipe_.cancelOpen();
         table_->clear();
         controls_->mask().resetCounts();
-        if (model_.shown() && !model_.shown()->source.isEmpty()) {
-            pipe_.cancelOpen();
-            model_.clear();
-            acquisition_->wantAgain();
-        }
     }
     if (acquisition_->benchChanged(watched_ || isVisible())) status_->forgetProblem();
     showState();
@@ -298,33 +293,22 @@ void ScopeWorkspace::refresh(const Telemetry& telemetry) {
 }
 
 void ScopeWorkspace::take(const ShownPtr& shown) {
-    const bool ours = shown->source.isEmpty();
-    if (ours && !acquisition_->take(*shown)) return;
-    if (ours && outlives(*shown)) {
+    const auto taken = feed_->take(shown);
+    if (taken == ScopeFeed::Taken::Nothing) return;
+    if (taken == ScopeFeed::Taken::Held) {
         table_->passOverUntriggered(true);
-        model_.setHeld(true);
         emit captureShown(shown);
         return say();
     }
-    if (!model_.shown() || model_.shown()->source != shown->source || !ours) table_->clear();
+    if (taken == ScopeFeed::Taken::ShownAnew) table_->clear();
     status_->forget();
-    model_.show(shown);
-    // At first the record is seen whole; then the first train in it is shown.
-    if (ours && !shown->capture->untriggered && !std::exchange(framed_, true)) model_.frameFirstPulse();
-    if (ours) controls_->mask().take(shown);
+    if (shown->source.isEmpty()) controls_->mask().take(shown);
     if (shown->capture->untriggered)
         table_->passOverUntriggered(false);
     else
         table_->add(shown);
     emit captureShown(shown);
     showState();
-}
-
-/// The last train stays when the output is off: noise in its place would say nothing.
-bool ScopeWorkspace::outlives(const ShownCapture& next) const {
-    const auto& last = model_.shown();
-    return next.capture->untriggered && !model_.roll() && !acquisition_->delivering() && last &&
-           last->source.isEmpty() && !last->capture->untriggered;
 }
 
 bool ScopeWorkspace::openCaptureFile(const QString& path) {

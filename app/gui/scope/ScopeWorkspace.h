@@ -9,11 +9,11 @@
 #pragma once
 
 #include <QWidget>
-#include <filesystem>
 
 #include "app/gui/scope/CapturePipe.h"
 #include "app/gui/scope/ChosenReadings.h"
 #include "app/gui/scope/ScopeAcquisition.h"
+#include "app/gui/scope/ScopeFeed.h"
 #include "app/gui/scope/ScopeModel.h"
 
 class QStackedWidget;
@@ -96,8 +96,6 @@ private:
     void connectBench();
     void benchChanged();
     void take(const ShownPtr& shown);
-    /// Whether what is shown stays, and `next` is not shown.
-    [[nodiscard]] bool outlives(const ShownCapture& next) const;
     void applyMode(ScopeMode mode);
     void average();
     [[nodiscard]] ScopeCaption caption() const;
@@ -114,8 +112,6 @@ private:
     ScopeModel model_;
     ChosenReadings readings_;
     std::unique_ptr<ScopeFiles> files_;
-    std::filesystem::path session_;  ///< of the bench that was open last
-    bool framed_ = false;            ///< the first train of it was
     int averages_ = 1;
     bool watched_ = false;
 
@@ -125,6 +121,7 @@ private:
     ScopeScreen* screen_;
     std::unique_ptr<ScopeGestures> gestures_;
     std::unique_ptr<ScopeAcquisition> acquisition_;
+    std::unique_ptr<ScopeFeed> feed_;
     ScopeControls* controls_;
     SpectrumPanel* spectrum_;
     MeasurementTable* table_;

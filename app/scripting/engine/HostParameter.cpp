@@ -47,7 +47,10 @@ std::string typeWords(const HostParameter& parameter) {
         case ValueType::Whole:
             return parameter.numbers.text();
         case ValueType::Text:
-            return parameter.words.empty() ? "a text" : oneOfWords(parameter.words);
+            if (!parameter.words.empty()) return oneOfWords(parameter.words);
+            return parameter.mostCharacters == 0
+                       ? "a text"
+                       : fmt::format("a text of at most {} characters", parameter.mostCharacters);
         case ValueType::Flag:
             return "true or false";
         case ValueType::List:
@@ -77,6 +80,7 @@ bool HostParameter::accepts(const nlohmann::json& value) const {
             return numbers.contain(value.get<double>());
         case ValueType::Text:
             if (!words.empty()) return std::find(words.begin(), words.end(), value.get<std::string>()) != words.end();
+            if (mostCharacters > 0 && value.get_ref<const std::string&>().size() > mostCharacters) return false;
             return mayBeEmpty || mayBeLeftOut || !value.get_ref<const std::string&>().empty();
         case ValueType::List:
             return std::all_of(value.begin(), value.end(), [this](const auto& item) { return isOfType(item, items); });
@@ -122,6 +126,12 @@ HostParameter HostParameter::of(ValueType elements) const {
 HostParameter HostParameter::oneOf(std::vector<std::string_view> accepted) const {
     auto out = *this;
     out.words = std::move(accepted);
+    return out;
+}
+
+HostParameter HostParameter::atMost(std::size_t characters) const {
+    auto out = *this;
+    out.mostCharacters = characters;
     return out;
 }
 

@@ -34,6 +34,7 @@ struct HostParameter {
     AcceptedNumbers numbers = {};      ///< Number and Whole
     ValueType items = ValueType::Any;  ///< type of a list's elements
     std::vector<std::string_view> words = {};  ///< the texts that are accepted; empty for any
+    std::size_t mostCharacters = 0;            ///< of a text; 0: any number
     bool mayBeLeftOut = false;
     bool mayBeEmpty = false;          ///< a text
     bool mayBeNull = false;           ///< null and NaN: not known
@@ -46,6 +47,7 @@ struct HostParameter {
     [[nodiscard]] HostParameter above(double from) const;
     [[nodiscard]] HostParameter of(ValueType elements) const;
     [[nodiscard]] HostParameter oneOf(std::vector<std::string_view> accepted) const;
+    [[nodiscard]] HostParameter atMost(std::size_t characters) const;
     [[nodiscard]] HostParameter orEmpty() const;
     [[nodiscard]] HostParameter orNull() const;
     [[nodiscard]] HostParameter otherwise(nlohmann::json value) const;

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "app/scripting/ShippedResources.h"
+#include "core/base/DataFolder.h"
 #include "core/base/ProgramPath.h"
 
 #ifndef TACTOSCOPE_INSTALLED_RESOURCES
@@ -128,13 +129,8 @@ Result<fs::path> drawingFile(std::string_view name) {
 }
 
 fs::path userProtocolsFolder() {
-    fs::path base = environmentPath("XDG_DATA_HOME");
-    if (base.empty() || !base.is_absolute()) {
-        base = environmentPath("HOME");
-        if (base.empty()) return {};
-        base /= fs::path(".local") / "share";
-    }
-    return base / "tactoscope" / "protocols";
+    const auto data = dataFolder();
+    return data.is_absolute() ? data / "protocols" : fs::path();  // never scripts of the folder it is started in
 }
 
 ProtocolLibrary::ProtocolLibrary() : user_(userProtocolsFolder()) {

@@ -7,7 +7,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kLeastWeber = 0.01;
+constexpr double kMinWeber = 0.01;
 constexpr double kWeberStep = 0.05;  // of ln w
 constexpr std::size_t kWebers = 93;  // to 1
 constexpr double kPriorWeber = 0.10;
@@ -15,7 +15,7 @@ constexpr std::size_t kWidestEvery = 8;
 
 double priorSd() noexcept { return std::log(2.0); }
 
-EvenDensity webers() { return {std::log(kLeastWeber), kWeberStep, {}}; }
+EvenDensity webers() { return {std::log(kMinWeber), kWeberStep, {}}; }
 
 }  // namespace
 

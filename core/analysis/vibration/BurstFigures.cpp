@@ -73,20 +73,20 @@ Result<Course> courseOf(std::span<const AccelerationSample> samples, double firs
     double x = 0, y = 0, z = 0, n = 0;
     for (const auto& sample : samples) {
         if (sample.t_s >= firstOnset) break;
-        if (sample.t_s < firstOnset - BurstFigures::kLeastQuiet.count()) continue;
+        if (sample.t_s < firstOnset - BurstFigures::kMinQuiet.count()) continue;
         x += sample.x;
         y += sample.y;
         z += sample.z;
         n += 1;
     }
-    if (!(n * course.period_s >= 0.9 * BurstFigures::kLeastQuiet.count()) || !std::isfinite(x + y + z))
+    if (!(n * course.period_s >= 0.9 * BurstFigures::kMinQuiet.count()) || !std::isfinite(x + y + z))
         return fail(ErrorCode::NotFound, "the accelerometer was not read in the {} s before the first burst",
-                    BurstFigures::kLeastQuiet.count());
+                    BurstFigures::kMinQuiet.count());
     double squares = 0;
     for (const auto& sample : samples) {
         const double magnitude = std::hypot(sample.x - x / n, sample.y - y / n, sample.z - z / n);
         const double before = firstOnset - sample.t_s;
-        if (before > 0 && before <= BurstFigures::kLeastQuiet.count()) squares += magnitude * magnitude;
+        if (before > 0 && before <= BurstFigures::kMinQuiet.count()) squares += magnitude * magnitude;
         course.t_s.push_back(sample.t_s);
         course.magnitude.push_back(magnitude);
     }

@@ -54,10 +54,10 @@ struct BurstFigures {
 
     static constexpr double kAboveNoise = 5;
     static constexpr Seconds kRunDown{0.1};
-    static constexpr Seconds kLeastQuiet{0.1};
+    static constexpr Seconds kMinQuiet{0.1};
 };
 
-/// `samples` begin at least kLeastQuiet before the first burst and end after the last. A gap of more than three sample
+/// `samples` begin at least kMinQuiet before the first burst and end after the last. A gap of more than three sample
 /// periods is where samples are missing.
 /// Errors: InvalidArgument for no bursts, bursts that do not ascend, a duration that is not above 0, stamps that do not
 /// ascend or are not finite; NotFound where the quiet before the first burst was not measured.

@@ -1,13 +1,13 @@
 #include "core/sharing/results/SessionResults.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/JsonFields.h"
+#include "core/base/WholeNumber.h"
 #include "core/pilot/PilotRecord.h"
 
 namespace tacto {
@@ -21,13 +21,6 @@ std::pair<std::string, std::string> lastWordOf(const std::string& name) {
     const auto blank = name.rfind(' ');
     if (blank == std::string::npos) return {name, {}};
     return {name.substr(0, blank), name.substr(blank + 1)};
-}
-
-std::optional<int> wholeNumber(const std::string& text) {
-    int value = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
 }
 
 /// The answer to a question of any kind.
@@ -133,9 +126,9 @@ private:
         }
         const auto dot = place.find('.');
         if (dot != std::string::npos)
-            trial.series = static_cast<std::size_t>(wholeNumber(place.substr(0, dot)).value_or(0));
-        trial.number =
-            static_cast<std::size_t>(wholeNumber(dot == std::string::npos ? place : place.substr(dot + 1)).value_or(0));
+            trial.series = static_cast<std::size_t>(parseWhole<int>(place.substr(0, dot)).value_or(0));
+        trial.number = static_cast<std::size_t>(
+            parseWhole<int>(dot == std::string::npos ? place : place.substr(dot + 1)).value_or(0));
         out_.thresholds.push_back(std::move(trial));
     }
 
@@ -157,7 +150,7 @@ private:
     void takeSkin(const std::string& name, const json& body) {
         const auto moment = lastWordOf(name).first;
         auto* const score = moment == "before" ? &out_.skinBefore : moment == "after" ? &out_.skinAfter : nullptr;
-        const auto said = wholeNumber(textOr(body, "key"));
+        const auto said = parseWhole<int>(textOr(body, "key"));
         if (score == nullptr || !said) return;
         *score = std::max(score->value_or(0), *said);
     }

@@ -8,6 +8,7 @@
 #include <zip.h>
 
 #include "core/base/Text.h"
+#include "core/base/WholeNumber.h"
 #include "core/formats/ByteFile.h"
 
 namespace tacto::sigrok_driver {
@@ -44,11 +45,8 @@ std::optional<std::uint64_t> numberIn(const Values& values, std::string_view key
                                       std::uint64_t most) {
     const auto found = values.find(key);
     if (found == values.end()) return otherwise;
-    std::uint64_t number = 0;
-    const char* const end = found->second.data() + found->second.size();
-    const auto read = std::from_chars(found->second.data(), end, number);
-    if (read.ec != std::errc() || read.ptr != end || number > most) return std::nullopt;
-    return number;
+    const auto number = parseWhole<std::uint64_t>(found->second);
+    return number && *number <= most ? number : std::nullopt;
 }
 
 /// Whether libsigrok understands `text` as the frequency that a reader would: "1 MHz", "2.5 kHz", "44100".

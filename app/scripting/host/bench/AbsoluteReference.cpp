@@ -48,9 +48,9 @@ Result<Level> levelAt(ScriptSession& session, double volts, double range_V) {
     settings.voltageRange = Volts(range_V);
     settings.triggerLevel = 0.98 * range_V;  // nothing reaches it
     if (auto asked = bench.requestCaptures(1, settings, Seconds(0.2)); !asked) return failure(asked);
-    constexpr double kTimeout_s = 10, kLook_s = 0.05;
-    for (double waited = 0; waited < kTimeout_s; waited += kLook_s) {
-        if (auto passed = bench.wait(Seconds(kLook_s)); !passed) return failure(passed);
+    constexpr double kTimeout_s = 10, kPoll_s = 0.05;
+    for (double waited = 0; waited < kTimeout_s; waited += kPoll_s) {
+        if (auto passed = bench.wait(Seconds(kPoll_s)); !passed) return failure(passed);
         auto captures = bench.takeCaptures();
         if (!captures) return failure(captures);
         if (captures->empty()) continue;

@@ -141,6 +141,12 @@ std::vector<HostFunction> benchFunctions() {
              "amplitude_v, interval_s, impedance_ohm, imbalance, trains_delivered, trains_refused, trains_skipped, "
              "last_refusal, samples_lost, gaps }; amplitude_v and interval_s are the encoder's command.",
          .call = host::bench::live},
+        {.name = "watch",
+         .parameters = {number("seconds", "s", "how long; a recording ends by itself").range(0.1, 86'400)},
+         .text = "Lets time pass and reads live() meanwhile: every 50 ms, and less often the longer it takes.",
+         .returns = "List of what live() returns, for plot.timeline(); 2000 at most.",
+         .errors = "Throws when the run is stopped or a device fails.",
+         .call = host::bench::watch},
         {.name = "exposure",
          .text = "The largest exposure seen in this run against each limit, at the ends of wait() and capture().",
          .returns = "Rows { name, value, limit, unit, source, warning, reason } for plot.exposure(); value null: not "

@@ -14,13 +14,13 @@ HostCall arm, disarm, wait, drive, fitLoad;  // Output.cpp
 HostCall capture;                            // Captures.cpp
 HostCall loads, predict, attempt;            // Prediction.cpp
 HostCall setEncoding, setElectrodeArea, electrodeArea, storedCalibration, useCalibration,
-    useFingertipScales;                                                  // RunSettings.cpp
-HostCall conditions, live, exposure, finished, replayed, time, devices;  // State.cpp
-HostCall present, lift, measureReference, setReferences;                 // Surfaces.cpp
-HostCall streams, measureRest, measureSlide, measureWeight;              // Fingertip.cpp
-HostCall profilometer, surfaces, weights;                                // GivenSurfaces.cpp
-HostCall readReference;                                                  // AbsoluteReference.cpp
-HostCall step, traverse;                                                 // Steps.cpp
-HostCall inChecking, whileDelivering, bySilence;                         // Trips.cpp
+    useFingertipScales;                                                         // RunSettings.cpp
+HostCall conditions, live, watch, exposure, finished, replayed, time, devices;  // State.cpp
+HostCall present, lift, measureReference, setReferences;                        // Surfaces.cpp
+HostCall streams, measureRest, measureSlide, measureWeight;                     // Fingertip.cpp
+HostCall profilometer, surfaces, weights;                                       // GivenSurfaces.cpp
+HostCall readReference;                                                         // AbsoluteReference.cpp
+HostCall step, traverse;                                                        // Steps.cpp
+HostCall inChecking, whileDelivering, bySilence;                                // Trips.cpp
 
 }  // namespace tacto::host::bench

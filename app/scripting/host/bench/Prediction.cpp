@@ -150,10 +150,10 @@ Result<Attempt> attemptCommand(Bench& bench, double R, double P) {
     const Seconds longest = 2 * Seconds(bench.profile().encoding.intervalMax);
     Result<void> waited;
     double passed_s = 0;
-    constexpr double kLook_s = 0.05;
+    constexpr double kPoll_s = 0.05;
     while (waited && passed_s < longest.count() && bench.telemetry().trainsDelivered == before) {
-        waited = bench.wait(Seconds(kLook_s));
-        passed_s += kLook_s;
+        waited = bench.wait(Seconds(kPoll_s));
+        passed_s += kPoll_s;
     }
     if (auto off = bench.drive(DriveSource::Off); !off) return failure(off);
     if (!waited && waited.error().code != ErrorCode::LimitExceeded) return failure(waited);

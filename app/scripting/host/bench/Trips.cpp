@@ -13,7 +13,7 @@ namespace tacto::host::bench {
 
 namespace {
 
-constexpr double kTripLook_s = 0.02;
+constexpr double kTripPoll_s = 0.02;
 
 Json trial(std::string_view name, bool evaluated, bool tripped, double after_s, std::string_view reason) {
     return {{"name", name},     {"evaluated", evaluated},   {"tripped", tripped}, {"after_s", numberOrNull(after_s)},
@@ -63,8 +63,8 @@ Result<void> startTrains(ScriptSession& session, const std::string& load, double
     const double R = texture ? strength : 1, P = texture ? 1 : strength;
     if (auto driven = bench.drive(DriveSource::Manual, R, P); !driven) return driven;
     const double longest_s = 4 * bench.profile().encoding.intervalMax.count();
-    for (double t = 0; t < longest_s && bench.telemetry().trainsDelivered < before + 2; t += kTripLook_s) {
-        if (auto waited = bench.wait(Seconds(kTripLook_s)); !waited) return waited;
+    for (double t = 0; t < longest_s && bench.telemetry().trainsDelivered < before + 2; t += kTripPoll_s) {
+        if (auto waited = bench.wait(Seconds(kTripPoll_s)); !waited) return waited;
     }
     if (bench.telemetry().trainsDelivered >= before + 2) return {};
     return fail(ErrorCode::Timeout, "no two trains were delivered into {} within {:.1f} s", load, longest_s);
@@ -150,7 +150,7 @@ Result<Json> whileDelivering(ScriptSession& session, const Arguments& arguments)
     const auto delivered = bench.telemetry().trainsDelivered;
     if (auto fitted = change(session, changed, commandFor(becomes, load)); !fitted) return failure(fitted);
     Result<void> waited;
-    while (waited && toSeconds(session.now() - begun) < within) waited = bench.wait(Seconds(kTripLook_s));
+    while (waited && toSeconds(session.now() - begun) < within) waited = bench.wait(Seconds(kTripPoll_s));
     const double after_s = toSeconds(session.now() - begun);
     const auto cause = becomes == "short" ? FaultCause::ShortElectrode : FaultCause::OpenElectrode;
     const auto seen = bench.telemetry();

@@ -7,10 +7,10 @@ namespace tacto {
 
 std::vector<HostFunction> loadsFunctions() {
     using namespace takes;
-    constexpr double kMostCommands = 101;
+    constexpr double kMaxCommands = 101;
     const auto resistor = text("load", "a resistor or a skin equivalent");
     const auto count =
-        whole("count", "how many, from the weakest amplitude to the strongest in even steps").range(2, kMostCommands);
+        whole("count", "how many, from the weakest amplitude to the strongest in even steps").range(2, kMaxCommands);
     const auto command = object("command", "from loads.commands() or loads.strongest()");
     const auto commandLoad = text("command.load", "the load that is armed");
     const auto strength = number("command.strength", "", "0 the weakest amplitude to 1 the strongest").range(0, 1);

@@ -10,18 +10,11 @@ namespace tacto::host::operators {
 
 namespace {
 
-Result<OperatorQuestion> questionFrom(const Arguments& arguments, OperatorQuestion::Kind kind) {
-    const auto name = arguments.text("name");
-    const auto text = arguments.text("text");
-    constexpr std::size_t kMaxText = 2000;  // more than one reads, and than a window draws at once
-    if (text.size() > kMaxText) {
-        return fail(ErrorCode::InvalidArgument, "the question \"{}\" has {} characters; at most {} are accepted", name,
-                    text.size(), kMaxText);
-    }
+OperatorQuestion questionFrom(const Arguments& arguments, OperatorQuestion::Kind kind) {
     OperatorQuestion question;
     question.kind = kind;
-    question.name = name;
-    question.text = text;
+    question.name = arguments.text("name");
+    question.text = arguments.text("text");
     return question;
 }
 
@@ -34,42 +27,39 @@ bool isSimulated(const DeviceSet& devices) {
 
 Result<Json> confirm(ScriptSession& session, const Arguments& arguments) {
     auto question = questionFrom(arguments, OperatorQuestion::Kind::Confirm);
-    if (!question) return failure(question);
     const auto drawing = arguments.text("options.drawing");
     if (!drawing.empty()) {
         if (const auto file = drawingFile(drawing); !file) return failure(file);
     }
-    question->drawing = drawing;
-    return session.ask(*question);
+    question.drawing = drawing;
+    return session.ask(question);
 }
 
 Result<Json> choose(ScriptSession& session, const Arguments& arguments) {
     auto question = questionFrom(arguments, OperatorQuestion::Kind::Choose);
-    if (!question) return failure(question);
     const Json& choices = arguments.any("choices");
     if (choices.is_object()) {
         for (const auto& [key, text] : choices.items()) {
-            question->choices.emplace_back(key, text.is_string() ? text.get<std::string>() : key);
+            question.choices.emplace_back(key, text.is_string() ? text.get<std::string>() : key);
         }
     } else if (choices.is_array()) {
         for (const auto& key : choices) {
-            if (key.is_string()) question->choices.emplace_back(key.get<std::string>(), key.get<std::string>());
+            if (key.is_string()) question.choices.emplace_back(key.get<std::string>(), key.get<std::string>());
         }
     }
-    if (question->choices.size() < 2) {
+    if (question.choices.size() < 2) {
         return arguments.wrong("choices", choices, "a list of at least two texts, or an object of them");
     }
-    return session.ask(*question);
+    return session.ask(question);
 }
 
 Result<Json> enter(ScriptSession& session, const Arguments& arguments) {
     auto question = questionFrom(arguments, OperatorQuestion::Kind::Enter);
-    if (!question) return failure(question);
-    question->unit = arguments.text("options.unit");
-    question->number = !arguments.flag("options.text");
-    if (arguments.has("options.min")) question->min = arguments.number("options.min");
-    if (arguments.has("options.max")) question->max = arguments.number("options.max");
-    return session.ask(*question);
+    question.unit = arguments.text("options.unit");
+    question.number = !arguments.flag("options.text");
+    if (arguments.has("options.min")) question.min = arguments.number("options.min");
+    if (arguments.has("options.max")) question.max = arguments.number("options.max");
+    return session.ask(question);
 }
 
 Result<Json> wired(ScriptSession& session, const Arguments& arguments) {

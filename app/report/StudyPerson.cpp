@@ -1,0 +1,256 @@
+#include "app/report/StudyPerson.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/report/FigureDrawing.h"
+#include "app/report/StudyPredicted.h"
+#include "app/report/StudyPreferences.h"
+#include "app/report/StudyText.h"
+#include "app/report/StudyVibration.h"
+#include "core/analysis/identification/Encodings.h"
+#include "core/analysis/identification/IdentificationText.h"
+#include "core/base/Statistics.h"
+
+namespace tacto {
+
+namespace {
+
+std::vector<IdentificationTrial> trialsOf(const BidsSession& session) {
+    std::vector<IdentificationTrial> trials;
+    for (const auto& row : session.trials) trials.push_back(row.trial);
+    return trials;
+}
+
+PresentedRange rangeOf(const BidsSession& session) {
+    PresentedRange range;
+    if (std::isfinite(session.low.value()) && std::isfinite(session.high.value())) {
+        range.low = session.low;
+        range.high = session.high;
+        range.impedance = session.impedance;
+        range.lowVoltage = Volts(session.low.value() * session.impedance.value() / 1000);
+        range.highVoltage = Volts(session.high.value() * session.impedance.value() / 1000);
+    }
+    if (std::isfinite(session.lowIntensity) && std::isfinite(session.highIntensity)) {
+        range.lowIntensity = session.lowIntensity;
+        range.highIntensity = session.highIntensity;
+    }
+    return range;
+}
+
+double medianResponse_s(const BidsSession& session) {
+    std::vector<double> times;
+    for (const auto& row : session.trials) {
+        if (row.trial.phase == TrialPhase::Test && std::isfinite(row.trial.rt_s)) times.push_back(row.trial.rt_s);
+    }
+    return statisticsOf(times).median;
+}
+
+void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const AnalysedSession& one,
+                  const QString& caption, bool simulated) {
+    ConfusionFigure figure;
+    figure.answers = "answered";
+    for (const auto& label : one.found.labels) figure.labels << qtext(label);
+    for (const auto& column : one.found.columns) figure.columns << qtext(column);
+    for (const auto& row : one.found.confusion) figure.counts.emplace_back(row.begin(), row.end());
+    figure.accuracy = one.found.all.accuracy;
+    const Figure drawn{figure, {}};
+    blocks.emplace_back(
+        FigureBlock{captions.figure(caption, simulated), figureLegend(drawn), drawFigure(drawn, simulated)});
+}
+
+QString learningText(const Identification& found) {
+    if (!std::isfinite(found.learning.value)) return "cannot be determined";
+    return QString("%1 (%2 to %3) in log odds per block")
+        .arg(figureText(found.learning.value, 2), figureText(found.learning.low, 2),
+             figureText(found.learning.high, 2));
+}
+
+void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
+    const auto& found = one.found;
+    FactsBlock facts;
+    facts.oneColumn = true;
+    const auto chance = qtext(chanceText(found.all.pChance));
+    facts.facts = {{"By chance", QString("p %1, exact and one-sided against %2 %")
+                                     .arg(chance.startsWith('<') ? chance : "= " + chance)
+                                     .arg(100 * found.all.chance, 0, 'f', 0)},
+                   {"Information", QString("%1 bit, of which chance gives %2 bit; corrected %3 bit")
+                                       .arg(figureText(found.all.it_bits, 2), figureText(found.all.itBias_bits, 2),
+                                            figureText(found.all.itCorrected_bits, 2))}};
+    for (const auto& [name, feature] :
+         {std::pair{"Texture alone", &found.texture}, {"Pressure alone", &found.pressure}}) {
+        if (!*feature) continue;
+        const auto& figures = (*feature)->figures;
+        facts.facts.push_back(
+            {name, QString("%1 of %2, %3; corrected information %4 bit, d′ %5, criterion %6")
+                       .arg(figures.hits)
+                       .arg(figures.n)
+                       .arg(shareText(figures.accuracy), figureText(figures.itCorrected_bits, 2),
+                            figureText((*feature)->dPrime, 2), figureText((*feature)->criterion, 2))});
+    }
+    facts.facts.push_back({"Catch trials", QString("%1 of %2 answered with a name, exact 95 % interval up to %3 %")
+                                               .arg(found.catches.falseAlarms)
+                                               .arg(found.catches.n)
+                                               .arg(100 * found.catches.rate.high, 0, 'f', 0)});
+    facts.facts.push_back({"Learning over blocks", learningText(found)});
+    facts.facts.push_back(
+        {"After the same condition", shareText(wilsonInterval(found.afterSame.hits, found.afterSame.n))});
+    facts.facts.push_back({"After another", shareText(wilsonInterval(found.afterOther.hits, found.afterOther.n))});
+    facts.facts.push_back({"Precision", qtext(precisionSentence(found.all.n, found.all.chance))});
+    if (found.noAnswer > 0) facts.facts.push_back({"Without an answer", QString("%1 trial(s)").arg(found.noAnswer)});
+    blocks.emplace_back(std::move(facts));
+}
+
+void addRatings(std::vector<ReportBlock>& blocks, Captions& captions, const BidsSession& session,
+                const std::string& name) {
+    if (session.ratings.empty()) return;
+    constexpr std::string_view kItems[] = {"intensity", "unpleasantness", "pain", "naturalness", "qualities"};
+    TableBlock table;
+    table.caption = captions.table(QString("%1, session %2: ratings").arg(qtext(name)).arg(session.number));
+    table.columns = {
+        {"Condition"}, {"Intensity, 0 to 10", true}, {"Unpleasantness", true}, {"Pain", true}, {"Naturalness"},
+        {"Felt like"}};
+    for (const auto& label : session.labels) {
+        QStringList row = {qtext(label)};
+        for (const auto item : kItems) {
+            const auto rated = std::ranges::find_if(session.ratings, [&](const BidsRating& rating) {
+                return rating.condition == label && rating.item == item;
+            });
+            const bool isRated = rated != session.ratings.end() && !rated->value.empty();
+            row << (isRated ? qtext(rated->value).replace(',', ", ").replace('-', ' ') : QString("–"));
+        }
+        table.rows.push_back(std::move(row));
+    }
+    blocks.emplace_back(std::move(table));
+}
+
+void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const std::string& name,
+                  const std::vector<AnalysedSession>& sessions) {
+    std::vector<EncodingResult> results;
+    std::set<std::string> met;
+    for (const auto& one : sessions) {
+        const auto& encoding = one.session->results.encoding;
+        if (!met.insert(encoding).second) continue;  // the first session with each
+        std::set<std::size_t> training;
+        for (const auto& row : one.session->results.trials) {
+            if (row.trial.phase == TrialPhase::Training) training.insert(row.trial.block);
+        }
+        results.push_back({.encoding = encoding,
+                           .n = one.found.all.n,
+                           .hits = one.found.all.hits,
+                           .trainingBlocks = training.size(),
+                           .medianResponse_s = medianResponse_s(one.session->results),
+                           .naturalness = naturalnessOf(one.session->results)});
+    }
+    if (results.size() < 2) return;
+    const auto compared = compareEncodings(std::move(results));
+    TableBlock table;
+    table.caption = captions.table(qtext(name) + ": encodings, in the order in which the person had them");
+    table.columns = {{"Encoding"},
+                     {"Right", true},
+                     {"Trials", true},
+                     {"Training blocks", true},
+                     {"Median response (s)", true},
+                     {"Naturalness, 1 to 5", true}};
+    for (const auto& each : compared.encodings) {
+        table.rows.push_back({qtext(each.encoding), QString::number(each.hits), QString::number(each.n),
+                              QString::number(each.trainingBlocks), figureText(each.medianResponse_s, 2),
+                              figureText(each.naturalness, 1)});
+    }
+    blocks.emplace_back(std::move(table));
+    for (const auto& pair : compared.pairs) {
+        blocks.emplace_back(
+            ParagraphBlock{QString("%1 minus %2: %3 percentage points (Newcombe).")
+                               .arg(qtext(pair.a), qtext(pair.b), shareText(pair.difference).remove(" %"))});
+    }
+}
+
+/// A sentence for each session in which there was no room for the test.
+QStringList unusableRanges(const ParticipantRecord& participant) {
+    QStringList said;
+    for (const auto& session : participant.sessions) {
+        if (session.results.rangeNotUsable.empty()) continue;
+        said << QString("Session %1 had no usable range, and so no test: %2.")
+                    .arg(session.results.number)
+                    .arg(qtext(session.results.rangeNotUsable));
+    }
+    return said;
+}
+
+/// As they measured it last.
+double amplitudeWeberOf(const ParticipantRecord& participant) {
+    double weber = kNaN;
+    for (const auto& session : participant.sessions) {
+        if (std::isfinite(session.results.amplitudeWeber)) weber = session.results.amplitudeWeber;
+    }
+    return weber;
+}
+
+}  // namespace
+
+Result<StudyPerson> StudyPerson::analysed(const ParticipantRecord& participant) {
+    StudyPerson made(participant);
+    for (const auto& session : participant.sessions) {
+        auto found = identify(trialsOf(session.results), session.results.labels);
+        if (!found) return failure(found);
+        made.sessions_.push_back({&session, std::move(*found)});
+    }
+    return made;
+}
+
+std::vector<AnalysedSession> StudyPerson::tested() const {
+    auto all = sessions_;
+    std::erase_if(all, [](const AnalysedSession& one) { return one.found.all.n == 0; });
+    return all;
+}
+
+PersonResult StudyPerson::result() const {
+    PersonResult person{.name = name(), .usable = true, .figures = {}};
+    const auto sessions = tested();
+    if (sessions.empty())
+        person.usable = hasUsableRange(participant_->sessions.back().results);
+    else
+        person.figures = sessions.front().found.all;
+    return person;
+}
+
+void StudyPerson::addHeadlines(std::vector<ReportBlock>& blocks) const {
+    for (const auto& one : tested())
+        blocks.emplace_back(ParagraphBlock{qtext(headline(name(), one.found, rangeOf(one.session->results)))});
+}
+
+Result<void> StudyPerson::add(std::vector<ReportBlock>& blocks, Captions& captions, Modality modality,
+                              bool simulated) const {
+    const bool massager = modality == Modality::Massager;
+    const auto sessions = tested();
+    const auto unusable = unusableRanges(*participant_);
+    if (sessions.empty() && unusable.empty() && participant_->sessions.size() < 2) return {};
+    blocks.emplace_back(captions.heading(qtext(name())));
+    for (const auto& sentence : unusable) blocks.emplace_back(ParagraphBlock{sentence});
+    for (const auto& one : sessions) {
+        if (auto added = addSession(blocks, captions, one, massager, simulated); !added) return added;
+    }
+    addEncodings(blocks, captions, name(), sessions);
+    if (const auto preferred = preferenceText(*participant_); !preferred.isEmpty())
+        blocks.emplace_back(ParagraphBlock{preferred});
+    return addOverSessions(blocks, captions, name(), sessions_, massager);
+}
+
+Result<void> StudyPerson::addSession(std::vector<ReportBlock>& blocks, Captions& captions, const AnalysedSession& one,
+                                     bool massager, bool simulated) const {
+    const auto& results = one.session->results;
+    const auto caption = [&](const QString& what) {
+        return QString("%1, session %2%3").arg(qtext(name())).arg(results.number).arg(what);
+    };
+    addConfusion(blocks, captions, one,
+                 caption(QString(", encoding %1: presented and answered").arg(qtext(results.encoding))), simulated);
+    addFacts(blocks, one);
+    const auto predicted = caption(": predicted from the detection threshold, and answered");
+    if (auto added = addPredicted(blocks, captions, predicted, one, amplitudeWeberOf(*participant_), massager); !added)
+        return added;
+    addRatings(blocks, captions, results, name());
+    return massager ? addVibration(blocks, captions, results, name()) : Result<void>();
+}
+
+}  // namespace tacto

@@ -1,0 +1,23 @@
+// EncodingTurn.h - which of a study's encodings a participant's session has. Each participant has them in an order of
+// their own (Encodings.h), one a session; one whose session was not completed comes again.
+//
+// Thread-safety: as Study.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/study/Study.h"
+
+namespace tacto {
+
+struct EncodingTurn {
+    std::string encoding = "standard";
+    std::string earlier;  ///< another, that the participant had in a complete session with test trials; empty: none
+};
+
+/// `continued`: the session that goes on, with the encoding that it began with.
+[[nodiscard]] EncodingTurn encodingTurn(const Study& study, const Participant& who,
+                                        const std::optional<StudySession>& continued);
+
+}  // namespace tacto

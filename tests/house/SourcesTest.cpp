@@ -1,0 +1,65 @@
+// A file is a thing, named after it; a line fits in 120 columns; the environment is asked where the user's data lie in
+// one place.
+#include <fstream>
+#include <gmock/gmock.h>
+#include <regex>
+
+#include "tests/support/Support.h"
+
+namespace tacto {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxColumns = 120;
+
+/// Calls `see` with each source and header below `folders`, relative to the tree, and its text.
+void forSources(std::initializer_list<const char*> folders,
+                const std::function<void(const fs::path&, const std::string&)>& see) {
+    for (const char* folder : folders) {
+        for (const auto& entry : fs::recursive_directory_iterator(test::sourceDir() / folder)) {
+            const auto ending = entry.path().extension();
+            if (ending != ".cpp" && ending != ".h" && ending != ".c" && ending != ".js") continue;
+            std::ifstream in(entry.path(), std::ios::binary);
+            see(fs::relative(entry.path(), test::sourceDir()), {std::istreambuf_iterator<char>(in), {}});
+        }
+    }
+}
+
+/// Code points of UTF-8.
+std::size_t columnsOf(std::string_view line) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(line, [](char each) { return (static_cast<unsigned char>(each) & 0xC0) != 0x80; }));
+}
+
+TEST(Sources, ALineFitsIn120Columns) {
+    std::size_t lines = 0;
+    forSources({"app", "core", "drivers", "tests", "resources"}, [&](const fs::path& file, const std::string& text) {
+        std::size_t number = 0;
+        for (std::size_t from = 0; from < text.size(); ++lines) {
+            const auto end = std::min(text.find('\n', from), text.size());
+            ++number;
+            EXPECT_LE(columnsOf(std::string_view(text).substr(from, end - from)), kMaxColumns) << file << ":" << number;
+            from = end + 1;
+        }
+    });
+    EXPECT_GT(lines, 100'000U);
+}
+
+TEST(Sources, AFileIsAThingAndNoRestOfOne) {
+    static const std::regex rest(R"(.*(Parts|Helpers?|Utils?|Manager|Misc|Common)$)");
+    forSources({"app", "core", "drivers", "tests"}, [](const fs::path& file, const std::string&) {
+        EXPECT_FALSE(std::regex_match(file.stem().string(), rest)) << file;
+    });
+}
+
+TEST(Sources, TheUsersDataLieWhereOneFunctionSays) {
+    std::vector<std::string> asking;
+    forSources({"app", "core", "drivers"}, [&](const fs::path& file, const std::string& text) {
+        if (text.find("getenv(\"XDG_DATA_HOME\")") != std::string::npos) asking.push_back(file.string());
+    });
+    EXPECT_THAT(asking, testing::ElementsAre("core/base/DataFolder.cpp"));
+}
+
+}  // namespace
+}  // namespace tacto

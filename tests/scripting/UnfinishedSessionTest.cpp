@@ -1,0 +1,116 @@
+// A session that was begun and not ended: what becomes of it before the next, and the participant that settings
+// describe.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/run/EncodingTurn.h"
+#include "app/run/UnfinishedSession.h"
+#include "app/run/VirtualPerson.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr const char* kProtocol = "pilot-thresholds";
+
+class UnfinishedSessionTest : public testing::Test {
+protected:
+    void SetUp() override {
+        auto made = Study::createRehearsal(scratch_.path() / "study", settings_);
+        ASSERT_TRUE(made) << made.error().message;
+        study_.emplace(std::move(*made));
+        Participant participant;
+        participant.virtualSeed = 7;
+        const auto enrolled = study_->enrol(participant).value();
+        ASSERT_TRUE(study_->consent(enrolled.code, {"rehearsal", study_->today(), "AL"}));
+        who_ = study_->find("virtual:7").value();
+        request_.code = who_.code;
+        request_.script = {kProtocol, std::string(64, 'a')};
+        request_.encoding = "standard";
+        request_.codeConfirmed = request_.devicesSimulated = true;
+        request_.exclusions = nothingExcludes();
+    }
+    Result<UnfinishedSession> choose(const std::string& wanted, const std::string& protocol = kProtocol) {
+        return UnfinishedSession::choose(*study_, who_, {wanted, protocol, false});
+    }
+
+    ScratchDir scratch_;
+    StudySettings settings_;
+    std::optional<Study> study_;
+    Participant who_;
+    SessionRequest request_;
+    std::vector<std::string> remarks_;
+};
+
+TEST_F(UnfinishedSessionTest, WhereThereIsNoneASessionBegins) {
+    const auto none = choose("").value();
+    EXPECT_FALSE(none.continued());
+    EXPECT_TRUE(none.sameProcedure("0123456789abcdef"));
+    EXPECT_EQ(none.begin(*study_, request_, remarks_).value().session.number, 1);
+    EXPECT_THAT(remarks_, IsEmpty());
+}
+
+TEST_F(UnfinishedSessionTest, ItGoesOnOnlyWhereThatIsWantedAndWithItsOwnProtocol) {
+    const auto first = study_->beginSession(request_).value();
+    EXPECT_EQ(choose("").error().code, ErrorCode::NotFound);
+    EXPECT_THAT(choose("resume", "pilot-identification").error().message, HasSubstr("it goes on with that protocol"));
+    const auto goesOn = choose("resume").value();
+    ASSERT_TRUE(goesOn.continued());
+    const auto part = goesOn.begin(*study_, request_, remarks_).value();
+    EXPECT_EQ(part.session.id, first.session.id);
+    EXPECT_EQ(part.session.parts.size(), 2U);
+}
+
+TEST_F(UnfinishedSessionTest, ItEndsOnceEveryGateLetsAnotherBegin) {
+    RecordProperty("hazard", "H8");
+    const auto first = study_->beginSession(request_).value();
+    const auto ends = choose("end").value();
+    request_.codeConfirmed = false;
+    EXPECT_EQ(ends.begin(*study_, request_, remarks_).error().code, kGateRefused);
+    EXPECT_EQ(study_->session(first.session.id).value().state, StudySessionState::Unfinished);
+    EXPECT_THAT(remarks_, IsEmpty());
+    request_.codeConfirmed = true;
+    EXPECT_EQ(ends.begin(*study_, request_, remarks_).value().session.number, 2);
+    EXPECT_EQ(study_->session(first.session.id).value().state, StudySessionState::Stopped);
+    EXPECT_THAT(remarks_, ElementsAre("Session 1 of " + who_.code + " was ended as stopped."));
+}
+
+class EncodingTurnTest : public UnfinishedSessionTest {
+protected:
+    EncodingTurnTest() { settings_.encodings = {"standard", "swapped"}; }
+};
+
+TEST_F(EncodingTurnTest, TheSecondPersonHasTheEncodingsInAnotherOrder) {
+    EXPECT_EQ(encodingTurn(*study_, who_, std::nullopt).encoding, "standard");
+    auto second = who_;
+    second.enrolled = 2;
+    EXPECT_EQ(encodingTurn(*study_, second, std::nullopt).encoding, "swapped");
+}
+
+TEST_F(EncodingTurnTest, ASessionThatGoesOnKeepsItsEncoding) {
+    StudySession begun;
+    begun.encoding = "swapped";
+    EXPECT_EQ(encodingTurn(*study_, who_, begun).encoding, "swapped");
+}
+
+TEST(VirtualPerson, IsNamedByAWholeNumber) {
+    EXPECT_EQ(virtualSeed("virtual:7").value(), 7U);
+    EXPECT_EQ(virtualSeed("P-7K3D").value(), std::nullopt);
+    for (const auto* wrong : {"virtual:", "virtual:-1", "virtual:7a", "virtual:18446744073709551616"})
+        EXPECT_EQ(virtualSeed(wrong).error().code, ErrorCode::NotFound) << wrong;
+}
+
+TEST(VirtualPerson, AnswersNoToEachItemButTheOneNamed) {
+    const auto key = std::string(exclusionItems().front().key);
+    EXPECT_TRUE(exclusionGate(virtualAnswers(nlohmann::json::object()).value()));
+    EXPECT_FALSE(exclusionGate(virtualAnswers({{"exclusions", key}}).value()));
+    EXPECT_THAT(virtualAnswers({{"exclusions", "left-handed"}}).error().message, HasSubstr(key));
+}
+
+}  // namespace
+}  // namespace tacto::test
