@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -27,7 +28,7 @@ QString settingOf(const QString& view, const FoldingDock& dock) {
 
 }  // namespace
 
-/// A dock's icon, and its name and key figure along the edge, to be read from top to bottom.
+/// A dock's icon, and its name and key figure along the edge, to be read from top to bottom, where there is room.
 class StripButton final : public QToolButton {
 public:
     StripButton(FoldingDock& dock, QWidget* parent) : QToolButton(parent), dock_(dock) {
@@ -36,15 +37,21 @@ public:
         setToolTip(DockColumn::tr("Show %1").arg(dock.windowTitle()));
         refresh();
     }
-    void refresh() {
+    /// Whether it says something else now.
+    bool refresh() {
         const auto figure = dock_.keyFigure();
         const auto text = figure.isEmpty() ? dock_.windowTitle() : dock_.windowTitle() + " · " + figure;
-        if (std::exchange(text_, text) == text) return;
+        if (std::exchange(text_, text) == text) return false;
         setAccessibleDescription(figure);
         updateGeometry();
         update();
+        return true;
+    }
+    void setWorded(bool worded) {
+        if (std::exchange(worded_, worded) != worded) updateGeometry();
     }
     [[nodiscard]] QSize sizeHint() const override {
+        if (!worded_) return {kStripWidth, kStripIcon + 2 * kStripGap};
         const QFontMetrics words(textFont(TextSize::Small));
         return {kStripWidth, kStripIcon + words.horizontalAdvance(text_) + 4 * kStripGap};
     }
@@ -61,8 +68,9 @@ protected:
         painter.setPen(c.quiet);
         painter.translate(width(), kStripIcon + 2 * kStripGap);
         painter.rotate(90);
-        painter.drawText(QRect(0, 0, height() - kStripIcon - 2 * kStripGap, width()), Qt::AlignLeft | Qt::AlignVCenter,
-                         text_);
+        if (worded_)
+            painter.drawText(QRect(0, 0, height() - kStripIcon - 2 * kStripGap, width()),
+                             Qt::AlignLeft | Qt::AlignVCenter, text_);
         painter.resetTransform();
         if (!hasFocus()) return;
         painter.setPen(QPen(c.text, 2));
@@ -72,6 +80,7 @@ protected:
 private:
     FoldingDock& dock_;
     QString text_;
+    bool worded_ = true;
 };
 
 DockColumn::DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks)
@@ -107,6 +116,8 @@ DockColumn::DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks)
     }
     window_.addToolBar(Qt::RightToolBarArea, strip_);
     window_.installEventFilter(this);
+    strip_->installEventFilter(this);
+    afterLookChange(*strip_, [this] { fitStrip(); });
     apply();
 }
 
@@ -171,7 +182,18 @@ void DockColumn::setHidden(Hidden why, bool hidden) {
 
 void DockColumn::refresh() {
     if (!strip_->isVisible()) return;
-    for (auto* button : buttons_) button->refresh();
+    bool changed = false;
+    for (auto* button : buttons_) changed = button->refresh() || changed;
+    if (changed) fitStrip();
+}
+
+/// From below they keep their icons alone until all of them are in sight.
+void DockColumn::fitStrip() {
+    for (auto* button : buttons_) button->setWorded(true);
+    for (auto button = buttons_.rbegin(); button != buttons_.rend(); ++button) {
+        if (strip_->sizeHint().height() <= strip_->height()) return;
+        (*button)->setWorded(false);
+    }
 }
 
 void DockColumn::apply() {
@@ -217,6 +239,7 @@ void DockColumn::share() {
 
 bool DockColumn::eventFilter(QObject* watched, QEvent* event) {
     if (watched == &window_ && event->type() == QEvent::Resize) QTimer::singleShot(0, this, &DockColumn::share);
+    if (watched == strip_ && event->type() == QEvent::Resize) fitStrip();
     return QObject::eventFilter(watched, event);
 }
 

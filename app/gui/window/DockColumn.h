@@ -54,6 +54,7 @@ protected:
 
 private:
     void apply();
+    void fitStrip();
     void foldAsLeft();
     void share();
 

@@ -251,6 +251,26 @@ TEST_F(Layout, DocksCollapseToAStripThatKeepsTheirKeyFigures) {
     EXPECT_FALSE(bar("dockStrip").isVisible()) << "each workspace keeps its own";
 }
 
+TEST_F(Layout, InLargeTextEveryDockIsInSightInTheStrip) {
+    gui::applyTextSize(200);
+    window.resize(1280, 720);
+    window.showWorkspace(5);
+    const auto hidden = [this] {
+        QStringList names;
+        auto& strip = bar("dockStrip");
+        for (const auto* name : {"Drive", "Measurements", "Exposure", "Devices"}) {
+            const auto* button = find<QToolButton>(strip, name);
+            if (button == nullptr || !button->isVisible() || !strip.rect().contains(button->geometry())) names << name;
+        }
+        return names.join(' ').toStdString();
+    };
+    static_cast<void>(comesTrue([&] { return hidden().empty(); }, 3000));
+    EXPECT_EQ(hidden(), "");
+    shot(window, "strip-200");
+    gui::applyTextSize(100);
+    window.showWorkspace(0);
+}
+
 TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen) {
     RecordProperty("hazard", "H2");
     open();
