@@ -12,7 +12,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLowLines = 30;  // below this height the cards lose their lines, so that the plot keeps its own
+constexpr int kLowLines = 26;  // below this height the cards are one line, so that the plot keeps its own
+constexpr int kCardsApart = 8, kCardsBelow = 4;
 
 }  // namespace
 
@@ -20,7 +21,7 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     setObjectName("calibrationView");
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(2);
+    column->setSpacing(kCardsBelow);
     column->addWidget(buildHead());
     plots_ = new QStackedWidget(this);
     errors_ = new CalibrationPlot(CalibrationPlot::Kind::Errors, plots_);
@@ -35,7 +36,7 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     });
     column->addWidget(plots_, 1);
     row_ = new QHBoxLayout;
-    row_->setSpacing(8);
+    row_->setSpacing(kCardsApart);
     column->addLayout(row_);
     begin({});
 }
@@ -62,6 +63,7 @@ QWidget* CalibrationView::buildHead() {
         tr("Residuals: each reading's distance from its command, in the tolerance band. Measured: each "
            "reading against its command, with the fitted line."));
     row->addWidget(kind_);
+    kind_->hide();  // until the plot is there
     return head;
 }
 
@@ -174,6 +176,16 @@ QString CalibrationView::quantityShown() const {
 
 void CalibrationView::arrange() {
     for (auto* card : cards_) card->setLow(height() < fontMetrics().height() * kLowLines);
+}
+
+void CalibrationView::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    kind_->show();
+}
+
+void CalibrationView::hideEvent(QHideEvent* event) {
+    QWidget::hideEvent(event);
+    if (!isAncestorOf(kind_)) kind_->hide();
 }
 
 void CalibrationView::resizeEvent(QResizeEvent* event) {

@@ -8,6 +8,7 @@
 #include "app/gui/calibrate/CalibrationView.h"
 #include "app/gui/calibrate/ToleranceCard.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -110,6 +111,17 @@ TEST_F(View, FollowsTheRunUntilOneIsChosen) {
     view.add(reading("gap up", 40, 40));
     view.draw();
     EXPECT_EQ(view.quantityShown(), "Amplitude");
+}
+
+TEST_F(View, LowItsCardsAreOneLineSoThatThePlotHasTheRoom) {
+    sweep();
+    auto* card = view.findChild<gui::ToleranceCard*>();
+    ASSERT_NE(card, nullptr);
+    view.resize(1000, 900);
+    EXPECT_IN_TIME(comesTrue([&] { return card->height() >= 80; })) << card->height();
+    view.resize(1000, 420);
+    EXPECT_IN_TIME(comesTrue([&] { return card->height() <= 40; })) << card->height();
+    EXPECT_GE(errors().height(), 340);
 }
 
 TEST_F(View, OtherTrialsAreNone) {
