@@ -1,6 +1,7 @@
 #include "app/gui/calibrate/CalibrationView.h"
 
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/ToleranceCard.h"
@@ -149,11 +150,17 @@ void CalibrationView::say() {
                         .arg(quantityTitle(shown.quantity)));
     const auto marked = std::count_if(shown.readings.begin(), shown.readings.end(),
                                       [](const CalibrationReading& reading) { return reading.outlier; });
-    QStringList said{tr("n = %1").arg(shown.readings.size())};
+    QStringList said;
     if (shown.fit) {
-        said << tr("gain %1").arg(decimalText(shown.fit->gain, 4));
-        said << tr("offset %1").arg(quantityText(shown.fit->offset, shown.unit, 3));
+        said << tr("gain %1").arg(std::isfinite(shown.gainExpanded)
+                                      ? quantityText(shown.fit->gain, shown.gainExpanded, {})
+                                      : decimalText(shown.fit->gain, 4));
+        said << tr("offset %1")
+                    .arg(std::isfinite(shown.offsetExpanded)
+                             ? quantityText(shown.fit->offset, shown.offsetExpanded, shown.unit)
+                             : quantityText(shown.fit->offset, shown.unit, 3));
     }
+    said << tr("n = %1").arg(shown.readings.size());
     said << (marked == 0 ? tr("no outliers") : tr("outliers, marked and kept: %1").arg(marked));
     says_->setText(said.join(" · "));
     says_->setToolTip(says_->text());

@@ -8,6 +8,8 @@
 #include <QTableWidget>
 #include <nlohmann/json.hpp>
 
+class QPainter;
+
 namespace tacto::gui {
 
 /// A cell's fill and hatch, and the shape of its verdict in the middle of `place`; "–" where nothing is judged.
@@ -26,7 +28,8 @@ public:
     /// Its rows share all the height that it is given; else it is no higher than they need.
     void setFillsHeight(bool fills);
     static constexpr int kInSight = 10;  ///< limits in sight before anything else has room below them
-    [[nodiscard]] QSize sizeHint() const override { return {QTableWidget::sizeHint().width(), heightOf(kInSight)}; }
+    static constexpr int kHinted = 6;    ///< a page that hints at more would be higher than its window
+    [[nodiscard]] QSize sizeHint() const override { return {QTableWidget::sizeHint().width(), heightOf(kHinted)}; }
 
 signals:
     /// A cell of a load was chosen by mouse or arrow key. `load` as the results name it ("500 ohm"), `unit` the

@@ -169,9 +169,8 @@ void RunViews::placeTracing(bool judged) {
     const bool high = views_->height() >= matrix_->heightOf(LimitMatrixView::kInSight) + disclosed_->leastHeight();
     const auto place = width() >= chars * kTracedFromChars ? Tracing::Beside : high ? Tracing::Below : Tracing::OwnView;
     using Outputs = DisclosedPanel::Outputs;
-    disclosed_->showOutputs(place != Tracing::Below                  ? Outputs::Below
-                            : width() >= chars * kDisclosedFromChars ? Outputs::Beside
-                                                                     : Outputs::Nowhere);
+    const bool roomy = place != Tracing::Beside && width() >= chars * kDisclosedFromChars;
+    disclosed_->showOutputs(roomy ? Outputs::Beside : place == Tracing::Below ? Outputs::Nowhere : Outputs::Below);
     disclosed_->setContentsMargins(place == Tracing::Beside ? kViewSide : 0, 0, 0, 0);
     matrix_->setFillsHeight(place != Tracing::Below);
     if (std::exchange(tracing_, place) == place) return;

@@ -117,9 +117,11 @@ QProgressBar::chunk { background: @bar; }
 QWidget#tabRow { background: @window; border-bottom: 1px solid @line; }
 QTabWidget::pane { border: none; border-top: 1px solid @line; }
 QTabBar { background: @window; qproperty-drawBase: 0; outline: none; }
-QTabBar::tab { background: @window; color: @quiet; border: none; border-right: 1px solid @line;
+QTabBar::tab { background: @window; color: @quiet; border: none; border-right: 1px solid transparent;
     border-top: 3px solid transparent; padding: 0 ~16; min-height: ~37; }
-QTabBar::tab:selected { background: @base; color: @text; border-top-color: @primary; font-weight: 600; }
+QTabBar::tab:selected { background: @base; color: @text; border-top-color: @primary; border-right-color: @line;
+    font-weight: 600; }
+QTabBar::tab:next-selected { border-right-color: @line; }
 QTabBar::tab:hover:!selected { background: @sunken; }
 QTabBar::tab:disabled { color: @edge; }
 QTabBar::tab:focus { text-decoration: underline; }

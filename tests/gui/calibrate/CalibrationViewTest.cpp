@@ -144,13 +144,16 @@ TEST_F(View, TheResultHasTheLastWord) {
         {{"amplitude",
           {{"unit", "V"},
            {"gain", 1.003},
-           {"offset", 0.0},
+           {"gain_expanded_uncertainty", 0.0047},
+           {"offset", 0.018},
+           {"offset_expanded_uncertainty", 0.049},
            {"tolerance_pct", 2.0},
            {"verdict", "pass"},
            {"levels", levels},
            {"readings",
             Json::array({{{"commanded", 10.0}, {"measured", 10.03}, {"direction", "up"}, {"outlier", true}},
                          {{"commanded", 40.0}, {"measured", 40.1}, {"direction", "down"}, {"outlier", false}}})}}}});
+    EXPECT_THAT(says(), HasSubstr("gain 1.0030 ± 0.0047 · offset 18 ± 49"));
     EXPECT_EQ(errors().drawnMeans(), 3);
     EXPECT_EQ(errors().drawnUp(), 1);
     EXPECT_EQ(errors().drawnMarked(), 1);
