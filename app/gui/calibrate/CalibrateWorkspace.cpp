@@ -1,5 +1,6 @@
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 
+#include <QHBoxLayout>
 #include <QTabBar>
 #include <QVBoxLayout>
 
@@ -11,12 +12,29 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr int kToolsRight = 16;
+
 /// As high as the window leaves it: a page whose labels wrap would ask for all that its plot likes to have, and what
 /// stands below the plot would be out of sight.
 class PageTabs final : public QTabWidget {
 public:
     using QTabWidget::QTabWidget;
     [[nodiscard]] bool hasHeightForWidth() const override { return false; }
+};
+
+/// At the right of the row of tabs, as high as they are.
+class TabTools final : public QWidget {
+public:
+    explicit TabTools(QTabWidget* tabs) : QWidget(tabs), tabs_(tabs) {
+        setObjectName("tabTools");
+        setAttribute(Qt::WA_StyledBackground);
+    }
+    [[nodiscard]] QSize sizeHint() const override {
+        return {QWidget::sizeHint().width(), tabs_->tabBar()->sizeHint().height()};
+    }
+
+private:
+    QTabWidget* tabs_;
 };
 
 }  // namespace
@@ -44,6 +62,12 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     tabs_->setTabToolTip(1, tr("Rest, weights and reference surfaces: what R and the forces mean on this rig"));
     tabs_->addTab(stored_, tr("S&tored calibrations"));
     tabs_->setTabToolTip(2, tr("The state of the calibration today, and everything stored before"));
+    auto* tools = new TabTools(tabs_);
+    auto* row = new QHBoxLayout(tools);
+    row->setContentsMargins(0, 0, kToolsRight, 0);
+    row->addWidget(&runner_->plotKind());
+    tabs_->setCornerWidget(tools);
+    setTabOrder(tabs_->tabBar(), &runner_->plotKind());
     column->addWidget(tabs_, 1);
     for (int page = 0; page < tabs_->count(); ++page) tabKeys_.add(tabs_->tabText(page));
     for (auto* runner : runners())

@@ -18,6 +18,8 @@ constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;
 constexpr double kAside = 0.006;   // of the range: readings going up stand left of their level, those down right
 constexpr double kNearest = 0.02;  // of the range: half the width of the frame around the nearest level
+constexpr double kNearestBottom = 0.98,
+                 kLeadFrom = 0.8;  // of the frame's height, from above: its words, and their line
 
 QCPRange rangeOf(const Reach& reach, double factor) {
     return reach.known() ? padded(reach.low * factor, reach.high * factor, kMargin) : QCPRange(0, 1);
@@ -66,9 +68,13 @@ void CalibrationPlot::build() {
     watermark_->setVisible(false);
     nearest_ = new QCPItemRect(this);
     nearestText_ = new QCPItemText(this);
-    nearestText_->setTextAlignment(Qt::AlignLeft);
-    for (QCPAbstractItem* item : {static_cast<QCPAbstractItem*>(nearest_), static_cast<QCPAbstractItem*>(nearestText_)})
-        item->setVisible(false);
+    nearestTitle_ = new QCPItemText(this);
+    nearestTitle_->setText(tr("Nearest to the tolerance"));
+    nearestLead_ = new QCPItemLine(this);
+    nearestLead_->start->setParentAnchor(nearest_->bottom);
+    nearestLead_->end->setParentAnchorX(nearest_->bottom);
+    nearestLead_->end->setParentAnchorY(nearestTitle_->top);
+    hideNearest();
     empty_ = new QCPItemText(this);
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
@@ -90,8 +96,7 @@ void CalibrationPlot::addLegend() {
 
 void CalibrationPlot::clear() {
     for (auto* graph : {bandBottom_, bandTop_, line_, nominal_, up_, down_, marked_, means_}) graph->data()->clear();
-    nearest_->setVisible(false);
-    nearestText_->setVisible(false);
+    hideNearest();
     bars_->setData(QVector<double>());
     for (auto* axis : {xAxis, yAxis}) axis->setTickLabels(false);
     xAxis->setLabel(tr("commanded"));
@@ -100,6 +105,12 @@ void CalibrationPlot::clear() {
     empty_->setVisible(true);
     colour();
     replot(QCustomPlot::rpQueuedReplot);
+}
+
+void CalibrationPlot::hideNearest() {
+    for (QCPAbstractItem* item :
+         std::initializer_list<QCPAbstractItem*>{nearest_, nearestText_, nearestTitle_, nearestLead_})
+        item->setVisible(false);
 }
 
 double CalibrationPlot::shown(const CalibrationReading& reading) const {
@@ -138,7 +149,8 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
     yAxis->setRange(rangeOf(y, upward.factor));
     drawReadings(of, across, upward);
     if (kind_ == Kind::Errors) nameNearest(of, across, upward);
-    xAxis->setLabel(tr("commanded (%1)").arg(across.unit));
+    xAxis->setLabel(tr("commanded %1 (%2)").arg(quantityTitle(of.quantity).toLower(), across.unit));
+    if (of.tolerance_pct > 0) bandTop_->setName(tr("tolerance ± %1").arg(settingText(of.tolerance_pct, "%")));
     yAxis->setLabel(kind_ == Kind::Errors ? tr("measured − commanded (%1)").arg(upward.unit)
                                           : tr("measured (%1)").arg(upward.unit));
     for (auto* axis : {xAxis, yAxis}) {
@@ -204,17 +216,23 @@ void CalibrationPlot::nameNearest(const CalibrationReadings& of, const AxisUnit&
     nearest_->topLeft->setCoords(at - half, band);
     nearest_->bottomRight->setCoords(at + half, -band);
     nearest_->setVisible(true);
-    nearestText_->setText(tr("Nearest to the tolerance\n%1: %2 of ± %3, %4 used")
+    nearestText_->setText(tr("%1: %2 of ± %3, %4 used")
                               .arg(settingText(use->commanded, of.unit),
                                    uncertainText(use->error, use->expanded, of.unit),
                                    settingText(use->tolerance, of.unit), quantityText(100 * use->share(), "%", 2)));
     // Below the frame, on the side where there is room.
     const bool left = at < xAxis->range().center();
-    nearestText_->setPositionAlignment((left ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignBottom);
+    const auto side = left ? Qt::AlignLeft : Qt::AlignRight;
+    nearestText_->setPositionAlignment(side | Qt::AlignBottom);
     nearestText_->position->setTypeX(QCPItemPosition::ptPlotCoords);
     nearestText_->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
-    nearestText_->position->setCoords(at + (left ? -half : half), 0.98);
+    nearestText_->position->setCoords(at + (left ? -half : half), kNearestBottom);
     nearestText_->setVisible(true);
+    nearestTitle_->setPositionAlignment(side | Qt::AlignBottom);
+    nearestTitle_->position->setParentAnchor(left ? nearestText_->topLeft : nearestText_->topRight);
+    nearestTitle_->setVisible(true);
+    // A frame that reaches down to the words needs no line to them.
+    nearestLead_->setVisible((yAxis->range().upper + band) / yAxis->range().size() < kLeadFrom);
 }
 
 void CalibrationPlot::setSimulated(bool simulated) {
@@ -244,8 +262,10 @@ void CalibrationPlot::colour() {
     for (auto* side : {bandTop_, bandBottom_}) side->setPen(edge);
     bandTop_->setBrush(c.passCell);
     nearest_->setPen(QPen(c.text, 1));
-    nearestText_->setColor(c.text);
+    nearestLead_->setPen(QPen(c.text, 1));
+    for (auto* words : {nearestText_, nearestTitle_}) words->setColor(c.text);
     nearestText_->setFont(textFont(TextSize::Small));
+    nearestTitle_->setFont(textFont(TextSize::Small, QFont::DemiBold));
     empty_->setColor(c.quiet);
     empty_->setFont(QApplication::font());
     legend->setTextColor(c.text);

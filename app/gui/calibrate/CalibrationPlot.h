@@ -32,7 +32,7 @@ public:
         return {bandTop_->data()->at(0)->key, bandTop_->data()->at(bandTop_->dataCount() - 1)->key};
     }
     [[nodiscard]] bool hasLine() const { return line_->dataCount() > 0; }
-    /// "Nearest to the tolerance: 10 V, …"; empty before the result.
+    /// "10 V: …", below its title; empty before the result.
     [[nodiscard]] QString nearestShown() const { return nearestText_->visible() ? nearestText_->text() : QString(); }
 
 private:
@@ -44,6 +44,7 @@ private:
     void drawReadings(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
     void nameNearest(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
     [[nodiscard]] double shown(const CalibrationReading& reading) const;
+    void hideNearest();
     void colour();
     const Kind kind_;
     QCPGraph* bandBottom_ = nullptr;
@@ -57,6 +58,8 @@ private:
     QCPErrorBars* bars_ = nullptr;
     QCPItemRect* nearest_ = nullptr;
     QCPItemText* nearestText_ = nullptr;
+    QCPItemText* nearestTitle_ = nullptr;
+    QCPItemLine* nearestLead_ = nullptr;
     QCPItemText* empty_ = nullptr;
     QCPItemText* watermark_ = nullptr;
 };

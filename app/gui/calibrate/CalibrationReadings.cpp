@@ -86,6 +86,8 @@ std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, con
         reading.outlier = row.value("outlier", false);
         out.readings.push_back(reading);
     }
+    out.gainExpanded = numberOr(found, "gain_expanded_uncertainty");
+    out.offsetExpanded = numberOr(found, "offset_expanded_uncertainty");
     out.verdict = QString::fromStdString(textOr(found, "verdict"));
     Calibration fit;
     fit.gain = numberOr(found, "gain");

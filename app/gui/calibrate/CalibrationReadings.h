@@ -32,6 +32,8 @@ struct CalibrationReadings {
     double tolerance_pct = 0;                  ///< of the command at each level; 0: none is known
     std::vector<CalibrationReading> readings;  ///< as they came, outliers marked
     std::optional<Calibration> fit;            ///< nothing before two levels were met
+    double gainExpanded = NAN;                 ///< U of fit->gain; not a number before the result
+    double offsetExpanded = NAN;               ///< and of fit->offset
     std::vector<double> uncertainty;           ///< U of each of fit->levels; empty before the result
     double resolution = 0;                     ///< of the instrument, in `unit`
     std::vector<ToleranceUse> used;            ///< levels that were judged; empty before the result

@@ -1,6 +1,7 @@
 #include "app/gui/calibrate/CalibrationView.h"
 
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/ToleranceCard.h"
@@ -12,7 +13,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLowLines = 30;  // below this height the cards lose their lines, so that the plot keeps its own
+constexpr int kLowLines = 26;  // below this height the cards are one line, so that the plot keeps its own
+constexpr int kCardsApart = 8, kCardsBelow = 4;
 
 }  // namespace
 
@@ -20,7 +22,7 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     setObjectName("calibrationView");
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(2);
+    column->setSpacing(kCardsBelow);
     column->addWidget(buildHead());
     plots_ = new QStackedWidget(this);
     errors_ = new CalibrationPlot(CalibrationPlot::Kind::Errors, plots_);
@@ -35,7 +37,7 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     });
     column->addWidget(plots_, 1);
     row_ = new QHBoxLayout;
-    row_->setSpacing(8);
+    row_->setSpacing(kCardsApart);
     column->addLayout(row_);
     begin({});
 }
@@ -62,6 +64,7 @@ QWidget* CalibrationView::buildHead() {
         tr("Residuals: each reading's distance from its command, in the tolerance band. Measured: each "
            "reading against its command, with the fitted line."));
     row->addWidget(kind_);
+    kind_->hide();  // until the plot is there
     return head;
 }
 
@@ -147,11 +150,17 @@ void CalibrationView::say() {
                         .arg(quantityTitle(shown.quantity)));
     const auto marked = std::count_if(shown.readings.begin(), shown.readings.end(),
                                       [](const CalibrationReading& reading) { return reading.outlier; });
-    QStringList said{tr("n = %1").arg(shown.readings.size())};
+    QStringList said;
     if (shown.fit) {
-        said << tr("gain %1").arg(decimalText(shown.fit->gain, 4));
-        said << tr("offset %1").arg(quantityText(shown.fit->offset, shown.unit, 3));
+        said << tr("gain %1").arg(std::isfinite(shown.gainExpanded)
+                                      ? quantityText(shown.fit->gain, shown.gainExpanded, {})
+                                      : decimalText(shown.fit->gain, 4));
+        said << tr("offset %1")
+                    .arg(std::isfinite(shown.offsetExpanded)
+                             ? quantityText(shown.fit->offset, shown.offsetExpanded, shown.unit)
+                             : quantityText(shown.fit->offset, shown.unit, 3));
     }
+    said << tr("n = %1").arg(shown.readings.size());
     said << (marked == 0 ? tr("no outliers") : tr("outliers, marked and kept: %1").arg(marked));
     says_->setText(said.join(" · "));
     says_->setToolTip(says_->text());
@@ -174,6 +183,16 @@ QString CalibrationView::quantityShown() const {
 
 void CalibrationView::arrange() {
     for (auto* card : cards_) card->setLow(height() < fontMetrics().height() * kLowLines);
+}
+
+void CalibrationView::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    kind_->show();
+}
+
+void CalibrationView::hideEvent(QHideEvent* event) {
+    QWidget::hideEvent(event);
+    if (!isAncestorOf(kind_)) kind_->hide();
 }
 
 void CalibrationView::resizeEvent(QResizeEvent* event) {

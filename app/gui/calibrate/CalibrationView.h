@@ -33,8 +33,12 @@ public:
     void setSimulated(bool simulated);
     [[nodiscard]] std::size_t readings() const;
     [[nodiscard]] QString quantityShown() const;
+    /// Residuals or measured, in the line above the plot; or wherever its owner puts it: it is visible with the plot.
+    [[nodiscard]] QComboBox& plotKind() noexcept { return *kind_; }
 
 protected:
+    void showEvent(QShowEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
 
 private:

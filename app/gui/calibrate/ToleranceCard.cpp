@@ -12,7 +12,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kCardWidth = 176, kNarrowCard = 104, kCardPad = 8, kCardBar = 6, kCardIcon = 14;
+constexpr int kCardWidth = 176, kNarrowCard = 104, kCardPad = 12, kCardTop = 9, kCardBar = 7, kCardIcon = 14;
+constexpr int kLowPad = 4, kLowBar = 4;
+constexpr int kOneLineFrom = 320;  // where and tolerance stand beside each other from this width on
 constexpr double kNearTolerance = 0.8;
 
 }  // namespace
@@ -49,14 +51,22 @@ void ToleranceCard::show(const CalibrationReadings& of) {
 }
 
 QSize ToleranceCard::sizeHint() const {
+    const int body = QFontMetrics(textFont(TextSize::Body)).height();
+    if (low_) return {scaledPx(kCardWidth), body + scaledPx(kLowBar) + 3 * kLowPad};
     const int small = QFontMetrics(textFont(TextSize::Small)).height();
-    const int height = QFontMetrics(textFont(TextSize::Body)).height() +
-                       QFontMetrics(textFont(TextSize::Large)).height() + scaledPx(kCardBar) + (low_ ? 0 : 2) * small +
-                       2 * kCardPad + 4;
+    const int height = body + QFontMetrics(textFont(TextSize::Large)).height() + scaledPx(kCardBar) +
+                       (oneLine() ? 1 : 2) * small + 2 * kCardTop + 4;
     return {scaledPx(kCardWidth), height};
 }
 
 QSize ToleranceCard::minimumSizeHint() const { return {scaledPx(kNarrowCard), sizeHint().height()}; }
+
+bool ToleranceCard::oneLine() const { return width() >= scaledPx(kOneLineFrom); }
+
+void ToleranceCard::resizeEvent(QResizeEvent* event) {
+    QAbstractButton::resizeEvent(event);
+    if (event->size().width() != event->oldSize().width()) updateGeometry();
+}
 
 void ToleranceCard::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
@@ -68,8 +78,27 @@ void ToleranceCard::paintEvent(QPaintEvent* /*event*/) {
     painter.setBrush(underMouse() && !chosen ? c.sunken : c.base);
     painter.drawRoundedRect(QRectF(rect()).adjusted(pen / 2, pen / 2, -pen / 2, -pen / 2), 4, 4);
     painter.setRenderHint(QPainter::Antialiasing, false);
+    low_ ? paintLow(painter) : paintWhole(painter);
+}
 
-    auto line = rect().adjusted(kCardPad, kCardPad, -kCardPad, -kCardPad);
+/// Title, share and verdict beside each other, the bar below them.
+void ToleranceCard::paintLow(QPainter& painter) const {
+    auto line = rect().adjusted(kCardPad, kLowPad, -kCardPad, -kLowPad);
+    const QFontMetrics body(textFont(TextSize::Body, QFont::DemiBold));
+    QRect head(line.left(), line.top(), line.width(), body.height());
+    head.setRight(head.right() - paintVerdict(painter, head, body.horizontalAdvance(text() + "  " + large_)));
+    painter.setFont(textFont(TextSize::Body, QFont::DemiBold));
+    painter.setPen(colours().text);
+    painter.drawText(head, Qt::AlignRight | Qt::AlignVCenter, large_);
+    head.setRight(head.right() - body.horizontalAdvance(large_) - kCardPad);
+    painter.drawText(head, Qt::AlignLeft | Qt::AlignVCenter, body.elidedText(text(), Qt::ElideRight, head.width()));
+    const int high = scaledPx(kLowBar);
+    paintBar(painter, {line.left(), line.bottom() + 1 - high, line.width(), high});
+}
+
+void ToleranceCard::paintWhole(QPainter& painter) const {
+    const auto& c = colours();
+    auto line = rect().adjusted(kCardPad, kCardTop, -kCardPad, -kCardTop);
     const auto write = [&](const QFont& font, const QColor& ink, const QString& text, int from = 0) {
         painter.setFont(font);
         painter.setPen(ink);
@@ -81,43 +110,54 @@ void ToleranceCard::paintEvent(QPaintEvent* /*event*/) {
     };
     const auto title = textFont(TextSize::Body, QFont::DemiBold);
     const QRect head(line.left(), line.top(), line.width(), QFontMetrics(title).height());
-    int taken = 0;  // at the right of the title
-    if (!verdict_.isEmpty()) {
-        const auto style = verdictStyle(verdict_);
-        const auto small = textFont(TextSize::Small, QFont::DemiBold);
-        const int size = scaledPx(kCardIcon), word = QFontMetrics(small).horizontalAdvance(verdict_) + 4;
-        // In a narrow card the shape alone; the word is in the verdict above and in the tool tip.
-        const bool room = QFontMetrics(title).horizontalAdvance(text()) + size + word + kCardPad <= head.width();
-        taken = size + (room ? word : 0) + 4;
-        painter.setFont(small);
-        painter.setPen(style.colour);
-        if (room) painter.drawText(head, Qt::AlignRight | Qt::AlignVCenter, verdict_);
-        painter.drawPixmap(head.right() - taken + 4, head.center().y() - size / 2,
-                           iconPixmap(style.icon, style.colour, size, devicePixelRatioF()));
-    }
+    const int taken = paintVerdict(painter, head, QFontMetrics(title).horizontalAdvance(text()));
     painter.setFont(title);
     painter.setPen(c.text);
     painter.drawText(head, Qt::AlignLeft | Qt::AlignVCenter,
                      painter.fontMetrics().elidedText(text(), Qt::ElideRight, head.width() - taken));
     line.setTop(line.top() + QFontMetrics(title).height());
-    const auto large = textFont(TextSize::Large, QFont::DemiBold);
+    const auto large = textFont(TextSize::Large, QFont::DemiBold), small = textFont(TextSize::Small);
     const int wide = write(large, c.text, large_);
     const int high = QFontMetrics(large).height();
-    const int drop = high - QFontMetrics(textFont(TextSize::Small)).height() - 3;
+    const int drop = high - QFontMetrics(small).height() - 3;
     line.setTop(line.top() + drop);
-    write(textFont(TextSize::Small), c.quiet, beside_, wide + 6);
+    write(small, c.quiet, beside_, wide + 6);
     line.setTop(line.top() - drop + high);
-    const QRect bar(line.left(), line.top(), line.width(), scaledPx(kCardBar));
+    paintBar(painter, {line.left(), line.top(), line.width(), scaledPx(kCardBar)});
+    line.setTop(line.top() + scaledPx(kCardBar) + 3);
+    const int where = write(small, c.text, where_);
+    if (oneLine()) {
+        write(small, c.quiet, tolerance_, where + 2 * kCardPad);
+    } else {
+        line.setTop(line.top() + QFontMetrics(small).height());
+        write(small, c.quiet, tolerance_);
+    }
+}
+
+/// At the right of `head`. Returns the width that it takes: the word only where it leaves `wanted` to what stands left,
+/// for the verdict above and the tool tip have the word too.
+int ToleranceCard::paintVerdict(QPainter& painter, const QRect& head, int wanted) const {
+    if (verdict_.isEmpty()) return 0;
+    const auto style = verdictStyle(verdict_);
+    const auto small = textFont(TextSize::Small, QFont::DemiBold);
+    const int size = scaledPx(kCardIcon), word = QFontMetrics(small).horizontalAdvance(verdict_) + 4;
+    const bool room = wanted + size + word + kCardPad <= head.width();
+    const int taken = size + (room ? word : 0) + 4;
+    painter.setFont(small);
+    painter.setPen(style.colour);
+    if (room) painter.drawText(head, Qt::AlignRight | Qt::AlignVCenter, verdict_);
+    painter.drawPixmap(head.right() - taken + 4, head.center().y() - size / 2,
+                       iconPixmap(style.icon, style.colour, size, devicePixelRatioF()));
+    return taken;
+}
+
+void ToleranceCard::paintBar(QPainter& painter, const QRect& bar) const {
+    const auto& c = colours();
     painter.setPen(Qt::NoPen);
     painter.setBrush(c.sunken);
     painter.drawRect(bar);
     painter.setBrush(share_ > 1 ? c.fail : share_ >= kNearTolerance ? c.amber : c.bar);
     painter.drawRect(QRect(bar.topLeft(), QSize(int(bar.width() * std::clamp(share_, 0.0, 1.0)), bar.height())));
-    if (low_) return;
-    line.setTop(bar.bottom() + 4);
-    write(textFont(TextSize::Small), c.text, where_);
-    line.setTop(line.top() + QFontMetrics(textFont(TextSize::Small)).height());
-    write(textFont(TextSize::Small), c.quiet, tolerance_);
 }
 
 }  // namespace tacto::gui

@@ -15,15 +15,21 @@ class ToleranceCard final : public QAbstractButton {
 public:
     explicit ToleranceCard(const QString& title, QWidget* parent = nullptr);
     void show(const CalibrationReadings& of);
-    /// Without the lines below the bar, where there is little room: the reasons of the verdict say the same.
+    /// One line and the bar, where there is little room: the reasons of the verdict and the tool tip say the rest.
     void setLow(bool low);
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 protected:
     void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
+    [[nodiscard]] bool oneLine() const;
+    void paintWhole(QPainter& painter) const;
+    void paintLow(QPainter& painter) const;
+    int paintVerdict(QPainter& painter, const QRect& head, int wanted) const;
+    void paintBar(QPainter& painter, const QRect& bar) const;
     QString verdict_;
     QString large_;  // "45 %"
     QString beside_;

@@ -16,6 +16,21 @@ QString part(double value, const QString& low, const QString& middle, const QStr
     return value < 1.0 / 3 ? low : value > 2.0 / 3 ? high : middle;
 }
 
+constexpr double kNear = 0.25;  // of the plane's sides
+
+/// "near rough-high · "; empty where no condition is near.
+QString nearText(const std::vector<Condition>& conditions, double roughness, double pressure) {
+    const Condition* nearest = nullptr;
+    double least = kNear;
+    for (const auto& condition : conditions) {
+        const double away = std::hypot(condition.R - roughness, condition.P - pressure);
+        if (!(away <= least)) continue;
+        nearest = &condition;
+        least = away;
+    }
+    return nearest == nullptr ? QString() : QObject::tr("near %1 · ").arg(QString::fromStdString(nearest->name));
+}
+
 }  // namespace
 
 CommandPanel::CommandPanel(QWidget* parent)
@@ -45,7 +60,7 @@ CommandPanel::CommandPanel(QWidget* parent)
     refusal_->hide();
 }
 
-void CommandPanel::show(const Telemetry& t, bool stale) {
+void CommandPanel::show(const Telemetry& t, bool stale, const std::vector<Condition>& conditions) {
     const auto feel =
         tr("%1, %2").arg(part(t.roughness, tr("Smooth"), tr("Half rough"), tr("Rough"), tr("Roughness unknown")),
                          part(t.pressure, tr("light"), tr("half firm"), tr("firm"), tr("pressure unknown")));
@@ -53,7 +68,9 @@ void CommandPanel::show(const Telemetry& t, bool stale) {
     const bool felt = std::isfinite(t.roughness) || std::isfinite(t.pressure);
     const bool known = (!stale || byHand) && felt;
     words_->setText(known ? feel : stale && !byHand ? tr("Not known: the samples are old") : tr("Nothing is felt"));
-    near_->setText(known ? tr("R %1, P %2").arg(decimalText(t.roughness, 2), decimalText(t.pressure, 2)) : QString());
+    near_->setText(known ? nearText(conditions, t.roughness, t.pressure) +
+                               tr("R %1, P %2").arg(decimalText(t.roughness, 2), decimalText(t.pressure, 2))
+                         : QString());
     trains_->setText(
         tr("%1 delivered, %2 refused, %3 skipped").arg(t.trainsDelivered).arg(t.trainsRefused).arg(t.trainsSkipped));
     refusal_->setVisible(t.trainsRefused > 0);

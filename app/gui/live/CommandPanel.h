@@ -7,6 +7,7 @@
 #include <QWidget>
 
 #include "core/bench/Telemetry.h"
+#include "core/encoding/EncodingProfile.h"
 
 namespace tacto::gui {
 
@@ -14,8 +15,9 @@ class CommandPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit CommandPanel(QWidget* parent = nullptr);
-    /// `stale`: the fingertip's samples are old, and what it felt last is not what it feels.
-    void show(const Telemetry& telemetry, bool stale);
+    /// `stale`: the fingertip's samples are old, and what it felt last is not what it feels. One of `conditions` is
+    /// named where the point is near it.
+    void show(const Telemetry& telemetry, bool stale, const std::vector<Condition>& conditions);
 
 private:
     QLabel* words_;

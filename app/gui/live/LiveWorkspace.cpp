@@ -32,6 +32,7 @@ namespace {
 constexpr int kSideEvery_ms = 90;                 // numbers ten times a second are as fast as one reads
 constexpr int kPlaneEvery_ms = 30;                // smooth to the eye; the strips follow every picture
 constexpr int kReadingEvery_ms = 100;             // captures that are measured for the trains' strip
+constexpr int kRigLines = 34;                     // from this height on each field of the rig has a line of its own
 constexpr std::size_t kLongestReading = 100'000;  // samples; a longer one belongs to the oscilloscope workspace
 
 bool isSimulated(const OpenBench& bench, Role role) {
@@ -43,6 +44,14 @@ bool isReplay(const OpenBench& bench) {
     return std::any_of(bench.about.devices.begin(), bench.about.devices.end(),
                        [](const auto& device) { return device.uri.starts_with("recording:"); });
 }
+
+/// What scrolls only where its parts do not fit at their least height: words that wrap would ask for what all of them
+/// like to have.
+class LeastColumn final : public QWidget {
+public:
+    using QWidget::QWidget;
+    [[nodiscard]] int heightForWidth(int width) const override { return layout()->totalMinimumHeightForWidth(width); }
+};
 
 }  // namespace
 
@@ -119,11 +128,12 @@ QWidget* LiveWorkspace::buildBench() {
 
 QWidget* LiveWorkspace::buildSide() {
     auto* area = new QScrollArea;
+    area->setObjectName("fingertipSide");
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
     area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     area->setWhatsThis(tr("Where the fingertip is, and what it feels. The arrow keys scroll it."));
-    auto* side = new QWidget(area);
+    QWidget* side = new LeastColumn(area);
     auto* layout = new QVBoxLayout(side);
     layout->setContentsMargins(6, 0, 6, 0);
     auto* where = new QLabel(tr("Where the fingertip is"), side);
@@ -142,6 +152,7 @@ QWidget* LiveWorkspace::buildSide() {
     profile->setToolTip(tr("How R and P become amplitude and interval, and the shape of a pulse."));
     connect(profile, &QPushButton::clicked, this, [this] { editProfile(); });
     layout->addWidget(profile);
+    layout->addStretch();
     area->setWidget(side);
     for (auto* ground : {side, area->viewport()}) ground->setAutoFillBackground(false);
     area->setMinimumWidth(side->minimumSizeHint().width() + fontMetrics().averageCharWidth() * 4);
@@ -174,7 +185,6 @@ void LiveWorkspace::buildTools() {
     row->addWidget(freeze_);
     row->addWidget(window);
     addPlotTools(*row);
-    row->addWidget(health_, 1);
 }
 
 void LiveWorkspace::addPlotTools(QHBoxLayout& row) {
@@ -195,6 +205,7 @@ void LiveWorkspace::addPlotTools(QHBoxLayout& row) {
                       "undo-zoom", [this] { strips_->undoZoom(); });
     tool(tr("Mark"), tr("Ctrl+M: marks this moment of the recording, with a word."), "mark",
          [this] { emit markWanted(); });
+    row.addWidget(health_, 1);
     tool(tr("Save picture"), tr("Saves the plots as PNG, SVG or PDF."), "save",
          [this] { askSavePicture(*strips_, "live"); });
     tool(tr("Copy picture"), tr("Copies the plots to the clipboard, as a picture."), "copy",
@@ -207,6 +218,11 @@ void LiveWorkspace::addPlotTools(QHBoxLayout& row) {
     enable();
     auto* key = new QShortcut(QKeySequence::Undo, strips_);  // wherever the focus is, as after Freeze
     connect(key, &QShortcut::activated, strips_, &StripPlots::undoZoom);
+}
+
+void LiveWorkspace::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    rig_->setLow(height() < fontMetrics().height() * kRigLines);
 }
 
 void LiveWorkspace::begin() {
@@ -266,7 +282,7 @@ void LiveWorkspace::showSide(const Telemetry& telemetry) {
     setTone(*health_, health.stale ? Tone::Warning : Tone::Quiet);
     staleLine_->setVisible(plotOnly_ && health.stale);
     if (health.stale) staleLine_->setText(health.text);
-    command_->show(telemetry, health.stale);
+    command_->show(telemetry, health.stale, controller_.profile().encoding.conditions);
     showTaxels(health.stale);
 }
 

@@ -45,6 +45,9 @@ signals:
     /// This moment is to be marked in the recording.
     void markWanted();
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     enum Page { kEmpty, kOpening, kBench };
     [[nodiscard]] QWidget* buildEmpty();

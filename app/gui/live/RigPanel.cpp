@@ -1,13 +1,17 @@
 #include "app/gui/live/RigPanel.h"
 
-#include <QFormLayout>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
+#include <utility>
+
+#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 constexpr const char* kMaterials[] = {"glass", "plastic", "paper", "denim", "P400", "P120", "P60"};  // smooth to rough
+constexpr int kBoxPad = 12;
 constexpr double kPaces[] = {0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0};
 }  // namespace
 
@@ -20,17 +24,18 @@ RigPanel::RigPanel(BenchController& controller, QWidget* parent) : QWidget(paren
     layout->addWidget(pace_);
     connect(&controller_, &BenchController::presented, this, &RigPanel::follow);
     begin(1, false);
+    onFontChange(*this, [this] { layFields(); });
 }
 
 QWidget* RigPanel::buildSurfaces() {
     auto* group = new QGroupBox(tr("Under the simulated finger"), this);
-    auto* form = new QFormLayout(group);
+    fields_ = new QGridLayout(group);
+    fields_->setContentsMargins(0, 0, 0, 0);
     material_ = new QComboBox(group);
     material_->setObjectName("surface");
     material_->addItem(tr("nothing (lifted)"), "");  // see begin() for what the finger does by itself
     for (const auto* name : kMaterials) material_->addItem(name, name);
     material_->setToolTip(tr("The surface that the finger slides over, from smooth to rough."));
-    form->addRow(tr("S&urface"), material_);
     const auto spin = [&](double low, double high, double step, int decimals, double value, const QString& unit) {
         auto* box = new QDoubleSpinBox(group);
         box->setRange(low, high);
@@ -45,12 +50,41 @@ QWidget* RigPanel::buildSurfaces() {
     speed_ = spin(0, 200, 5, 0, 50, QStringLiteral("\u202fmm/s"));
     speed_->setToolTip(
         tr("Sliding speed. At 0 the finger rests on the surface, and nothing of its vibration is felt."));
-    form->addRow(tr("Sp&eed"), speed_);
     force_ = spin(0.05, 10, 0.1, 2, 1, QStringLiteral("\u202fN"));
+    force_->setObjectName("fingerForce");
     force_->setToolTip(tr("How hard the finger presses."));
-    form->addRow(tr("Force"), force_);
     connect(material_, &QComboBox::currentIndexChanged, this, &RigPanel::present);
+    const auto named = [&](const QString& name, QWidget* field) {
+        auto* label = new QLabel(name, group);
+        label->setBuddy(field);
+        return label;
+    };
+    labels_ = {named(tr("S&urface"), material_), named(tr("Sp&eed"), speed_), named(tr("Force"), force_)};
+    layFields();
     return group;
+}
+
+/// Low, speed and force share a line and have no arrows: keys and wheel step them as well.
+void RigPanel::layFields() {
+    QWidget* const fields[] = {material_, speed_, force_};
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+        const bool second = low_ && i == 2;
+        const int row = second ? 1 : int(i), column = second ? 2 : 0;
+        fields_->addWidget(labels_[i], row, column);
+        fields_->addWidget(fields[i], row, column + 1, 1, low_ && i > 0 ? 1 : 3);
+    }
+    fields_->setColumnStretch(1, 1);
+    fields_->setColumnStretch(3, 1);
+    for (auto* box : {speed_, force_}) {
+        box->setButtonSymbols(low_ ? QAbstractSpinBox::NoButtons : QAbstractSpinBox::UpDownArrows);
+        // The box itself would keep the room of its arrows.
+        const auto widest = box->textFromValue(box->maximum()) + box->suffix();
+        box->setMinimumWidth(low_ ? fontMetrics().horizontalAdvance(widest) + 2 * scaledPx(kBoxPad) : 0);
+    }
+}
+
+void RigPanel::setLow(bool low) {
+    if (std::exchange(low_, low) != low) layFields();
 }
 
 QWidget* RigPanel::buildPace() {

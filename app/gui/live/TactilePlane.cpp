@@ -1,5 +1,6 @@
 #include "app/gui/live/TactilePlane.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/theme/LookChange.h"
@@ -9,8 +10,19 @@
 namespace tacto::gui {
 
 namespace {
+
 constexpr double kTrail_s = 3;
+constexpr double kHighest = 1.2;  // of its width
+constexpr double kNowSize = 21;   // pixels across
+
+/// A ring with a dot in its middle, six across as QCustomPlot wants it: what it stands on is seen through it.
+QPainterPath target() {
+    QPainterPath path;  // filled between its edges
+    for (const double radius : {3.0, 2.45, 0.85}) path.addEllipse(QPointF(), radius, radius);
+    return path;
 }
+
+}  // namespace
 
 TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Tactile plane"));
@@ -20,7 +32,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     addPlotMenu(*this, "tactile-plane");
     // Room for the names outside the square: the point moves inside it.
     xAxis->setRange(-0.36, 1.36);
-    yAxis->setRange(-0.24, 1.24);
+    yAxis->setRange(-0.3, 1.3);
     yAxis->setLabel(tr("pressure P"));
     for (auto* axis : {xAxis, yAxis}) {
         axis->ticker()->setTickCount(3);
@@ -37,6 +49,12 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     setOrigin(false, true);
     colour();
     onLookChange(*this, [this] { colour(); });
+}
+
+/// Never much higher than wide: both of its axes are 0 to 1.
+void TactilePlane::resizeEvent(QResizeEvent* event) {
+    QCustomPlot::resizeEvent(event);
+    setMaximumHeight(std::max(minimumHeight(), int(width() * kHighest)));
 }
 
 QSize TactilePlane::sizeHint() const { return {fontMetrics().height() * 15, fontMetrics().height() * 14}; }
@@ -86,7 +104,8 @@ void TactilePlane::colour() {
     }
     watermark_->setFont(textFont(TextSize::Large, QFont::Bold));
     trail_->setPen(QPen(c.frame, 1.5));
-    now_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(c.base, 2), QBrush(c.text), 11));
+    now_->setPen(Qt::NoPen);
+    now_->setScatterStyle(QCPScatterStyle(target(), Qt::NoPen, c.text, kNowSize));
 }
 
 void TactilePlane::show(const Series& frames, double now_s, double roughness, double pressure, bool byHand) {

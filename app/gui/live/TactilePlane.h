@@ -24,6 +24,9 @@ public:
     [[nodiscard]] std::optional<QPointF> point() const;
     [[nodiscard]] QSize sizeHint() const override;
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     void colour();
     std::vector<Condition> conditions_;

@@ -10,6 +10,9 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr int kCellPad = 5, kCellHigh = 32, kCellsApart = 4;
+constexpr double kFull = 0.55;  // of the pressure's colour in a full cell: the number on it stays the text's
+
 /// WCAG's relative luminance and contrast.
 double luminance(const QColor& colour) {
     const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
@@ -34,19 +37,28 @@ TaxelMap::TaxelMap(QWidget* parent) : QWidget(parent) {
     setToolTip(
         tr("Pressure on each taxel above the least it has shown; more is bluer, up to the largest value seen. "
            "Hatched: the values are old."));
-    setMinimumHeight(fontMetrics().height() * 5);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
 }
 
-QSize TaxelMap::sizeHint() const {
-    return {fontMetrics().horizontalAdvance("8.88 kPa ") * 4, fontMetrics().height() * 6};
+QSize TaxelMap::roomFor(int cellHeight) const {
+    const auto grid = gridFor(values_.empty() ? kUsualTaxels : values_.size());
+    return {QFontMetrics(textFont(TextSize::Small)).horizontalAdvance("8.88 kPa ") * grid.width(),
+            grid.height() * cellHeight};
+}
+
+QSize TaxelMap::sizeHint() const { return roomFor(scaledPx(kCellHigh + kCellsApart)); }
+
+QSize TaxelMap::minimumSizeHint() const {
+    return roomFor(QFontMetrics(textFont(TextSize::Small)).height() + kCellPad + kCellsApart);
 }
 
 void TaxelMap::show(std::span<const float> values, const QString& unit) {
+    values_.resize(values.size());
     if (rest_.size() != values.size()) {
         rest_.assign(values.begin(), values.end());
         most_ = 0;
+        updateGeometry();
     }
-    values_.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i] < rest_[i] || std::isnan(rest_[i])) rest_[i] = values[i];
         values_[i] = values[i] - rest_[i];
@@ -84,19 +96,25 @@ void TaxelMap::paintEvent(QPaintEvent*) {
         return;
     }
     const int columns = gridFor(values_.size()).width(), rows = gridFor(values_.size()).height();
-    const double w = double(width()) / columns, h = double(height()) / rows;
+    const double w = double(width() + kCellsApart) / columns - kCellsApart;
+    const double h = double(height() + kCellsApart) / rows - kCellsApart;
     const auto cellOf = [&](std::size_t i) {
-        return QRectF((int(i) % columns) * w + 1, double(int(i) / columns) * h + 1, w - 2, h - 2);
+        // Their outer edges are those of the widget.
+        const int column = int(i) % columns, row = int(i) / columns;
+        return QRectF(column * (w + kCellsApart), row * (h + kCellsApart), w, h);
     };
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
     std::vector<QColor> grounds;
     for (std::size_t i = 0; i < values_.size(); ++i) {
         const float value = values_[i];
         const double share = most_ > 0 && std::isfinite(value) ? std::clamp(double(value / most_), 0.0, 1.0) : 0;
         // From the ground to the pressure colour: even steps in lightness in both themes.
         const QColor from = palette().color(QPalette::Midlight), to = c.voltage;
-        const auto mix = [&](int a, int b) { return int(a + (b - a) * share); };
+        const auto mix = [&](int a, int b) { return int(a + (b - a) * share * kFull); };
         grounds.emplace_back(mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue()));
-        painter.fillRect(cellOf(i), grounds.back());
+        painter.setBrush(grounds.back());
+        painter.drawRoundedRect(cellOf(i), 2, 2);
     }
     if (simulated_) {
         painter.setFont(textFont(TextSize::Large, QFont::Bold));

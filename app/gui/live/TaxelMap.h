@@ -24,11 +24,14 @@ public:
     [[nodiscard]] static QSize gridFor(std::size_t n);
     [[nodiscard]] const std::vector<float>& values() const { return values_; }
     [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
 
 protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    static constexpr std::size_t kUsualTaxels = 8;
+    [[nodiscard]] QSize roomFor(int cellHeight) const;
     std::vector<float> values_;
     std::vector<float> rest_;  ///< the least seen of each: what it reads with nothing on it
     QString unit_;

@@ -53,14 +53,14 @@ OutputsByLoad byLoad(const nlohmann::json& disclosed) {
 
 DisclosedPanel::DisclosedPanel(QWidget* parent)
     : QWidget(parent),
+      layout_(new QBoxLayout(QBoxLayout::LeftToRight, this)),
       outputs_(new QWidget(this)),
       area_(new QScrollArea(outputs_)),
       none_(new QLabel(tr("No limit set asks for outputs to be disclosed."), outputs_)),
       peak_(new QLabel(this)),
       wave_(new CaptureStrip(this)) {
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(0, kGap, 0, 0);
-    row->setSpacing(kBetween);
+    layout_->setContentsMargins(0, kGap, 0, 0);
+    layout_->setSpacing(kBetween);
     auto* tracing = new QVBoxLayout;
     tracing->setSpacing(0);
     peak_->setObjectName("strongestOutput");
@@ -69,7 +69,7 @@ DisclosedPanel::DisclosedPanel(QWidget* parent)
     tracing->addWidget(peak_);
     wave_->setMinimumHeight(scaledPx(kMinWave));
     tracing->addWidget(wave_, 1);
-    row->addLayout(tracing, 1);
+    layout_->addLayout(tracing, 1);
     auto* column = new QVBoxLayout(outputs_);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(kGap / 2);
@@ -86,8 +86,8 @@ DisclosedPanel::DisclosedPanel(QWidget* parent)
     area_->viewport()->setAutoFillBackground(false);
     column->addWidget(area_, 1);
     column->addStretch();
-    outputs_->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
-    row->addWidget(outputs_);
+    layout_->addWidget(outputs_);
+    showOutputs(Outputs::Beside);
     clear();
 }
 
@@ -95,7 +95,13 @@ int DisclosedPanel::leastHeight() const {
     return kGap + QFontMetrics(textFont(TextSize::Small)).height() + wave_->minimumHeight();
 }
 
-void DisclosedPanel::showOutputs(bool outputs) { outputs_->setVisible(outputs); }
+void DisclosedPanel::showOutputs(Outputs outputs) {
+    const bool below = outputs == Outputs::Below;
+    layout_->setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+    outputs_->setSizePolicy(below ? QSizePolicy::Preferred : QSizePolicy::Maximum,
+                            below ? QSizePolicy::Maximum : QSizePolicy::Preferred);
+    outputs_->setVisible(outputs != Outputs::Nowhere);
+}
 
 void DisclosedPanel::clear() {
     strongest_ = -1;
@@ -140,8 +146,10 @@ void DisclosedPanel::show(const nlohmann::json& disclosed) {
         setTextSize(*table, TextSize::Small);
         fillRecordTable(*table, columns, all.rows);
         layOutRecordTable(*table);
+        table->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);  // all of it in sight where there is room
         area_->setWidget(table);
         area_->setMinimumWidth(table->maximumWidth() + area_->verticalScrollBar()->sizeHint().width());
+        area_->setMaximumHeight(table->maximumHeight());
     }
     area_->setVisible(any);
     none_->setVisible(!any);

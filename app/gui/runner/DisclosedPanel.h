@@ -1,9 +1,10 @@
-// DisclosedPanel.h - below the limits x loads of a safety check: the waveform of the strongest output that the run
-// captured, or of a chosen cell, and beside it the outputs that a document asks to disclose.
+// DisclosedPanel.h - what belongs to the limits x loads of a safety check: the waveform of the strongest output that
+// the run captured, or of a chosen cell, and beside or below it the outputs that a document asks to disclose.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QBoxLayout>
 #include <QLabel>
 #include <QWidget>
 #include <memory>
@@ -28,14 +29,16 @@ public:
     /// `disclosed` as in the results of load-safety, a column for each load; anything else shows none.
     void show(const nlohmann::json& disclosed);
     using QWidget::show;
-    /// Without the outputs where there is no room for both.
-    void showOutputs(bool outputs);
+    /// The outputs beside the tracing, below it, or nowhere where there is no room for both.
+    enum class Outputs { Beside, Below, Nowhere };
+    void showOutputs(Outputs outputs);
     /// From this height on a tracing can be read.
     [[nodiscard]] int leastHeight() const;
     /// In place of the strongest output, under `title`.
     void showTracing(const std::shared_ptr<const Capture>& capture, const QString& title);
 
 private:
+    QBoxLayout* layout_;
     QWidget* outputs_;
     QScrollArea* area_;
     QLabel* none_;

@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QStyledItemDelegate>
 #include <cmath>
+#include <utility>
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
@@ -26,7 +27,7 @@ constexpr int kCellShare = Qt::UserRole + 1;  // "23 %"
 constexpr int kCellNear = Qt::UserRole + 2;   // 80 % or more of the limit used
 constexpr int kLineNote = Qt::UserRole;       // below a limit's title
 constexpr int kLineUnit = Qt::UserRole + 3;   // of a limit
-constexpr int kRow = 36, kIconSize = 14, kPad = 8;
+constexpr int kRow = 36, kHighRow = 44, kIconSize = 14, kPad = 8;
 constexpr double kNear_pct = 80;
 constexpr int kLimitChars = 30, kLoadChars = 9;
 
@@ -80,6 +81,8 @@ CellStyle styleOf(const QString& verdict, bool isNear) {
     return {c.base, c.quiet};
 }
 
+bool isAsked(const QString& verdict) { return !verdict.isEmpty() && verdict != "not applicable"; }
+
 class CellDelegate final : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
@@ -89,18 +92,14 @@ public:
         const auto style = styleOf(verdict, index.data(kCellNear).toBool());
         painter->save();
         const auto cell = option.rect.adjusted(1, 1, -1, -1);
-        painter->fillRect(cell, style.ground);
-        if (verdict == "not evaluated") painter->fillRect(cell, QBrush(c.hatch, Qt::BDiagPattern));
-        const bool asked = !verdict.isEmpty() && verdict != "not applicable";
+        const bool isNear = index.data(kCellNear).toBool();
+        paintCellGround(*painter, cell, verdict, isNear);
+        const bool asked = isAsked(verdict);
         painter->setFont(textFont(TextSize::Small, asked ? QFont::DemiBold : QFont::Normal));
         const int size = scaledPx(kIconSize);
         const bool room = cell.width() >= size + kPad + painter->fontMetrics().horizontalAdvance("100 %") + 4;
-        if (asked && room) {
-            const auto shape = verdict == "pass" && !index.data(kCellNear).toBool() ? c.passText : style.ink;
-            painter->drawPixmap(
-                cell.left() + kPad / 2, cell.center().y() - size / 2 + 1,
-                iconPixmap(verdictStyle(verdict).icon, shape, size, painter->device()->devicePixelRatioF()));
-        }
+        if (asked && room)
+            paintCellShape(*painter, {cell.left() + kPad / 2, cell.top(), size, cell.height()}, verdict, isNear, size);
         const auto text = asked && !room ? index.data().toString() : index.data(kCellShare).toString();
         painter->setPen(style.ink);
         if (verdict == "not evaluated") {
@@ -120,6 +119,22 @@ public:
 };
 
 }  // namespace
+
+void paintCellGround(QPainter& painter, const QRect& cell, const QString& verdict, bool isNear) {
+    painter.fillRect(cell, styleOf(verdict, isNear).ground);
+    if (verdict == "not evaluated") painter.fillRect(cell, QBrush(colours().hatch, Qt::BDiagPattern));
+}
+
+void paintCellShape(QPainter& painter, const QRect& place, const QString& verdict, bool isNear, int size) {
+    const auto ink = verdict == "pass" && !isNear ? colours().passText : styleOf(verdict, isNear).ink;
+    if (!isAsked(verdict)) {
+        painter.setPen(ink);
+        painter.drawText(place, Qt::AlignCenter, "–");
+        return;
+    }
+    painter.drawPixmap(place.center() - QPoint(size / 2, size / 2 - 1),
+                       iconPixmap(verdictStyle(verdict).icon, ink, size, painter.device()->devicePixelRatioF()));
+}
 
 LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
     setObjectName("limitMatrix");
@@ -175,7 +190,7 @@ void LimitMatrixView::show(const json& matrix) {
 }
 
 int LimitMatrixView::heightOf(int rows) const {
-    return 2 * frameWidth() + horizontalHeader()->height() + rows * verticalHeader()->defaultSectionSize();
+    return 2 * frameWidth() + horizontalHeader()->height() + rows * scaledPx(kRow);
 }
 
 void LimitMatrixView::choose(int row, int column) {
@@ -227,10 +242,16 @@ void LimitMatrixView::addLine(int row, const json& line) {
     }
 }
 
+void LimitMatrixView::setFillsHeight(bool fills) {
+    if (std::exchange(fillsHeight_, fills) != fills) fitColumns();
+}
+
 void LimitMatrixView::fitColumns() {
-    verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
     horizontalHeader()->setFixedHeight(2 * QFontMetrics(textFont(TextSize::Small)).height() + kPad);
-    setMaximumHeight(heightOf(rowCount()));  // what is left below is the tracing's
+    const int each_px = (height() - heightOf(0)) / std::max(1, rowCount());
+    const int least = scaledPx(kRow), most = fillsHeight_ ? scaledPx(kHighRow) : least;
+    verticalHeader()->setDefaultSectionSize(std::clamp(each_px, least, most));
+    setMaximumHeight(fillsHeight_ ? QWIDGETSIZE_MAX : heightOf(rowCount()));  // what is left below is the tracing's
     if (columnCount() < 2) return;
     auto* header = horizontalHeader();
     const int loads = columnCount() - 1;

@@ -8,7 +8,13 @@
 #include <QTableWidget>
 #include <nlohmann/json.hpp>
 
+class QPainter;
+
 namespace tacto::gui {
+
+/// A cell's fill and hatch, and the shape of its verdict in the middle of `place`; "–" where nothing is judged.
+void paintCellGround(QPainter& painter, const QRect& cell, const QString& verdict, bool isNear);
+void paintCellShape(QPainter& painter, const QRect& place, const QString& verdict, bool isNear, int size);
 
 class LimitMatrixView final : public QTableWidget {
     Q_OBJECT
@@ -19,8 +25,11 @@ public:
     [[nodiscard]] bool empty() const { return rowCount() == 0; }
     /// With its header and that many limits in sight.
     [[nodiscard]] int heightOf(int rows) const;
-    static constexpr int kInSight = 6;  ///< limits that are in sight at least
-    [[nodiscard]] QSize sizeHint() const override { return {QTableWidget::sizeHint().width(), heightOf(kInSight)}; }
+    /// Its rows share all the height that it is given; else it is no higher than they need.
+    void setFillsHeight(bool fills);
+    static constexpr int kInSight = 10;  ///< limits in sight before anything else has room below them
+    static constexpr int kHinted = 6;    ///< a page that hints at more would be higher than its window
+    [[nodiscard]] QSize sizeHint() const override { return {QTableWidget::sizeHint().width(), heightOf(kHinted)}; }
 
 signals:
     /// A cell of a load was chosen by mouse or arrow key. `load` as the results name it ("500 ohm"), `unit` the
@@ -34,6 +43,7 @@ private:
     void addLine(int row, const nlohmann::json& line);
     void fitColumns();
     void choose(int row, int column);
+    bool fillsHeight_ = false;
     std::vector<QString> loads_;     // as people write them
     std::vector<QString> loadKeys_;  // as the results do
 };

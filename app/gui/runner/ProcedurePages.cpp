@@ -85,12 +85,8 @@ ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : QStackedWidget(
     addWidget(buildWiring());
     addWidget(buildReference());
     addWidget(buildSettings(day));
-    auto* run = new QWidget(this);
-    auto* column = new QVBoxLayout(run);
-    column->setContentsMargins(kPageSide, kPageTop / 2, kPageSide, kPageTop / 2);  // the plot has the room
-    views_ = new RunViews(run);
-    column->addWidget(views_);
-    addWidget(run);
+    views_ = new RunViews(this);
+    addWidget(views_);
     auto* sign = new QWidget(this);
     auto* signColumn = pageLayout(sign, tr("Sign"), {});
     sign_ = new SignPage(sign);

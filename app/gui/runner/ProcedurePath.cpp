@@ -3,6 +3,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "app/gui/runner/CellLegend.h"
 #include "app/gui/runner/ProcedurePages.h"
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
@@ -23,8 +24,11 @@ ProcedurePath::ProcedurePath(bool chooses, QWidget* parent)
       head_(new ProtocolHead(chooses, this)),
       steps_(new StepList({tr("Wiring"), tr("Known reference"), tr("Settings"), tr("Run"), tr("Result"), tr("Sign")},
                           this)),
+      legend_(new CellLegend(this)),
       panel_(new RunPanel(this)) {
     setObjectName("path");
+    setAttribute(Qt::WA_StyledBackground);
+    legend_->hide();
     layDown();
 }
 
@@ -118,12 +122,26 @@ void ProcedurePath::showEnd(bool early, std::optional<Seconds> benchTime) {
     steps_->setOutOfReach(kResult, {});
 }
 
+void ProcedurePath::showLegend(bool legend) {
+    legendWanted_ = legend;
+    fitLegend();
+}
+
+/// Between the steps and what runs them. It stands in no layout, so that it never makes the page higher.
+void ProcedurePath::fitLegend() {
+    const int top = steps_->geometry().bottom() + 1 + kPathPad / 2, high = legend_->sizeHint().height();
+    const bool fits = !across_ && panel_->geometry().top() - top >= high;
+    legend_->setGeometry(kPathPad, top, width() - 2 * kPathPad, high);
+    legend_->setVisible(legendWanted_ && fits);
+}
+
 /// Words that wrap make a row higher than its layout's least height: the page scrolls then, and nothing is cut.
 bool ProcedurePath::event(QEvent* event) {
     const bool done = QWidget::event(event);
     if (across_ && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
         setMinimumHeight(layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(width())
                                                        : layout()->totalSizeHint().height());
+    if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) fitLegend();
     return done;
 }
 

@@ -8,6 +8,7 @@
 
 namespace tacto::gui {
 
+class CellLegend;
 class ProtocolHead;
 class RunPanel;
 class StepList;
@@ -28,6 +29,8 @@ public:
     void showRun();
     /// The result can be gone to. `early`: the run was stopped or failed.
     void showEnd(bool early, std::optional<Seconds> benchTime);
+    /// How to read the limits x loads, where there is room below the steps.
+    void showLegend(bool legend);
 
 protected:
     bool event(QEvent* event) override;
@@ -36,10 +39,13 @@ protected:
 private:
     void layDown();
     void layAcross();
+    void fitLegend();
     ProtocolHead* head_;
     StepList* steps_;
+    CellLegend* legend_;
     RunPanel* panel_;
     bool across_ = false;
+    bool legendWanted_ = false;
 };
 
 }  // namespace tacto::gui

@@ -184,6 +184,7 @@ void ProtocolWorkspace::set(const std::string& parameter, const QString& text) {
 void ProtocolWorkspace::showStep(Step step) {
     pages_->showStep(step);
     steps_->setShown(step);
+    path_->showLegend(step == kResult && pages_->views().showsLimits());
     seen_.insert(step);
     showSetup();
 }
@@ -391,6 +392,8 @@ void ProtocolWorkspace::showButtons() {
     pages_->setChangeable(!running_);
     head_->setChangeable(!running_);
 }
+
+QWidget& ProtocolWorkspace::plotKind() { return pages_->views().plotKind(); }
 
 ScriptEditor* ProtocolWorkspace::unsavedScript() const {
     return editor_ != nullptr && editor_->unsaved() ? editor_ : nullptr;

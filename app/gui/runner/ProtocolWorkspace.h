@@ -42,6 +42,8 @@ public:
     [[nodiscard]] ScriptEditor* unsavedScript() const;
     /// Without the path, unless something stands there that is in the way of a run, or asked.
     void showPlotOnly(bool only);
+    /// What chooses the plot of a calibration: RunViews::plotKind().
+    [[nodiscard]] QWidget& plotKind();
     /// As the Run button.
     void runAsked();
     /// As a click on the step.

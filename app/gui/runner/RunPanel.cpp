@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -78,6 +79,7 @@ RunPanel::RunPanel(QWidget* parent)
     left_->setTextFormat(Qt::PlainText);
     left_->setObjectName("timeLeft");
     setTone(*left_, Tone::Quiet);
+    setTextSize(*left_, TextSize::Small);
     layout_->addWidget(left_);
     showButtons();
 }
@@ -185,6 +187,7 @@ void RunPanel::setBench(bool open, bool closedByRun) {
 void RunPanel::setLeading(bool leading) {
     makePrimary(*run_, leading);
     run_->setText(leading ? tr("R&un") : tr("R&un again"));
+    run_->setIcon(leading ? QIcon() : icon("run"));
 }
 
 void RunPanel::setReady(bool ready, const QString& obstacle, bool byProfile) {

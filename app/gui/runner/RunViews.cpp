@@ -23,7 +23,10 @@ namespace {
 constexpr int kLogLines = 5000;           // shown; all of them are in the session
 constexpr int kBesideChars = 115;         // the waveform stands beside the plot from this width on
 constexpr int kDisclosedFromChars = 120;  // the outputs stand beside the tracing from this width on
-constexpr int kPageGap = 6;
+constexpr int kTracedFromChars = 165;     // and the tracing beside the limits from this one
+constexpr int kTracingPart = 3;           // below them it has one part of so many
+constexpr int kRoomyLines = 34;           // of less height the bar below is as low as its buttons let it
+constexpr int kPageGap = 6, kViewSide = 16, kViewTop = 4, kBarPad = 12, kBarPadLow = 6;
 
 TrialPlane::Features featuresOf(RunViews::Plot plot) {
     return plot == RunViews::Plot::Slides ? TrialPlane::Features::Slides : TrialPlane::Features::Trains;
@@ -34,10 +37,13 @@ TrialPlane::Features featuresOf(RunViews::Plot plot) {
 RunViews::RunViews(QWidget* parent) : QWidget(parent) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(kPageGap);
+    column->setSpacing(0);
+    body_ = new QVBoxLayout;
+    body_->setSpacing(kPageGap);
+    column->addLayout(body_, 1);
     head_ = new ResultHead(this);
     connect(head_, &ResultHead::scriptErrorChosen, this, &RunViews::scriptErrorChosen);
-    column->addWidget(head_);
+    body_->addWidget(head_);
     views_ = new QStackedWidget(this);
     views_->addWidget(buildPlots());
     auto* area = new QScrollArea(views_);
@@ -60,8 +66,9 @@ RunViews::RunViews(QWidget* parent) : QWidget(parent) {
     log_->setToolTip(tr("The script's own words; they are in the session too."));
     log_->setPlaceholderText(tr("What the script says while it runs."));
     views_->addWidget(log_);
-    column->addWidget(views_, 1);
+    body_->addWidget(views_, 1);
     column->addWidget(buildBar());
+    views_->installEventFilter(this);
     showResult(false);
     showPlot(Plot::Trials);
 }
@@ -73,6 +80,7 @@ QWidget* RunViews::buildPlots() {
     plane_ = new TrialPlane(holder);
     loads_ = new LoadRows(holder);
     judged_ = new QSplitter(Qt::Vertical, holder);
+    judged_->setObjectName("judgedLimits");
     judged_->setChildrenCollapsible(false);
     matrix_ = new LimitMatrixView(judged_);
     connect(matrix_, &LimitMatrixView::chosen, this, &RunViews::trace);
@@ -80,8 +88,8 @@ QWidget* RunViews::buildPlots() {
         if (column > 0 && !disclosed_->isVisible()) showView(kWaveform);
     });
     disclosed_ = new DisclosedPanel(judged_);
-    judged_->setStretchFactor(0, 2);
-    judged_->setStretchFactor(1, 1);
+    judged_->setStretchFactor(0, 1);
+    judged_->setStretchFactor(1, 0);
     calibration_ = new CalibrationView(holder);
     none_ = new QLabel(tr("This protocol has no plot of its own: what it says is in the log, what it found in the "
                           "tables."),
@@ -101,8 +109,8 @@ QWidget* RunViews::buildPlots() {
 
 QWidget* RunViews::buildBar() {
     auto* holder = new QWidget(this);
+    makeActionBar(*holder);
     bar_ = new QHBoxLayout(holder);
-    bar_->setContentsMargins(0, 0, 0, 0);
     next_ = new NextStepBar(holder);
     connect(next_, &NextStepBar::chosen, this, &RunViews::nextChosen);
     bar_->addWidget(next_);
@@ -152,23 +160,48 @@ void RunViews::showResult(bool result) {
     arrange();
 }
 
-/// One main plot. The waveform stands beside it where there is room, else it is a view of its own; a calibration and
-/// the limits on all loads want the whole width. Nowhere in a run without an oscilloscope.
+/// Where the limits keep most of the page: beside them in a wide window, below them in a high one, else in its own
+/// view.
+void RunViews::placeTracing(bool judged) {
+    disclosed_->setVisible(judged);
+    if (!judged) return;
+    const int chars = fontMetrics().averageCharWidth();
+    const bool high = views_->height() >= matrix_->heightOf(LimitMatrixView::kInSight) + disclosed_->leastHeight();
+    const auto place = width() >= chars * kTracedFromChars ? Tracing::Beside : high ? Tracing::Below : Tracing::OwnView;
+    using Outputs = DisclosedPanel::Outputs;
+    const bool roomy = place != Tracing::Beside && width() >= chars * kDisclosedFromChars;
+    disclosed_->showOutputs(roomy ? Outputs::Beside : place == Tracing::Below ? Outputs::Nowhere : Outputs::Below);
+    disclosed_->setContentsMargins(place == Tracing::Beside ? kViewSide : 0, 0, 0, 0);
+    matrix_->setFillsHeight(place != Tracing::Below);
+    if (std::exchange(tracing_, place) == place) return;
+    if (place == Tracing::OwnView) {
+        views_->widget(kWaveform)->layout()->addWidget(disclosed_);
+        return;
+    }
+    judged_->addWidget(disclosed_);
+    judged_->setOrientation(place == Tracing::Beside ? Qt::Horizontal : Qt::Vertical);
+    const int all = place == Tracing::Beside ? judged_->width() : judged_->height();
+    const int part = place == Tracing::Beside ? disclosed_->minimumSizeHint().width() : all / kTracingPart;
+    judged_->setSizes({all - part, part});
+}
+
+/// One main plot. The waveform stands beside it where there is room, else it is a view of its own; a calibration wants
+/// the whole width. Nowhere in a run without an oscilloscope. A safety check that was judged has its tracing instead.
 void RunViews::arrange() {
-    const bool judged = showsResult_ && !matrix_->empty();
+    const bool roomyBar = height() >= fontMetrics().height() * kRoomyLines;
+    const int pad = roomyBar ? kBarPad : kBarPadLow;
+    body_->setContentsMargins(kViewSide, kViewTop, kViewSide, roomyBar ? kViewTop * 2 : kViewTop);
+    bar_->setContentsMargins(kViewSide, pad, kViewSide, pad);
+    const bool judged = showsLimits();
     plane_->setVisible(plot_ == Plot::Trials || plot_ == Plot::Slides);
     calibration_->setVisible(plot_ == Plot::Calibration);
-    judged_->setVisible(plot_ == Plot::Loads && judged);
-    // Where there is no room both are views of their own: under Waveform and under Tables.
-    const bool traced =
-        judged && views_->height() >= matrix_->heightOf(LimitMatrixView::kInSight) + disclosed_->leastHeight();
-    disclosed_->setVisible(traced);
-    disclosed_->showOutputs(width() >= fontMetrics().averageCharWidth() * kDisclosedFromChars);
+    judged_->setVisible(judged);
+    placeTracing(judged);
     loads_->setVisible(plot_ == Plot::Loads && !judged);
     none_->setVisible(plot_ == Plot::None);
-    const bool anywhere = plot_ != Plot::Slides && plot_ != Plot::None;
+    const bool anywhere = plot_ != Plot::Slides && plot_ != Plot::None && !judged;
     const bool roomy = width() >= fontMetrics().averageCharWidth() * kBesideChars;
-    const bool beside = anywhere && roomy && plot_ != Plot::Calibration && !judged;
+    const bool beside = anywhere && roomy && plot_ != Plot::Calibration;
     auto* own = views_->widget(kWaveform)->layout();
     if (beside && own->indexOf(wave_) >= 0) {
         own->removeWidget(wave_);
@@ -177,12 +210,14 @@ void RunViews::arrange() {
         plots_->removeWidget(wave_);
         own->addWidget(wave_);
     }
-    const bool ownView = anywhere && !beside && !traced;
-    wave_->setVisible(beside || ownView);
+    const bool ownView = judged ? tracing_ == Tracing::OwnView : anywhere && !beside;
+    wave_->setVisible(anywhere);
+    choices_->button(kPlot)->setText(judged ? tr("Limits") : tr("Plot"));
+    choices_->button(kWaveform)->setText(judged ? tr("Tracing") : tr("Waveform"));
     choices_->button(kWaveform)->setVisible(ownView);
     if (!ownView && views_->currentIndex() == kWaveform) showView(kPlot);
-    const bool wide = width() >= next_->sizeHint().width() + viewRow_->sizeHint().width() + bar_->spacing();
-    bar_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+    const int across = 2 * kViewSide + next_->sizeHint().width() + viewRow_->sizeHint().width() + bar_->spacing();
+    bar_->setDirection(width() >= across ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
 }
 
 void RunViews::resizeEvent(QResizeEvent* event) {
@@ -190,7 +225,17 @@ void RunViews::resizeEvent(QResizeEvent* event) {
     arrange();
 }
 
+/// The room for the views is known once they are laid out.
+bool RunViews::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == views_ && event->type() == QEvent::Resize) arrange();
+    return QWidget::eventFilter(watched, event);
+}
+
 QString RunViews::word() const { return head_->word(); }
+
+bool RunViews::showsLimits() const { return showsResult_ && plot_ == Plot::Loads && !matrix_->empty(); }
+
+QWidget& RunViews::plotKind() { return calibration_->plotKind(); }
 
 void RunViews::begin(Plot plot, const nlohmann::json& parameters) {
     head_->clear();
@@ -248,7 +293,6 @@ void RunViews::trace(const QString& limit, const QString& load, const QString& u
                                : found.capture          ? tr("%1 on %2: the strongest train").arg(limit, loadText(load))
                                                : tr("%1 on %2: no train was captured").arg(limit, loadText(load));
             disclosed_->showTracing(found.capture, title);
-            wave_->show(found.capture, title);
         });
 }
 

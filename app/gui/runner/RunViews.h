@@ -8,6 +8,7 @@
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QStackedWidget>
+#include <QVBoxLayout>
 #include <QWidget>
 #include <filesystem>
 
@@ -48,6 +49,10 @@ public:
     [[nodiscard]] QString end(const FinishedRun& run);
     /// "PASS"; empty before the end.
     [[nodiscard]] QString word() const;
+    /// Whether limits were judged on loads.
+    [[nodiscard]] bool showsLimits() const;
+    /// What chooses the plot of a calibration: CalibrationView::plotKind().
+    [[nodiscard]] QWidget& plotKind();
 
 signals:
     void scriptErrorChosen(int line, const QString& why);
@@ -55,31 +60,37 @@ signals:
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
     [[nodiscard]] QWidget* buildPlots();
     [[nodiscard]] QWidget* buildBar();
     void arrange();
+    /// Where the tracing of a safety check stands.
+    enum class Tracing { Beside, Below, OwnView };
+    void placeTracing(bool judged);
     /// The strongest train on the load of a cell, in the tracing.
     void trace(const QString& limit, const QString& load, const QString& unit);
 
     Plot plot_ = Plot::Trials;
     std::filesystem::path session_;  // of the run that ended
     bool showsResult_ = false;
+    QVBoxLayout* body_ = nullptr;  // head and views, above the bar
     ResultHead* head_ = nullptr;
     QStackedWidget* views_ = nullptr;
     QBoxLayout* plots_ = nullptr;
     TrialPlane* plane_ = nullptr;
-    LoadRows* loads_ = nullptr;               // in the plane's place where a protocol measures loads
-    QSplitter* judged_ = nullptr;             // what they come to
-    LimitMatrixView* matrix_ = nullptr;       // of limits,
-    DisclosedPanel* disclosed_ = nullptr;     // and below it where there is room
+    LoadRows* loads_ = nullptr;            // in the plane's place where a protocol measures loads
+    QSplitter* judged_ = nullptr;          // what they come to
+    LimitMatrixView* matrix_ = nullptr;    // of limits,
+    DisclosedPanel* disclosed_ = nullptr;  // and beside or below it where there is room
+    Tracing tracing_ = Tracing::Below;
     CalibrationView* calibration_ = nullptr;  // and in its place where one calibrates
     QLabel* none_ = nullptr;
     CaptureStrip* wave_ = nullptr;
     ResultTables* tables_ = nullptr;
     QPlainTextEdit* log_ = nullptr;
-    QBoxLayout* bar_ = nullptr;
+    QBoxLayout* bar_ = nullptr;  // what comes next, and which view
     NextStepBar* next_ = nullptr;
     QWidget* viewRow_ = nullptr;
     QButtonGroup* choices_ = nullptr;

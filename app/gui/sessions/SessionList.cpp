@@ -3,8 +3,10 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QPainter>
 #include <QScrollBar>
 #include <QShortcut>
+#include <QStyledItemDelegate>
 #include <algorithm>
 
 #include "app/gui/theme/Icons.h"
@@ -21,7 +23,25 @@ constexpr int kListIcon = 16;
 constexpr int kSeenAfter_ms = 150;
 constexpr int kMeasuredRows = 60;  // for the widths of columns
 constexpr int kRoomyChars = 88;    // from this width on all columns are shown
-constexpr int kGap = 8;
+constexpr int kGap = 8, kSide = 16;
+constexpr int kChosenBar = 4;
+
+/// The chosen row has a bar at its left edge.
+class VerdictDelegate final : public QStyledItemDelegate {
+public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        const bool chosen = (option.state & QStyle::State_Selected) != 0;
+        const QRect bar(option.rect.left(), option.rect.top(), kChosenBar, option.rect.height());
+        auto within = option;
+        within.rect.setLeft(option.rect.left() + kChosenBar);
+        QStyledItemDelegate::paint(painter, within, index);
+        if (chosen) painter->fillRect(bar, colours().primary);
+    }
+    [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        return QStyledItemDelegate::sizeHint(option, index) + QSize(kChosenBar, 0);
+    }
+};
 
 }  // namespace
 
@@ -29,7 +49,7 @@ SessionList::SessionList(QWidget* parent)
     : QWidget(parent), index_(userSessionIndex()), model_(new SessionModel(this)), empty_(new QLabel(this)) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(kGap);
+    column->setSpacing(0);
     column->addWidget(buildSearch());
     buildTable();
     column->addWidget(table_, 1);
@@ -48,7 +68,7 @@ SessionList::SessionList(QWidget* parent)
 QWidget* SessionList::buildSearch() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    row->setContentsMargins(kSide, kGap, kSide, kGap);
     row->setSpacing(kGap);
     search_ = new QLineEdit(holder);
     search_->addAction(icon("search"), QLineEdit::LeadingPosition)->setToolTip(tr("Search"));
@@ -96,6 +116,8 @@ void SessionList::buildTable() {
     table_->setObjectName("sessionsTable");
     table_->setAccessibleName(tr("Sessions"));
     table_->setModel(model_);
+    table_->setItemDelegateForColumn(SessionModel::kVerdict, new VerdictDelegate(table_));
+    setTextSize(*table_->horizontalHeader(), TextSize::Small);
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
     table_->setIconSize({kListIcon, kListIcon});

@@ -23,7 +23,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kListMargin = 16, kAroundActions = 8;
+constexpr int kListMargin = 16, kAroundActions = 12;
 
 bool holdsTouch(const ReadSession& session) {
     return std::ranges::any_of(session.streams, [](const auto& info) {
@@ -43,9 +43,9 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     auto* split = new QSplitter(Qt::Horizontal, this);
     split->setChildrenCollapsible(false);
     list_ = new SessionList(split);
-    split->addWidget(withActions(list_, kListMargin, buildListActions()));
+    split->addWidget(withActions(list_, buildListActions()));
     details_ = new SessionDetails(controller_.limits(), split);
-    split->addWidget(withActions(details_, 0, buildSessionActions()));
+    split->addWidget(withActions(details_, buildSessionActions()));
     split->setStretchFactor(0, 3);
     split->setStretchFactor(1, 2);
     layout->addWidget(split, 1);
@@ -82,16 +82,13 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
 }
 
 /// A pane of the page: what it shows, and below it what can be done with that.
-QWidget* SessionsWorkspace::withActions(QWidget* shown, int margin, QWidget* actions) {
+QWidget* SessionsWorkspace::withActions(QWidget* shown, QWidget* actions) {
     auto* pane = new QWidget(this);
     auto* column = new QVBoxLayout(pane);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    auto* inner = new QWidget(pane);
-    auto* around = new QVBoxLayout(inner);
-    around->setContentsMargins(margin, margin, margin, 0);
-    around->addWidget(shown);
-    column->addWidget(inner, 1);
+    column->addWidget(shown, 1);
+    makeActionBar(*actions);
     column->addWidget(actions);
     return pane;
 }

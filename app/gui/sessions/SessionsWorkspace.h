@@ -40,7 +40,7 @@ protected:
     void dropEvent(QDropEvent* event) override;
 
 private:
-    [[nodiscard]] QWidget* withActions(QWidget* shown, int margin, QWidget* actions);
+    [[nodiscard]] QWidget* withActions(QWidget* shown, QWidget* actions);
     [[nodiscard]] QWidget* buildListActions();
     [[nodiscard]] QWidget* buildSessionActions();
     [[nodiscard]] QWidget* buildNews();

@@ -13,12 +13,17 @@ namespace tacto::gui {
 
 namespace {
 
+// A verdict is told by its shape from afar: its lines are as heavy as the bold word beside it.
+constexpr const char kToolLine[] = R"(stroke-width="1.5")", kVerdictLine[] = R"(stroke-width="2.4")";
+
 QString fileOf(const QString& name) { return ":/icons/" + name + ".svg"; }
 
 void paintIcon(QPainter& painter, const QString& name, const QColor& colour, const QRectF& place) {
     QFile file(fileOf(name));
     if (!file.open(QIODevice::ReadOnly)) return;
-    QSvgRenderer drawing(file.readAll().replace("currentColor", colour.name().toLatin1()));
+    auto shape = file.readAll().replace("currentColor", colour.name().toLatin1());
+    if (name.startsWith("verdict-")) shape.replace(kToolLine, kVerdictLine);
+    QSvgRenderer drawing(shape);
     // What is wider has its room at the right.
     const double side = std::min(place.width(), place.height());
     drawing.render(&painter, {place.left(), place.center().y() - side / 2, side, side});

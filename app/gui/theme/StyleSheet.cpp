@@ -87,6 +87,8 @@ QComboBox QAbstractItemView { border: 1px solid @edge; outline: none; }
 
 QPlainTextEdit, QTextEdit { border: 1px solid @edge; border-radius: 4px; }
 QPlainTextEdit:focus, QTextEdit:focus { border: 2px solid @text; }
+QTextEdit#whatHappened { border: 2px solid transparent; background: transparent; }
+QTextEdit#whatHappened:focus { border-color: @text; }
 
 QCheckBox, QRadioButton { spacing: ~8; }
 QCheckBox::indicator, QGroupBox::indicator, QTreeView::indicator, QListView::indicator, QTableView::indicator {
@@ -115,9 +117,11 @@ QProgressBar::chunk { background: @bar; }
 QWidget#tabRow { background: @window; border-bottom: 1px solid @line; }
 QTabWidget::pane { border: none; border-top: 1px solid @line; }
 QTabBar { background: @window; qproperty-drawBase: 0; outline: none; }
-QTabBar::tab { background: @window; color: @quiet; border: none; border-right: 1px solid @line;
+QTabBar::tab { background: @window; color: @quiet; border: none; border-right: 1px solid transparent;
     border-top: 3px solid transparent; padding: 0 ~16; min-height: ~37; }
-QTabBar::tab:selected { background: @base; color: @text; border-top-color: @primary; font-weight: 600; }
+QTabBar::tab:selected { background: @base; color: @text; border-top-color: @primary; border-right-color: @line;
+    font-weight: 600; }
+QTabBar::tab:next-selected { border-right-color: @line; }
 QTabBar::tab:hover:!selected { background: @sunken; }
 QTabBar::tab:disabled { color: @edge; }
 QTabBar::tab:focus { text-decoration: underline; }
@@ -127,6 +131,7 @@ QHeaderView::section { background: @window; color: @quiet; border: none; border-
     padding: 0 ~8; min-height: ~28; text-align: left; }
 QTableView, QTreeView, QListView { border: 1px solid @line; outline: none; gridline-color: @line;
     alternate-background-color: @base; }
+QTableView#sessionsTable { border: none; border-top: 1px solid @line; }
 QTableView::item, QTreeView::item { border-bottom: 1px solid @grid; padding: 0 ~4; }
 QTableView::item:selected, QTreeView::item:selected, QListView::item:selected {
     background: @selection; color: @text; }
@@ -144,6 +149,7 @@ QScrollBar::handle { background: @edge; border-radius: 3px; margin: 2px; min-wid
 QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
 QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
 QSplitter::handle { background: @line; }
+QSplitter#judgedLimits::handle { background: transparent; }
 QSplitter::handle:horizontal { width: 1px; }
 QSplitter::handle:vertical { height: 1px; }
 
@@ -155,6 +161,8 @@ QLabel[tone="warning"] { color: @amberText; }
 *[textSize="large"] { font-size: ^15; font-weight: 600; }
 *[textSize="display"] { font-size: ^28; font-weight: 700; }
 *[textWeight="strong"] { font-weight: 600; }
+QWidget#path, QWidget#tabTools { background: @window; }
+QWidget[role="actions"] { background: @window; border-top: 1px solid @line; }
 QFrame#safetyBar, QWidget#centre { background: @base; }
 QFrame#tour { background: @base; border: 2px solid @text; border-radius: 4px; }
 )";

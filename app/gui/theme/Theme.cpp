@@ -84,6 +84,11 @@ void makePrimary(QPushButton& button, bool primary) { setStyled(button, "role", 
 
 void makeQuiet(QPushButton& button) { setStyled(button, "role", "quiet"); }
 
+void makeActionBar(QWidget& bar) {
+    bar.setAttribute(Qt::WA_StyledBackground);
+    setStyled(bar, "role", "actions");
+}
+
 ConditionStyle conditionInTheme(const QString& name, int index) {
     static const std::map<QString, QColor> onDark{
         {"smooth-low", "#8CCBF0"}, {"smooth-high", "#56B4E9"}, {"rough-low", "#F0AE1D"}, {"rough-high", "#F07F2E"}};

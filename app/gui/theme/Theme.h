@@ -45,6 +45,8 @@ void setTone(QLabel& label, Tone tone);
 /// The filled button of a screen; one that has no edge until the pointer is over it. See StyleSheet.h.
 void makePrimary(QPushButton& button, bool primary = true);
 void makeQuiet(QPushButton& button);
+/// The bar below a page that holds what can be done with it.
+void makeActionBar(QWidget& bar);
 
 /// The condition's style in the current theme ("smooth-low", ...).
 [[nodiscard]] ConditionStyle conditionInTheme(const QString& name, int index = 0);

@@ -102,6 +102,15 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_THAT(more, Not(HasSubstr("is not calibrated")));
     QTest::qWait(20);  // drawn with the next event
     shot(workspace, "calibrate_done");
+    // What chooses the plot stands in the row of tabs, with the plot alone.
+    const auto* kind = workspace.findChild<QWidget*>("tabTools")->findChild<QComboBox*>();
+    EXPECT_TRUE(kind->isVisible());
+    EXPECT_LT(kind->mapTo(&workspace, QPoint(0, kind->height())).y(), errors->mapTo(&workspace, QPoint()).y() - 60);
+    EXPECT_EQ(errors->xAxis->label(), "commanded amplitude (V)");
+    click(the<gui::StepButton>("Settings"));
+    EXPECT_FALSE(kind->isVisible());
+    click(the<gui::StepButton>("Result"));
+    EXPECT_TRUE(kind->isVisible());
     gui::applyTheme(gui::Theme::Dark);
     QTest::qWait(20);
     shot(workspace, "calibrate_done_dark");

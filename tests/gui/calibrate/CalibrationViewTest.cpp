@@ -8,6 +8,7 @@
 #include "app/gui/calibrate/CalibrationView.h"
 #include "app/gui/calibrate/ToleranceCard.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -112,6 +113,17 @@ TEST_F(View, FollowsTheRunUntilOneIsChosen) {
     EXPECT_EQ(view.quantityShown(), "Amplitude");
 }
 
+TEST_F(View, LowItsCardsAreOneLineSoThatThePlotHasTheRoom) {
+    sweep();
+    auto* card = view.findChild<gui::ToleranceCard*>();
+    ASSERT_NE(card, nullptr);
+    view.resize(1000, 900);
+    EXPECT_IN_TIME(comesTrue([&] { return card->height() >= 80; })) << card->height();
+    view.resize(1000, 420);
+    EXPECT_IN_TIME(comesTrue([&] { return card->height() <= 40; })) << card->height();
+    EXPECT_GE(errors().height(), 340);
+}
+
 TEST_F(View, OtherTrialsAreNone) {
     EXPECT_EQ(gui::calibratedQuantity({{"condition", "rough-high"}, {"amplitude_v", 30}}), "");
     EXPECT_EQ(gui::calibratedQuantity({{"condition", "amplitude up"}, {"commanded", 30}}), "");
@@ -132,13 +144,16 @@ TEST_F(View, TheResultHasTheLastWord) {
         {{"amplitude",
           {{"unit", "V"},
            {"gain", 1.003},
-           {"offset", 0.0},
+           {"gain_expanded_uncertainty", 0.0047},
+           {"offset", 0.018},
+           {"offset_expanded_uncertainty", 0.049},
            {"tolerance_pct", 2.0},
            {"verdict", "pass"},
            {"levels", levels},
            {"readings",
             Json::array({{{"commanded", 10.0}, {"measured", 10.03}, {"direction", "up"}, {"outlier", true}},
                          {{"commanded", 40.0}, {"measured", 40.1}, {"direction", "down"}, {"outlier", false}}})}}}});
+    EXPECT_THAT(says(), HasSubstr("gain 1.0030 ± 0.0047 · offset 18 ± 49"));
     EXPECT_EQ(errors().drawnMeans(), 3);
     EXPECT_EQ(errors().drawnUp(), 1);
     EXPECT_EQ(errors().drawnMarked(), 1);

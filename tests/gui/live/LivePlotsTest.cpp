@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "app/gui/live/CommandPanel.h"
 #include "app/gui/live/StripPlots.h"
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/live/TaxelMap.h"
@@ -334,15 +335,43 @@ TEST(TaxelMap, IsBluerWhereItIsPressed) {
     const QColor there = image.pixelColor(210, 10), elsewhere = image.pixelColor(110, 10);
     EXPECT_LT(there.lightness(), elsewhere.lightness() - 40);
     EXPECT_GT(there.blue() - there.red(), 80);
-    // Legible on every ground: the text of a full cell is light in the light theme.
-    int lightest = 0;
-    for (int x = 201; x < 299; ++x) {
-        for (int y = 1; y < 99; ++y) lightest = std::max(lightest, image.pixelColor(x, y).lightness());
+    // Legible on every ground: a full cell is light enough for the text's own colour.
+    int darkest = 255;
+    for (int x = 203; x < 298; ++x) {
+        for (int y = 2; y < 97; ++y) darkest = std::min(darkest, image.pixelColor(x, y).lightness());
     }
-    EXPECT_GT(lightest, 240);
+    EXPECT_LT(darkest, 60);
+    EXPECT_GT(there.lightness(), 140);
     const auto fresh = map.grab().toImage();
     map.setStale(true);
     EXPECT_NE(map.grab().toImage(), fresh) << "old values are marked";
+}
+
+TEST(TaxelMap, IsAsLowAsTwoLinesWhereRoomIsShort) {
+    gui::TaxelMap map;
+    const float eight[] = {0, 0, 0, 0, 0, 0, 0, 0};
+    map.show(eight, "Pa");
+    EXPECT_LE(map.minimumSizeHint().height(), 4 * map.fontMetrics().height());
+    EXPECT_LE(map.sizeHint().height(), 5 * map.fontMetrics().height());
+    const float sixteen[16] = {};
+    const int before = map.minimumSizeHint().height();
+    map.show(sixteen, "Pa");
+    EXPECT_EQ(map.minimumSizeHint().height(), 2 * before) << "four rows";
+}
+
+TEST(CommandPanel, NamesTheConditionThatThePointIsNear) {
+    gui::CommandPanel panel;
+    const std::vector<Condition> conditions{{"smooth-low", 0, 0}, {"rough-high", 1, 1}};
+    Telemetry telemetry;
+    telemetry.roughness = 0.95;
+    telemetry.pressure = 0.9;
+    panel.show(telemetry, false, conditions);
+    EXPECT_EQ(panel.findChild<QLabel*>("commandIndices")->text(), "near rough-high · R 0.95, P 0.90");
+    telemetry.pressure = 0.5;
+    panel.show(telemetry, false, conditions);
+    EXPECT_EQ(panel.findChild<QLabel*>("commandIndices")->text(), "R 0.95, P 0.50");
+    panel.show(telemetry, true, conditions);
+    EXPECT_EQ(panel.findChild<QLabel*>("commandIndices")->text(), "") << "not of old samples";
 }
 
 TEST(Plane, ThePresentPointIsSeenWhereItStandsOnACondition) {

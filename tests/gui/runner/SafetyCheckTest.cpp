@@ -23,7 +23,7 @@ protected:
 };
 
 TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
-    open("load-safety", {1150, 600});
+    open("load-safety", {1150, 760});
     type("area", "3");
     type("steps", "2");
     ASSERT_IN_TIME(ready());
@@ -65,6 +65,12 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_EQ(find<QPushButton>(*workspace, "Waveform"), nullptr) << "no second place for it";
     EXPECT_EQ(find<QWidget>(*workspace, "disclosedOutputs"), nullptr) << "there is no room beside the tracing";
     workspace->resize(1800, 900);
+    EXPECT_IN_TIME(comesTrue([&] {
+        return strip->mapTo(workspace.get(), QPoint()).x() >
+               matrix.mapTo(workspace.get(), QPoint(matrix.width(), 0)).x();
+    })) << "beside the limits in a wide window";
+    EXPECT_GE(matrix.height(), 680) << "which have all the height";
+    EXPECT_NE(find<QWidget>(*workspace, "How to read a cell"), nullptr);
     auto& disclosed = the<QScrollArea>("disclosedOutputs");
     ASSERT_NE(disclosed.widget(), nullptr);
     const auto* outputs = qobject_cast<QTableWidget*>(disclosed.widget());
@@ -100,12 +106,16 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     workspace->resize(1150, 420);
     EXPECT_IN_TIME(comesTrue([&] { return !strip->isVisible(); })) << "too low for both";
     QTest::keyClick(&matrix, Qt::Key_Return);
-    auto* wave = find<gui::CaptureStrip>(*workspace, "Last capture");
-    ASSERT_NE(wave, nullptr) << "Return shows the tracing where there is no room below the limits";
-    EXPECT_TRUE(wave->title().endsWith(": the strongest train")) << wave->title().toStdString();
-    EXPECT_FALSE(wave->empty());
+    EXPECT_IN_TIME(comesTrue([&] { return strip->isVisible(); }))
+        << "Return shows the tracing where there is no room for both";
+    EXPECT_EQ(find<QWidget>(*workspace, "How to read a cell"), nullptr) << "the tool tip says it";
+    EXPECT_TRUE(says("strongestOutput").endsWith(": the strongest train")) << says("strongestOutput").toStdString();
+    EXPECT_FALSE(strip->empty());
+    EXPECT_TRUE(disclosed.isVisible()) << "with the outputs below it";
     shot(*workspace, "safety_tracing");
-    click(*find<QPushButton>(*workspace, "Plot"));
+    click(*find<QPushButton>(*workspace, "Limits"));
+    EXPECT_TRUE(matrix.isVisible());
+    EXPECT_NE(find<QPushButton>(*workspace, "Tracing"), nullptr);
     int live = 0;
     QObject::connect(workspace.get(), &gui::ProtocolWorkspace::liveWanted, [&] { ++live; });
     click(the<QPushButton>("Go to Live"));

@@ -8,6 +8,7 @@
 #include <QScrollBar>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
+#include "app/gui/live/TactilePlane.h"
 #include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/ScopeModel.h"
@@ -60,6 +61,7 @@ protected:
             for (auto* one : window.findChildren<Plot*>())
                 if (one->isVisible()) plot = one;
             ASSERT_NE(plot, nullptr);
+            shot(window, QString("share-%1-%2").arg(name).arg(size.height()));
             const double share = shareOf(*plot);
             EXPECT_GE(share, size.height() < 1000 ? leastSmall : leastLarge) << name << " at " << size.height();
             RecordProperty(QString("%1 %2").arg(name).arg(size.height()).toStdString(), std::to_string(share));
@@ -99,8 +101,8 @@ TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
     window.findChild<QLineEdit*>("warm_up_s")->setText("0");
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-calibrate");
-    // Below it stand the cards, one for each quantity.
-    plotHas<gui::CalibrationPlot>(0.7, 0.8, "residuals");
+    // Below it stand the cards, one for each quantity: one line each in the small window.
+    plotHas<gui::CalibrationPlot>(0.8, 0.8, "residuals");
 }
 
 TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
@@ -108,8 +110,8 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
     ASSERT_NO_FATAL_FAILURE(type("area", "4"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-safety");
-    // Below it stands the tracing of the strongest output.
-    plotHas<gui::LimitMatrixView>(0.6, 0.65, "matrix");
+    // The tracing of the strongest output is a view of its own in the small window, and beside it in the large one.
+    plotHas<gui::LimitMatrixView>(0.8, 0.8, "matrix");
 }
 
 TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
@@ -127,6 +129,22 @@ TEST_F(ResultsInTheWindow, AFaultLooksRight) {
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
     ASSERT_IN_TIME(comesTrue([this] { return banner().startsWith("Fault: "); }));
     looksRight("faulted");
+}
+
+TEST_F(ResultsInTheWindow, WhatTheFingertipFeelsIsSeenWithoutScrolling) {
+    open();
+    window.showWorkspace(0);
+    for (const auto size : {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)}) {
+        window.resize(size);
+        const auto* side = find<QScrollArea>(window, "fingertipSide");
+        ASSERT_NE(side, nullptr);
+        EXPECT_IN_TIME(comesTrue([&] { return side->verticalScrollBar()->maximum() == 0; })) << size.height();
+        QTest::qWait(200);
+        const auto* plane = find<gui::TactilePlane>(window, "Tactile plane");
+        ASSERT_NE(plane, nullptr);
+        EXPECT_GE(plane->height(), 190) << size.height();
+        EXPECT_NE(find<QDoubleSpinBox>(window, "fingerForce"), nullptr);
+    }
 }
 
 TEST_F(ResultsInTheWindow, TheArmDialogLooksRight) {
