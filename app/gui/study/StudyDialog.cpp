@@ -2,6 +2,7 @@
 
 #include <QDialogButtonBox>
 
+#include "app/gui/theme/GrowingDialog.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -38,6 +39,7 @@ QPushButton* StudyDialog::finish(const QString& trouble, QPushButton* act) {
     for (auto* button : {cancel, act}) button->setAutoDefault(false);
     column_->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    growWithContent(*this);
     return cancel;
 }
 
@@ -47,10 +49,7 @@ Study* StudyDialog::openStudy(const QString& nothing) {
     return study;
 }
 
-void StudyDialog::refuse(const QString& why) {
-    trouble_->setText("⚠ " + why);
-    resize(width(), std::max(height(), layout()->totalHeightForWidth(width())));
-}
+void StudyDialog::refuse(const QString& why) { trouble_->setText("⚠ " + why); }
 
 void StudyDialog::refuse(const Error& error) { refuse(sentence(error)); }
 

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/GrowingDialog.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/electrode/Load.h"
@@ -18,6 +19,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPollInterval_ms = 100;
+constexpr int kArmChars = 64;  // wide
 constexpr std::chrono::seconds kAnswerWithin =
     std::chrono::duration_cast<std::chrono::seconds>(Interlock::kConfirmWithin);
 
@@ -104,6 +106,8 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
         cancel->setFocus();
     judge();
     sayFirst();
+    resize(fontMetrics().averageCharWidth() * kArmChars, sizeHint().height());
+    growWithContent(*this);
 }
 
 void ArmDialog::judge() {

@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "app/gui/theme/GrowingDialog.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/electrode/Load.h"
@@ -92,6 +93,7 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     connect(gain_, &QDoubleSpinBox::valueChanged, this, &SimulatedBenchDialog::judge);
     connect(faultAt_, &QDoubleSpinBox::valueChanged, this, &SimulatedBenchDialog::judge);
     judge();
+    growWithContent(*this);
 }
 
 std::vector<std::string> SimulatedBenchDialog::uris() const {
