@@ -1,6 +1,5 @@
 #include "app/gui/sessions/SessionList.h"
 
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QPainter>
@@ -10,6 +9,7 @@
 #include <algorithm>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/run/RunFiles.h"
@@ -136,6 +136,11 @@ void SessionList::buildTable() {
     connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
         if (!arranging_) emit selectionChanged();
     });
+    onLookChange(*this, [this] {
+        table_->verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
+        model_->recolour();
+    });
+    afterLookChange(*this, [this] { fitColumns(); });  // when the header has its text's size
 }
 
 void SessionList::rescan(const std::filesystem::path& recording) {
@@ -181,10 +186,14 @@ void SessionList::take(std::vector<SessionEntry> entries) {
     choose(chosen);
     arranging_ = false;
     wanted_.clear();
-    for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
+    fitColumns();
     say();
     if (asked || chosenNow() != before) emit selectionChanged();
     seen_.start();
+}
+
+void SessionList::fitColumns() {
+    for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
 }
 
 /// What a display of the chosen ones depends on. Not the labels: they are changed there.
@@ -283,15 +292,11 @@ void SessionList::say() {
 void SessionList::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     const bool roomy = width() >= fontMetrics().averageCharWidth() * kRoomyChars;
-    for (const int each : {SessionModel::kOperator, SessionModel::kLength}) table_->setColumnHidden(each, !roomy);
+    if (roomy == table_->isColumnHidden(SessionModel::kLength)) {
+        for (const int each : {SessionModel::kOperator, SessionModel::kLength}) table_->setColumnHidden(each, !roomy);
+        fitColumns();  // a hidden column has no contents to fit
+    }
     seen_.start();
-}
-
-void SessionList::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (table_ == nullptr) return;
-    if (event->type() == QEvent::FontChange) table_->verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
-    if (event->type() == QEvent::PaletteChange) model_->recolour();
 }
 
 std::vector<std::filesystem::path> SessionList::chosenPaths() const {

@@ -14,6 +14,7 @@
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/runner/TrialPlane.h"
+#include "app/gui/sessions/SessionModel.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/Digest.h"
@@ -57,6 +58,17 @@ protected:
     gui::BenchController controller{simulatedRegistry};
     gui::SessionsWorkspace workspace{controller};
 };
+
+TEST_F(Sessions, AColumnThatComesIntoSightIsAsWideAsItsTitle) {
+    sessions.write({.name = "a"});
+    begin({700, 700});
+    listed(1);
+    EXPECT_TRUE(table().isColumnHidden(gui::SessionModel::kLength));
+    workspace.resize(1800, 900);
+    ASSERT_IN_TIME(comesTrue([&] { return !table().isColumnHidden(gui::SessionModel::kLength); }));
+    for (int column = 0; column < gui::SessionModel::kNote; ++column)
+        EXPECT_GE(table().columnWidth(column), table().horizontalHeader()->sectionSizeHint(column)) << column;
+}
 
 TEST_F(Sessions, FiveThousandAreListedInUnderASecond) {
     // Fifty that differ, a hundred names each: what a listing does for a name does not depend on whose bytes they are.
