@@ -95,7 +95,8 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     connect(gain_, &QDoubleSpinBox::valueChanged, this, &SimulatedBenchDialog::judge);
     connect(faultAt_, &QDoubleSpinBox::valueChanged, this, &SimulatedBenchDialog::judge);
     judge();
-    resize(fontMetrics().averageCharWidth() * kBenchChars, sizeHint().height());
+    const int wide = fontMetrics().averageCharWidth() * kBenchChars;
+    resize(wide, layout->totalHeightForWidth(wide));
     growWithContent(*this);
 }
 
