@@ -106,7 +106,8 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
         cancel->setFocus();
     judge();
     sayFirst();
-    resize(fontMetrics().averageCharWidth() * kArmChars, sizeHint().height());
+    const int wide = fontMetrics().averageCharWidth() * kArmChars;
+    resize(wide, layout->totalHeightForWidth(wide));
     growWithContent(*this);
 }
 

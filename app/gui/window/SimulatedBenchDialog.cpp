@@ -34,6 +34,8 @@ constexpr Fault kFaults[] = {
     {"oscilloscope", "unplug", QT_TRANSLATE_NOOP("Faults", "oscilloscope unplugged")},
 };
 
+constexpr int kBenchChars = 64;  // wide
+
 }  // namespace
 
 SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget* parent)
@@ -93,6 +95,8 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     connect(gain_, &QDoubleSpinBox::valueChanged, this, &SimulatedBenchDialog::judge);
     connect(faultAt_, &QDoubleSpinBox::valueChanged, this, &SimulatedBenchDialog::judge);
     judge();
+    const int wide = fontMetrics().averageCharWidth() * kBenchChars;
+    resize(wide, layout->totalHeightForWidth(wide));
     growWithContent(*this);
 }
 

@@ -189,6 +189,29 @@ TEST_F(ResultsInTheWindow, TheDialogOfFaultsLooksRightAndDoesWhatTheReadmePromis
     EXPECT_IN_TIME(comesTrue([this] { return banner().contains("Output is off"); })) << banner().toStdString();
 }
 
+TEST_F(ResultsInTheWindow, InLargeTextTheDialogsOfTheBenchFitASmallScreen) {
+    open();
+    gui::applyTextSize(200);
+    window.resize(1280, 720);
+    QTest::qWait(100);
+    const auto fits = [](QWidget& dialog) {
+        static_cast<void>(comesTrue([&] { return dialog.isVisible() && faultsOf(dialog).empty(); }, 3000));
+        EXPECT_EQ(faultsOf(dialog), "");
+        EXPECT_LE(dialog.height(), 720);
+        EXPECT_LE(dialog.width(), 1280);
+        dialog.close();
+    };
+    window.askForSimulatedBench();
+    auto* bench = window.findChild<gui::SimulatedBenchDialog*>();
+    ASSERT_NE(bench, nullptr);
+    fits(*bench);
+    window.askToArm();
+    auto* second = window.findChild<QPushButton*>("armOutput");
+    ASSERT_NE(second, nullptr);
+    fits(*second->window());
+    gui::applyTextSize(100);
+}
+
 TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
     open();
     window.showWorkspace(0);
