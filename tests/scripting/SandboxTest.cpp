@@ -124,7 +124,7 @@ TEST(Sandbox, ShowsNothingOfTheObjectBehindIt) {
                      "readReference", "replayed", "sensorStreams", "setElectrodeArea", "setEncoding", "setReferences",
                      "step", "surfaces", "time", "traverse",
                      "tripBySilence", "tripWhenArming", "tripWhileDelivering", "useCalibration",
-                     "useFingertipScales", "wait", "weights"];
+                     "useFingertipScales", "wait", "watch", "weights"];
         if (Object.getOwnPropertyNames(bench).sort().join() !== own.join()) {
             throw Object.getOwnPropertyNames(bench).sort().join();
         }
