@@ -1,7 +1,6 @@
 #include "core/base/Text.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -38,26 +37,30 @@ std::optional<double> parseNumber(std::string_view text) {
 }
 
 namespace {
-struct Prefix {
-    std::string_view symbol;
-    int exponent;
-};
-constexpr std::array<Prefix, 9> kParsed{
-    {{"p", -12}, {"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3}, {"k", 3}, {"M", 6}, {"G", 9}}};
+
+/// The engineering prefix that a text ends with; "u" and the Greek letter stand for the micro sign.
+std::optional<UnitPrefix> prefixAtEnd(std::string_view text) {
+    for (const char* micro : {"u", "μ"}) {
+        if (text.ends_with(micro)) return UnitPrefix{-6, micro};
+    }
+    for (int exponent = -12; exponent <= 9; exponent += 3) {
+        const auto prefix = prefixOf(exponent);
+        if (*prefix.symbol != '\0' && text.ends_with(prefix.symbol)) return prefix;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> parseQuantity(std::string_view text, std::string_view unit) {
     text = trimmed(text);
     if (text.ends_with(unit)) text = trimmed(text.substr(0, text.size() - unit.size()));
     if (const auto plain = parseNumber(text)) return plain;
-    for (const auto& prefix : kParsed) {
-        if (!text.ends_with(prefix.symbol)) continue;
-        // Parsing "1.5e3" keeps the nearest double, which 1.5 * 1000.0 might miss.
-        const std::string number =
-            fmt::format("{}e{}", trimmed(text.substr(0, text.size() - prefix.symbol.size())), prefix.exponent);
-        return parseNumber(number);
-    }
-    return std::nullopt;
+    const auto prefix = prefixAtEnd(text);
+    if (!prefix) return std::nullopt;
+    // Parsing "1.5e3" keeps the nearest double, which 1.5 * 1000.0 might miss.
+    text.remove_suffix(std::string_view(prefix->symbol).size());
+    return parseNumber(fmt::format("{}e{}", trimmed(text), prefix->exponent));
 }
 
 }  // namespace tacto

@@ -27,7 +27,7 @@ struct StageTrial;
 
 class PilotOutput {
 public:
-    static constexpr int kSeatings = 3;            ///< in a row, of electrodes that are not as they have to be
+    static constexpr int kSeatings = 3;            ///< in a row, of electrodes that do not pass their check
     static constexpr Seconds kFocusTimeout{10};    ///< it stays armed so long while the keys are elsewhere
     static constexpr Seconds kScreenTimeout{600};  ///< a participant's screen may be gone so long
 
@@ -65,8 +65,8 @@ public:
     [[nodiscard]] Result<void> recover(const std::string& during, const Error& why);
     /// Asks again after each stop, once the participant wants to go on.
     [[nodiscard]] Result<PilotAnswer> insist(const PilotPrompt& prompt);
-    /// Electrodes, or a massager, are not as they have to be, which is not a fault: a row `gate`, and the operator
-    /// seats them again. Levels are reached again by a ramp from here on.
+    /// Electrodes, or a massager, do not pass their check, which is not a fault: writes a row `gate` and has the
+    /// operator seat them again. Levels are then reached again by a ramp.
     [[nodiscard]] Result<void> seatAgain(const std::string& during, const std::string& why);
 
     /// Electrodes may be others than they were: measured before anything is armed again.

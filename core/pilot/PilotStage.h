@@ -87,8 +87,8 @@ public:
     /// measured since: they may be others than they were. Its errors end the trial.
     void onSeatedAgain(std::function<Result<void>()> measure) { output_.measureAnew = std::move(measure); }
     void electrodesTouched() noexcept { output_.electrodesTouched(); }
-    /// Electrodes that are not as they have to be: a row, and the operator seats them again. At most kSeatings times
-    /// in a row, counted by the caller.
+    /// Electrodes did not pass their check: writes a row and has the operator seat them again. At most kSeatings times
+    /// in a row, which the caller counts.
     [[nodiscard]] Result<void> seatAgain(const std::string& during, const std::string& why) {
         return output_.seatAgain(during, why);
     }

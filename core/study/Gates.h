@@ -59,7 +59,7 @@ struct ExclusionAnswer {
 /// The clock is not more than 5 min behind the last of what was noted, which is `of`.
 [[nodiscard]] Result<void> clockGate(std::chrono::sys_seconds last, std::chrono::sys_seconds now,
                                      std::string_view of = "the ledger's last row");
-/// The zone in which days are counted, whatever TZ says, is one that there is: at most 12 h behind UTC and 14 h ahead.
+/// Days are counted in a time zone that exists, whatever TZ says: at most 12 h behind UTC and 14 h ahead.
 [[nodiscard]] Result<void> zoneGate(std::chrono::seconds aheadOfUtc);
 /// A virtual participant, and a rehearsal with electrodes, on simulated devices only; a person on a simulated one in a
 /// rehearsal only.

@@ -52,6 +52,14 @@ private:
     bool waiting_ = false, cancelled_ = false;
 };
 
+/// Waits for what the script says. Returns whether it did: where it ended before, there is nothing to wait for.
+bool isSaid(std::future<void> said, ScriptRun& run) {
+    while (said.wait_for(milliseconds(10)) != std::future_status::ready) {
+        if (run.waitFor(milliseconds(0))) return said.wait_for(milliseconds(0)) == std::future_status::ready;
+    }
+    return true;
+}
+
 /// Runs a script up to its first log() line, then stops it.
 struct Stopping {
     explicit Stopping(RunBench& rig, const std::string& body) {
@@ -59,7 +67,7 @@ struct Stopping {
         std::promise<void> reached;
         request.onLog = [&](const std::string&) { reached.set_value(); };
         auto run = ScriptRun::start(std::move(request)).value();
-        reached.get_future().wait();
+        [&] { ASSERT_IN_TIME(isSaid(reached.get_future(), *run)) << "the script ended before it was armed"; }();
         armedBefore = !rig.outputOff();
         // Long enough for the script to be inside what it does next.
         [&] { ASSERT_IN_TIME(!run->waitFor(milliseconds(150))) << "the script ended by itself"; }();
@@ -167,7 +175,7 @@ TEST(ScriptStop, AbandonsALongNativeCallWithinASecondWithOutputsOff) {
     const std::weak_ptr<bool> held = owner;
     request.owner = std::move(owner);
     auto run = ScriptRun::start(std::move(request)).value();
-    reached.get_future().wait();
+    ASSERT_IN_TIME(isSaid(reached.get_future(), *run));
     EXPECT_FALSE(run->waitFor(milliseconds(150)));
     const auto begin = steady_clock::now();
     run->stop("the test");
@@ -244,7 +252,7 @@ TEST(ScriptStop, OfTheBenchByAnotherDoorEndsTheRunToo) {
     std::promise<void> reached;
     request.onLog = [&](const std::string&) { reached.set_value(); };
     auto run = ScriptRun::start(std::move(request)).value();
-    reached.get_future().wait();
+    ASSERT_IN_TIME(isSaid(reached.get_future(), *run));
     rig.bench().stop("the red button");
     const auto outcome = run->wait();
     ASSERT_IN_TIME(outcome.verdict == ScriptVerdict::Stopped);
@@ -262,7 +270,7 @@ TEST(ScriptStop, PauseHoldsTheScriptAndResumeLetsItGo) {
         if (++steps == 1) begun.set_value();
     };
     auto run = ScriptRun::start(std::move(request)).value();
-    begun.get_future().wait();
+    ASSERT_IN_TIME(isSaid(begun.get_future(), *run));
     run->pause();
     (void)run->waitFor(milliseconds(50));  // what was under way when it paused has ended
     const int held = steps;
@@ -281,7 +289,7 @@ TEST(ScriptStop, EndsAPausedScript) {
     std::promise<void> begun;
     request.onLog = [&](const std::string&) { begun.set_value(); };
     auto run = ScriptRun::start(std::move(request)).value();
-    begun.get_future().wait();
+    ASSERT_IN_TIME(isSaid(begun.get_future(), *run));
     run->pause();
     EXPECT_FALSE(run->waitFor(milliseconds(50)));
     run->stop("the test");

@@ -16,6 +16,11 @@ std::vector<HostFunction> benchFunctions() {
     const auto force = number("options.force_n", "N", "normal force").range(0, 50);
     const auto sliding = number("options.duration_s", "s", "of reading").range(1, 600).otherwise(4);
     const auto surface = text("material", "surface, as \"P120\"");
+    const auto onPlane = [](std::string_view name, std::string_view symbol) {
+        return number(name, "", symbol).range(0, 1);
+    };
+    const auto rate =
+        number("options.rate_hz", "Hz", "sampling rate").range(1, 1e9).optional("1e6 or the instrument's largest");
     return {
         {.name = "arm",
          .parameters = {load("options.load", "declared load, ± 20 % for the limits").otherwise(ArmRequest{}.load)},
@@ -45,10 +50,7 @@ std::vector<HostFunction> benchFunctions() {
              {whole("options.trains", "how many trains; 2 to 8 with intervals")
                   .range(1, kMaxTrains)
                   .optional("1, or 2 with intervals,"),
-              number("options.rate_hz", "Hz", "sampling rate")
-                  .range(1, 1e9)
-                  .optional("1e6 or the instrument's largest"),
-              whole("options.samples", "per capture").range(1, 1e8).optional("the whole train"),
+              rate, whole("options.samples", "per capture").range(1, 1e8).optional("the whole train"),
               number("options.voltage_range_v", "V", "full scale is ± this")
                   .range(1e-3, 1e4)
                   .optional("1.3 times the command"),
@@ -78,8 +80,8 @@ std::vector<HostFunction> benchFunctions() {
          .call = host::bench::fitLoad},
         {.name = "present",
          .parameters =
-             {object("condition", "one of bench.conditions"), number("condition.roughness", "", "R").range(0, 1),
-              number("condition.pressure", "", "P").range(0, 1),
+             {object("condition", "one of bench.conditions"), onPlane("condition.roughness", "R"),
+              onPlane("condition.pressure", "P"),
               text("options.source", "\"finger\": slide over a surface; \"direct\": set R and P")
                   .oneOf({"finger", "direct"})
                   .otherwise("finger"),
@@ -176,9 +178,8 @@ std::vector<HostFunction> benchFunctions() {
          .needs = Role::Stimulator,
          .call = host::bench::predict},
         {.name = "attempt",
-         .parameters = {object("command", "from bench.predict()"),
-                        number("command.roughness", "", "R").range(0, 1).otherwise(0),
-                        number("command.pressure", "", "P").range(0, 1).otherwise(0)},
+         .parameters = {object("command", "from bench.predict()"), onPlane("command.roughness", "R").otherwise(0),
+                        onPlane("command.pressure", "P").otherwise(0)},
          .text = "Asks for one train of this command while armed, and ends the drive again. A refusal is not an error "
                  "here.",
          .returns = "{ refused, delivered, reason }",
@@ -353,16 +354,14 @@ std::vector<HostFunction> benchFunctions() {
          .needs = Role::Sensor,
          .call = host::bench::useFingertipScales},
         {.name = "step",
-         .parameters = {object("from", "{ roughness, pressure } before the step"),
-                        number("from.roughness", "", "R").range(0, 1), number("from.pressure", "", "P").range(0, 1),
+         .parameters = {object("from", "{ roughness, pressure } before the step"), onPlane("from.roughness", "R"),
+                        onPlane("from.pressure", "P"),
                         object("to", "the same after it; at least one just-noticeable difference away"),
-                        number("to.roughness", "", "R").range(0, 1), number("to.pressure", "", "P").range(0, 1),
+                        onPlane("to.roughness", "R"), onPlane("to.pressure", "P"),
                         number("options.phase", "", "when, as a share of the interval between trains")
                             .range(0.05, 0.9)
                             .otherwise(0.5),
-                        number("options.rate_hz", "Hz", "sampling rate")
-                            .range(1, 1e9)
-                            .optional("1e6 or the instrument's largest")},
+                        rate},
          .text = "Lets trains run at one place of the plane, steps to another and watches the trains that follow, each "
                  "in a record of its own.",
          .returns =
@@ -383,14 +382,11 @@ std::vector<HostFunction> benchFunctions() {
          .call = host::bench::step},
         {.name = "traverse",
          .parameters =
-             {object("from", "{ roughness, pressure } where the movement begins"),
-              number("from.roughness", "", "R").range(0, 1), number("from.pressure", "", "P").range(0, 1),
-              object("to", "the same where it turns"), number("to.roughness", "", "R").range(0, 1),
-              number("to.pressure", "", "P").range(0, 1),
+             {object("from", "{ roughness, pressure } where the movement begins"), onPlane("from.roughness", "R"),
+              onPlane("from.pressure", "P"), object("to", "the same where it turns"), onPlane("to.roughness", "R"),
+              onPlane("to.pressure", "P"),
               number("options.seconds", "s", "from one to the other, and the same back").range(0.1, 600).otherwise(5),
-              number("options.rate_hz", "Hz", "sampling rate")
-                  .range(1, 1e9)
-                  .optional("1e6 or the instrument's largest")},
+              rate},
          .text =
              "Moves through the plane at an even pace and back, and watches every train, each in a record of its own.",
          .returns = "{ type, seconds, onsets }; onsets as of bench.step().",

@@ -1,0 +1,274 @@
+// What lets a session begin, and what does not: each gate, the gap between sessions, and records that are not whole.
+#include "tests/session/SessionSupport.h"
+#include "tests/study/StudySupport.h"
+#include "tests/support/Comes.h"
+#include "tests/support/InTime.h"
+
+namespace tacto {
+namespace {
+
+using Desk = test::StudyDesk;
+
+/// Nothing is made when a gate refuses: folder and keys are the same, byte for byte.
+class GateOfASession : public Desk {
+protected:
+    void expectRefused(Study& study, const SessionRequest& request, std::string_view part,
+                       ErrorCode code = kGateRefused) {
+        RecordProperty("hazard", "H12");
+        const auto head = study.ledgerHead();
+        const auto bytes = everythingBelow(scratch.path());
+        const auto begun = study.beginSession(request);
+        ASSERT_FALSE(begun);
+        EXPECT_EQ(begun.error().code, code);
+        EXPECT_NE(begun.error().message.find(part), std::string::npos) << begun.error().message;
+        EXPECT_EQ(study.ledgerHead(), head);
+        EXPECT_TRUE(everythingBelow(scratch.path()) == bytes);
+        EXPECT_TRUE(std::filesystem::is_empty(folder() / "sessions"));
+    }
+};
+
+TEST_F(GateOfASession, EachRefusesWithItsSentence) {
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto request = test::someRequest(code);
+    auto other = request;
+    other.script.sha256 = std::string(64, 'f');
+    expectRefused(study, other, "a changed script needs an amendment");
+    other = request;
+    other.codeConfirmed = false;
+    expectRefused(study, other, "has not confirmed that the code");
+    other = request;
+    other.exclusions.front().yes = true;
+    expectRefused(study, other, "no session today");
+    other = request;
+    other.exclusions.pop_back();
+    expectRefused(study, other, "1 of the 10 questions");
+    other = request;
+    other.devicesSimulated = false;
+    expectRefused(study, other, "only simulated devices are accepted");
+    other = request;
+    other.code = "P-7K3M";
+    expectRefused(study, other, "its check character is wrong", ErrorCode::NotFound);
+    other.code = "P-7K3D";
+    expectRefused(study, other, "the study has no participant P-7K3D", ErrorCode::NotFound);
+    Participant unwilling;
+    unwilling.virtualSeed = 9;
+    other.code = study.enrol(unwilling)->code;
+    expectRefused(study, other, "has given no consent");
+    time.now += std::chrono::hours(24 * 400);
+    expectRefused(study, request, "expired on 2027-10-31");
+    time.now -= std::chrono::hours(24 * 401);
+    expectRefused(study, request, "set the clock");
+    time.now += std::chrono::hours(24);
+    ASSERT_TRUE(study.leave(code));
+    expectRefused(study, request, "has left the study");
+    EXPECT_TRUE(study.stillApproved());
+}
+
+TEST_F(GateOfASession, AYesEndsThePersonsDayWhateverIsAnsweredLater) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = study.enrol({}).value().code;
+    ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
+    auto request = test::someRequest(code);
+    request.devicesSimulated = false;
+    auto yes = request;
+    yes.exclusions.front().yes = true;
+    const auto before = study.ledgerHead();
+    ASSERT_TRUE(study.noteExclusions(request));
+    EXPECT_EQ(study.ledgerHead(), before) << "nothing was answered with yes";
+    ASSERT_TRUE(study.noteExclusions(yes));
+    expectRefused(study, request, "answered yes to the exclusion checklist today");
+    EXPECT_EQ(everythingBelow(folder()).find(yes.exclusions.front().key), std::string::npos);
+    time.now += std::chrono::hours(24);
+    EXPECT_TRUE(study.mayBegin(request));
+    EXPECT_TRUE(study.beginSession(request));
+}
+
+TEST_F(GateOfASession, AYesHoldsWhenTheClockIsSetBackOverMidnight) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = study.enrol({}).value().code;
+    ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
+    auto request = test::someRequest(code);
+    request.devicesSimulated = false;
+    for (const auto today = study.today(); study.today() == today;) time.now += std::chrono::minutes(1);
+    request.exclusions.front().yes = true;
+    ASSERT_TRUE(study.noteExclusions(request));
+    request.exclusions = nothingExcludes();
+    time.now -= std::chrono::minutes(4);
+    expectRefused(study, request, "answered yes to the exclusion checklist today");
+}
+
+TEST_F(Desk, TheNextSessionWaitsForTheGap) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, ErrorCode::Unsupported);  // unfinished
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, record(begun)));
+    time.now += std::chrono::hours(19);
+    EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
+    time.now += std::chrono::hours(1);
+    const auto next = study.beginSession(test::someRequest(code));
+    ASSERT_TRUE(next) << next.error().message;
+    EXPECT_EQ(next->session.number, 2);
+}
+
+TEST_F(Desk, TheGapIsCountedFromTheFirstTrainAndNotFromTheChecklist) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    test::HandClock clock;  // as on a real bench, an event's time is that of the wall
+    auto writer = SessionWriter::create(begun.path, {}, clock, begun.seal);
+    ASSERT_TRUE(writer) << writer.error().message;
+    clock.advance(std::chrono::minutes(18));
+    ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
+    clock.advance(std::chrono::minutes(30));
+    ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "test 90"}}));
+    ASSERT_TRUE((*writer)->close());
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, (*writer)->chainHead()));
+    time.now += std::chrono::hours(20) + std::chrono::minutes(17);
+    EXPECT_NE(study.mayBegin(test::someRequest(code)).error().message.find("20.0 h ago; at least 20 h"),
+              std::string::npos);
+    time.now += std::chrono::minutes(1);
+    EXPECT_TRUE(study.beginSession(test::someRequest(code)));
+}
+
+TEST_F(Desk, OnTheComputersOwnClockSessionsWaitForTheGapAndOneThatWasCancelledForNothing) {
+    RecordProperty("hazard", "H12");
+    auto settings = test::someStudy();
+    settings.approval.from = std::chrono::year(2026) / 1 / 1;
+    settings.approval.expires = std::chrono::year(2099) / 12 / 31;
+    settings.gapMin_h = 1.0 / 3600;
+    auto real = around();
+    real.time = &SystemTime::real();
+    auto study = Study::create(folder(), settings, test::somePassphrase(), real).value();
+    const auto code = enrolled(study);
+    const auto cancelled = study.beginSession(test::someRequest(code)).value();
+    ASSERT_TRUE(study.cancelSession(cancelled.session.id));
+    const auto begun = study.beginSession(test::someRequest(code));
+    ASSERT_TRUE(begun) << begun.error().message;
+    const SteadyClock clock;
+    auto writer = SessionWriter::create(begun->path, {}, clock, begun->seal);
+    ASSERT_TRUE(writer) << writer.error().message;
+    ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
+    ASSERT_TRUE((*writer)->close());
+    ASSERT_TRUE(study.endSession(begun->session.id, StudySessionState::Stopped, (*writer)->chainHead()));
+    auto amended = study.settings();
+    amended.gapMin_h = 20;
+    ASSERT_TRUE(study.amend(amended, "EC-2026-18"));
+    EXPECT_EQ(study.mayBegin(test::someRequest(code)).error().code, kGateRefused);
+    amended.gapMin_h = settings.gapMin_h;
+    ASSERT_TRUE(study.amend(amended, "EC-2026-19"));
+    EXPECT_IN_TIME(test::comes([&] { return study.mayBegin(test::someRequest(code)).has_value(); }));
+    ASSERT_EQ(study.sessions().size(), 2U);
+    EXPECT_FALSE(study.sessions().front().opened);
+}
+
+TEST_F(Desk, ASessionInWhichNothingWasPresentedCostsNoDay) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    for (int i = 0; i < study.settings().sessionsMax + 1; ++i) {
+        const auto booked = study.beginSession(test::someRequest(code));
+        ASSERT_TRUE(booked) << booked.error().message;
+        ASSERT_TRUE(study.cancelSession(booked->session.id));
+        EXPECT_FALSE(study.cancelSession(booked->session.id)) << "once";
+    }
+    auto next = study.beginSession(test::someRequest(code));
+    ASSERT_TRUE(next) << next.error().message;
+    std::ofstream(next->path) << "no session";  // what cannot be read may hold anything
+    ASSERT_TRUE(study.endSession(next->session.id, StudySessionState::Stopped, ""));
+    EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
+}
+
+TEST_F(Desk, ASessionWhoseFileIsGoneCountsFromItsBeginning) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    ASSERT_FALSE(std::filesystem::exists(begun.path)) << "killed before it was made, or lost: both look like this";
+    EXPECT_EQ(study.mayBegin(test::someRequest(code)).error().code, kGateRefused);
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, ""));
+    EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
+    time.now += std::chrono::hours(20);
+    EXPECT_TRUE(study.beginSession(test::someRequest(code)));
+}
+
+TEST_F(Desk, ARecordThatWasExchangedBarsTheNextSession) {
+    RecordProperty("hazard", "H8");
+    auto study = make();
+    const auto first = enrolled(study, 1), second = enrolled(study, 2);
+    const auto begun = study.beginSession(test::someRequest(first)).value();
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+    ASSERT_TRUE(std::filesystem::remove(begun.path));
+    record(begun);  // the same rows, other seals
+    const auto next = study.beginSession(test::someRequest(second));
+    ASSERT_FALSE(next);
+    EXPECT_EQ(next.error().code, kGateRefused);
+    EXPECT_NE(next.error().message.find("is not the one that the ledger notes"), std::string::npos);
+}
+
+TEST_F(Desk, ARecordThatWasChangedAmongItsRowsBarsTheNextSession) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+    ASSERT_TRUE(study.stillApproved());
+    ASSERT_TRUE(study.events(begun.session));
+    // The head of its chain stays: nothing was presented, it says now, and the gap would be none.
+    test::forge(begun.path, "UPDATE entries SET name='note' WHERE name='trial-begin'");
+    const auto next = study.beginSession(test::someRequest(code));
+    ASSERT_FALSE(next);
+    EXPECT_NE(next.error().message.find("is not the one that the ledger notes"), std::string::npos)
+        << next.error().message;
+    EXPECT_FALSE(study.events(begun.session));
+}
+
+TEST_F(GateOfASession, AZoneThatThereIsNotRevivesNoApproval) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto zone = [](const char* text) {
+        if (text != nullptr)
+            ::setenv("TZ", text, 1);
+        else
+            ::unsetenv("TZ");
+        ::tzset();
+    };
+    const char* was = std::getenv("TZ");
+    const auto before = was != nullptr ? std::optional(std::string(was)) : std::nullopt;
+    time.now = std::chrono::sys_days(std::chrono::year(2027) / 11 / 1) + std::chrono::hours(12);
+    zone("AAA+23");
+    EXPECT_EQ(study.today(), std::chrono::year(2027) / 10 / 31) << "its last day";
+    expectRefused(study, test::someRequest(code), "is -23.0 h ahead of UTC");
+    zone(before ? before->c_str() : nullptr);
+}
+
+TEST_F(Desk, AProcedureThatWasNotApprovedBeginsNoSession) {
+    RecordProperty("hazard", "H11");
+    auto settings = test::someStudy();
+    settings.procedure = {0.5, 2, DetectionMethod::Quest, std::string(64, 'a')};
+    auto study = make(settings);
+    auto request = test::someRequest(enrolled(study));
+    const auto refused = study.beginSession(request);
+    ASSERT_FALSE(refused) << "one that says nothing of it";
+    EXPECT_EQ(refused.error().code, kGateRefused);
+    EXPECT_TRUE(study.sessions().empty());
+    request.procedure = *settings.procedure;
+    request.procedure.intervalMax_s = 3;
+    EXPECT_FALSE(study.mayBegin(request));
+    auto amended = study.settings();
+    amended.procedure->intervalMax_s = 3;
+    ASSERT_TRUE(study.amend(amended, "EC-2026-18"));
+    EXPECT_EQ(study.amendments().back().changed, std::vector<std::string>{"procedure.interval_max_s"});
+    EXPECT_TRUE(study.beginSession(request));
+    request.procedure.intervalMax_s = 2;
+    EXPECT_FALSE(study.continueSession(study.sessions().front().id, request)) << "nor goes one on";
+}
+
+}  // namespace
+}  // namespace tacto
