@@ -13,6 +13,7 @@
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/ScopeModel.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/SimulatedBenchDialog.h"
@@ -37,8 +38,10 @@ protected:
                     QString("%1-%2-%3").arg(name, theme == gui::Theme::Dark ? "dark" : "light").arg(size.width());
                 shot(window, file);
                 EXPECT_EQ(faultsOf(window), "") << file.toStdString();
-                if (const auto* reasons = find<QScrollArea>(window, "verdictReasons")) {
-                    EXPECT_EQ(reasons->verticalScrollBar()->maximum(), 0) << "laid out whole: " << file.toStdString();
+                // The page, and the reasons of a verdict.
+                for (const auto* page : window.findChildren<gui::ScrollingPage*>()) {
+                    const int scrolls = page->isVisible() ? page->verticalScrollBar()->maximum() : 0;
+                    EXPECT_EQ(scrolls, 0) << "laid out whole: " << file.toStdString();
                 }
             }
         }
