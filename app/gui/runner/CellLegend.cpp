@@ -9,7 +9,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kSampleWide = 24, kSampleHigh = 18, kRowHigh = 23, kBesideSample = 8, kAbove = 12, kBelowTitle = 8;
+constexpr int kSampleWide = 24, kSampleHigh = 18, kRowHigh = 22, kBesideSample = 8, kAbove = 10, kBelowTitle = 8;
 constexpr int kSampleIcon = 14;
 
 }  // namespace
