@@ -59,7 +59,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
       protocol_(new QComboBox(this)),
       method_(new QComboBox(this)),
       blocks_(new QSpinBox(this)),
-      trouble_(new QLabel(this)),
+      trouble_(new TroubleLine("rehearsalTrouble", this)),
       begin_(new QPushButton(tr("Begin rehearsal"), this)) {
     auto* whole = new QVBoxLayout(this);
     whole->setContentsMargins(0, 0, 0, 0);
@@ -152,11 +152,6 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     auto* foot = new QVBoxLayout;
     foot->setContentsMargins(kPagePad, 12, kPagePad, 12);
     foot->setSpacing(8);
-    trouble_->setWordWrap(true);
-    trouble_->setObjectName("rehearsalTrouble");
-    trouble_->setTextFormat(Qt::PlainText);
-    setTone(*trouble_, Tone::Warning);
-    trouble_->hide();
     foot->addWidget(trouble_);
     begin_->setObjectName("beginRehearsal");
     begin_->setIcon(icon("run", Ink::Primary));
@@ -224,10 +219,7 @@ void RehearsalPage::judge() {
     begin_->setText(goesOn ? tr("Go on with the rehearsal") : tr("Begin rehearsal"));
 }
 
-void RehearsalPage::say(const QString& what) {
-    trouble_->setText(what.isEmpty() ? QString() : "⚠ " + what);
-    trouble_->setVisible(!what.isEmpty());
-}
+void RehearsalPage::say(const QString& what) { trouble_->say(what); }
 
 }  // namespace tacto::gui
 

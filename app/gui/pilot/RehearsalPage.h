@@ -15,6 +15,7 @@
 
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SeatRows.h"
+#include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
 
@@ -53,7 +54,7 @@ private:
     QComboBox* method_;
     QSpinBox* blocks_;
     std::unique_ptr<SeatRows> seats_;
-    QLabel* trouble_;
+    TroubleLine* trouble_;
     QPushButton* begin_;
 };
 

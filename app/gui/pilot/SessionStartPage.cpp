@@ -29,7 +29,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
       offer_(new UnfinishedOffer(this)),
       protocol_(new QComboBox(this)),
       method_(new QComboBox(this)),
-      trouble_(new QLabel(this)) {
+      trouble_(new TroubleLine("sessionTrouble", this)) {
     setObjectName("sessionStart");
     auto* whole = new QVBoxLayout(this);
     whole->setContentsMargins(0, 0, 0, 0);
@@ -43,7 +43,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     head_->setObjectName("sessionHead");
     setTextSize(*head_, TextSize::Large);
     setTone(*about_, Tone::Quiet);
-    for (auto* label : {head_, about_, trouble_}) {
+    for (auto* label : {head_, about_}) {
         label->setTextFormat(Qt::PlainText);
         label->setWordWrap(true);
     }
@@ -90,10 +90,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     column->addStretch();
     page->hold(inside);
     whole->addWidget(page, 1);
-    trouble_->setObjectName("sessionTrouble");
     trouble_->setContentsMargins(kStartPad, 0, kStartPad, 8);
-    setTone(*trouble_, Tone::Warning);
-    trouble_->hide();
     whole->addWidget(trouble_);
     auto* edge = new QFrame(this);
     edge->setFrameShape(QFrame::HLine);
@@ -188,10 +185,7 @@ void SessionStartPage::judge() {
     begin_->setText(goesOn ? tr("Go on with the session") : tr("Begin the session"));
 }
 
-void SessionStartPage::say(const QString& what) {
-    trouble_->setText(what.isEmpty() ? QString() : "⚠ " + what);
-    trouble_->setVisible(!what.isEmpty());
-}
+void SessionStartPage::say(const QString& what) { trouble_->say(what); }
 
 }  // namespace tacto::gui
 

@@ -12,6 +12,7 @@
 
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SeatRows.h"
+#include "app/gui/theme/TroubleLine.h"
 #include "core/study/Study.h"
 
 namespace tacto::gui {
@@ -58,7 +59,7 @@ private:
     std::unique_ptr<SeatRows> seats_;
     QWidget* asks_ = nullptr;
     ExclusionChecklist* checklist_ = nullptr;
-    QLabel* trouble_;
+    TroubleLine* trouble_;
     QPushButton* begin_ = nullptr;
 };
 

@@ -20,9 +20,9 @@ CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
     setToolTip(tr("The last train as the oscilloscope recorded it."));
     voltage_ = addGraph(xAxis, yAxis);
     current_ = addGraph(xAxis, yAxis2);
-    xAxis->setLabel(tr("time from trigger (µs)"));
-    yAxis->setLabel(tr("voltage (V)"));
-    yAxis2->setLabel(tr("current (mA)"));
+    xAxis->setLabel(tr("Time from the trigger (µs)"));
+    yAxis->setLabel(tr("Voltage (V)"));
+    yAxis2->setLabel(tr("Current (mA)"));
     yAxis2->setVisible(true);
     yAxis2->grid()->setVisible(false);
     for (auto* axis : {xAxis, yAxis, yAxis2}) axis->setNumberFormat("gb");
@@ -85,7 +85,7 @@ void CaptureStrip::colour() {
     voltage_->setPen(QPen(c.voltage));
     current_->setPen(QPen(c.current, 1, Qt::DashLine));
     yAxis->setLabelColor(c.voltage);
-    yAxis2->setLabelColor(c.current);
+    yAxis2->setLabelColor(c.currentText);
     thinTicks();
 }
 

@@ -196,12 +196,7 @@ void ParameterForm::addRow(Field& field) {
     line->setSpacing(fontMetrics().averageCharWidth());
     line->addWidget(field.range);
     stack->addLayout(line);
-    field.trouble = new QLabel(column);
-    field.trouble->setTextFormat(Qt::PlainText);
-    field.trouble->setObjectName("trouble-" + QString::fromStdString(parameter.name));
-    field.trouble->setWordWrap(true);
-    setTone(*field.trouble, Tone::Warning);
-    field.trouble->hide();
+    field.trouble = new TroubleLine("trouble-" + QString::fromStdString(parameter.name), column);
     stack->addWidget(field.trouble);
     auto label = QString::fromStdString(parameter.label);
     if (!parameter.unit.empty()) label += QString(" (%1)").arg(shownUnit(parameter));
@@ -319,8 +314,7 @@ void ParameterForm::judge() {
 
 void ParameterForm::say(const Field& field, bool lacking) const {
     const bool said = !field.why.isEmpty() && (!lacking || !missingSaidOnceLeft_ || field.left);
-    field.trouble->setText(said ? "⚠ " + field.why : QString());
-    field.trouble->setVisible(said);
+    field.trouble->say(said ? field.why : QString());
 }
 
 bool ParameterForm::eventFilter(QObject* watched, QEvent* event) {

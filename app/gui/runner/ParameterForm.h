@@ -14,6 +14,7 @@
 #include <functional>
 #include <set>
 
+#include "app/gui/theme/TroubleLine.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
 namespace tacto::gui {
@@ -58,7 +59,7 @@ private:
         std::function<void(const QString&)> write;
         QWidget* editor = nullptr;  // has the parameter's name
         QWidget* whole = nullptr;   // the editor with its buttons
-        QLabel* trouble = nullptr;
+        TroubleLine* trouble = nullptr;
         QLabel* label = nullptr;
         QLabel* range = nullptr;  // empty where it has none
         QString atFirst{};        // the text as the script's default shows it

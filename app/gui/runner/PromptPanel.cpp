@@ -68,11 +68,7 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     row->addWidget(refuse);
     if (first_ == nullptr) first_ = refuse;
     column->addLayout(row);
-    trouble_ = new QLabel(body_);
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setObjectName("promptTrouble");
-    trouble_->setWordWrap(true);
-    trouble_->hide();
+    trouble_ = new TroubleLine("promptTrouble", body_);
     column->addWidget(trouble_);
     layout_->addWidget(body_);
     show();
@@ -165,8 +161,7 @@ QWidget* PromptPanel::buildEntry(const OperatorQuestion& question) {
 void PromptPanel::answer(const QString& text) {
     const auto taken = controller_.answer(asked_, text.trimmed().toStdString());
     if (taken || trouble_ == nullptr) return;
-    trouble_->setText("⚠ " + QString::fromStdString(taken.error().message));
-    trouble_->show();
+    trouble_->say(QString::fromStdString(taken.error().message));
     if (first_ != nullptr) first_->setFocus();
 }
 

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/controller/WindowOperator.h"
+#include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
 
@@ -34,7 +35,7 @@ private:
     QVBoxLayout* layout_;
     QWidget* body_ = nullptr;
     QWidget* first_ = nullptr;  // takes the focus
-    QLabel* trouble_ = nullptr;
+    TroubleLine* trouble_ = nullptr;
 };
 
 }  // namespace tacto::gui

@@ -87,15 +87,10 @@ RunPanel::RunPanel(QWidget* parent)
 void RunPanel::buildWords() {
     auto* column = new QVBoxLayout(words_);
     column->setContentsMargins(0, 0, 0, 0);
-    const auto addWords = [&](const char* name) {
-        auto* label = new QLabel(words_);
-        label->setTextFormat(Qt::PlainText);
-        label->setObjectName(name);
-        label->setWordWrap(true);
-        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-        label->hide();
-        column->addWidget(label);
-        return label;
+    const auto addTrouble = [&](const char* name) {
+        auto* line = new TroubleLine(name, words_);
+        column->addWidget(line);
+        return line;
     };
     const auto addButton = [&](const QString& text, const char* name, const QString& tip) {
         auto* button = new QPushButton(text, words_);
@@ -106,17 +101,19 @@ void RunPanel::buildWords() {
         column->addWidget(button, 0, Qt::AlignLeft);
         return button;
     };
-    obstacle_ = addWords("runObstacle");
-    setTone(*obstacle_, Tone::Warning);
+    obstacle_ = addTrouble("runObstacle");
     changeProfile_ =
         addButton(tr("Change profile…"), "changeProfile",
                   tr("Opens the encoding profile: a smaller amplitude or a longer interval stays within the limit."));
     connect(changeProfile_, &QPushButton::clicked, this, &RunPanel::profileChangeWanted);
-    trouble_ = addWords("runTrouble");
+    trouble_ = addTrouble("runTrouble");
     toLine_ = addButton(tr("Show the &line in the script"), "toLine", tr("Opens the script with that line marked."));
     connect(toLine_, &QPushButton::clicked, this, [this] { emit lineWanted(line_, said_); });
-    closed_ = addWords("closedByRun");
-    closed_->setText(tr("The run closed the bench that was open."));
+    closed_ = new QLabel(tr("The run closed the bench that was open."), words_);
+    closed_->setObjectName("closedByRun");
+    closed_->setWordWrap(true);
+    closed_->hide();
+    column->addWidget(closed_);
     setTone(*closed_, Tone::Quiet);
     openAgain_ =
         addButton(tr("Open the bench again"), "openAgain", tr("Opens the same devices; the output stays off."));
@@ -194,8 +191,7 @@ void RunPanel::setReady(bool ready, const QString& obstacle, bool byProfile) {
     ready_ = ready && obstacle.isEmpty();
     changeProfile_->setVisible(byProfile && !obstacle.isEmpty());
     if (!ready_) question_->hide();
-    obstacle_->setText(obstacle.isEmpty() ? QString() : "⚠ " + obstacle);
-    obstacle_->setVisible(!obstacle.isEmpty());
+    obstacle_->say(obstacle);
     // A script's words are not markup.
     run_->setToolTip(!obstacle.isEmpty()
                          ? (Qt::mightBeRichText(obstacle) ? obstacle.toHtmlEscaped() : obstacle)
@@ -208,8 +204,7 @@ void RunPanel::say(const QString& what, int line) {
     said_ = what;
     line_ = line;
     toLine_->setVisible(line > 0);
-    trouble_->setText(what.isEmpty() ? QString() : "⚠ " + what);
-    trouble_->setVisible(!what.isEmpty());
+    trouble_->say(what);
 }
 
 void RunPanel::askToArm(const QString& what) {

@@ -11,6 +11,7 @@
 #include <QPushButton>
 #include <QWidget>
 
+#include "app/gui/theme/TroubleLine.h"
 #include "app/scripting/engine/ScriptRun.h"
 #include "core/base/Units.h"
 
@@ -76,8 +77,8 @@ private:
     void sayLeft();
     QBoxLayout* layout_;
     QWidget* words_;
-    QLabel* obstacle_;
-    QLabel* trouble_;
+    TroubleLine* obstacle_;
+    TroubleLine* trouble_;
     QPushButton* toLine_;
     QPushButton* changeProfile_;
     QLabel* closed_;

@@ -36,11 +36,7 @@ WiringPanel::WiringPanel(QWidget* parent) : QGroupBox(tr("Wiring"), parent) {
     auto* devices = buildDevices();
     form->addRow(tr("&Devices"), devices);
     static_cast<QLabel*>(form->labelForField(devices))->setBuddy(devices_);
-    trouble_ = new QLabel(this);
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setObjectName("devicesTrouble");
-    trouble_->setWordWrap(true);
-    trouble_->hide();
+    trouble_ = new TroubleLine("devicesTrouble", this);
     form->addRow(trouble_);
     seed_ = new QSpinBox(this);
     seed_->setObjectName("seed");
@@ -159,8 +155,7 @@ Result<void> WiringPanel::fill(RunOrder& order) const {
 
 void WiringPanel::judge() {
     const auto uris = devicesOf(devices_->text());
-    trouble_->setText(uris ? QString() : "⚠ " + QString::fromStdString(uris.error().message));
-    trouble_->setVisible(!uris);
+    trouble_->say(uris ? QString() : QString::fromStdString(uris.error().message));
     emit edited();
 }
 

@@ -9,6 +9,7 @@
 #include <QLineEdit>
 #include <QSpinBox>
 
+#include "app/gui/theme/TroubleLine.h"
 #include "app/run/ProtocolRun.h"
 
 namespace tacto::gui {
@@ -35,7 +36,7 @@ private:
     void judge();
     QLabel* needs_;
     QLineEdit* devices_ = nullptr;
-    QLabel* trouble_;
+    TroubleLine* trouble_;
     QSpinBox* seed_;
     QCheckBox* realtime_;
     QLineEdit* out_ = nullptr;

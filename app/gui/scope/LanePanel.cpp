@@ -147,7 +147,7 @@ void LanePanel::follow() {
         canStore = canStore || (active && !lane.reference());
         its.letter->setText(lane.letter);
         its.letter->setChecked(active);
-        const auto colour = laneColour(model_, lane);
+        const auto colour = laneInk(model_, lane);
         const auto letter =
             active ? QString("QToolButton { background: %1; color: %2; }").arg(colour.name(), colours().base.name())
                    : QString("QToolButton { color: %1; }").arg(colour.name());

@@ -35,6 +35,12 @@ QColor laneColour(const ScopeModel& model, const ScopeLane& lane) {
     return conditionInTheme({}, static_cast<int>(at - all.begin())).color;
 }
 
+QColor laneInk(const ScopeModel& model, const ScopeLane& lane) {
+    const auto& c = colours();
+    const auto colour = laneColour(model, lane);
+    return colour == c.current ? c.currentText : legible(colour, c.base);
+}
+
 ScopeScreen::ScopeScreen(const ScopeModel& model, QWidget* parent)
     : QCustomPlot(parent),
       model_(model),
@@ -259,8 +265,8 @@ void ScopeScreen::numberAxis(QCPAxis& axis, RoundTicker& ticker, const ScopeLane
     const auto unit = axisUnit(scale.perDivision * kHalfUp, lane->unit);
     ticker.setQuantity(scale.position, scale.perDivision, unit.factor);
     axis.setLabel(unit.unit.isEmpty() ? lane->title : tr("%1 (%2)").arg(lane->title, unit.unit));
-    axis.setLabelColor(laneColour(model_, *lane));
-    axis.setTickLabelColor(laneColour(model_, *lane));
+    axis.setLabelColor(laneInk(model_, *lane));
+    axis.setTickLabelColor(laneInk(model_, *lane));
 }
 
 void ScopeScreen::fillOverlay() {
@@ -268,7 +274,7 @@ void ScopeScreen::fillOverlay() {
     o = {};
     for (const auto& lane : model_.lanes()) {
         if (lane.reference() || !lane.shown) continue;
-        o.lanes.push_back({lane.key, lane.letter, laneColour(model_, lane), model_.scaleOf(lane).position,
+        o.lanes.push_back({lane.key, lane.letter, laneInk(model_, lane), model_.scaleOf(lane).position,
                            lane.key == model_.activeLane()});
     }
     fillTrigger(o);
@@ -301,7 +307,7 @@ void ScopeScreen::fillCursors(OverlayState& o) const {
                 const auto& at = value.at[i];
                 auto text = levelText(at.value, lane.unit);
                 if (at.slope != 0) text += at.slope > 0 ? QStringLiteral(" ↑") : QStringLiteral(" ↓");
-                o.flags[i].rows.push_back({lane.letter, text, laneColour(model_, lane)});
+                o.flags[i].rows.push_back({lane.letter, text, laneInk(model_, lane)});
             }
         }
     }
@@ -366,7 +372,7 @@ void ScopeScreen::fillTrigger(OverlayState& o) const {
     if (const auto* source = model_.lane(trigger.lane()); source != nullptr && source->shown) {
         if (!o.trigger) o.trigger.emplace();
         o.trigger->height = model_.scaleOf(*source).heightOf(trigger.level());
-        o.trigger->colour = laneColour(model_, *source);
+        o.trigger->colour = laneInk(model_, *source);
         o.trigger->held = trigger.held();
     }
     if (o.trigger) o.trigger->text = trigger.text();

@@ -16,6 +16,8 @@ namespace tacto::gui {
 
 /// In the current theme.
 [[nodiscard]] QColor laneColour(const ScopeModel& model, const ScopeLane& lane);
+/// The same for words and numbers: at least 4.5:1 on the screen's ground.
+[[nodiscard]] QColor laneInk(const ScopeModel& model, const ScopeLane& lane);
 
 class ScopeScreen final : public QCustomPlot {
     Q_OBJECT

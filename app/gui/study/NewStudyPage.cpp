@@ -23,7 +23,7 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
       study_(study),
       folder_(new QLineEdit(this)),
       form_(new StudyForm(this)),
-      trouble_(new QLabel(this)) {
+      trouble_(new TroubleLine("newStudyTrouble", this)) {
     setObjectName("newStudy");
     auto* whole = new QVBoxLayout(this);
     whole->setContentsMargins(0, 0, 0, 0);
@@ -68,11 +68,6 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     auto* below = new QVBoxLayout;
     below->setContentsMargins(kNewPad, 12, kNewPad, 12);
     below->setSpacing(8);
-    trouble_->setObjectName("newStudyTrouble");
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
-    trouble_->hide();
     below->addWidget(trouble_);
     auto* foot = new QHBoxLayout;
     foot->setSpacing(8);
@@ -114,8 +109,7 @@ void NewStudyPage::askForPassphrase() {
                      : Study::isThere(folder.toStdString())
                          ? tr("%1 holds a study already. A new or empty folder is expected.").arg(folder)
                          : QString();
-    trouble_->setText("⚠ " + why);
-    trouble_->setVisible(!why.isEmpty());
+    trouble_->say(why);
     if (!why.isEmpty()) return;
     asks_ = new PassphraseDialog(PassphraseDialog::Purpose::New, qtext(settings->title), this);
     connect(asks_, &PassphraseDialog::given, this,

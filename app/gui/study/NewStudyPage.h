@@ -12,6 +12,7 @@
 #include "app/gui/study/OpenStudy.h"
 #include "app/gui/study/PassphraseDialog.h"
 #include "app/gui/study/StudyForm.h"
+#include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
 
@@ -31,7 +32,7 @@ private:
     OpenStudy& study_;
     QLineEdit* folder_;
     StudyForm* form_;
-    QLabel* trouble_;
+    TroubleLine* trouble_;
     QPointer<PassphraseDialog> asks_;
 };
 

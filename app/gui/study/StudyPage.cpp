@@ -61,12 +61,7 @@ QWidget* StudyPage::buildNone() {
            "passphrase. Virtual participants can be enrolled like anyone, so that everything is tried before a person "
            "sits down."),
         page));
-    trouble_ = new QLabel(page);
-    trouble_->setObjectName("openTrouble");
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
-    trouble_->hide();
+    trouble_ = new TroubleLine("openTrouble", page);
     column->addWidget(trouble_);
     auto* row = new QHBoxLayout;
     row->setSpacing(8);
@@ -111,10 +106,7 @@ void StudyPage::open(const QString& folder) {
     openDialog(asks_);
 }
 
-void StudyPage::say(const QString& what) {
-    trouble_->setText("⚠ " + what);
-    trouble_->setVisible(!what.isEmpty());
-}
+void StudyPage::say(const QString& what) { trouble_->say(what); }
 
 }  // namespace tacto::gui
 

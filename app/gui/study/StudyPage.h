@@ -10,6 +10,7 @@
 #include <QWidget>
 
 #include "app/gui/study/OpenStudy.h"
+#include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
 
@@ -38,7 +39,7 @@ private:
     QStackedWidget* pages_;
     NewStudyPage* new_;
     StudyList* list_ = nullptr;
-    QLabel* trouble_ = nullptr;
+    TroubleLine* trouble_ = nullptr;
     QPointer<PassphraseDialog> asks_;
 };
 

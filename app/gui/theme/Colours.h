@@ -50,6 +50,8 @@ struct Colours {
 };
 
 [[nodiscard]] const Colours& coloursOf(Theme theme);
+/// `ink`, darker or lighter where words in it would have less contrast than 4.5:1 on `paper` (WCAG 2.1, AA).
+[[nodiscard]] QColor legible(QColor ink, const QColor& paper);
 /// Qt's roles from them, for what draws itself.
 [[nodiscard]] QPalette paletteOf(const Colours& colours);
 

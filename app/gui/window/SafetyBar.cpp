@@ -76,7 +76,7 @@ QString reasonOf(const Telemetry& telemetry) {
             return SafetyBar::tr("Output is off.");
         case InterlockState::Disarmed:
             return reason.isEmpty() ? SafetyBar::tr("Output is off. “Arm…” asks before anything flows.")
-                                    : SafetyBar::tr("Output is off: %1.").arg(reason);
+                                    : SafetyBar::tr("Output is off: %1. “Arm…” goes on.").arg(reason);
         case InterlockState::Checking:
             return SafetyBar::tr("One small pulse measures the impedance.");
         case InterlockState::Delivering:
@@ -86,7 +86,9 @@ QString reasonOf(const Telemetry& telemetry) {
         case InterlockState::Paused:
             return SafetyBar::tr("No train is delivered until you resume.");
         case InterlockState::Armed:
-            return telemetry.driving == DriveSource::Off ? SafetyBar::tr("Choose a drive to deliver.") : reason;
+            return telemetry.driving == DriveSource::Off      ? SafetyBar::tr("Choose a drive to deliver.")
+                   : telemetry.driving == DriveSource::Sensor ? SafetyBar::tr("The fingertip drives it. Space stops.")
+                                                              : SafetyBar::tr("The next train follows. Space stops.");
         default:
             return reason;
     }

@@ -35,6 +35,7 @@ StateBlock::StateBlock(QWidget* parent)
     word_->setObjectName("interlockState");
     shape_->setAlignment(Qt::AlignCenter);
     setTextSize(*reason_, TextSize::Small);
+    reason_->setObjectName("interlockReason");
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(0, 0, scaledPx(8), 4);
     grid->setHorizontalSpacing(0);

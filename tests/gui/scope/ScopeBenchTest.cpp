@@ -63,6 +63,8 @@ TEST_F(Scope, AutoShowsTheSignalUntriggeredAndSaysSo) {
     EXPECT_TRUE(triggered()) << "a stop keeps the last train on the screen";
     EXPECT_THAT(scope.screen().overlay().notes, testing::ElementsAre("the last live train, held"));
     EXPECT_TRUE(says("no trigger since: the last train is held on the screen"));
+    const auto pale = [&] { return scope.screen().graph("channel/voltage")->pen().color() != gui::colours().voltage; };
+    EXPECT_TRUE(pale()) << "what is held is drawn as the past";
     const auto counted = scope.table().statistics().captures();
     const auto last = scope.model().shown();
     const auto at = controller.telemetry().at;
@@ -71,6 +73,7 @@ TEST_F(Scope, AutoShowsTheSignalUntriggeredAndSaysSo) {
     EXPECT_EQ(scope.table().statistics().captures(), counted) << "what is not triggered is not counted";
     deliver();
     ASSERT_IN_TIME(comes([&] { return !scope.model().held() && scope.model().shown() != last; }));
+    EXPECT_FALSE(pale());
     EXPECT_THAT(complaints, testing::IsEmpty());
 }
 

@@ -35,6 +35,25 @@ protected:
     const QString amps = "channel/current";
 };
 
+TEST_F(Screen, WordsAndNumbersOfEachLaneCanBeRead) {
+    const auto before = gui::currentTheme();
+    gui::MathOptions math;
+    math.power = math.charge = true;
+    model.replaceMath(gui::withMath(*model.shown(), math));
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        draw();
+        const auto& ground = gui::colours().base;
+        for (const auto* axis : {screen.yAxis, screen.yAxis2}) {
+            EXPECT_GE(contrast(axis->labelColor(), ground), 4.5) << axis->label().toStdString();
+            EXPECT_GE(contrast(axis->tickLabelColor(), ground), 4.5) << axis->label().toStdString();
+        }
+        for (const auto& lane : screen.overlay().lanes)
+            EXPECT_GE(contrast(lane.colour, ground), 4.5) << lane.letter.toStdString();
+    }
+    gui::applyTheme(before);
+}
+
 TEST_F(Screen, FitsTheWholeRecordAroundItsTriggerInStepsOfOneTwoFive) {
     EXPECT_NEAR(model.viewport().left_s, -1e-3, 1e-5);
     EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 1e-3);

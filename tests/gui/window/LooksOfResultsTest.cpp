@@ -165,6 +165,11 @@ TEST_F(ResultsInTheWindow, TheArmDialogLooksRight) {
     auto& dialog = *second->window();
     ASSERT_NE(&dialog, &window);
     EXPECT_TRUE(dialog.findChild<QLabel*>("armingText")->text().contains("40\u202fV")) << "on one line";
+    ASSERT_IN_TIME(comesTrue([&] { return dialog.findChild<QLabel*>("firstOutput")->text().contains("30.7"); }));
+    QString said;
+    for (const auto* label : dialog.findChildren<QLabel*>()) said += label->text() + '\n';
+    EXPECT_THAT(said.toStdString(), AllOf(HasSubstr("Encoding profile: default"), HasSubstr("FDA guidance"),
+                                          HasSubstr("IEC 60601-2-10"), HasSubstr("design paper")));
     test::looksRight(dialog, "arm");
     dialog.close();
     ASSERT_IN_TIME(comesTrue([&] { return window.findChild<QPushButton*>("armOutput") == nullptr; }));

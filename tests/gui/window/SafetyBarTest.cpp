@@ -186,6 +186,21 @@ protected:
     gui::SafetyBar bar{controller, calibrations};
 };
 
+TEST_F(Bar, SaysInEveryStateWhatToDo) {
+    const auto* says = bar.findChild<QLabel*>("interlockReason");
+    ASSERT_NE(says, nullptr);
+    for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
+        for (const auto drive : {DriveSource::Off, DriveSource::Manual, DriveSource::Sensor}) {
+            auto telemetry = in(InterlockState(state));
+            telemetry.driving = drive;
+            bar.refresh(telemetry);
+            EXPECT_NE(says->text(), "") << word().toStdString() << ", drive " << int(drive);
+        }
+    }
+    bar.refresh(in(InterlockState::Disarmed, "operator (STOP)"));
+    EXPECT_EQ(says->text(), "Output is off: operator (STOP). “Arm…” goes on.");
+}
+
 TEST_F(Bar, HasAWordAndAShapeForEveryState) {
     QStringList words, shapes;
     for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
