@@ -90,6 +90,16 @@ TEST_F(Exports, APictureIsOfTheMomentThatItWasAskedForAndSaysWhenWithItsZone) {
     EXPECT_NE(gui::scopePicture(stillOf(model, screen, still.caption)), before);
 }
 
+TEST_F(Exports, APictureNamesTheDevicesOfTheBench) {
+    SessionAbout bench;
+    bench.devices.push_back({"sim:stimulator", "stimulator", "twin", "SIM-1", "1", true});
+    bench.devices.push_back({"sigrok:demo", "oscilloscope", "Demo device", "", "", false});
+    const auto caption = captionOf(model, &bench, {"held"});
+    ASSERT_FALSE(caption.lines.isEmpty());
+    EXPECT_EQ(caption.lines.front(), "twin SIM-1 (simulated) · Demo device");
+    EXPECT_EQ(caption.lines.back(), "held");
+}
+
 TEST_F(Exports, NoReadingIsCutFromAPicture) {
     QStringList readings{"I:"};
     for (const auto reading : gui::allReadings()) readings << nameOf(reading).title + " 12.34\u202fmA";

@@ -408,7 +408,14 @@ TEST_F(Scope, EveryStepOfTheWorkHasAKey) {
     const auto state = controller.telemetry().state;
     QTest::keyClick(&screen, Qt::Key_B);
     EXPECT_TRUE(find<QToolButton>(scope, "Box")->isChecked());
+    const auto asks = [&] {
+        return std::ranges::any_of(QApplication::topLevelWidgets(), [](QWidget* each) {
+            return qobject_cast<QFileDialog*>(each) != nullptr && each->isVisible();
+        });
+    };
+    EXPECT_FALSE(asks());
     QTest::keyClick(&screen, Qt::Key_S, Qt::ControlModifier);
+    EXPECT_IN_TIME(comes(asks)) << "where to save the picture";
     EXPECT_EQ(controller.telemetry().state, state) << "none of them drives or stops";
     for (auto* dialog : QApplication::topLevelWidgets()) {
         if (dialog != &scope && dialog->isVisible()) dialog->close();
