@@ -13,17 +13,6 @@ namespace {
 constexpr int kCellPad = 5, kCellHigh = 32, kCellsApart = 4;
 constexpr double kFull = 0.55;  // of the pressure's colour in a full cell: the number on it stays the text's
 
-/// WCAG's relative luminance and contrast.
-double luminance(const QColor& colour) {
-    const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
-    return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
-}
-
-double contrast(const QColor& a, const QColor& b) {
-    const double one = luminance(a), other = luminance(b);
-    return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
-}
-
 }  // namespace
 
 QSize TaxelMap::gridFor(std::size_t n) {

@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 StudyDialog::StudyDialog(OpenStudy& study, const QString& name, const QString& title, const QString& explains,
                          QWidget* parent)
-    : QDialog(parent), study_(study), column_(new QVBoxLayout(this)), trouble_(new QLabel(this)) {
+    : QDialog(parent), study_(study), column_(new QVBoxLayout(this)), trouble_(new TroubleLine({}, this)) {
     setObjectName(name);
     setWindowTitle(title);
     column_->addWidget(heading(title, this));
@@ -28,9 +28,6 @@ void StudyDialog::scroll(QWidget* page, int least) {
 
 QPushButton* StudyDialog::finish(const QString& trouble, QPushButton* act) {
     trouble_->setObjectName(trouble);
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
     if (!scrolls_) column_->addStretch(1);  // what is asked stays together below the heading
     column_->addWidget(trouble_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
@@ -49,7 +46,7 @@ Study* StudyDialog::openStudy(const QString& nothing) {
     return study;
 }
 
-void StudyDialog::refuse(const QString& why) { trouble_->setText("⚠ " + why); }
+void StudyDialog::refuse(const QString& why) { trouble_->say(why); }
 
 void StudyDialog::refuse(const Error& error) { refuse(sentence(error)); }
 

@@ -10,6 +10,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/study/OpenStudy.h"
+#include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
 
@@ -29,14 +30,14 @@ protected:
     [[nodiscard]] Study* openStudy(const QString& nothing);
     void refuse(const QString& why);
     void refuse(const Error& error);
-    void clearTrouble() { trouble_->clear(); }
+    void clearTrouble() { trouble_->say({}); }
     /// The study was changed: tells the others and closes.
     void noteAndClose();
 
 private:
     OpenStudy& study_;
     QVBoxLayout* column_;
-    QLabel* trouble_;
+    TroubleLine* trouble_;
     bool scrolls_ = false;
 };
 

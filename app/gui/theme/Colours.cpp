@@ -78,21 +78,21 @@ const Colours kDark{.window = "#14171B",
                     .watermark = QColor(255, 255, 255, 14)};
 
 double luminance(const QColor& colour) {
-    const auto linear = [](double c) { return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+    const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
     return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
 }
+
+}  // namespace
 
 double contrast(const QColor& a, const QColor& b) {
     const auto [low, high] = std::minmax({luminance(a), luminance(b)});
     return (high + 0.05) / (low + 0.05);
 }
 
-}  // namespace
-
 QColor legible(QColor ink, const QColor& paper) {
     constexpr double kWords = 4.5;
-    constexpr int kStep = 105, kMaxSteps = 40;  // percent; black or white is reached
-    const bool darker = luminance(paper) > 0.18;
+    constexpr int kStep = 105, kMaxSteps = 40;  // percent
+    const bool darker = contrast(paper, Qt::black) > contrast(paper, Qt::white);
     for (int i = 0; i < kMaxSteps && contrast(ink, paper) < kWords; ++i)
         ink = darker ? ink.darker(kStep) : ink.lighter(kStep);
     return ink;

@@ -50,7 +50,9 @@ struct Colours {
 };
 
 [[nodiscard]] const Colours& coloursOf(Theme theme);
-/// `ink`, darker or lighter where words in it would have less contrast than 4.5:1 on `paper` (WCAG 2.1, AA).
+/// Contrast ratio of two colours, 1 to 21 (WCAG 2.1).
+[[nodiscard]] double contrast(const QColor& a, const QColor& b);
+/// `ink`, as much darker on a light ground or lighter on a dark one as words need: 4.5:1 on `paper` (WCAG 2.1, AA).
 [[nodiscard]] QColor legible(QColor ink, const QColor& paper);
 /// Qt's roles from them, for what draws itself.
 [[nodiscard]] QPalette paletteOf(const Colours& colours);

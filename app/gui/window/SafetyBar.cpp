@@ -89,9 +89,8 @@ QString reasonOf(const Telemetry& telemetry) {
             return telemetry.driving == DriveSource::Off      ? SafetyBar::tr("Choose a drive to deliver.")
                    : telemetry.driving == DriveSource::Sensor ? SafetyBar::tr("The fingertip drives it. Space stops.")
                                                               : SafetyBar::tr("The next train follows. Space stops.");
-        default:
-            return reason;
     }
+    return {};
 }
 
 }  // namespace

@@ -152,8 +152,10 @@ void Tour::place() {
     QRect best;
     double least = std::numeric_limits<double>::max();
     const int centre = (room.width() - size.width()) / 2, middle = (top + bottom) / 2;
-    for (const int y : {bottom, top, middle}) {
-        for (const int x : {right, kMargin, centre}) {
+    // The usual places first, then those right beside the control.
+    for (const int y : {bottom, top, middle, control.top() - size.height(), control.bottom() + 1}) {
+        for (const int x : {right, kMargin, centre, control.left() - size.width(), control.right() + 1}) {
+            if (x < 0 || x > right + kMargin || y < top - kMargin || y > bottom) continue;
             const QRect here(QPoint(x, y), size);
             double hides = kControlCounts * areaOf(here & control);
             for (const auto& other : others) hides += areaOf(here & other);

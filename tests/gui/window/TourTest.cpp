@@ -242,7 +242,11 @@ TEST_F(TourOfTheWindow, LooksRightInEverySizeAndTheme) {
                         << "STOP is covered";
                     if (const auto* around = frame()) {
                         const auto hidden = around->geometry() & panel;
-                        EXPECT_TRUE(hidden.isEmpty()) << "the panel hides the control at " << percent << " %";
+                        EXPECT_TRUE(hidden.isEmpty())
+                            << "the panel hides the control at " << percent << " %: " << hidden.width() << " x "
+                            << hidden.height() << " of " << around->width() << " x " << around->height() << " at "
+                            << around->x() << ", " << around->y() << " in " << window.width() << " x "
+                            << window.height();
                         EXPECT_TRUE(window.rect().contains(around->geometry())) << "the frame is cut";
                     } else {
                         ADD_FAILURE() << "no control is framed";
