@@ -119,7 +119,7 @@ void Tour::bringIntoView(QWidget* control) {
     if (control == shown_ || control == nullptr || !control->isVisible()) return;
     shown_ = control;
     for (auto* above = control->parentWidget(); above != nullptr; above = above->parentWidget()) {
-        if (auto* area = qobject_cast<QScrollArea*>(above)) area->ensureWidgetVisible(control);
+        if (auto* area = qobject_cast<QScrollArea*>(above)) area->ensureWidgetVisible(control, 0, 0);
     }
 }
 
