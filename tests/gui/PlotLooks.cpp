@@ -33,7 +33,8 @@ public:
         const auto turned = painter()->transform();
         const bool aslant = std::min(std::abs(turned.m11()), std::abs(turned.m12())) > 1e-3;
         if (text.isEmpty() || aslant || painter()->pen().color().alpha() == 0) return;
-        const auto ink = QFontMetricsF(item.font()).tightBoundingRect(text).translated(at);
+        auto ink = QFontMetricsF(item.font()).tightBoundingRect(text).translated(at);
+        ink.setRight(std::min(ink.right(), at.x() + item.width()));  // what another face draws may be narrower
         auto room = plot_;
         if (painter()->hasClipping()) room &= turned.mapRect(painter()->clipBoundingRect());
         words.push_back({text, turned.mapRect(ink), room});
@@ -130,7 +131,15 @@ std::vector<PlotWord> wordsOf(QCustomPlot& plot) {
     QCPPainter painter(&device);
     plot.toPainter(&painter, plot.width(), plot.height());
     painter.end();
-    return device.words();
+    auto words = device.words();
+    std::erase_if(words, [&plot](const PlotWord& word) {
+        for (int i = 0; i < plot.itemCount(); ++i) {
+            const auto* item = qobject_cast<const QCPItemText*>(plot.item(i));
+            if (item != nullptr && item->objectName() == "watermark" && item->text() == word.text) return true;
+        }
+        return false;
+    });
+    return words;
 }
 
 QStringList plotWordFaults(const QWidget& in) {

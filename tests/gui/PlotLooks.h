@@ -17,7 +17,7 @@ struct PlotWord {
     QRectF ink;   ///< what its letters cover, in pixels of the plot
     QRectF room;  ///< what it may cover: the plot, or what it is clipped to
 };
-/// All upright or quarter-turned words of the plot; the watermark stands aslant and is left out.
+/// All upright or quarter-turned words of the plot without its watermark, which lies behind them.
 [[nodiscard]] std::vector<PlotWord> wordsOf(QCustomPlot& plot);
 
 /// Words of visible plots that lie over each other, or that their plot's edge cuts.
