@@ -2,6 +2,7 @@
 #include <QAbstractSpinBox>
 #include <QDockWidget>
 #include <QLineEdit>
+#include <QMenu>
 #include <QMenuBar>
 #include <QSplitter>
 #include <QStackedWidget>
@@ -303,6 +304,32 @@ TEST_F(Layout, IconsGrowWithTheText) {
     EXPECT_LE(bar("workspaces").width(), 60) << "the data keep the room";
     gui::applyTextSize(100);
     window.showWorkspace(0);
+}
+
+TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
+    open();
+    window.showWorkspace(0);
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    auto* more = window.findChild<QToolButton*>("moreTools");
+    window.resize(1920, 1080);
+    EXPECT_IN_TIME(comesTrue([&] { return !more->isVisible(); })) << "there is room for all of them";
+    auto* cursors = find<QToolButton>(window, "Time cursors");
+    ASSERT_NE(cursors, nullptr);
+    gui::applyTextSize(200);
+    window.resize(1280, 720);
+    EXPECT_IN_TIME(comesTrue([&] { return more->isVisible() && !cursors->isVisible(); }));
+    EXPECT_EQ(more->visibleRegion().boundingRect().size(), more->size());
+    emit more->menu()->aboutToShow();
+    QAction* action = nullptr;
+    for (auto* each : more->menu()->actions())
+        if (each->text() == "Time cursors") action = each;
+    ASSERT_NE(action, nullptr);
+    action->trigger();
+    EXPECT_TRUE(cursors->isChecked()) << "as a click on it";
+    gui::applyTextSize(100);
+    window.resize(1920, 1080);
+    EXPECT_IN_TIME(comesTrue([&] { return cursors->isVisible() && !more->isVisible(); }));
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
 }
 
 TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen) {
