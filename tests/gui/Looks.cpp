@@ -234,6 +234,7 @@ std::string faultsOf(const QWidget& in) {
     for (const auto& text : cutCells(in)) all << "cut cell: " + text;
     for (const auto& text : cutFields(in)) all << "cut field: " + text;
     for (const auto& text : cutSideways(in)) all << "cut sideways: " + text;
+    for (const auto& text : beyondTheirPlace(in)) all << "cut by what is around: " + text;
     for (const auto& text : untoldElisions(in)) all << "elided: " + text;
     for (const auto& text : plotWordFaults(in)) all << "plot: " + text;
     for (const auto& text : legendsOverData(in)) all << "plot: " + text;

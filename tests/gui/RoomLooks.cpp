@@ -162,6 +162,23 @@ QStringList cutSideways(const QWidget& in) {
     return cut;
 }
 
+QStringList beyondTheirPlace(const QWidget& in) {
+    QStringList beyond;
+    forEachShown<QWidget>(in, [&](const QWidget& widget) {
+        const auto* around = widget.parentWidget();
+        if (widget.isWindow() || around == nullptr || around->layout() == nullptr || widget.width() < 2 ||
+            widget.height() < 2 || widget.objectName() == "qt_qmainwindow_extended_splitter")
+            return;
+        const auto cut = widget.geometry().united(around->rect()).size() - around->size();
+        if (cut.width() > 1 || cut.height() > 1)
+            beyond << QString("%1 in %2: by %3x%4")
+                          .arg(called(widget), called(*around))
+                          .arg(cut.width())
+                          .arg(cut.height());
+    });
+    return beyond;
+}
+
 QStringList untoldElisions(const QWidget& in) {
     QStringList untold;
     forEachShown<QLabel>(in, [&](const QLabel& label) {

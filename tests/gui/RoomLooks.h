@@ -17,6 +17,8 @@ namespace tacto::test {
 /// Pages, tables, lists and texts that are wider than their place, whether a scroll bar leads there or none does. An
 /// editor of text that does not wrap scrolls by right.
 [[nodiscard]] QStringList cutSideways(const QWidget& in);
+/// Widgets that stand partly outside of what they stand in, where that is not a page that scrolls.
+[[nodiscard]] QStringList beyondTheirPlace(const QWidget& in);
 /// Labels that elide by design and do, without the whole text in their tool tip.
 [[nodiscard]] QStringList untoldElisions(const QWidget& in);
 

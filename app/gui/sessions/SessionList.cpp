@@ -200,7 +200,8 @@ void SessionList::fitColumns() {
     for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
     const auto* header = table_->horizontalHeader();
     const int least = header->length() - header->sectionSize(SessionModel::kNote) + header->minimumSectionSize();
-    table_->setColumnHidden(SessionModel::kSample, least > table_->viewport()->width());
+    const int room = width() - table_->verticalScrollBar()->sizeHint().width();  // the table has its own size later
+    table_->setColumnHidden(SessionModel::kSample, least > room);
 }
 
 /// What a display of the chosen ones depends on. Not the labels: they are changed there.

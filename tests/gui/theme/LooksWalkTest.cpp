@@ -132,6 +132,18 @@ TEST_F(WalkOfLooks, FindsPagesThatAreCutSideways) {
     EXPECT_EQ(cutSideways(window).size(), 1) << "without a way to scroll there";
 }
 
+TEST_F(WalkOfLooks, FindsWhatStandsPartlyOutside) {
+    auto* holder = new QWidget(&window);
+    auto* row = new QVBoxLayout(holder);
+    auto* button = new QLineEdit("whole", holder);
+    row->addWidget(button);
+    layout.addWidget(holder);
+    show();
+    EXPECT_EQ(beyondTheirPlace(window).join('\n').toStdString(), "");
+    button->move(button->x(), holder->height() - button->height() / 2);
+    EXPECT_EQ(beyondTheirPlace(window).size(), 1);
+}
+
 TEST_F(WalkOfLooks, FindsCellsWithoutRoom) {
     auto* table = new QTableWidget(1, 3, &window);
     const QString words = "more words than have room";
