@@ -87,7 +87,12 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     row->setContentsMargins(0, 0, 0, 0);
     folder_->setObjectName("studyFolder");
     folder_->setAccessibleName(tr("Folder of the rehearsal"));
-    folder_->setToolTip(tr("A new folder, or the folder of a rehearsal to continue."));
+    const auto tell = [this] {
+        folder_->setToolTip(
+            tr("%1\nA new folder, or the folder of a rehearsal to continue.").arg(folder_->text()).trimmed());
+    };
+    tell();
+    connect(folder_, &QLineEdit::textChanged, this, tell);
     auto* choose = new QPushButton(tr("Ch&oose…"), place);
     choose->setAutoDefault(false);
     choose->setToolTip(tr("Chooses the folder from a list."));

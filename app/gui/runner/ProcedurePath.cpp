@@ -159,9 +159,13 @@ void ProcedurePath::fitLegend() {
 /// Words that wrap make a row higher than its layout's least height: the page scrolls then, and nothing is cut.
 bool ProcedurePath::event(QEvent* event) {
     const bool done = QWidget::event(event);
-    if (across_ && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
-        setMinimumHeight(layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(width())
-                                                       : layout()->totalSizeHint().height());
+    const auto* parts = layout();  // none while it is turned
+    if (parts != nullptr && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize)) {
+        const bool wraps = parts->hasHeightForWidth();
+        const int across = wraps ? parts->totalHeightForWidth(width()) : parts->totalSizeHint().height();
+        const int down = wraps ? parts->totalMinimumHeightForWidth(width()) : parts->totalMinimumSize().height();
+        setMinimumHeight(across_ ? across : down);
+    }
     if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) fitLegend();
     return done;
 }

@@ -19,6 +19,7 @@
 #include "app/gui/runner/WorstPage.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/TableContent.h"
@@ -83,7 +84,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
 }
 
 void ProtocolWorkspace::arrange() {
-    const bool across = path_->fit(width());
+    const bool across = path_->fit(widthInSight(*this));
     layout_->setDirection(across ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     edge_->setFrameShape(across ? QFrame::HLine : QFrame::VLine);
 }

@@ -131,9 +131,6 @@ QWidget* SafetyBar::buildFacts() {
     column->setContentsMargins(kBarGap, 0, kBarGap, 0);
     column->setSpacing(0);
     load_ = new ElidedLabel(holder);
-    load_->setToolTip(
-        tr("Impedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
-           "measured again before the next train."));
     device_ = new ElidedLabel(holder);
     calibration_ = new ElidedLabel(holder);
     calibration_->setObjectName("calibrationAge");
@@ -226,7 +223,9 @@ void SafetyBar::giveRoom() {
     const int facts = std::max(calibrated, unmeasured) + 2 * kBarGap;
     block_->fit(width() - always);
     const int left = width() - always - block_->width();
-    facts_->setFixedWidth(left < facts / 2 ? 0 : std::min(left, facts));  // three ellipses say nothing
+    factsFit_ = left >= facts / 2;  // three ellipses say nothing
+    facts_->setFixedWidth(std::min(left, facts));
+    facts_->setVisible(factsFit_ && state_ != InterlockState::Faulted);
 }
 
 QSize SafetyBar::minimumSizeHint() const {
@@ -247,7 +246,7 @@ void SafetyBar::resizeEvent(QResizeEvent* event) {
 void SafetyBar::refresh(const Telemetry& telemetry) {
     showState(telemetry);
     const bool faulted = telemetry.state == InterlockState::Faulted;
-    facts_->setVisible(!faulted);
+    facts_->setVisible(!faulted && factsFit_);
     bars_->setVisible(!faulted && !blind_);
     blindFacts_->setVisible(!faulted && blind_);
     if (blind_) showBlind(telemetry);
@@ -294,6 +293,9 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
         : std::isfinite(telemetry.impedance_ohm)
             ? QString("%1 · %2").arg(quantityText(telemetry.impedance_ohm, "ohm", 3), ageText(telemetry.impedanceAge_s))
             : tr(kUnmeasured));
+    load_->setToolTip(tr("%1\nImpedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
+                         "measured again before the next train.")
+                          .arg(load_->text()));
     showCalibration();
 }
 
@@ -310,7 +312,7 @@ void SafetyBar::showCalibration() {
     if (calibration_->text() != text) {
         calibration_->setText(text);
         calibration_->setToolTip(
-            standing ? titled(whole) + ". " + standingTip(*standing)
+            standing ? (counts ? text + ". " : QString()) + titled(whole) + ". " + standingTip(*standing)
                      : tr("Calibration of the stimulator. Without a valid one it is for bench loads only."));
     }
     setTone(*calibration_, counts ? Tone::Text : Tone::Warning);

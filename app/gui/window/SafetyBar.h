@@ -89,6 +89,7 @@ private:
     QPushButton* details_ = nullptr;  ///< in its place while faulted
     StopButton* stop_ = nullptr;
     std::uint64_t trainsSeen_ = 0;
+    bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash that goes with each train
     InterlockState state_ = InterlockState::Disconnected;
 };
