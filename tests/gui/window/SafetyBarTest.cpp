@@ -186,21 +186,6 @@ protected:
     gui::SafetyBar bar{controller, calibrations};
 };
 
-TEST_F(Bar, SaysInEveryStateWhatToDo) {
-    const auto* says = bar.findChild<QLabel*>("interlockReason");
-    ASSERT_NE(says, nullptr);
-    for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
-        for (const auto drive : {DriveSource::Off, DriveSource::Manual, DriveSource::Sensor}) {
-            auto telemetry = in(InterlockState(state));
-            telemetry.driving = drive;
-            bar.refresh(telemetry);
-            EXPECT_NE(says->text(), "") << word().toStdString() << ", drive " << int(drive);
-        }
-    }
-    bar.refresh(in(InterlockState::Disarmed, "operator (STOP)"));
-    EXPECT_EQ(says->text(), "Output is off: operator (STOP). “Arm…” goes on.");
-}
-
 TEST_F(Bar, HasAWordAndAShapeForEveryState) {
     QStringList words, shapes;
     for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
@@ -267,28 +252,6 @@ TEST_F(Bar, StopAndTheButtonsAreWholeOnANarrowScreen) {
         shot(bar, QString("safetybar-%1").arg(width));
     }
     EXPECT_LE(bar.minimumSizeHint().width(), 900);
-}
-
-TEST_F(Bar, TheStatesWordIsReadFromTwoMetres) {
-    RecordProperty("hazard", "H12");
-    gui::applyTextSize(100);
-    bar.resize(1280, bar.sizeHint().height());
-    for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
-        bar.refresh(in(InterlockState(state), "why"));
-        auto* label = bar.findChild<QLabel*>("interlockState");
-        EXPECT_GE(label->font().pointSizeF(), 28 - 1e-6) << word().toStdString();
-        EXPECT_GE(label->width(), QFontMetrics(label->font()).horizontalAdvance(word())) << word().toStdString();
-        const auto drawn = label->grab().toImage();  // in the sheet's font, too
-        int top = drawn.height(), bottom = 0;
-        for (int y = 0; y < drawn.height(); ++y) {
-            for (int x = 0; x < drawn.width(); ++x) {
-                if (drawn.pixelColor(x, y).rgb() != gui::stateStyle(InterlockState(state)).ink.rgb()) continue;
-                top = std::min(top, y);
-                bottom = std::max(bottom, y);
-            }
-        }
-        EXPECT_GE(bottom - top + 1, 0.9 * QFontMetrics(label->font()).capHeight()) << word().toStdString();
-    }
 }
 
 TEST_F(Bar, TheStatesShapePulsesWithEachTrain) {
