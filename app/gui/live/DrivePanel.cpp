@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/encoding/Encoder.h"
 
@@ -132,6 +133,7 @@ void DrivePanel::begin() {
     // Another bench begins anew: what was set by hand belongs to the one before.
     if (const auto bench = controller_.tap(); bench != bench_.lock() || !bench) {
         bench_ = bench;
+        was_.reset();
         for (auto* index : {&roughness_, &pressure_}) index->byHand = 0;
     }
     showHand();
@@ -198,11 +200,18 @@ QString DrivePanel::trainText(double amplitude_v, double interval_s) const {
 
 /// What a click on "By hand" would ask for.
 QString DrivePanel::offWords() const {
-    const auto nothing = tr("Nothing drives the output.");
+    const auto nothing = was_ ? wasWords() : tr("Nothing drives the output.");
     if (controller_.activity() != Activity::Live) return nothing;
     const auto first = Encoder(controller_.profile().encoding).encode(roughness_.byHand, pressure_.byHand);
     if (!first) return nothing;
     return tr("%1 By hand asks for %2.").arg(nothing, trainText(first->amplitude.value(), first->interval.count()));
+}
+
+/// "Was by hand, R 0.40, P 0.60."
+QString DrivePanel::wasWords() const {
+    const auto who = was_->source == DriveSource::Sensor ? tr("Was the fingertip") : tr("Was by hand");
+    if (!std::isfinite(was_->roughness) || !std::isfinite(was_->pressure)) return who + '.';
+    return tr("%1, R %2, P %3.").arg(who, decimalText(was_->roughness, 2), decimalText(was_->pressure, 2));
 }
 
 bool DrivePanel::vibrates() const {
@@ -248,7 +257,11 @@ void DrivePanel::followFinger(const Telemetry& telemetry) {
 }
 
 void DrivePanel::refresh(const Telemetry& telemetry) {
-    if (controller_.activity() == Activity::Live) follow(telemetry.driving);
+    if (controller_.activity() == Activity::Live) {
+        follow(telemetry.driving);
+        if (telemetry.driving != DriveSource::Off)
+            was_ = DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure};
+    }
     followFinger(telemetry);
     const auto output = outputText(telemetry);
     if (output_->text() != output) output_->setText(output);

@@ -9,6 +9,7 @@
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/ExposureNow.h"
 #include "app/gui/window/FaultBanner.h"
 #include "app/gui/window/LimitBarRow.h"
 #include "app/gui/window/StateBlock.h"
@@ -225,8 +226,7 @@ void SafetyBar::refresh(const Telemetry& telemetry) {
     bars_->setVisible(!faulted && !blind_);
     blindFacts_->setVisible(!faulted && blind_);
     if (blind_) showBlind(telemetry);
-    if (faulted) fault_->show(telemetry);
-    fault_->setVisible(faulted);
+    fault_->refresh(telemetry);
     showDevice(telemetry);
     showExposure(telemetry);
     showButtons(telemetry.state);
@@ -298,10 +298,14 @@ void SafetyBar::showCalibration() {
 }
 
 void SafetyBar::showExposure(const Telemetry& telemetry) {
+    const auto rows = exposureNow(telemetry);
+    const bool off = outputIsOff(telemetry.state);
     for (std::size_t i = 0; i < allBars().size(); ++i) {
         const auto& quantities = allBars()[i].quantities;
-        const auto row = quantities.empty() ? netCharge(telemetry) : tightest(telemetry.exposure(), quantities);
+        const auto row = quantities.empty() ? netCharge(telemetry) : tightest(rows, quantities);
         bars_->show(i, row, controller_.limits().sets);
+        // It was measured, and stays that of the last pulse.
+        if (quantities.empty()) bars_->setTitle(i, off && row ? tr("Last net charge") : tr(allBars()[i].title));
         // The command against the profile's ceiling and the peak against the limit set's are two things.
         if (i == kPeakBar) bars_->setTitle(i, row ? shortRowTitle(*row) : tr(allBars()[i].title));
     }
