@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/ExposureText.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/ExposureNow.h"
@@ -123,11 +124,7 @@ void ExposureDock::refresh(const Telemetry& telemetry) {
     enterArea_->setVisible(!controller_.profile().electrodeArea &&
                            std::ranges::any_of(rows, [](const ExposureRow& row) { return !row.evaluated; }));
     const auto nearest = std::ranges::max_element(rows, {}, shareOf);
-    nearest_ = nearest == rows.end() || !nearest->evaluated
-                   ? QString()
-                   : tr("%1 of %2")
-                         .arg(quantityText(nearest->value, qtext(nearest->unit), 3),
-                              settingText(nearest->limit, qtext(nearest->unit)));
+    nearest_ = nearest == rows.end() || !nearest->evaluated ? QString() : valueOfLimitText(*nearest);
     for (std::size_t i = 0; i < rows.size(); ++i) bars_[i]->show(rows[i], controller_.limits().sets);
 }
 
