@@ -28,6 +28,7 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     off_->setToolTip(
         tr("No train is sent. Every stop, disarm and fault comes back to this. Arrows move, Return chooses."));
     byHand_ = new QPushButton(tr("By hand"), this);
+    byHand_->setObjectName("driveByHand");
     byHand_->setToolTip(tr("R and P come from the two sliders. Arrows move, Return chooses."));
     finger_ = new QPushButton(tr("Fingertip"), this);
     finger_->setObjectName("driveFingertip");
@@ -46,9 +47,9 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     off_->setChecked(true);
     layout->addLayout(row);
     auto* grid = new QGridLayout;
-    addIndex(*grid, roughness_, tr("R"), tr("Roughness R"),
+    addIndex(*grid, roughness_, "driveRoughness", tr("R"), tr("Roughness R"),
              tr("Roughness, 0 smooth to 1 rough. Arrows step by 0.01, Page up and down by 0.1."));
-    addIndex(*grid, pressure_, tr("P"), tr("Pressure P"),
+    addIndex(*grid, pressure_, "drivePressure", tr("P"), tr("Pressure P"),
              tr("Pressure, 0 light to 1 firm. Arrows step by 0.01, Page up and down by 0.1."));
     layout->addLayout(grid);
     output_ = new QLabel(this);
@@ -67,8 +68,8 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     begin();
 }
 
-void DrivePanel::addIndex(QGridLayout& grid, Index& index, const QString& label, const QString& name,
-                          const QString& tip) {
+void DrivePanel::addIndex(QGridLayout& grid, Index& index, const char* objectName, const QString& label,
+                          const QString& name, const QString& tip) {
     index.slider = new QSlider(Qt::Horizontal, this);
     index.box = new QDoubleSpinBox(this);
     index.slider->setRange(0, kSteps);
@@ -76,6 +77,7 @@ void DrivePanel::addIndex(QGridLayout& grid, Index& index, const QString& label,
     index.slider->setPageStep(10);
     index.slider->setToolTip(tip);
     index.slider->setAccessibleName(name);
+    index.box->setObjectName(objectName);
     index.box->setRange(0, 1);
     index.box->setDecimals(2);
     index.box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // the slider is beside it

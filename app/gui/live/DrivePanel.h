@@ -44,7 +44,8 @@ private:
         QDoubleSpinBox* box = nullptr;
         double byHand = 0;  ///< as a person set it last on this bench; the fingertip's values do not count
     };
-    void addIndex(QGridLayout& grid, Index& index, const QString& label, const QString& name, const QString& tip);
+    void addIndex(QGridLayout& grid, Index& index, const char* objectName, const QString& label, const QString& name,
+                  const QString& tip);
     void showHand();
     static void showIndex(const Index& index, double value);
     void choose();
