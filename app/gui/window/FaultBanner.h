@@ -33,7 +33,7 @@ private:
     ElidedLabel* cause_;
     ElidedLabel* output_;
     ElidedLabel* next_;
-    // Of the refresh before:
+    // The refresh before had these:
     Instant at_{0};
     InterlockState state_ = InterlockState::Disconnected;
     std::uint64_t trains_ = 0;
