@@ -83,9 +83,22 @@ CellStyle styleOf(const QString& verdict, bool isNear) {
 
 bool isAsked(const QString& verdict) { return !verdict.isEmpty() && verdict != "not applicable"; }
 
+/// Wide enough for the largest share with its sign; else the header has the sign.
+bool isRoomy(int cellWidth) {
+    const QFontMetrics metrics(textFont(TextSize::Small, QFont::DemiBold));
+    return cellWidth >= scaledPx(kIconSize) + kPad + metrics.horizontalAdvance("100 %") + 4;
+}
+
+QString bareShare(const QModelIndex& index) { return index.data(kCellShare).toString().remove(" %"); }
+
 class CellDelegate final : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
+    /// The least that it can be painted in.
+    [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& /*option*/, const QModelIndex& index) const override {
+        const QFontMetrics metrics(textFont(TextSize::Small, QFont::DemiBold));
+        return {scaledPx(kIconSize) + 4 + metrics.horizontalAdvance(bareShare(index)), metrics.height() + 4};
+    }
     void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
         const auto& c = colours();
         const auto verdict = index.data(kCellVerdict).toString();
@@ -97,18 +110,19 @@ public:
         const bool asked = isAsked(verdict);
         painter->setFont(textFont(TextSize::Small, asked ? QFont::DemiBold : QFont::Normal));
         const int size = scaledPx(kIconSize);
-        const bool room = cell.width() >= size + kPad + painter->fontMetrics().horizontalAdvance("100 %") + 4;
-        if (asked && room)
-            paintCellShape(*painter, {cell.left() + kPad / 2, cell.top(), size, cell.height()}, verdict, isNear, size);
-        const auto text = asked && !room ? index.data().toString() : index.data(kCellShare).toString();
+        const bool room = isRoomy(cell.width());
+        const int pad = room ? kPad / 2 : 1;
+        if (asked)
+            paintCellShape(*painter, {cell.left() + pad, cell.top(), size, cell.height()}, verdict, isNear, size);
+        const auto text = room ? index.data(kCellShare).toString() : bareShare(index);
         painter->setPen(style.ink);
         if (verdict == "not evaluated") {
             // Words keep their contrast on the hatch.
-            const auto words = painter->fontMetrics().boundingRect(cell.adjusted(0, 0, -kPad / 2, 0),
+            const auto words = painter->fontMetrics().boundingRect(cell.adjusted(0, 0, -pad, 0),
                                                                    Qt::AlignRight | Qt::AlignVCenter, text);
             painter->fillRect(words.adjusted(-2, 0, 2, 0), style.ground);
         }
-        painter->drawText(cell.adjusted(0, 0, -kPad / 2, 0),
+        painter->drawText(cell.adjusted(0, 0, -pad, 0),
                           int(asked ? Qt::AlignRight : Qt::AlignHCenter) | Qt::AlignVCenter, text);
         if ((option.state & (QStyle::State_HasFocus | QStyle::State_Selected)) != 0) {
             painter->setPen(QPen(c.text, 2));
@@ -171,7 +185,7 @@ void LimitMatrixView::show(const json& matrix) {
     const auto& lines = memberAt(matrix, "lines");
     const auto& loads = memberAt(matrix, "loads");
     if (!lines.is_array() || !loads.is_array()) return;
-    QStringList header{tr("Limit, worst first\nshare used, with U")};
+    QStringList header{QString()};
     for (const auto& load : loads) {
         const auto name = wordsOf(load);
         loads_.push_back(loadText(name));
@@ -231,7 +245,7 @@ void LimitMatrixView::addLine(int row, const json& line) {
         const auto share = judged == "not evaluated"    ? tr("n. e.")
                            : judged == "not applicable" ? QString("–")
                            : std::isfinite(most)        ? shareText(used)
-                                                        : quantityText(value, unit, 2);
+                                                        : decimalText(value, 2) + " " + unit;
         item->setText(verdictStyle(judged).shape + " " + share);
         item->setData(kCellVerdict, judged);
         item->setData(kCellShare, share);
@@ -266,6 +280,8 @@ void LimitMatrixView::fitColumns() {
     const int first = std::min(chars * kLimitChars * 2, std::max(chars * kLimitChars, viewport()->width() / 4));
     const int each = std::clamp((viewport()->width() - first) / loads, chars * kLoadChars / 2, chars * kLoadChars * 2);
     header->setSectionResizeMode(0, QHeaderView::Stretch);
+    const auto unit = isRoomy(each - 2) ? QString() : tr(" in %");
+    horizontalHeaderItem(0)->setText(tr("Limit, worst first\nshare used%1, with U").arg(unit));
     for (int c = 1; c < columnCount(); ++c) {
         header->setSectionResizeMode(c, QHeaderView::Fixed);
         header->resizeSection(c, each);
