@@ -4,11 +4,13 @@
 #include <utility>
 
 #include "app/gui/runner/CellLegend.h"
-#include "app/gui/runner/ProcedurePages.h"
+#include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/NumberText.h"
+#include "app/report/TableContent.h"
 
 namespace tacto::gui {
 
@@ -101,6 +103,25 @@ void ProcedurePath::showNoRun(bool hasReference) {
     steps_->setOutOfReach(kRun, tr("Nothing has run yet: press Run."));
     steps_->setOutOfReach(kResult, tr("There is no result yet: press Run."));
     panel_->setLeading(true);
+}
+
+void ProcedurePath::showSetup(ParameterForm& form, const QString& devices, bool declared, bool begun,
+                              const std::set<Step>& seen) {
+    using State = StepList::State;
+    const auto state = [&](Step step, bool troubled) {
+        return troubled ? State::Troubled : begun || seen.contains(step) ? State::Done : State::ToDo;
+    };
+    steps_->setState(kWiring, state(kWiring, !devicesOf(devices)));
+    steps_->setNote(kWiring, devices == "sim:" ? tr("simulated bench") : devices);
+    steps_->setState(kReference, state(kReference, form.refused(true) > 0));
+    const auto load = form.text("reference").isEmpty() ? form.text("load") : form.text("reference");
+    bool isNumber = false;
+    const double ohms = load.toDouble(&isNumber);
+    steps_->setNote(kReference, isNumber ? settingText(ohms, "ohm") : loadText(load));
+    const int refused = form.refused(false);
+    const bool troubled = refused > 0 || !declared;
+    steps_->setState(kSettings, troubled ? State::Troubled : begun ? State::Done : State::UnderWay);
+    steps_->setNote(kSettings, refused > 0 ? tr("%1 to fix").arg(refused) : declared ? form.summary() : QString());
 }
 
 void ProcedurePath::showRun() {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/scope/LaneColours.h"
 #include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/scope/StepBox.h"
 #include "app/gui/scope/Steps.h"

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <QColor>
+#include <QPointF>
 #include <QRectF>
 #include <QStringList>
 #include <optional>
@@ -56,7 +57,14 @@ struct OverlayState {
         QString position;  ///< "200.0 µs"
         std::vector<Row> rows;
     };
+    /// The train that comes next, in one lane.
+    struct Coming {
+        std::vector<QPointF> line;  ///< times and heights
+        QString text;               ///< "next train 30.7 V", over the first phase
+        QColor colour;
+    };
     std::vector<Lane> lanes;
+    std::vector<Coming> coming;
     std::optional<Trigger> trigger;
     std::vector<double> timeCursors_s;  ///< two or none
     std::vector<Flag> flags;            ///< of the time cursors

@@ -18,6 +18,7 @@ std::unique_ptr<ScopeModel> ScopeModel::still() const {
     still->lanes_ = lanes_;
     still->active_ = active_;
     still->held_ = held_;
+    still->coming_ = coming_;
     still->frame_ = frame_;
     still->cursors_ = cursors_;
     still->trigger_ = trigger_;
@@ -27,6 +28,14 @@ std::unique_ptr<ScopeModel> ScopeModel::still() const {
 
 void ScopeModel::setHeld(bool held) {
     if (std::exchange(held_, held) != held) emit heldChanged();
+}
+
+void ScopeModel::setComing(const std::optional<ComingTrain>& coming) {
+    if (std::exchange(coming_, coming) != coming) emit heldChanged();
+}
+
+std::optional<ComingTrain> ScopeModel::coming() const {
+    return !roll() && showsBench() && std::isfinite(shown()->capture->trigger_s) ? coming_ : std::nullopt;
 }
 
 void ScopeModel::show(ShownPtr shown) {

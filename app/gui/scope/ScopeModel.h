@@ -10,6 +10,7 @@
 #include <QObject>
 #include <memory>
 
+#include "app/gui/controller/FirstOutput.h"
 #include "app/gui/scope/ScopeCursors.h"
 #include "app/gui/scope/ScopeFrame.h"
 #include "app/gui/scope/ScopeLanes.h"
@@ -42,8 +43,12 @@ public:
     void setRoll(bool roll);
     [[nodiscard]] bool roll() const noexcept { return captures_.roll(); }
     /// What is shown is the last train of an output that is off: faint, until another capture comes.
-    [[nodiscard]] bool held() const noexcept { return held_; }
+    [[nodiscard]] bool held() const { return held_ || coming(); }
     void setHeld(bool held);
+    /// The train that follows first from an armed output; nothing: none is known.
+    void setComing(const std::optional<ComingTrain>& coming);
+    /// It is drawn over the bench's last train, on the time from the trigger; nothing where that is not shown.
+    [[nodiscard]] std::optional<ComingTrain> coming() const;
     /// Time 0 of the axis on the session's time base.
     [[nodiscard]] double zero_s() const noexcept { return roll() || !shown() ? 0 : shown()->zero_s; }
 
@@ -160,6 +165,7 @@ private:
     ScopeLanes lanes_;
     QString active_;
     bool held_ = false;
+    std::optional<ComingTrain> coming_;
 
     ScopeFrame frame_;
     ScopeCursors cursors_;

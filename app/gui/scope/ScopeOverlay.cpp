@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/scope/ComingLines.h"
 #include "app/gui/scope/TimeFlags.h"
 #include "app/gui/theme/Theme.h"
 
@@ -72,6 +73,7 @@ void ScopeOverlay::draw(QCPPainter* painter) {
     drawMarks(*painter);
     drawMoments(*painter);
     drawTrigger(*painter);
+    ComingLines(plane_, state).draw(*painter);
     for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
         const auto& its = state.lanes[static_cast<std::size_t>(lane)];
         plane_.drawPennant(*painter, lanePennant(lane), its.letter, its.colour, its.active);

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/scope/LaneColours.h"
+#include "app/gui/scope/OverlayOf.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
-#include "app/report/NumberText.h"
 
 namespace tacto::gui {
 
@@ -19,27 +20,6 @@ QColor mixed(const QColor& a, const QColor& b, double share) {
 }
 
 }  // namespace
-
-QColor laneColour(const ScopeModel& model, const ScopeLane& lane) {
-    const auto& c = colours();
-    if (lane.reference()) return c.zero;
-    const bool dark = currentTheme() == Theme::Dark;
-    if (lane.key == "math/power") return c.third;
-    if (lane.key == "math/charge") return dark ? c.third.lighter(125) : c.third.darker(140);
-    if (lane.key == "math/difference") return c.text;
-    if (lane.letter == "V" || lane.letter == "V1") return c.voltage;
-    if (lane.letter == "I" || lane.letter == "I1") return c.current;
-    // Further channels of an unusual instrument: the palette's others, in the order they come.
-    const auto& all = model.lanes();
-    const auto at = std::find_if(all.begin(), all.end(), [&](const ScopeLane& l) { return l.key == lane.key; });
-    return conditionInTheme({}, static_cast<int>(at - all.begin())).color;
-}
-
-QColor laneInk(const ScopeModel& model, const ScopeLane& lane) {
-    const auto& c = colours();
-    const auto colour = laneColour(model, lane);
-    return colour == c.current ? c.currentText : legible(colour, c.base);
-}
 
 ScopeScreen::ScopeScreen(const ScopeModel& model, QWidget* parent)
     : QCustomPlot(parent),
@@ -269,83 +249,6 @@ void ScopeScreen::numberAxis(QCPAxis& axis, RoundTicker& ticker, const ScopeLane
     axis.setTickLabelColor(laneInk(model_, *lane));
 }
 
-void ScopeScreen::fillOverlay() {
-    auto& o = overlay_->state;
-    o = {};
-    for (const auto& lane : model_.lanes()) {
-        if (lane.reference() || !lane.shown) continue;
-        o.lanes.push_back({lane.key, lane.letter, laneInk(model_, lane), model_.scaleOf(lane).position,
-                           lane.key == model_.activeLane()});
-    }
-    fillTrigger(o);
-    fillCursors(o);
-    if (model_.shown() && model_.shown()->capture->untriggered) o.notes << tr("not triggered");
-    if (model_.held()) o.notes << tr("the last live train, held");
-    if (model_.shown() && model_.shown()->averaged > 0) o.notes << tr("averaged %1").arg(model_.shown()->averaged);
-    if (const auto mark = model_.markBeside(); !mark.isEmpty()) o.notes << mark;
-    for (const auto& mark : model_.marksOnAxis()) o.moments.push_back({mark.at_s, mark.word});
-    o.alarm = alarm_;
-    o.box = box_;
-    o.hover = model_.hovered();
-    fillMarks(o);
-}
-
-void ScopeScreen::fillCursors(OverlayState& o) const {
-    const auto& cursors = model_.cursors();
-    const auto read = model_.readout();
-    const double rate_hz = model_.shown() ? model_.shown()->capture->rate_hz : 0;
-    o.focusedCursor = cursors.focused();
-    if (const auto& times = cursors.time_s()) {
-        o.timeCursors_s.assign(times->begin(), times->end());
-        o.timeSpan = spanText(read, rate_hz);
-        for (const auto& [name, time_s] : {std::pair(tr("t₁"), read.x1_s), std::pair(tr("t₂"), read.x2_s)}) {
-            o.flags.push_back({name, quantityText(knownTime(time_s, rate_hz), "s"), {}});
-        }
-        for (const auto& value : model_.cursorValues()) {
-            const auto& lane = *model_.lane(value.lane);
-            for (std::size_t i = 0; i < 2; ++i) {
-                const auto& at = value.at[i];
-                auto text = levelText(at.value, lane.unit);
-                if (at.slope != 0) text += at.slope > 0 ? QStringLiteral(" ↑") : QStringLiteral(" ↓");
-                o.flags[i].rows.push_back({lane.letter, text, laneInk(model_, lane)});
-            }
-        }
-    }
-    if (cursors.time_s()) fillDrawn(o);
-    const auto* active = model_.lane(model_.activeLane());
-    if (active == nullptr || !cursors.level()) return;
-    for (const double level : *cursors.level()) {
-        o.levelCursors.push_back(model_.scaleOf(*active).heightOf(level));
-        o.levelTexts.push_back((o.levelTexts.empty() ? tr("y₁ %1") : tr("y₂ %1")).arg(levelText(level, active->unit)));
-    }
-    o.levelSpan = tr("Δ %1").arg(levelText(read.dy(), active->unit));
-}
-
-void ScopeScreen::fillDrawn(OverlayState& o) const {
-    constexpr int kColumns = 300;
-    const auto& view = model_.viewport();
-    const double column_s = view.width_s() / kColumns;
-    for (const auto& lane : model_.lanes()) {
-        if (!lane.shown || lane.reference() || lane.spans.empty()) continue;
-        const auto scale = model_.scaleOf(lane);
-        const auto& span = lane.spans.back();
-        const auto& trace = *span.trace;
-        const auto sample = [&](double time_s) {
-            return static_cast<std::size_t>(
-                std::clamp((time_s - span.key_s) * trace.rate_hz, 0.0, static_cast<double>(trace.size())));
-        };
-        for (int column = 0; column < kColumns; ++column) {
-            const double from_s = view.left_s + column * column_s, to_s = from_s + column_s;
-            if (to_s < span.key_s || from_s > span.key_s + span.length_s()) continue;
-            // One more either way: the line to it is drawn as well.
-            const auto its = trace.pyramid.over(sample(from_s), std::min(sample(to_s) + 2, trace.size()));
-            if (its.empty()) continue;
-            o.drawn.push_back({from_s, to_s, scale.heightOf(static_cast<double>(its.low)),
-                               scale.heightOf(static_cast<double>(its.high))});
-        }
-    }
-}
-
 void ScopeScreen::setMask(const std::shared_ptr<const CaptureMask>& mask) {
     for (auto* band : bands_) removePlottable(band);
     bands_.clear();
@@ -362,36 +265,10 @@ void ScopeScreen::setAlarm(const QString& alarm) {
     if (std::exchange(alarm_, alarm) != alarm) refreshOverlay();
 }
 
-void ScopeScreen::fillTrigger(OverlayState& o) const {
-    const auto& trigger = model_.trigger();
-    if (model_.shown() && !model_.roll() && std::isfinite(model_.shown()->capture->trigger_s)) {
-        o.trigger.emplace();
-        o.trigger->moment_s = trigger.moment_s().value_or(0);
-        o.trigger->colour = colours().quiet;
-    }
-    if (const auto* source = model_.lane(trigger.lane()); source != nullptr && source->shown) {
-        if (!o.trigger) o.trigger.emplace();
-        o.trigger->height = model_.scaleOf(*source).heightOf(trigger.level());
-        o.trigger->colour = laneInk(model_, *source);
-        o.trigger->held = trigger.held();
-    }
-    if (o.trigger) o.trigger->text = trigger.text();
-}
-
-/// Pulses that were not measured, of the active lane or the first.
-void ScopeScreen::fillMarks(OverlayState& o) const {
-    if (o.lanes.empty()) return;
-    const auto marked = std::find_if(o.lanes.begin(), o.lanes.end(), [](const auto& lane) { return lane.active; });
-    const auto& from = marked == o.lanes.end() ? o.lanes.front() : *marked;
-    const auto& view = model_.viewport();
-    for (const auto& span : model_.lane(from.key)->spans) {
-        if (span.key_s + span.length_s() < view.left_s || span.key_s > view.right_s()) continue;
-        const double shift = span.key_s - span.trace->start_s;
-        for (const auto& mark : span.trace->marks) {
-            if (mark.to_s + shift < view.left_s || mark.from_s + shift > view.right_s()) continue;
-            o.marks.push_back({mark.from_s + shift, mark.to_s + shift, mark.why, from.colour});
-        }
-    }
+void ScopeScreen::fillOverlay() {
+    overlay_->state = overlayOf(model_);
+    overlay_->state.alarm = alarm_;
+    overlay_->state.box = box_;
 }
 
 void ScopeScreen::refreshOverlay() {

@@ -14,11 +14,6 @@
 
 namespace tacto::gui {
 
-/// In the current theme.
-[[nodiscard]] QColor laneColour(const ScopeModel& model, const ScopeLane& lane);
-/// The same for words and numbers: at least 4.5:1 on the screen's ground.
-[[nodiscard]] QColor laneInk(const ScopeModel& model, const ScopeLane& lane);
-
 class ScopeScreen final : public QCustomPlot {
     Q_OBJECT
 public:
@@ -63,10 +58,6 @@ private:
     void applyAxes();
     void numberAxis(QCPAxis& axis, RoundTicker& ticker, const ScopeLane* lane) const;
     void fillOverlay();
-    void fillCursors(OverlayState& overlay) const;
-    void fillTrigger(OverlayState& overlay) const;
-    void fillMarks(OverlayState& overlay) const;
-    void fillDrawn(OverlayState& overlay) const;
     void refreshOverlay();
 
     const ScopeModel& model_;

@@ -289,6 +289,7 @@ void ScopeWorkspace::hold() {
 void ScopeWorkspace::refresh(const Telemetry& telemetry) {
     acquisition_->refresh(telemetry);
     pipe_.setAsked(askedOf(telemetry));
+    model_.setComing(comingTrain(controller_, telemetry));
     if (isVisible()) say();
 }
 

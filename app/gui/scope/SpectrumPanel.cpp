@@ -12,10 +12,10 @@
 #include <numeric>
 #include <qcustomplot.h>
 
+#include "app/gui/scope/LaneColours.h"
 #include "app/gui/scope/Remembered.h"
 #include "app/gui/scope/ScopeLanes.h"
 #include "app/gui/scope/ScopeModel.h"
-#include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 #include <chrono>
 
+#include "app/gui/controller/FirstOutput.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/GrowingDialog.h"
 #include "app/gui/theme/Text.h"
@@ -129,9 +130,8 @@ void ArmDialog::sayFirst() {
     if (source == DriveSource::Sensor)
         text = tr("The fingertip drives: the first train follows as soon as it feels something.");
     if (source == DriveSource::Manual) {
-        const auto& wanted = controller_.lastDrive();
         const Encoder encoder(controller_.profile().encoding);
-        const auto first = encoder.encode(wanted.roughness, wanted.pressure);
+        const auto first = firstByHand(controller_, controller_.telemetry());
         const auto every = first ? quantityText(first->interval.count(), "s", 3) : QString();
         if (!first)
             text = tr("Drive is by hand, and asks for nothing that can be delivered.");

@@ -9,9 +9,11 @@
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/ExposureNow.h"
 #include "app/gui/window/FaultBanner.h"
 #include "app/gui/window/LimitBarRow.h"
 #include "app/gui/window/StateBlock.h"
+#include "app/gui/window/StateWords.h"
 #include "app/gui/window/StopButton.h"
 #include "core/safety/TrainCheck.h"
 #include "core/safety/TrainExposure.h"
@@ -64,33 +66,6 @@ std::optional<ExposureRow> netCharge(const Telemetry& telemetry) {
     row.within = balance == ChargeBalance::Green;
     if (!row.evaluated) row.reason = "The read-back does not tell it to 0.5 % of the phase charge.";
     return row;
-}
-
-/// The sentence under the state's word.
-QString reasonOf(const Telemetry& telemetry) {
-    const auto reason = QString::fromUtf8(telemetry.reason.c_str());
-    switch (telemetry.state) {
-        case InterlockState::Disconnected:
-            return SafetyBar::tr("No stimulator is open.");
-        case InterlockState::Faulted:
-            return SafetyBar::tr("Output is off.");
-        case InterlockState::Disarmed:
-            return reason.isEmpty() ? SafetyBar::tr("Output is off. “Arm…” asks before anything flows.")
-                                    : SafetyBar::tr("Output is off: %1. “Arm…” goes on.").arg(reason);
-        case InterlockState::Checking:
-            return SafetyBar::tr("One small pulse measures the impedance.");
-        case InterlockState::Delivering:
-            return telemetry.driving == DriveSource::Sensor
-                       ? SafetyBar::tr("From the fingertip. Space stops.")
-                       : SafetyBar::tr("Set by hand or by a protocol. Space stops.");
-        case InterlockState::Paused:
-            return SafetyBar::tr("No train is delivered until you resume.");
-        case InterlockState::Armed:
-            return telemetry.driving == DriveSource::Off      ? SafetyBar::tr("Choose a drive to deliver.")
-                   : telemetry.driving == DriveSource::Sensor ? SafetyBar::tr("The fingertip drives it. Space stops.")
-                                                              : SafetyBar::tr("The next train follows. Space stops.");
-    }
-    return {};
 }
 
 }  // namespace
@@ -250,8 +225,7 @@ void SafetyBar::refresh(const Telemetry& telemetry) {
     bars_->setVisible(!faulted && !blind_);
     blindFacts_->setVisible(!faulted && blind_);
     if (blind_) showBlind(telemetry);
-    if (faulted) fault_->show(telemetry);
-    fault_->setVisible(faulted);
+    fault_->refresh(telemetry);
     showDevice(telemetry);
     showExposure(telemetry);
     showButtons(telemetry.state);
@@ -268,8 +242,15 @@ void SafetyBar::showState(const Telemetry& telemetry) {
     if (hidden)
         block_->show(InterlockState::Armed, tr("The session presents and asks. Space stops."), false);
     else
-        block_->show(telemetry.state, closed ? tr("A run closed the open bench.") : reasonOf(telemetry), pulse_ > 0);
+        block_->show(telemetry.state, closed ? tr("A run closed the open bench.") : stateWords(telemetry, protocol()),
+                     pulse_ > 0);
     if (pulse_ > 0) --pulse_;
+}
+
+/// The one that has the bench; empty while a person has it.
+QString SafetyBar::protocol() const {
+    const auto open = controller_.open();
+    return open && controller_.activity() == Activity::Running ? procedureText(open->about.protocol) : QString();
 }
 
 void SafetyBar::showDevice(const Telemetry& telemetry) {
@@ -319,10 +300,14 @@ void SafetyBar::showCalibration() {
 }
 
 void SafetyBar::showExposure(const Telemetry& telemetry) {
+    const auto rows = exposureNow(telemetry);
+    const bool off = outputIsOff(telemetry.state);
     for (std::size_t i = 0; i < allBars().size(); ++i) {
         const auto& quantities = allBars()[i].quantities;
-        const auto row = quantities.empty() ? netCharge(telemetry) : tightest(telemetry.exposure(), quantities);
+        const auto row = quantities.empty() ? netCharge(telemetry) : tightest(rows, quantities);
         bars_->show(i, row, controller_.limits().sets);
+        // It was measured, and stays that of the last pulse.
+        if (quantities.empty()) bars_->setTitle(i, off && row ? tr("Last net charge") : tr(allBars()[i].title));
         // The command against the profile's ceiling and the peak against the limit set's are two things.
         if (i == kPeakBar) bars_->setTitle(i, row ? shortRowTitle(*row) : tr(allBars()[i].title));
     }

@@ -61,6 +61,7 @@ private:
     void showBlind(const Telemetry& telemetry);
     void giveRoom();
     void showState(const Telemetry& telemetry);
+    [[nodiscard]] QString protocol() const;
     void showDevice(const Telemetry& telemetry);
     void showCalibration();
     void showExposure(const Telemetry& telemetry);

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
+#include "app/gui/controller/FirstOutput.h"
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/live/ProfileEditor.h"
 #include "app/gui/scope/MeasurementSummary.h"
@@ -515,6 +516,14 @@ TEST_F(Layout, ArmingSaysWhatTheFirstTrainIs) {
         return window.findChild<QLabel*>("firstOutput")->text().startsWith("Drive is by hand: the first train follows");
     }));
     EXPECT_THAT(window.findChild<QLabel*>("firstOutput")->text().toStdString(), HasSubstr("30.7"));
+    auto armed = window.controller().telemetry();
+    EXPECT_FALSE(gui::comingTrain(window.controller(), armed)) << "not armed yet";
+    armed.state = InterlockState::Armed;
+    const auto coming = gui::comingTrain(window.controller(), armed);
+    ASSERT_TRUE(coming);
+    const auto named = quantityText(std::get<Volts>(coming->train.amplitude).value(), "V", 3);
+    EXPECT_THAT(window.findChild<QLabel*>("firstOutput")->text().toStdString(), HasSubstr(named.toStdString()))
+        << "the oscilloscope draws what is named here";
     window.controller().drive(DriveSource::Sensor);
     EXPECT_IN_TIME(comesTrue(
         [this] { return window.findChild<QLabel*>("firstOutput")->text().startsWith("The fingertip drives"); }));

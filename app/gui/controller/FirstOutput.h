@@ -1,0 +1,29 @@
+// FirstOutput.h - the output that follows first once the bench is armed: the arm dialog names it, the oscilloscope
+// draws it.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <optional>
+
+#include "app/gui/controller/BenchController.h"
+#include "core/encoding/Encoder.h"
+
+namespace tacto::gui {
+
+/// What the drive by hand asks for first. Nothing while something else drives or nothing does, and where nothing can be
+/// delivered.
+[[nodiscard]] std::optional<Command> firstByHand(const BenchController& controller, const Telemetry& telemetry);
+
+/// A train that was not delivered yet.
+struct ComingTrain {
+    PulseTrain train;                     ///< in volts
+    std::optional<double> impedance_ohm;  ///< |Z| that it meets; nothing: not measured
+    bool operator==(const ComingTrain&) const = default;
+};
+
+/// The train of firstByHand() while the output is armed and has delivered none. Nothing in any other state, for a
+/// massager, and where a run has the bench.
+[[nodiscard]] std::optional<ComingTrain> comingTrain(const BenchController& controller, const Telemetry& telemetry);
+
+}  // namespace tacto::gui
