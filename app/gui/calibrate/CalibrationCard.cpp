@@ -61,8 +61,8 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
     setAccessibleName(tr("Calibration of the stimulator"));
     setFrameShape(QFrame::StyledPanel);
     auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(6, 6, 6, 6);
-    column->setSpacing(2);
+    column->setContentsMargins(8, 8, 8, 8);
+    column->setSpacing(4);
     auto* row = new QHBoxLayout;
     word_ = new QLabel(this);
     word_->setObjectName("calibrationState");

@@ -39,7 +39,7 @@ CalibrationResult::CalibrationResult(const std::string& quantity, const json& fo
     : QWidget(parent), title_(quantityTitle(quantity)), unit_(words(found, "unit")) {
     setObjectName("calibrationResult-" + QString::fromStdString(quantity));
     auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, fontMetrics().height() / 2);
+    column->setContentsMargins(0, 0, 0, 8);
     auto* head = new QLabel(tr("%1: %2").arg(title_, verdictText(words(found, "verdict"))), this);
     head->setObjectName("calibrationVerdict");
     setTextSize(*head, TextSize::Large);

@@ -110,7 +110,7 @@ QWidget* LiveWorkspace::buildEmpty() {
 QWidget* LiveWorkspace::buildBench() {
     auto* bench = new QWidget(stack_);
     auto* layout = new QVBoxLayout(bench);
-    layout->setContentsMargins(6, 6, 6, 6);
+    layout->setContentsMargins(8, 8, 8, 8);
     staleLine_ = new ElidedLabel(bench);
     staleLine_->setObjectName("staleLine");
     setTone(*staleLine_, Tone::Warning);
@@ -137,7 +137,7 @@ QWidget* LiveWorkspace::buildSide() {
     area->setWhatsThis(tr("Where the fingertip is, and what it feels. The arrow keys scroll it."));
     QWidget* side = new LeastColumn(area);
     auto* layout = new QVBoxLayout(side);
-    layout->setContentsMargins(6, 0, 6, 0);
+    layout->setContentsMargins(8, 0, 8, 0);
     auto* where = new QLabel(tr("Where the fingertip is"), side);
     setTextSize(*where, TextSize::Small, true);
     layout->addWidget(where);

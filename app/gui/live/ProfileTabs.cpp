@@ -31,13 +31,13 @@ QWidget* ProfileTabs::buildTab(ProfileTab tab) {
         auto* holder = new QWidget(page);
         auto* column = new QVBoxLayout(holder);
         column->setContentsMargins(0, 0, 0, 0);
-        column->setSpacing(1);
+        column->setSpacing(0);
         auto* across = new QHBoxLayout;
         if (row.box != nullptr) {
             across->addWidget(row.box, 1);
         } else {
             across->addWidget(row.line);
-            across->addSpacing(fontMetrics().averageCharWidth());
+            across->addSpacing(8);
             auto* range = new QLabel(field.range(), holder);
             setTone(*range, Tone::Quiet);
             across->addWidget(range, 1);

@@ -15,7 +15,7 @@ ExclusionChecklist::ExclusionChecklist(QWidget* parent) : QWidget(parent) {
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setHorizontalSpacing(scaledPx(16));
-    grid->setVerticalSpacing(scaledPx(6));
+    grid->setVerticalSpacing(scaledPx(8));
     grid->setColumnStretch(0, 1);
     int row = 0;
     for (const auto& item : exclusionItems()) {

@@ -47,7 +47,7 @@ SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     column->setContentsMargins(0, kPathPad / 2, 0, kPathPad);
     auto* top = new QVBoxLayout;
     top->setContentsMargins(kPathPad, 0, kPathPad, kPathPad / 2);
-    top->setSpacing(2);
+    top->setSpacing(4);
     title_ = new QLabel(this);
     title_->setWordWrap(true);
     setTextSize(*title_, TextSize::Body, true);
@@ -71,7 +71,7 @@ SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     column->addStretch();
     auto* foot = new QVBoxLayout;
     foot->setContentsMargins(kPathPad, 0, kPathPad, 0);
-    foot->setSpacing(2);
+    foot->setSpacing(4);
     leftWord_ = new QLabel(tr("Time left"), this);
     setTextSize(*leftWord_, TextSize::Small);
     setTone(*leftWord_, Tone::Quiet);

@@ -187,7 +187,7 @@ void ParameterForm::addRow(Field& field) {
     auto* column = new QWidget(this);
     auto* stack = new QVBoxLayout(column);
     stack->setContentsMargins(0, 0, 0, 0);
-    stack->setSpacing(1);
+    stack->setSpacing(0);
     auto* line = new QHBoxLayout;
     line->addWidget(field.whole, 1);
     field.range = new QLabel(rangeText(parameter), column);

@@ -50,7 +50,7 @@ ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
     auto* page = new QWidget(area_->viewport());
     auto* column = new QVBoxLayout(page);
     column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(2);
+    column->setSpacing(0);
     why_ = wordsLabel("verdictWhy", page);
     setTextSize(*why_, TextSize::Body, true);
     more_ = wordsLabel("verdictMore", page);

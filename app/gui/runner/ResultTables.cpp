@@ -85,13 +85,13 @@ void ResultTables::addHeading(const QString& title) {
     auto* head = new QLabel(title, body_);
     head->setTextFormat(Qt::PlainText);
     setTextSize(*head, TextSize::Body, true);
-    column_->addSpacing(fontMetrics().height() / 2);
+    column_->addSpacing(8);
     column_->addWidget(head);
 }
 
 void ResultTables::addFacts(const ResultTable& table, const json& record) {
     auto* form = new QFormLayout;
-    form->setHorizontalSpacing(fontMetrics().averageCharWidth() * 3);
+    form->setHorizontalSpacing(24);
     for (const auto& column : table.columns) {
         if (memberAt(record, column.at).is_null()) continue;
         auto one = columnText(column, json::array({record}));

@@ -59,7 +59,7 @@ QWidget* SignPage::buildWords() {
     column->addWidget(how);
     named_ = new QWidget(holder);
     auto* named = new QVBoxLayout(named_);
-    named->setContentsMargins(0, fontMetrics().height() / 2, 0, 0);
+    named->setContentsMargins(0, 8, 0, 0);
     auto* heading = new QLabel(tr("This report names"), named_);
     setTextSize(*heading, TextSize::Body, true);
     named->addWidget(heading);

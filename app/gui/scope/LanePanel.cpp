@@ -45,7 +45,7 @@ LanePanel::LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent)
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     grid_->setHorizontalSpacing(4);
-    grid_->setVerticalSpacing(3);
+    grid_->setVerticalSpacing(4);
     grid_->setColumnStretch(1, 1);
     layout->addLayout(grid_);
     layout->addWidget(store_);

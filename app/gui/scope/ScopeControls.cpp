@@ -16,7 +16,7 @@ ScopeControls::ScopeControls(ScopeModel& model, ScopeScreen& screen, QWidget* pa
     mask_ = new MaskPanel(inside);
     auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(4, 0, 8, 0);
-    column->setSpacing(6);
+    column->setSpacing(8);
     for (const auto& [title, panel] :
          std::initializer_list<std::pair<QString, QWidget*>>{{tr("Lanes"), lanes},
                                                              {tr("View"), view_},
@@ -26,7 +26,7 @@ ScopeControls::ScopeControls(ScopeModel& model, ScopeScreen& screen, QWidget* pa
         setTextSize(*name, TextSize::Body, true);
         column->addWidget(name);
         column->addWidget(panel);
-        column->addSpacing(6);
+        column->addSpacing(8);
     }
     column->addStretch();
     setWidget(inside);

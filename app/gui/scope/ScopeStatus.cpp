@@ -19,7 +19,7 @@ ScopeStatus::ScopeStatus(QWidget* parent) : QWidget(parent), text_(new QLabel(th
     cancel_->hide();
     connect(cancel_, &QToolButton::clicked, this, &ScopeStatus::cancelClicked);
     auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(8, 2, 8, 0);
+    row->setContentsMargins(8, 4, 8, 0);
     row->addWidget(text_, 1);
     row->addWidget(cancel_);
 }

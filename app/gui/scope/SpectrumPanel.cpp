@@ -92,7 +92,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     note_->setMinimumWidth(1);  // a narrow window cuts the note, not the plot
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(2);
+    layout->setSpacing(4);
     layout->addLayout(line);
     layout->addWidget(plot_, 1);
     plot_->setAccessibleName(tr("Spectrum"));

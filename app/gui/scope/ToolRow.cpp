@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kBetweenTools = 4;
+constexpr int kBetweenTools = 4, kBetweenGroups = 12;
 
 /// Also of one that is hidden.
 QSize wishOf(const QLayoutItem& item) {
@@ -43,8 +43,7 @@ ToolRow::ToolRow(QWidget* parent) : QLayout(parent), more_(new QToolButton(paren
 ToolRow::~ToolRow() = default;
 
 void ToolRow::addGap() {
-    const int width = parentWidget()->fontMetrics().averageCharWidth() * 2;
-    items_.push_back(std::make_unique<QSpacerItem>(width, 0, QSizePolicy::Fixed, QSizePolicy::Fixed));
+    items_.push_back(std::make_unique<QSpacerItem>(kBetweenGroups, 0, QSizePolicy::Fixed, QSizePolicy::Fixed));
     invalidate();
 }
 

@@ -16,7 +16,7 @@ public:
     /// The parts that are added are buttons.
     explicit ToolRow(QWidget* parent);
     ~ToolRow() override;
-    /// Room as wide as a letter: what follows is another group.
+    /// What follows is another group.
     void addGap();
 
     void addItem(QLayoutItem* item) override;

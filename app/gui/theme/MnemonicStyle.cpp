@@ -11,7 +11,8 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kButtonIcon = 16, kBeforeTheWord = 4;
-}
+constexpr int kGrid = 8;
+}  // namespace
 
 MnemonicStyle::MnemonicStyle() : QProxyStyle("Fusion") { qApp->installEventFilter(this); }
 
@@ -28,6 +29,24 @@ void MnemonicStyle::polish(QWidget* widget) {
 int MnemonicStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                              QStyleHintReturn* returned) const {
     return hint == SH_UnderlineShortcut ? int(held_) : QProxyStyle::styleHint(hint, option, widget, returned);
+}
+
+/// What a layout does not state lies on the grid, and small icons grow with the text.
+int MnemonicStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {
+    switch (metric) {
+        case PM_LayoutLeftMargin:
+        case PM_LayoutTopMargin:
+        case PM_LayoutRightMargin:
+        case PM_LayoutBottomMargin:
+        case PM_LayoutHorizontalSpacing:
+        case PM_LayoutVerticalSpacing:
+            return kGrid;
+        case PM_SmallIconSize:
+        case PM_LineEditIconSize:
+            return scaledPx(kButtonIcon);
+        default:
+            return QProxyStyle::pixelMetric(metric, option, widget);
+    }
 }
 
 bool MnemonicStyle::eventFilter(QObject* watched, QEvent* event) {

@@ -1,5 +1,5 @@
 // MnemonicStyle.h - the program's style: Fusion, whose letters for Alt are underlined only while Alt is held, and whose
-// icons grow with the text and stand a little before it.
+// icons grow with the text and stand a little before it, and whose layouts lie on the grid.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -16,6 +16,7 @@ public:
     void polish(QWidget* widget) override;
     [[nodiscard]] int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                                 QStyleHintReturn* returned) const override;
+    [[nodiscard]] int pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const override;
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;

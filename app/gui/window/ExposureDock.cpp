@@ -15,7 +15,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kBetweenBars = 6;
+constexpr int kBetweenBars = 8;
 
 /// By so much of its limit another row has to be nearer than the first to take its place.
 constexpr double kClearlyNearer = 0.05;

@@ -1,8 +1,11 @@
 // The promises of the design about colour: told apart by dash as well, legible, and red for STOP and faults alone.
 #include <QApplication>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QFontInfo>
 #include <QHeaderView>
+#include <QLineEdit>
+#include <QSpinBox>
 #include <QTabBar>
 #include <QTableWidget>
 #include <QTest>
@@ -183,6 +186,55 @@ TEST_P(InTheme, TextHasAContrastOfFourAndAHalf) {
         const auto style = gui::stateStyle(InterlockState(state));
         EXPECT_GE(contrast(style.ink, style.ground), 4.5) << style.word.toStdString();
     }
+}
+
+/// The colours of a shown widget's picture that are at least 3:1 from that at `at`, as a share of its pixels.
+double shareSeenOn(QWidget& widget, const QPoint& at) {
+    const auto picture = widget.grab().toImage();
+    const auto ground = picture.pixelColor(at);
+    int seen = 0;
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) seen += contrast(picture.pixelColor(x, y), ground) >= 3;
+    return double(seen) / (picture.width() * picture.height());
+}
+
+TEST_P(InTheme, TheTickOfACheckBoxIsSeen) {
+    QCheckBox box;
+    box.resize(20, 20);
+    box.show();
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&box));
+    box.setChecked(true);
+    const auto picture = box.grab().toImage();
+    int ticked = 0;
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < 14; ++x)
+            ticked += contrast(picture.pixelColor(x, y), gui::colours().primary) >= 3 &&
+                      contrast(picture.pixelColor(x, y), gui::colours().primaryText) < 1.5;
+    EXPECT_GE(ticked, 10);
+    EXPECT_GT(pixelsOf(picture, gui::colours().primary), 60) << "its ground";
+}
+
+TEST_P(InTheme, EdgesOfFieldsAreSeen) {
+    for (const auto& ground : {gui::colours().base, gui::colours().window})
+        EXPECT_GE(contrast(gui::colours().edge, ground), 3) << ground.name().toStdString();
+    QWidget window;
+    auto* layout = new QVBoxLayout(&window);
+    auto* line = new QLineEdit(&window);
+    auto* box = new QComboBox(&window);
+    auto* spin = new QSpinBox(&window);
+    auto* tick = new QCheckBox(&window);
+    for (QWidget* each : {static_cast<QWidget*>(line), static_cast<QWidget*>(box), static_cast<QWidget*>(spin),
+                          static_cast<QWidget*>(tick)})
+        layout->addWidget(each);
+    window.show();
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
+    window.setFocus();
+    for (QWidget* each : {static_cast<QWidget*>(line), static_cast<QWidget*>(box), static_cast<QWidget*>(spin)}) {
+        const auto picture = each->grab().toImage();
+        const auto edge = picture.pixelColor(0, picture.height() / 2);
+        EXPECT_GE(contrast(edge, picture.pixelColor(4, picture.height() / 2)), 3) << each->metaObject()->className();
+    }
+    EXPECT_GT(shareSeenOn(*tick, {7, tick->height() / 2}), 0.01) << "an empty box";
 }
 
 TEST_P(InTheme, StatesDifferInWordAndShape) {

@@ -1,6 +1,7 @@
 // Where things stand in the window, and that data get the room: plots, docks, the rail, F11, keys and their focus.
 #include <QAbstractSpinBox>
 #include <QDockWidget>
+#include <QHeaderView>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
@@ -8,6 +9,7 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTabWidget>
+#include <QTableView>
 #include <QToolBar>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -331,6 +333,22 @@ TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
     window.resize(1920, 1080);
     EXPECT_IN_TIME(comesTrue([&] { return cursors->isVisible() && !more->isVisible(); }));
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
+}
+
+TEST_F(Layout, InLargeTextSessionsStandBelowTheirListAndItKeepsRows) {
+    open();
+    gui::applyTextSize(200);
+    window.resize(1280, 720);
+    window.showWorkspace(5);
+    const auto* list = window.findChild<QTableView*>("sessionsTable");
+    ASSERT_IN_TIME(comesTrue([&] { return list->isVisible(); }));
+    EXPECT_IN_TIME(comesTrue([&] {
+        return list->viewport()->height() >= 3 * list->verticalHeader()->defaultSectionSize() - 8;
+    })) << list->viewport()->height();
+    EXPECT_LE(list->width(), 1280);
+    window.resize(1920, 1080);
+    gui::applyTextSize(100);
+    window.showWorkspace(0);
 }
 
 TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen) {

@@ -1,0 +1,174 @@
+// The rules of the design that hold for whatever is shown: the grid, the sizes of text, icons, one of each control.
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QLayout>
+#include <QTabBar>
+#include <QToolBar>
+#include <QToolButton>
+#include <algorithm>
+#include <cmath>
+#include <fmt/ranges.h>
+#include <map>
+#include <set>
+
+#include "app/gui/live/StripPlots.h"
+#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/window/DockColumn.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
+
+namespace tacto::test {
+namespace {
+
+class DesignRules : public Window {
+protected:
+    /// Each workspace, and the oscilloscope; where it is live with every dock.
+    template <class Follow>
+    void onEachPage(Follow follow) {
+        for (int page = 0; page < 8; ++page) {
+            window.showWorkspace(page % 7);
+            window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page / 7);
+            for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
+            QTest::qWait(60);
+            follow(page);
+        }
+        window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
+    }
+    template <class T>
+    std::vector<T*> shown() {
+        std::vector<T*> all;
+        for (auto* widget : window.findChildren<T*>())
+            if (widget->isVisible() && widget->window() == &window) all.push_back(widget);
+        return all;
+    }
+};
+
+/// Pixels that are at least 3:1 from the ground in the corner.
+int pixelsSeen(const QImage& picture) {
+    int seen = 0;
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x)
+            seen += contrast(picture.pixelColor(x, y), picture.pixelColor(0, 0)) >= 3;
+    return seen;
+}
+
+bool isOnGrid(int px) { return px % 4 == 0; }
+
+/// What its margins and spacing are; empty where all of them are multiples of 4.
+std::string offGrid(const QLayout& layout) {
+    const auto m = layout.contentsMargins();
+    std::vector<int> all{m.left(), m.top(), m.right(), m.bottom()};
+    if (const auto* grid = qobject_cast<const QGridLayout*>(&layout)) {
+        all.push_back(grid->horizontalSpacing());
+        all.push_back(grid->verticalSpacing());
+    } else if (const auto* form = qobject_cast<const QFormLayout*>(&layout)) {
+        all.push_back(form->horizontalSpacing());
+        all.push_back(form->verticalSpacing());
+    } else {
+        all.push_back(layout.spacing());
+    }
+    if (std::ranges::all_of(all, isOnGrid)) return {};
+    return fmt::format("{}", fmt::join(all, " "));
+}
+
+TEST_F(DesignRules, SpacesLieOnTheGrid) {
+    open();
+    std::set<std::string> off;
+    onEachPage([&](int) {
+        for (auto* widget : shown<QWidget>()) {
+            const bool qts = widget->inherits("QMainWindow") || widget->inherits("QToolBar") ||
+                             widget->inherits("QDockWidget") || widget->inherits("QStatusBar") ||
+                             widget->inherits("QDialogButtonBox") || widget->inherits("QAbstractScrollArea");
+            if (qts || widget->layout() == nullptr) continue;
+            QList<QLayout*> layouts = widget->layout()->findChildren<QLayout*>();
+            layouts << widget->layout();
+            for (const auto* layout : layouts) {
+                if (const auto what = offGrid(*layout); !what.empty())
+                    off.insert(fmt::format(
+                        "{} in {}: {}", layout->metaObject()->className(),
+                        widgetName(layout->parentWidget() != nullptr ? *layout->parentWidget() : *widget), what));
+            }
+        }
+    });
+    for (const auto& each : off) ADD_FAILURE() << each;
+}
+
+TEST_F(DesignRules, ThreeSizesOfTextAndOneForAWord) {
+    open();
+    std::map<std::string, std::string> others;
+    const double designed[] = {9, 10.5, 15, 28};
+    onEachPage([&](int) {
+        for (auto* widget : shown<QWidget>()) {
+            const bool words = qobject_cast<QLabel*>(widget) || qobject_cast<QAbstractButton*>(widget) ||
+                               qobject_cast<QLineEdit*>(widget) || qobject_cast<QComboBox*>(widget) ||
+                               qobject_cast<QTabBar*>(widget) || qobject_cast<QAbstractItemView*>(widget) ||
+                               qobject_cast<QAbstractSpinBox*>(widget);
+            const double size = widget->font().pointSizeF();
+            const bool known = std::ranges::any_of(designed, [&](double each) { return std::abs(each - size) < 0.26; });
+            if (words && !known) others[widgetName(*widget)] = fmt::format("{:.2f} pt", size);
+        }
+    });
+    for (const auto& [name, size] : others) ADD_FAILURE() << name << ": " << size;
+}
+
+TEST_F(DesignRules, RailAndToolsHaveIcons) {
+    open();
+    onEachPage([&](int page) {
+        for (auto* button : shown<QToolButton>()) {
+            if (!button->text().isEmpty() && button->toolButtonStyle() != Qt::ToolButtonIconOnly) continue;
+            if (!button->icon().isNull() || button->size().isEmpty()) continue;
+            // One that draws itself: an icon is seen at its beginning.
+            const QRect place(button->mapTo(&window, QPoint(5, 0)), QSize(button->width() - 10, button->width()));
+            EXPECT_GT(pixelsSeen(window.grab(place).toImage()), 20) << page << widgetName(*button);
+        }
+    });
+}
+
+TEST_F(DesignRules, StackedPlotsHaveBothEdgesInLine) {
+    open();
+    window.showWorkspace(0);
+    QTest::qWait(300);
+    auto& strips = *window.findChild<gui::StripPlots*>();
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        QTest::qWait(300);
+        std::set<int> lefts, rights;
+        for (const auto* axes : strips.axisRects()) {
+            if (!axes->visible() || axes->height() < 2) continue;
+            lefts.insert(axes->left());
+            rights.insert(axes->right());
+        }
+        EXPECT_EQ(lefts.size(), 1U) << percent;
+        EXPECT_EQ(rights.size(), 1U) << percent;
+        EXPECT_GE(strips.axisRects().size(), 5);
+    }
+    gui::applyTextSize(100);
+}
+
+TEST_F(DesignRules, NoWorkspaceHasTwoOfPauseOrStop) {
+    RecordProperty("hazard", "H2");
+    open();
+    arm();
+    deliver();
+    onEachPage([&](int page) {
+        std::map<QString, int> seen;
+        for (const auto* button : shown<QAbstractButton>()) {
+            if (!button->isEnabled()) continue;
+            const auto words = QString(button->text()).remove('&').toLower();
+            for (const auto* each : {"pause", "stop"})
+                if (words == each || words.startsWith(QString(each) + " ")) ++seen[each];
+        }
+        for (const auto& [word, count] : seen) EXPECT_LE(count, 1) << page << word.toStdString();
+    });
+    EXPECT_EQ(shown<QPushButton>().empty(), false);
+}
+
+}  // namespace
+}  // namespace tacto::test
