@@ -10,13 +10,13 @@ namespace tacto::gui {
 
 ToolRow::ToolRow(QWidget* parent) : QLayout(parent) {
     setContentsMargins(0, 0, 0, 0);
-    setSpacing(3);
+    setSpacing(2);
 }
 
 ToolRow::~ToolRow() = default;
 
 void ToolRow::addGap() {
-    const int width = parentWidget()->fontMetrics().averageCharWidth() * 2;
+    const int width = parentWidget()->fontMetrics().averageCharWidth();
     items_.push_back(std::make_unique<QSpacerItem>(width, 0, QSizePolicy::Fixed, QSizePolicy::Fixed));
     invalidate();
 }
