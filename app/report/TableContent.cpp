@@ -99,6 +99,10 @@ MatrixBlock::Cell judgedCell(const QJsonObject& cell, const QString& unit) {
     const QString measured = uncertainText(numberOf(cell, "value"), numberOf(cell, "expanded_uncertainty"), unit);
     if (verdict == "not evaluated") return {"–", "not evaluated", State::Open};
     if (verdict == "not applicable") return {"–", measured + "\nnot judged", State::Plain};
+    if (!std::isfinite(margin)) {  // no limit to be within: it happened or it did not
+        return {verdictMark(verdict).shape, quantityText(numberOf(cell, "value"), unit),
+                verdict == "fail" ? State::Broken : State::Plain};
+    }
     const QString left = quantityText(margin, "%", 2);
     const auto marked = [&](const char* key) { return verdictMark(QString(key)).shape + " " + left; };
     if (verdict == "fail") return {marked("fail"), measured, State::Broken};

@@ -1,9 +1,12 @@
 // Whereabouts.cpp - a plugin that Qt loads into the built program for a journey (QT_QPA_GENERIC_PLUGINS): it answers
-// where a widget stands, so that a click finds it wherever the layout has put it. It clicks and types nothing itself.
+// where a widget stands, so that a click finds it wherever the layout has put it, and what is written there. It clicks
+// and types nothing itself.
 //
 // A question is the file "ask" in the folder of its specification, the answer the file "answer":
 //   where NAME   "X Y", the middle in real pixels of the visible and enabled widget with this text, name or accessible
-//                name; of "tab NAME" the current tab of a tab bar
+//                name, or of a window with this title; of "tab NAME" the current tab of a tab bar
+//   text NAME    what is written in it: of what holds others the visible labels and buttons, from top to bottom, with
+//                " | " between them
 //   popup        "X Y" of the menu or list that is open
 //   focus        the name of the widget that has the focus
 // Empty where there is none.
@@ -14,6 +17,9 @@
 #include <QLabel>
 #include <QTabBar>
 #include <QTimer>
+#include <algorithm>
+#include <tuple>
+#include <vector>
 
 namespace tacto::test {
 namespace {
@@ -22,6 +28,7 @@ constexpr int kLooksEvery_ms = 20;
 
 bool isCalled(const QWidget& widget, const QString& name) {
     if (widget.objectName() == name || widget.accessibleName() == name) return true;
+    if (widget.isWindow() && widget.windowTitle() == name) return true;
     if (const auto* button = qobject_cast<const QAbstractButton*>(&widget))
         return QString(button->text()).remove('&') == name;
     if (const auto* label = qobject_cast<const QLabel*>(&widget)) return label->text() == name;
@@ -34,6 +41,26 @@ QString middleOf(const QWidget& widget) {
     return QString("%1 %2").arg(at.x()).arg(at.y());
 }
 
+QString textOf(const QWidget& widget) {
+    if (const auto* label = qobject_cast<const QLabel*>(&widget)) return label->text();
+    const auto* button = qobject_cast<const QAbstractButton*>(&widget);
+    return button == nullptr ? QString() : QString(button->text()).remove('&');
+}
+
+QString writtenIn(const QWidget& widget) {
+    if (const auto own = textOf(widget); !own.isEmpty()) return own;
+    std::vector<std::tuple<int, int, QString>> all;
+    for (const auto* inside : widget.findChildren<QWidget*>()) {
+        const auto at = inside->mapTo(&widget, QPoint());
+        if (const auto text = textOf(*inside); inside->isVisible() && !text.isEmpty())
+            all.emplace_back(at.y(), at.x(), text);
+    }
+    std::ranges::sort(all);
+    QStringList texts;
+    for (const auto& [y, x, text] : all) texts << text;
+    return texts.join(" | ");
+}
+
 QString answerTo(const QString& question) {
     if (question == "popup") {
         const auto* popup = QApplication::activePopupWidget();
@@ -43,11 +70,12 @@ QString answerTo(const QString& question) {
         const auto* focus = QApplication::focusWidget();
         return focus == nullptr ? QString() : focus->objectName();
     }
+    const bool asksText = question.startsWith("text ");
     const auto name = question.section(' ', 1);
     for (const auto* widget : QApplication::allWidgets()) {
         if (widget->isVisible() && widget->isEnabled() && isCalled(*widget, name) &&
-            widget->visibleRegion().contains(widget->rect().center()))
-            return middleOf(*widget);
+            (asksText || widget->visibleRegion().contains(widget->rect().center())))
+            return asksText ? writtenIn(*widget).simplified() : middleOf(*widget);
     }
     return {};
 }

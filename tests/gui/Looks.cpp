@@ -19,6 +19,8 @@
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/PlotLooks.h"
+#include "tests/gui/RoomLooks.h"
 
 namespace tacto::test {
 
@@ -229,6 +231,13 @@ std::string faultsOf(const QWidget& in) {
     for (const auto& text : cutTexts(in)) all << "cut: " + text;
     for (const auto& text : paleTexts(in)) all << "pale: " + text;
     for (const auto& text : overlaps(in)) all << "over each other: " + text;
+    for (const auto& text : cutCells(in)) all << "cut cell: " + text;
+    for (const auto& text : cutFields(in)) all << "cut field: " + text;
+    for (const auto& text : cutSideways(in)) all << "cut sideways: " + text;
+    for (const auto& text : beyondTheirPlace(in)) all << "cut by what is around: " + text;
+    for (const auto& text : untoldElisions(in)) all << "elided: " + text;
+    for (const auto& text : plotWordFaults(in)) all << "plot: " + text;
+    for (const auto& text : legendsOverData(in)) all << "plot: " + text;
     return all.join('\n').toStdString();
 }
 

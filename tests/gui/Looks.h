@@ -25,7 +25,7 @@ namespace tacto::test {
 [[nodiscard]] QStringList paleTexts(const QWidget& in);
 /// Pairs of visible widgets that lie over each other though a layout places them.
 [[nodiscard]] QStringList overlaps(const QWidget& in);
-/// All three, a line each; empty where the widget looks right.
+/// All of these and those of PlotLooks.h and RoomLooks.h, a line each; empty where the widget looks right.
 [[nodiscard]] std::string faultsOf(const QWidget& in);
 
 /// A size for each size of text; an invalid one leaves the widget as large as it is.

@@ -29,6 +29,9 @@ enum CertificateColumn {
     kCertificateColumns = kFirstU + 4
 };
 
+/// What goes first where there is no room for every column; the tool tip of a row tells all of it.
+constexpr std::array kLeastNeeded{int(kLab),    kFirstU + 3, kFirstU + 2, int(kDate),
+                                  int(kDevice), kFirstU + 1, int(kFirstU)};
 constexpr int kWide = 1020;   // all columns
 constexpr int kMostRows = 8;  // in sight; more scroll
 constexpr int kIndexRole = Qt::UserRole;
@@ -150,6 +153,22 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
 void CertificateDialog::changeEvent(QEvent* event) {
     QDialog::changeEvent(event);
     if (event->type() == QEvent::PaletteChange && enter_ != nullptr) list();  // greyed in the new theme's grey
+}
+
+void CertificateDialog::resizeEvent(QResizeEvent* event) {
+    QDialog::resizeEvent(event);
+    fitColumns();
+}
+
+void CertificateDialog::fitColumns() {
+    for (int column = 0; column < kCertificateColumns; ++column) table_->setColumnHidden(column, false);
+    table_->horizontalHeader()->setStretchLastSection(false);  // else it is as wide as the rest
+    table_->resizeColumnsToContents();
+    for (const int column : kLeastNeeded) {
+        if (table_->horizontalHeader()->length() <= table_->viewport()->width()) break;
+        table_->setColumnHidden(column, true);
+    }
+    table_->horizontalHeader()->setStretchLastSection(true);
 }
 
 QWidget* CertificateDialog::buildForm() {
@@ -306,6 +325,9 @@ void CertificateDialog::list() {
             const auto& u = certificate.*figure.member;
             cells << (u ? QString::number(*u, 'g', 6) : QString("–"));
         }
+        QStringList whole;
+        for (int column = 0; column < kCertificateColumns; ++column)
+            whole << QString("%1: %2").arg(table_->horizontalHeaderItem(column)->text().simplified(), cells[column]);
         const int row = table_->rowCount();
         table_->insertRow(row);
         for (int column = 0; column < kCertificateColumns; ++column) {
@@ -313,12 +335,13 @@ void CertificateDialog::list() {
             item->setTextAlignment(alignmentOf(column));
             // What is not used is greyed, and its state says so in words.
             if (state != CertificateState::Counts) item->setForeground(palette().brush(QPalette::PlaceholderText));
+            item->setToolTip(whole.join('\n'));
             item->setData(kIndexRole, int(i));
             item->setData(kStandsRole, !withdrawn.has_value());
             table_->setItem(row, column, item);
         }
     }
-    table_->resizeColumnsToContents();
+    fitColumns();
     table_->updateGeometry();
     nameWithdraw();
 }

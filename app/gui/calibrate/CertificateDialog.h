@@ -28,6 +28,7 @@ public:
 
 protected:
     void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
     [[nodiscard]] QWidget* buildForm();
@@ -38,6 +39,7 @@ private:
     void withdraw();
     void nameWithdraw();
     void list();
+    void fitColumns();
     /// Index into the store of the row that is chosen; -1: none, or it is withdrawn.
     [[nodiscard]] int chosen() const;
 

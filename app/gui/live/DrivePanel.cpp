@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/encoding/Encoder.h"
 
@@ -27,6 +28,7 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     off_->setToolTip(
         tr("No train is sent. Every stop, disarm and fault comes back to this. Arrows move, Return chooses."));
     byHand_ = new QPushButton(tr("By hand"), this);
+    byHand_->setObjectName("driveByHand");
     byHand_->setToolTip(tr("R and P come from the two sliders. Arrows move, Return chooses."));
     finger_ = new QPushButton(tr("Fingertip"), this);
     finger_->setObjectName("driveFingertip");
@@ -45,9 +47,9 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     off_->setChecked(true);
     layout->addLayout(row);
     auto* grid = new QGridLayout;
-    addIndex(*grid, roughness_, tr("R"), tr("Roughness R"),
+    addIndex(*grid, roughness_, "driveRoughness", tr("R"), tr("Roughness R"),
              tr("Roughness, 0 smooth to 1 rough. Arrows step by 0.01, Page up and down by 0.1."));
-    addIndex(*grid, pressure_, tr("P"), tr("Pressure P"),
+    addIndex(*grid, pressure_, "drivePressure", tr("P"), tr("Pressure P"),
              tr("Pressure, 0 light to 1 firm. Arrows step by 0.01, Page up and down by 0.1."));
     layout->addLayout(grid);
     output_ = new QLabel(this);
@@ -66,8 +68,8 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     begin();
 }
 
-void DrivePanel::addIndex(QGridLayout& grid, Index& index, const QString& label, const QString& name,
-                          const QString& tip) {
+void DrivePanel::addIndex(QGridLayout& grid, Index& index, const char* objectName, const QString& label,
+                          const QString& name, const QString& tip) {
     index.slider = new QSlider(Qt::Horizontal, this);
     index.box = new QDoubleSpinBox(this);
     index.slider->setRange(0, kSteps);
@@ -75,6 +77,7 @@ void DrivePanel::addIndex(QGridLayout& grid, Index& index, const QString& label,
     index.slider->setPageStep(10);
     index.slider->setToolTip(tip);
     index.slider->setAccessibleName(name);
+    index.box->setObjectName(objectName);
     index.box->setRange(0, 1);
     index.box->setDecimals(2);
     index.box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // the slider is beside it
@@ -132,6 +135,7 @@ void DrivePanel::begin() {
     // Another bench begins anew: what was set by hand belongs to the one before.
     if (const auto bench = controller_.tap(); bench != bench_.lock() || !bench) {
         bench_ = bench;
+        was_.reset();
         for (auto* index : {&roughness_, &pressure_}) index->byHand = 0;
     }
     showHand();
@@ -198,11 +202,18 @@ QString DrivePanel::trainText(double amplitude_v, double interval_s) const {
 
 /// What a click on "By hand" would ask for.
 QString DrivePanel::offWords() const {
-    const auto nothing = tr("Nothing drives the output.");
+    const auto nothing = was_ ? wasWords() : tr("Nothing drives the output.");
     if (controller_.activity() != Activity::Live) return nothing;
     const auto first = Encoder(controller_.profile().encoding).encode(roughness_.byHand, pressure_.byHand);
     if (!first) return nothing;
     return tr("%1 By hand asks for %2.").arg(nothing, trainText(first->amplitude.value(), first->interval.count()));
+}
+
+/// "Was by hand, R 0.40, P 0.60."
+QString DrivePanel::wasWords() const {
+    const auto who = was_->source == DriveSource::Sensor ? tr("Was the fingertip") : tr("Was by hand");
+    if (!std::isfinite(was_->roughness) || !std::isfinite(was_->pressure)) return who + '.';
+    return tr("%1, R %2, P %3.").arg(who, decimalText(was_->roughness, 2), decimalText(was_->pressure, 2));
 }
 
 bool DrivePanel::vibrates() const {
@@ -248,7 +259,11 @@ void DrivePanel::followFinger(const Telemetry& telemetry) {
 }
 
 void DrivePanel::refresh(const Telemetry& telemetry) {
-    if (controller_.activity() == Activity::Live) follow(telemetry.driving);
+    if (controller_.activity() == Activity::Live) {
+        follow(telemetry.driving);
+        if (telemetry.driving != DriveSource::Off)
+            was_ = DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure};
+    }
     followFinger(telemetry);
     const auto output = outputText(telemetry);
     if (output_->text() != output) output_->setText(output);

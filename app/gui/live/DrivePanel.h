@@ -3,6 +3,7 @@
 // What is chosen here is what the bench does: the bench turns driving off with every stop, disarm and fault, and the
 // panel follows it. Only a person's hand on a control asks anything of the bench. By hand begins with what was set by
 // hand on this bench, at first R = 0 and P = 0; it goes on with the fingertip's values only while those are delivered.
+// When the bench has turned driving off, the panel says what drove it, and starts nothing of it by itself.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -43,7 +44,8 @@ private:
         QDoubleSpinBox* box = nullptr;
         double byHand = 0;  ///< as a person set it last on this bench; the fingertip's values do not count
     };
-    void addIndex(QGridLayout& grid, Index& index, const QString& label, const QString& name, const QString& tip);
+    void addIndex(QGridLayout& grid, Index& index, const char* objectName, const QString& label, const QString& name,
+                  const QString& tip);
     void showHand();
     static void showIndex(const Index& index, double value);
     void choose();
@@ -52,6 +54,7 @@ private:
     [[nodiscard]] QString outputText(const Telemetry& telemetry) const;
     [[nodiscard]] QString trainText(double amplitude_v, double interval_s) const;
     [[nodiscard]] QString offWords() const;
+    [[nodiscard]] QString wasWords() const;
     [[nodiscard]] bool vibrates() const;  ///< a massager in place of the electrodes
     [[nodiscard]] QString words(const Telemetry& telemetry) const;
     void followFinger(const Telemetry& telemetry);
@@ -67,6 +70,7 @@ private:
     QLabel* says_;
     std::optional<DriveSource> asked_;  // of the bench, which has not answered yet
     QElapsedTimer askedAt_;
+    std::optional<DriveCommand> was_;      // drove last on this bench
     DriveSource last_ = DriveSource::Off;  // asked last, or what the bench turned to after that
 };
 

@@ -2,6 +2,7 @@
 
 #include <QHBoxLayout>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QShortcut>
 #include <QSplitter>
 #include <QToolButton>
@@ -19,6 +20,7 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
@@ -32,6 +34,7 @@ namespace {
 constexpr int kSideEvery_ms = 90;                 // numbers ten times a second are as fast as one reads
 constexpr int kPlaneEvery_ms = 30;                // smooth to the eye; the strips follow every picture
 constexpr int kReadingEvery_ms = 100;             // captures that are measured for the trains' strip
+constexpr int kStripChars = 32;                   // of the strips, at least
 constexpr int kRigLines = 34;                     // from this height on each field of the rig has a line of its own
 constexpr std::size_t kLongestReading = 100'000;  // samples; a longer one belongs to the oscilloscope workspace
 
@@ -116,7 +119,6 @@ QWidget* LiveWorkspace::buildBench() {
     auto* split = new QSplitter(Qt::Horizontal, bench);
     split->setChildrenCollapsible(false);
     strips_ = new StripPlots(history_, split);
-    strips_->setMinimumWidth(fontMetrics().averageCharWidth() * 40);
     split->addWidget(strips_);
     side_ = buildSide();
     split->addWidget(side_);
@@ -155,7 +157,13 @@ QWidget* LiveWorkspace::buildSide() {
     layout->addStretch();
     area->setWidget(side);
     for (auto* ground : {side, area->viewport()}) ground->setAutoFillBackground(false);
-    area->setMinimumWidth(side->minimumSizeHint().width() + fontMetrics().averageCharWidth() * 4);
+    // What it needs, and a scroll bar: it scrolls from top to bottom only.
+    const auto fit = [this, area, side] {
+        area->setMinimumWidth(side->minimumSizeHint().width() + area->verticalScrollBar()->sizeHint().width());
+        strips_->setMinimumWidth(fontMetrics().averageCharWidth() * kStripChars);
+    };
+    fit();
+    afterLookChange(*area, fit);
     return area;
 }
 

@@ -12,8 +12,10 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kTrail_s = 3;
-constexpr double kHighest = 1.2;  // of its width
-constexpr double kNowSize = 21;   // pixels across
+constexpr double kHighest = 1.2;                   // of its width
+constexpr double kNowSize = 21;                    // pixels across
+constexpr double kBesideR = 0.36, kBesideP = 0.3;  // around the square, at least
+constexpr int kAroundName = 8, kBelowName = 6;     // pixels
 
 /// A ring with a dot in its middle, six across as QCustomPlot wants it: what it stands on is seen through it.
 QPainterPath target() {
@@ -30,9 +32,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     setNotAntialiasedElements(QCP::aeNone);
     layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
     addPlotMenu(*this, "tactile-plane");
-    // Room for the names outside the square: the point moves inside it.
-    xAxis->setRange(-0.36, 1.36);
-    yAxis->setRange(-0.3, 1.3);
+    connect(this, &QCustomPlot::afterLayout, this, &TactilePlane::makeRoomForNames);
     yAxis->setLabel(tr("pressure P"));
     for (auto* axis : {xAxis, yAxis}) {
         axis->ticker()->setTickCount(3);
@@ -45,7 +45,6 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     now_->setLineStyle(QCPGraph::lsNone);
     addLayer("now", layer("main"));
     now_->setLayer("now");  // seen also where it stands on a condition
-    setMinimumSize(fontMetrics().height() * 10, fontMetrics().height() * 9);
     setOrigin(false, true);
     colour();
     onLookChange(*this, [this] { colour(); });
@@ -55,6 +54,24 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
 void TactilePlane::resizeEvent(QResizeEvent* event) {
     QCustomPlot::resizeEvent(event);
     setMaximumHeight(std::max(minimumHeight(), int(width() * kHighest)));
+}
+
+/// The names of the conditions have room outside the square; the point moves inside it.
+void TactilePlane::makeRoomForNames() {
+    const QFontMetrics words(textFont(TextSize::Small));
+    double besideR = kBesideR, besideP = kBesideP;
+    // What the axis needs on both sides of 0 to 1, for `share` of it to lie beyond a point at `at`.
+    const auto beyond = [](double share, double at) {
+        return (share - std::min(at, 1 - at)) / std::max(0.1, 1 - 2 * share);
+    };
+    for (const auto& condition : conditions_) {
+        const int wide = words.horizontalAdvance(QString::fromStdString(condition.name)) + 2 * kAroundName;
+        besideR = std::max(besideR, beyond(0.5 * wide / std::max(1, axisRect()->width()), condition.R));
+        besideP = std::max(
+            besideP, beyond(double(words.height() + kBelowName) / std::max(1, axisRect()->height()), condition.P));
+    }
+    xAxis->setRange(-besideR, 1 + besideR);
+    yAxis->setRange(-besideP, 1 + besideP);
 }
 
 QSize TactilePlane::sizeHint() const { return {fontMetrics().height() * 15, fontMetrics().height() * 14}; }
@@ -75,7 +92,7 @@ void TactilePlane::setConditions(const std::vector<Condition>& conditions) {
         name->setText(QString::fromStdString(condition.name));
         name->position->setCoords(condition.R, condition.P);
         name->setPositionAlignment(Qt::AlignHCenter | (condition.P < 0.5 ? Qt::AlignTop : Qt::AlignBottom));
-        name->setPadding(QMargins(8, 6, 8, 6));
+        name->setPadding(QMargins(kAroundName, kBelowName, kAroundName, kBelowName));
         names_.push_back(name);
     }
     colour();
@@ -94,6 +111,7 @@ std::optional<QPointF> TactilePlane::point() const {
 
 void TactilePlane::colour() {
     stylePlot(*this);
+    setMinimumSize(fontMetrics().height() * 10, fontMetrics().height() * 9);
     const auto& c = colours();
     const auto small = textFont(TextSize::Small);
     for (std::size_t i = 0; i < marks_.size(); ++i) {

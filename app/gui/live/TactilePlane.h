@@ -28,6 +28,7 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    void makeRoomForNames();
     void colour();
     std::vector<Condition> conditions_;
     std::vector<QCPGraph*> marks_;

@@ -9,6 +9,9 @@ namespace tacto::gui {
 
 namespace {
 
+/// A train that was due so shortly before a fault was seen is the one that the fault took: its line says so.
+constexpr double kFaultTakes_s = 0.25;
+
 template <class Container>
 std::vector<double> valuesOf(const Container& data) {
     std::vector<double> values;
@@ -116,7 +119,7 @@ void TrainGraphs::drawTrains(const LiveHistory& history, const QCPRange& time) {
         if (!time.contains(t) || train.isCheck) continue;
         if (train.outcome != TrainOutcome::Delivered) {
             const auto& fault = history.fault();
-            if (fault && t >= fault->at_s && t <= fault->until_s) continue;
+            if (fault && t >= fault->at_s - kFaultTakes_s && t <= fault->until_s) continue;
             failedAt_ << t;
             failedValue_ << train.amplitude;
             continue;

@@ -72,7 +72,9 @@ void FactsCard::setWords(const QString& words) {
     words_->setText(words);
 }
 
-void FactsCard::dress() { picture_->setPixmap(iconPixmap(icon_, colours().text, kCardIcon, devicePixelRatioF())); }
+void FactsCard::dress() {
+    picture_->setPixmap(iconPixmap(icon_, colours().text, scaledPx(kCardIcon), devicePixelRatioF()));
+}
 
 }  // namespace tacto::gui
 

@@ -51,6 +51,24 @@ QString howToAnswer(const ParticipantView& view) {
 
 }  // namespace
 
+QString stateWords(ScreenState state) {
+    switch (state) {
+        case ScreenState::Rest:
+            return QObject::tr("Rest");
+        case ScreenState::Dot:
+        case ScreenState::Feel:
+        case ScreenState::Interval:
+            return QObject::tr("Presentation");
+        case ScreenState::Named:
+            return QObject::tr("A name");
+        case ScreenState::Break:
+            return QObject::tr("Break");
+        case ScreenState::Ended:
+            break;
+    }
+    return QObject::tr("Ended");
+}
+
 bool isStopTestPrompt(const PilotPrompt& prompt) { return prompt.name == "stop-test"; }
 
 ParticipantFace::ParticipantFace(std::function<void()> stop, QWidget* parent)

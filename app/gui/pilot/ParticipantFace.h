@@ -25,6 +25,9 @@ class ShareBars;
 /// Answered by STOP, and by nothing else.
 [[nodiscard]] bool isStopTestPrompt(const PilotPrompt& prompt);
 
+/// "Presentation", for the operator.
+[[nodiscard]] QString stateWords(ScreenState state);
+
 struct ParticipantView {
     const PilotScreen& screen;
     std::optional<PilotPrompt> asked;  ///< with its targets as they stand

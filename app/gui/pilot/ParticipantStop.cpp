@@ -3,6 +3,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QTouchEvent>
+#include <utility>
 
 #include "app/gui/theme/Theme.h"
 
@@ -68,13 +69,23 @@ bool ParticipantStop::event(QEvent* event) {
 void ParticipantStop::mousePressEvent(QMouseEvent* /*event*/) { press(); }  // any button
 
 void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
-    QPainter painter(this);
+    const auto plain = stateStyle(InterlockState::Faulted).ground;
+    const auto ground = isDown() ? plain.darker(130) : plain;
+    const Looks looks(size(), devicePixelRatioF(), ground.rgb(), buttons_, word_px_, lines_px_);
+    if (std::exchange(drawnFor_, looks) != looks) drawn_ = draw(ground);
+    QPainter(this).drawPixmap(0, 0, drawn_);
+}
+
+QPixmap ParticipantStop::draw(const QColor& ground) const {
+    QPixmap drawn(size() * devicePixelRatioF());
+    drawn.setDevicePixelRatio(devicePixelRatioF());
+    drawn.fill(Qt::transparent);
+    QPainter painter(&drawn);
     painter.setRenderHint(QPainter::Antialiasing);
-    const auto style = stateStyle(InterlockState::Faulted);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(isDown() ? style.ground.darker(130) : style.ground);
+    painter.setBrush(ground);
     painter.drawRoundedRect(rect(), kStopRadius, kStopRadius);
-    painter.setPen(style.ink);
+    painter.setPen(stateStyle(InterlockState::Faulted).ink);
     const int room = width() * 9 / 10;
     const auto keys = tr("Space · Esc · Pause") + buttons_;
     const auto foot = tr("It stops immediately. You do not have to say why.\nIt goes on only when you say so.");
@@ -95,6 +106,7 @@ void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
     if (hasFoot)
         painter.drawText(QRect(0, height() - footHigh - lines.pixelSize() * 3 / 2, width(), footHigh),
                          Qt::AlignHCenter | Qt::AlignTop, foot);
+    return drawn;
 }
 
 }  // namespace tacto::gui

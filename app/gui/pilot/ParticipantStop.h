@@ -4,7 +4,9 @@
 #pragma once
 
 #include <QAbstractButton>
+#include <QPixmap>
 #include <functional>
+#include <tuple>
 
 namespace tacto::gui {
 
@@ -23,11 +25,17 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    /// What the picture depends on: size, ratio of pixels, ground, and the words with their sizes.
+    using Looks = std::tuple<QSize, double, QRgb, QString, int, int>;
     void press();
+    [[nodiscard]] QPixmap draw(const QColor& ground) const;
     const std::function<void()> stop_;
     QString buttons_;
     int word_px_ = 92;
     int lines_px_ = 20;
+    QPixmap
+        drawn_;  // kept, so that each paint has the same pixels: Qt draws the edges of large letters not always alike
+    Looks drawnFor_{};
 };
 
 }  // namespace tacto::gui

@@ -15,10 +15,9 @@ namespace {
 
 constexpr int kTick_ms = 100;
 constexpr int kHoldKey = Qt::Key_H, kHoldKeyLeft = Qt::Key_G;
-constexpr int kFirstButton = 0x4000'0000;           // above each Qt::Key
-constexpr std::chrono::milliseconds kRepeats{150};  // X does not mark every press of a held key as repeated
-constexpr const char* kDone = "done";               // the target that ends Several
-constexpr const char* kStopsAs = "stopsAs";         // StopKeys looks for it
+constexpr int kFirstButton = 0x4000'0000;    // above each Qt::Key
+constexpr const char* kDone = "done";        // the target that ends Several
+constexpr const char* kStopsAs = "stopsAs";  // StopKeys looks for it
 
 }  // namespace
 
@@ -107,21 +106,7 @@ void ParticipantWindow::showBreak(bool on) {
 QString ParticipantWindow::says() const {
     if (stopped_) return tr("Stopped");
     if (asking_) return tr("Answer phase");
-    switch (screen_.state) {
-        case ScreenState::Rest:
-            return tr("Rest");
-        case ScreenState::Dot:
-        case ScreenState::Feel:
-        case ScreenState::Interval:
-            return tr("Presentation");
-        case ScreenState::Named:
-            return tr("A name");
-        case ScreenState::Break:
-            return tr("Break");
-        case ScreenState::Ended:
-            break;
-    }
-    return tr("Ended");
+    return stateWords(screen_.state);
 }
 
 bool ParticipantWindow::feels() const {
@@ -205,13 +190,19 @@ void ParticipantWindow::choose(int target, SteadyTime at) {
     if (prompt_.kind == PromptKind::Scale) {
         answer.value = prompt_.least + target;
     } else if (prompt_.kind == PromptKind::Several) {
-        for (std::size_t i = 0; i < prompt_.targets.size(); ++i) {
-            if (i != index && face_->field().chosen(int(i))) answer.keys.push_back(prompt_.targets[i].key);
-        }
+        answer.keys = chosenKeys();
     } else {
         answer.keys.push_back(prompt_.targets.at(index).key);
     }
     give(std::move(answer), at);
+}
+
+std::vector<std::string> ParticipantWindow::chosenKeys() const {
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < prompt_.targets.size(); ++i) {
+        if (face_->field().chosen(int(i)) && prompt_.targets[i].key != kDone) keys.push_back(prompt_.targets[i].key);
+    }
+    return keys;
 }
 
 void ParticipantWindow::give(PilotAnswer answer, SteadyTime at) {
@@ -249,17 +240,14 @@ void ParticipantWindow::noteEarly(std::optional<int> target) {
 
 /// Whether a press is one for the question: neither early nor held from before.
 bool ParticipantWindow::takesPress(int code, SteadyTime at, bool repeated, std::optional<int> would) {
-    const auto before = pressed_.find(code);
-    const bool held = repeated || (before != pressed_.end() && at - before->second < kRepeats);
-    if (before != pressed_.end() && held) before->second = at;
+    const bool held = pressed_.isHeld(code, at, repeated);
     if (!asking_) {
         if (!held && feels()) noteEarly(would);
-        pressed_[code] = at;
+        pressed_.note(code, at);
         return false;
     }
-    if (held) return false;
-    pressed_.erase(code);
-    return true;
+    if (!held) pressed_.forget(code);
+    return !held;
 }
 
 /// Nothing where buttons do not reach all targets: those that they do not reach would be chosen less.
@@ -326,10 +314,7 @@ void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
     if (!takesPress(key, at, event->isAutoRepeat(), AnswerKeys(set_, prompt_).targetOf(key))) return;
     if (prompt_.kind == PromptKind::Several && (key == Qt::Key_Return || key == Qt::Key_Enter)) {
         PilotAnswer answer;
-        for (std::size_t i = 0; i < prompt_.targets.size(); ++i) {
-            if (face_->field().chosen(int(i)) && prompt_.targets[i].key != kDone)
-                answer.keys.push_back(prompt_.targets[i].key);
-        }
+        answer.keys = chosenKeys();
         return give(std::move(answer), at);
     }
     if (const auto target = keys_.targetOf(key)) choose(*target, at);

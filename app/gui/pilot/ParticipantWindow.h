@@ -15,10 +15,10 @@
 #include <QTimer>
 #include <QWidget>
 #include <functional>
-#include <map>
 
 #include "app/gui/pilot/AnswerKeys.h"
 #include "app/gui/pilot/ButtonUse.h"
+#include "app/gui/pilot/EarlierPresses.h"
 #include "app/gui/pilot/ParticipantDesk.h"
 
 namespace tacto::gui {
@@ -87,6 +87,8 @@ private:
     [[nodiscard]] bool takesPress(int code, SteadyTime at, bool repeated, std::optional<int> would);
     [[nodiscard]] std::optional<int> targetOfAnswer(int answer) const;
     [[nodiscard]] QStringList buttonsOfTargets() const;
+    /// Of Several.
+    [[nodiscard]] std::vector<std::string> chosenKeys() const;
     void give(PilotAnswer answer, SteadyTime at);
     void pressHold();
     void letGo();
@@ -113,8 +115,7 @@ private:
     int buttonAnswers_ = 0;
     ButtonLabels buttonLabels_;
     QString inputGone_;
-    /// Keys and buttons that went down while no target was there, and their last press.
-    std::map<int, SteadyTime> pressed_;
+    EarlierPresses pressed_;
     QElapsedTimer since_;  // the targets were shown
     QTimer ticking_;
 

@@ -7,30 +7,22 @@
 #include "app/gui/pilot/OperatorPage.h"
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantWindow.h"
+#include "app/gui/pilot/PilotOrder.h"
 #include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/pilot/ScreenChoice.h"
 #include "app/gui/theme/Text.h"
-#include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr std::chrono::milliseconds kOnePress{100};
 constexpr const char* kScreenWent = "the participant's screen went";
 constexpr const char* kScreenClosed = "the participant's screen was closed";
-
-/// An operator who aborts or closes the window, or a screen that goes, has tested no STOP.
-bool isPressOfStop(std::string_view by) {
-    return by.starts_with("operator (") && by != kOperatorAborts && by != "operator (signal)";
-}
-
-bool isStillHeld(std::string_view by) { return by.ends_with(kStillHeld); }
 
 }  // namespace
 
 SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent)
-    : QObject(parent), controller_(controller), page_(page) {
+    : QObject(parent), controller_(controller), page_(page), stops_(desk_, controller) {
     connectPage();
     connectInputs();
     connect(&desk_, &ParticipantDesk::screenChanged, this, &SessionConduct::show);
@@ -128,31 +120,6 @@ void SessionConduct::connectStrip() {
     connect(&strip_->notes(), &SessionNotes::noted, this, &SessionConduct::keep);
 }
 
-Result<RunOrder> SessionConduct::order() const {
-    auto source = ProtocolLibrary().find(start_.protocol);
-    if (!source) return failure(source);
-    auto declaration = readDeclaration(*source);
-    if (!declaration) return failure(declaration);
-    std::map<std::string, std::string> given{
-        {"participant", start_.participant}, {"method", start_.method}, {"modality", start_.modality}};
-    if (!start_.unfinished.empty()) given["unfinished"] = start_.unfinished;
-    if (start_.blocks) given["blocks"] = std::to_string(*start_.blocks);
-    auto settings = applySettings(*declaration, given);
-    if (!settings) return failure(settings);
-    RunOrder order;
-    order.script = std::move(*source);
-    order.declaration = std::move(*declaration);
-    order.settings = std::move(*settings);
-    order.uris = start_.devices;
-    order.needed = order.declaration.needs;
-    order.seed = start_.seed;
-    order.realtime = start_.person || start_.realTime;
-    order.notes = controller_.day().notes();
-    order.profile = controller_.profile();
-    order.limits = controller_.limits();
-    return order;
-}
-
 QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     if (running_) return tr("A session is running. Wait for its end or stop it (Esc).");
     if (controller_.activity() != Activity::Closed && controller_.activity() != Activity::Live)
@@ -160,7 +127,7 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     if (controller_.day().asksFirst()) return DayNotes::wantedText();
     mark_ = controller_.mark();
     start_ = start;
-    auto made = order();
+    auto made = pilotOrder(start_, controller_);
     if (!made) return sentence(made.error());
     order_ = std::move(*made);
     if (start.person) {
@@ -177,7 +144,7 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     screenPrompt_ = 0;
     participantStops_ = faults_ = 0;
     screen_ = {};
-    stoppedAt_ = SteadyTime();
+    stops_.begin();
     page_.begin(start);
     emit begun();
     if (start_.person) openWindow();
@@ -252,20 +219,7 @@ void SessionConduct::run() {
                 emit changed();
             });
         };
-        testedAt_ = SteadyTime();
-        heldTested_ = false;
-        seats.takesStop = [this](const char* by) {
-            if (isStillHeld(by)) return heldTested_.load();
-            if (!isPressOfStop(by)) return false;
-            // StopKeys hears one press several times. What it tested is off already, and a question comes next.
-            const auto since = std::chrono::steady_clock::now() - testedAt_.load();
-            if (since < kOnePress) return true;
-            // In the test of the participant's it is a press of the wrong one: asked again, and no stop of the session.
-            const bool tests = desk_.testsStopOf(PromptTo::Operator) || desk_.testsStopOf(PromptTo::Participant);
-            heldTested_ = tests && desk_.stopBy(by);
-            if (heldTested_) testedAt_ = std::chrono::steady_clock::now();
-            return heldTested_.load();
-        };
+        seats.takesStop = [this](const char* by) { return stops_.isTested(by); };
     }
     run_ = controller_.runPilot(order_, seats, mark_);
 }
@@ -278,7 +232,7 @@ void SessionConduct::abort() {
 }
 
 void SessionConduct::answerAsOperator(quint64 id, const PilotAnswer& answer) {
-    heldTested_ = false;  // a key that is still held by now stops what comes next
+    stops_.answered();
     if (id == screenPrompt_) seatTheirWindow();
     desk_.answerAsOperator(id, answer);
 }
@@ -294,25 +248,12 @@ bool SessionConduct::stopAsParticipant(const char* by) {
     return stop->heard;
 }
 
-/// StopKeys hears one press several times, and a contact bounces. Nothing can be on again so soon: that takes their "go
-/// on".
-std::optional<SessionConduct::HeardStop> SessionConduct::switchOff(const char* by) {
-    auto last = stoppedAt_.load();
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last < kOnePress || !stoppedAt_.compare_exchange_strong(last, now)) {
-        if (std::string_view(by) != kParticipantLetGo) desk_.notePressed();
-        return {};
-    }
-    if (confirming_) {
-        controller_.stop(by);
-        desk_.cancel();
-        return HeardStop{true, true};
-    }
-    HeardStop stop;
-    stop.tested = desk_.testsStopOf(PromptTo::Participant) || desk_.testsStopOf(PromptTo::Operator);
-    stop.heard = desk_.stopBy(by);
-    if (!stop.heard) controller_.stop(by);  // the session has not begun, or is over
-    return stop;
+std::optional<HeardStop> SessionConduct::switchOff(const char* by) {
+    if (!confirming_) return stops_.participantPressed(by);
+    if (!stops_.isAnotherPress(by)) return {};
+    controller_.stop(by);
+    desk_.cancel();
+    return HeardStop{true, true};
 }
 
 /// What the windows show of it.
@@ -320,7 +261,7 @@ void SessionConduct::noteStop(const HeardStop& stop) {
     if (window_) window_->noteStop();
     if (!stop.tested) ++participantStops_;
     emit changed();
-    stoppedAt_ = std::chrono::steady_clock::now();  // what was repainted may have taken longer than a press does
+    stops_.shown();
 }
 
 void SessionConduct::show(const PilotScreen& screen) {

@@ -22,6 +22,7 @@
 #include "app/gui/pilot/ParticipantDesk.h"
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SessionInputs.h"
+#include "app/gui/pilot/SessionStops.h"
 
 namespace tacto::gui {
 
@@ -72,14 +73,8 @@ signals:
     void runningChanged();
 
 private:
-    struct HeardStop {
-        bool heard = false;   ///< by a session
-        bool tested = false;  ///< their STOP, or the operator's: no stop of the session
-    };
-    /// A stop by the participant of a person's session: the output first, and that alone. Any thread. Nothing where
-    /// one press is heard again.
+    /// A stop by the participant of a person's session: the output first, and that alone. Any thread.
     std::optional<HeardStop> switchOff(const char* by);
-    [[nodiscard]] Result<RunOrder> order() const;
     void connectPage();
     void connectInputs();
     void openWindow();
@@ -120,10 +115,8 @@ private:
     bool running_ = false;
     std::uint64_t run_ = 0;
     bool seenFault_ = false;
-    std::atomic<SteadyTime> stoppedAt_{};  ///< by the participant; any thread
-    std::atomic<SteadyTime> testedAt_{};   ///< the operator's STOP; any thread
-    std::atomic<bool> heldTested_{false};  ///< by a key of theirs that may be held still; any thread
-    quint64 screenPrompt_ = 0;             ///< the question that the participant's window is seated again for
+    SessionStops stops_;
+    quint64 screenPrompt_ = 0;  ///< the question that the participant's window is seated again for
     int participantStops_ = 0, faults_ = 0;
     PilotScreen screen_;
 };

@@ -201,8 +201,11 @@ void LimitMatrixView::choose(int row, int column) {
 void LimitMatrixView::addLine(int row, const json& line) {
     const auto unit = wordsOf(memberAt(line, "unit"));
     const auto title = titled(wordsOf(memberAt(line, "title")));
-    const auto limit = (wordsOf(memberAt(line, "compare")) == "<" ? QString("< ") : QString("≤ ")) +
-                       settingText(numberOr(memberAt(line, "limit")), unit);
+    const double most = numberOr(memberAt(line, "limit"));
+    const auto limit =
+        std::isfinite(most)
+            ? (wordsOf(memberAt(line, "compare")) == "<" ? QString("< ") : QString("≤ ")) + settingText(most, unit)
+            : tr("before the next train");
     const auto set = limitSetTitle(wordsOf(memberAt(line, "set")));
     const auto verdict = wordsOf(memberAt(line, "verdict"));
     auto* head = new QTableWidgetItem(title);
@@ -224,16 +227,19 @@ void LimitMatrixView::addLine(int row, const json& line) {
         }
         const auto judged = wordsOf(memberAt(cell, "verdict"));
         const double used = 100 - numberOr(memberAt(cell, "margin_pct"));
+        const double value = numberOr(memberAt(cell, "value"));
         const auto share = judged == "not evaluated"    ? tr("n. e.")
                            : judged == "not applicable" ? QString("–")
-                                                        : shareText(used);
+                           : std::isfinite(most)        ? shareText(used)
+                                                        : quantityText(value, unit, 2);
         item->setText(verdictStyle(judged).shape + " " + share);
         item->setData(kCellVerdict, judged);
         item->setData(kCellShare, share);
         item->setData(kCellNear, used >= kNear_pct);
-        const auto measured =
-            uncertainText(numberOr(memberAt(cell, "value")), numberOr(memberAt(cell, "expanded_uncertainty")), unit);
-        QStringList says{tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)};
+        const auto measured = uncertainText(value, numberOr(memberAt(cell, "expanded_uncertainty")), unit);
+        QStringList says{std::isfinite(most)
+                             ? tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)
+                             : tr("%1 on %2: after %3, %4.").arg(title, loads_[at], quantityText(value, unit), limit)};
         if (std::isfinite(used))
             says << tr("%1 used with its uncertainty, margin %2.").arg(share, shareText(100 - used));
         says << tr("Verdict: %1.").arg(judged) << wordsOf(memberAt(cell, "note"));

@@ -4,11 +4,13 @@
 #include <utility>
 
 #include "app/gui/runner/CellLegend.h"
-#include "app/gui/runner/ProcedurePages.h"
+#include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/NumberText.h"
+#include "app/report/TableContent.h"
 
 namespace tacto::gui {
 
@@ -103,6 +105,25 @@ void ProcedurePath::showNoRun(bool hasReference) {
     panel_->setLeading(true);
 }
 
+void ProcedurePath::showSetup(ParameterForm& form, const QString& devices, bool declared, bool begun,
+                              const std::set<Step>& seen) {
+    using State = StepList::State;
+    const auto state = [&](Step step, bool troubled) {
+        return troubled ? State::Troubled : begun || seen.contains(step) ? State::Done : State::ToDo;
+    };
+    steps_->setState(kWiring, state(kWiring, !devicesOf(devices)));
+    steps_->setNote(kWiring, devices == "sim:" ? tr("simulated bench") : devices);
+    steps_->setState(kReference, state(kReference, form.refused(true) > 0));
+    const auto load = form.text("reference").isEmpty() ? form.text("load") : form.text("reference");
+    bool isNumber = false;
+    const double ohms = load.toDouble(&isNumber);
+    steps_->setNote(kReference, isNumber ? settingText(ohms, "ohm") : loadText(load));
+    const int refused = form.refused(false);
+    const bool troubled = refused > 0 || !declared;
+    steps_->setState(kSettings, troubled ? State::Troubled : begun ? State::Done : State::UnderWay);
+    steps_->setNote(kSettings, refused > 0 ? tr("%1 to fix").arg(refused) : declared ? form.summary() : QString());
+}
+
 void ProcedurePath::showRun() {
     panel_->setLeading(true);
     panel_->begin();
@@ -138,9 +159,13 @@ void ProcedurePath::fitLegend() {
 /// Words that wrap make a row higher than its layout's least height: the page scrolls then, and nothing is cut.
 bool ProcedurePath::event(QEvent* event) {
     const bool done = QWidget::event(event);
-    if (across_ && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
-        setMinimumHeight(layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(width())
-                                                       : layout()->totalSizeHint().height());
+    const auto* parts = layout();  // none while it is turned
+    if (parts != nullptr && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize)) {
+        const bool wraps = parts->hasHeightForWidth();
+        const int across = wraps ? parts->totalHeightForWidth(width()) : parts->totalSizeHint().height();
+        const int down = wraps ? parts->totalMinimumHeightForWidth(width()) : parts->totalMinimumSize().height();
+        setMinimumHeight(across_ ? across : down);
+    }
     if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) fitLegend();
     return done;
 }

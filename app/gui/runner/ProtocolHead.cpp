@@ -11,7 +11,8 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kBelow = 4, kBeside = 12;  // between its parts
-}
+constexpr int kLineChars = 8;            // of the title beside them, at least
+}  // namespace
 
 ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
     : QWidget(parent), layout_(new QBoxLayout(QBoxLayout::TopToBottom, this)), buttons_(new QHBoxLayout) {
@@ -73,9 +74,22 @@ void ProtocolHead::setAcross(bool across) {
 void ProtocolHead::showWords() {
     title_->setVisible(!across_);
     purpose_->setVisible(!across_ && !purpose_->text().isEmpty());
-    line_->setVisible(across_);
     line_->setText(title_->text());
-    line_->setToolTip(purpose_->text().toHtmlEscaped());
+    line_->setToolTip(
+        QString("<p><b>%1</b></p>%2").arg(title_->text().toHtmlEscaped(), purpose_->text().toHtmlEscaped()));
+    fitLine();
+}
+
+/// Where it would be a few letters the title goes: rail and tab say what this is.
+void ProtocolHead::fitLine() {
+    int taken = buttons_->sizeHint().width() + kBeside;
+    if (chooser_ != nullptr) taken += chooser_->sizeHint().width() + kBeside;
+    line_->setVisible(across_ && width() - taken >= line_->fontMetrics().averageCharWidth() * kLineChars);
+}
+
+void ProtocolHead::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    fitLine();
 }
 
 void ProtocolHead::addButton(const QString& text, const QString& tip, void (ProtocolHead::*wanted)()) {

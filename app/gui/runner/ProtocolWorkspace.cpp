@@ -19,6 +19,7 @@
 #include "app/gui/runner/WorstPage.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/TableContent.h"
@@ -29,8 +30,6 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPreviewAfter_ms = 150;
-
-using State = StepList::State;
 
 }  // namespace
 
@@ -85,7 +84,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
 }
 
 void ProtocolWorkspace::arrange() {
-    const bool across = path_->fit(width());
+    const bool across = path_->fit(widthInSight(*this));
     layout_->setDirection(across ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     edge_->setFrameShape(across ? QFrame::HLine : QFrame::VLine);
 }
@@ -130,7 +129,7 @@ void ProtocolWorkspace::connectPages() {
     connect(&pages_->views(), &RunViews::nextChosen, this, &ProtocolWorkspace::goOn);
     connect(&pages_->sign(), &SignPage::stateChanged, this, [this] {
         steps_->setNote(kSign, pages_->sign().state());
-        steps_->setState(kSign, pages_->sign().taken() ? State::Done : State::ToDo);
+        steps_->setState(kSign, pages_->sign().taken() ? StepList::State::Done : StepList::State::ToDo);
     });
     connect(&pages_->sign(), &SignPage::settingsWanted, this, [this] { goTo(kSettings); });
 }
@@ -205,24 +204,9 @@ void ProtocolWorkspace::judge() {
     previewLater_.start();
 }
 
-/// The steps before the run. A tick says that a step was seen, or that the run used it.
 void ProtocolWorkspace::showSetup() {
-    auto& form = pages_->form();
-    const auto devices = pages_->wiring().devices();
-    const bool begun = running_ || last_ != nullptr;
-    const auto state = [&](Step step, bool troubled) {
-        return troubled ? State::Troubled : begun || seen_.contains(step) ? State::Done : State::ToDo;
-    };
-    steps_->setState(kWiring, state(kWiring, !devicesOf(devices)));
-    steps_->setNote(kWiring, devices == "sim:" ? tr("simulated bench") : devices);
-    steps_->setState(kReference, state(kReference, form.refused(true) > 0));
-    const auto load = form.text("reference").isEmpty() ? form.text("load") : form.text("reference");
-    bool isNumber = false;
-    const double ohms = load.toDouble(&isNumber);
-    steps_->setNote(kReference, isNumber ? settingText(ohms, "ohm") : loadText(load));
-    const int refused = form.refused(false);
-    steps_->setState(kSettings, refused > 0 || !declaration_ ? State::Troubled : begun ? State::Done : State::UnderWay);
-    steps_->setNote(kSettings, refused > 0 ? tr("%1 to fix").arg(refused) : declaration_ ? form.summary() : QString());
+    path_->showSetup(pages_->form(), pages_->wiring().devices(), declaration_.has_value(), running_ || last_ != nullptr,
+                     seen_);
 }
 
 /// What was asked was about other settings, or another profile.

@@ -3,6 +3,7 @@
 #include <QHBoxLayout>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <utility>
 
 #include "app/gui/runner/WorstCase.h"
@@ -29,6 +30,14 @@ WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTabl
            "Hatched: not evaluated, and never a pass."));
     column->addWidget(worst_, 1);
     setTabOrder(findChild<QPushButton*>("readLimits"), worst_);
+}
+
+/// Words that wrap make a page higher than its layout's least height: what is around it scrolls then.
+bool WorstPage::event(QEvent* event) {
+    const bool done = QWidget::event(event);
+    if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize)
+        setMinimumHeight(std::max(0, layout()->totalMinimumHeightForWidth(width())));
+    return done;
 }
 
 QWidget* WorstPage::buildChooser() {

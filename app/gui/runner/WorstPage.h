@@ -25,6 +25,9 @@ public:
     [[nodiscard]] QString judge(const BenchController& controller, const Result<ProtocolSettings>& settings,
                                 bool drives);
 
+protected:
+    bool event(QEvent* event) override;
+
 private:
     [[nodiscard]] QWidget* buildChooser();
     void show(std::vector<ExposureRow> rows);

@@ -1,16 +1,43 @@
 #include "app/gui/scope/ToolRow.h"
 
+#include <QMenu>
 #include <QSpacerItem>
 #include <QWidget>
 #include <algorithm>
-#include <utility>
-#include <vector>
+
+#include "app/gui/theme/Icons.h"
 
 namespace tacto::gui {
 
-ToolRow::ToolRow(QWidget* parent) : QLayout(parent) {
+namespace {
+
+constexpr int kBetweenTools = 2;
+
+/// Also of one that is hidden.
+QSize wishOf(const QLayoutItem& item) {
+    auto* part = const_cast<QLayoutItem&>(item).widget();
+    if (part == nullptr) return item.sizeHint();
+    return part->sizeHint().expandedTo(part->minimumSize()).boundedTo(part->maximumSize());
+}
+
+}  // namespace
+
+ToolRow::ToolRow(QWidget* parent) : QLayout(parent), more_(new QToolButton(parent)) {
     setContentsMargins(0, 0, 0, 0);
-    setSpacing(2);
+    setSpacing(kBetweenTools);
+    more_->setObjectName("moreTools");
+    more_->setAccessibleName(QObject::tr("More tools"));
+    more_->setToolTip(QObject::tr("The tools that have no room in this row."));
+    more_->setIcon(icon("more"));
+    more_->setAutoRaise(true);
+    more_->setFocusPolicy(Qt::StrongFocus);
+    more_->setPopupMode(QToolButton::InstantPopup);
+    more_->setProperty("role", "opens");
+    auto* menu = new QMenu(more_);
+    menu->setToolTipsVisible(true);
+    QObject::connect(menu, &QMenu::aboutToShow, more_, [this] { fillMenu(); });
+    more_->setMenu(menu);
+    more_->hide();
 }
 
 ToolRow::~ToolRow() = default;
@@ -37,46 +64,72 @@ QLayoutItem* ToolRow::takeAt(int index) {
 QSize ToolRow::sizeHint() const {
     QSize hint;
     for (const auto& item : items_) {
-        const auto its = item->sizeHint();
+        const auto its = wishOf(*item);
         hint = {hint.width() + its.width() + spacing(), std::max(hint.height(), its.height())};
     }
     return hint;
 }
 
+/// The first of them, and the way to the others.
 QSize ToolRow::minimumSize() const {
-    QSize least;
-    for (const auto& item : items_) least = least.expandedTo(item->minimumSize());
-    return least;
+    if (items_.empty()) return {};
+    return {wishOf(*items_.front()).width() + spacing() + more_->sizeHint().width(), sizeHint().height()};
+}
+
+std::size_t ToolRow::fitting(int width) const {
+    if (sizeHint().width() - spacing() <= width) return items_.size();
+    int left = width - more_->sizeHint().width();
+    std::size_t fits = 0;
+    while (fits < items_.size() && left >= wishOf(*items_[fits]).width() + spacing())
+        left -= wishOf(*items_[fits++]).width() + spacing();
+    return std::max<std::size_t>(fits, 1);
 }
 
 void ToolRow::setGeometry(const QRect& area) {
     QLayout::setGeometry(area);
-    lay(area, true);
+    const auto fits = fitting(area.width());
+    putAway(fits);
+    int x = area.left();
+    const auto place = [&](const QSize& size) {
+        const QRect at(QPoint(x, area.top() + (area.height() - size.height()) / 2), size);
+        x += size.width() + spacing();
+        return at;
+    };
+    for (std::size_t i = 0; i < fits; ++i) items_[i]->setGeometry(place(wishOf(*items_[i])));
+    if (fits < items_.size()) more_->setGeometry(place(more_->sizeHint()));
 }
 
-int ToolRow::lay(const QRect& area, bool really) const {
-    int x = area.left(), y = area.top(), line = 0;
-    std::vector<std::pair<QLayoutItem*, QRect>> inLine;
-    const auto setLine = [&] {  // on one middle line, however high each is
-        for (const auto& [item, at] : inLine) item->setGeometry(at.translated(0, (line - at.height()) / 2));
-        inLine.clear();
-    };
-    for (const auto& item : items_) {
-        const auto size = item->sizeHint();
-        const bool gap = item->spacerItem() != nullptr;
-        if (x > area.left() && x + size.width() > area.right() + 1) {
-            setLine();
-            x = area.left();
-            y += line + spacing();
-            line = 0;
-            if (gap) continue;  // a new line is gap enough
+void ToolRow::putAway(std::size_t from) {
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        auto* part = items_[i]->widget();
+        if (part == nullptr) continue;
+        if (i < from && away_.erase(part) > 0) part->show();
+        if (i >= from && !part->isHidden()) {
+            away_.insert(part);
+            part->hide();
         }
-        if (really) inLine.emplace_back(item.get(), QRect(QPoint(x, y), size));
-        x += size.width() + spacing();
-        line = std::max(line, size.height());
     }
-    setLine();
-    return y + line - area.top();
+    more_->setVisible(from < items_.size());
+}
+
+void ToolRow::fillMenu() {
+    auto& menu = *more_->menu();
+    menu.clear();
+    for (const auto& item : items_) {
+        auto* button = qobject_cast<QAbstractButton*>(item->widget());
+        if (button == nullptr || !away_.contains(button)) continue;
+        auto* action = menu.addAction(button->icon(), button->accessibleName());
+        action->setToolTip(button->toolTip());
+        action->setEnabled(button->isEnabled());
+        const auto* tool = qobject_cast<const QToolButton*>(button);
+        if (tool != nullptr && tool->menu() != nullptr) {
+            action->setMenu(tool->menu());
+            continue;
+        }
+        action->setCheckable(button->isCheckable());
+        action->setChecked(button->isChecked());
+        QObject::connect(action, &QAction::triggered, button, &QAbstractButton::click);
+    }
 }
 
 }  // namespace tacto::gui

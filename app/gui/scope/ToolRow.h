@@ -1,16 +1,19 @@
-// ToolRow.h - buttons in a row that goes on in the next line where the window is too narrow: nothing is folded away.
+// ToolRow.h - buttons in a row; those that do not fit stand in the menu of a "More" button at its end.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLayout>
+#include <QToolButton>
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace tacto::gui {
 
 class ToolRow final : public QLayout {
 public:
+    /// The parts that are added are buttons.
     explicit ToolRow(QWidget* parent);
     ~ToolRow() override;
     /// Room as wide as a letter: what follows is another group.
@@ -22,16 +25,18 @@ public:
     QLayoutItem* takeAt(int index) override;
     QSize sizeHint() const override;
     QSize minimumSize() const override;
-    bool hasHeightForWidth() const override { return true; }
-    int heightForWidth(int width) const override { return lay(QRect(0, 0, width, 0), false); }
     Qt::Orientations expandingDirections() const override { return {}; }
     void setGeometry(const QRect& area) override;
 
 private:
-    /// The height that it takes; `really`: items are moved there.
-    int lay(const QRect& area, bool really) const;
+    /// How many of the parts have room in `width`, with the "More" button where that is not all of them.
+    [[nodiscard]] std::size_t fitting(int width) const;
+    void putAway(std::size_t from);
+    void fillMenu();
 
     std::vector<std::unique_ptr<QLayoutItem>> items_;
+    QToolButton* more_;
+    std::set<QWidget*> away_;  // hidden here, and shown again once there is room
 };
 
 }  // namespace tacto::gui

@@ -9,7 +9,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kLargeText_pct = 150;
+constexpr int kWordsFrom = 1020;  // pixels for both panes
 }
 
 QPushButton* ActionButtons::add(QBoxLayout& row, const char* iconName, const QString& text, const QString& tip,
@@ -41,10 +41,10 @@ void ActionButtons::offerAll(const QString& refusal) {
     for (auto& action : all_) offer(action.button, refusal);
 }
 
-void ActionButtons::dress() {
-    const bool large = scaledPx(100) >= kLargeText_pct;
+void ActionButtons::dress(int room) {
+    const bool worded = room >= scaledPx(kWordsFrom);
     for (const auto& action : all_) {
-        action.button->setText(large ? QString() : action.text);
+        action.button->setText(worded ? action.text : QString());
         explain(action);
     }
 }

@@ -1,5 +1,5 @@
-// ActionButtons.h - what can be done with a session, as buttons: each says why it cannot act, and with large text they
-// are icons, so that the panes beside each other fit.
+// ActionButtons.h - what can be done with a session, as buttons: each says why it cannot act, and where there is little
+// room they are icons, so that the panes beside each other fit.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -19,8 +19,8 @@ public:
     /// Enabled with an empty `refusal`, else disabled with it as the tool tip.
     void offer(QPushButton* button, const QString& refusal);
     void offerAll(const QString& refusal);
-    /// Words or icons, by the size of text: call again when that changes.
-    void dress();
+    /// Words or icons, by the room for the panes in pixels: call again when that or the size of text changes.
+    void dress(int room);
 
 private:
     struct Action {

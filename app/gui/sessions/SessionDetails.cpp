@@ -49,6 +49,7 @@ std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::
 SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : QTabWidget(parent), limits_(limits) {
     setWhatsThis(tr("What the selected session holds. The left and right arrow keys change the page."));
     setDocumentMode(true);
+    tabBar()->setUsesScrollButtons(false);  // all of them in sight
     overview_ = new SessionOverview(this);
     connect(overview_, &SessionOverview::labelsSaved, this, &SessionDetails::labelsSaved);
     connect(overview_, &SessionOverview::labelsRefused, this, &SessionDetails::labelsRefused);

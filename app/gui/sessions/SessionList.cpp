@@ -23,6 +23,7 @@ constexpr int kListIcon = 16;
 constexpr int kSeenAfter_ms = 150;
 constexpr int kMeasuredRows = 60;  // for the widths of columns
 constexpr int kRoomyChars = 88;    // from this width on all columns are shown
+constexpr int kWordyChars = 84;    // and from this one the search says where it searches
 constexpr int kGap = 8, kSide = 16;
 constexpr int kChosenBar = 4;
 
@@ -72,7 +73,6 @@ QWidget* SessionList::buildSearch() {
     row->setSpacing(kGap);
     search_ = new QLineEdit(holder);
     search_->addAction(icon("search"), QLineEdit::LeadingPosition)->setToolTip(tr("Search"));
-    search_->setPlaceholderText(tr("Search names, notes, tags"));
     search_->setClearButtonEnabled(true);
     search_->setAccessibleName(tr("Search"));
     search_->setToolTip(
@@ -119,8 +119,6 @@ void SessionList::buildTable() {
     table_->setItemDelegateForColumn(SessionModel::kVerdict, new VerdictDelegate(table_));
     setTextSize(*table_->horizontalHeader(), TextSize::Small);
     table_->verticalHeader()->hide();
-    table_->verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
-    table_->setIconSize({kListIcon, kListIcon});
     table_->setWordWrap(false);
     table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // the last column takes the rest and elides
     table_->setTabKeyNavigation(false);                            // Tab leaves the table
@@ -136,8 +134,13 @@ void SessionList::buildTable() {
     connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
         if (!arranging_) emit selectionChanged();
     });
-    onLookChange(*this, [this] {
+    const auto grow = [this] {
         table_->verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
+        table_->setIconSize({scaledPx(kListIcon), scaledPx(kListIcon)});
+    };
+    grow();
+    onLookChange(*this, [this, grow] {
+        grow();
         model_->recolour();
     });
     afterLookChange(*this, [this] { fitColumns(); });  // when the header has its text's size
@@ -193,7 +196,12 @@ void SessionList::take(std::vector<SessionEntry> entries) {
 }
 
 void SessionList::fitColumns() {
+    table_->setColumnHidden(SessionModel::kSample, false);
     for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
+    const auto* header = table_->horizontalHeader();
+    const int least = header->length() - header->sectionSize(SessionModel::kNote) + header->minimumSectionSize();
+    const int room = width() - table_->verticalScrollBar()->sizeHint().width();  // the table has its own size later
+    table_->setColumnHidden(SessionModel::kSample, least > room);
 }
 
 /// What a display of the chosen ones depends on. Not the labels: they are changed there.
@@ -291,11 +299,12 @@ void SessionList::say() {
 
 void SessionList::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
+    const bool wordy = width() >= fontMetrics().averageCharWidth() * kWordyChars;
+    search_->setPlaceholderText(wordy ? tr("Search names, notes, tags") : tr("Search"));
+    count_->setVisible(wordy);
     const bool roomy = width() >= fontMetrics().averageCharWidth() * kRoomyChars;
-    if (roomy == table_->isColumnHidden(SessionModel::kLength)) {
-        for (const int each : {SessionModel::kOperator, SessionModel::kLength}) table_->setColumnHidden(each, !roomy);
-        fitColumns();  // a hidden column has no contents to fit
-    }
+    for (const int each : {SessionModel::kOperator, SessionModel::kLength}) table_->setColumnHidden(each, !roomy);
+    fitColumns();  // a hidden column has no contents to fit
     seen_.start();
 }
 

@@ -6,6 +6,7 @@
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -113,7 +114,7 @@ QString SessionModel::about(const SessionEntry& entry) const {
     QStringList devices;
     for (const auto& device : entry.summary.devices) devices << qtext(device);
     if (!devices.isEmpty()) lines << devices.join(", ");
-    if (!entry.summary.labels.note.empty()) lines << qtext(entry.summary.labels.note);
+    if (const auto note = text(entry, kNote); !note.isEmpty()) lines << note;
     return lines.join('\n');
 }
 
@@ -133,7 +134,7 @@ QVariant SessionModel::data(const QModelIndex& index, int role) const {
         case Qt::DecorationRole: {
             if (index.column() != kVerdict) return {};
             const auto ending = endingOf(shown, shown.path == recording_);
-            return QIcon(iconPixmap(ending.icon, ending.colour, kEndingIcon, kIconScale));
+            return QIcon(iconPixmap(ending.icon, ending.colour, scaledPx(kEndingIcon), kIconScale));
         }
         case Qt::ForegroundRole:
             return index.column() == kVerdict ? QVariant(endingOf(shown, shown.path == recording_).colour) : QVariant();

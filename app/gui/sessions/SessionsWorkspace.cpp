@@ -14,6 +14,7 @@
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/SessionReader.h"
@@ -23,6 +24,7 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr int kPanesFrom = 820;  // pixels for both of them beside each other
 constexpr int kListMargin = 16, kAroundActions = 12;
 
 bool holdsTouch(const ReadSession& session) {
@@ -40,7 +42,7 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    auto* split = new QSplitter(Qt::Horizontal, this);
+    auto* split = split_ = new QSplitter(Qt::Horizontal, this);
     split->setChildrenCollapsible(false);
     list_ = new SessionList(split);
     split->addWidget(withActions(list_, buildListActions()));
@@ -77,8 +79,21 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     connect(&reports_, &ReportMaker::failed, this, &SessionsWorkspace::say);
     showBusy();
     chosen();
-    actions_.dress();
-    onFontChange(*this, [this] { actions_.dress(); });
+    fitPanes();
+    onFontChange(*this, [this] { fitPanes(); });
+}
+
+/// By what is in sight: a page that scrolls is as wide as its parts ask for. Where the panes have no room beside each
+/// other the session stands below the list.
+void SessionsWorkspace::fitPanes() {
+    const int room = widthInSight(*this);
+    actions_.dress(room);
+    split_->setOrientation(room < scaledPx(kPanesFrom) ? Qt::Vertical : Qt::Horizontal);
+}
+
+void SessionsWorkspace::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    fitPanes();
 }
 
 /// A pane of the page: what it shows, and below it what can be done with that.

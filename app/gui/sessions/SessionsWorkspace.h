@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSplitter>
 #include <QTemporaryDir>
 
 #include "app/gui/controller/BenchController.h"
@@ -37,9 +38,11 @@ signals:
 protected:
     void showEvent(QShowEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
     void dropEvent(QDropEvent* event) override;
 
 private:
+    void fitPanes();
     [[nodiscard]] QWidget* withActions(QWidget* shown, QWidget* actions);
     [[nodiscard]] QWidget* buildListActions();
     [[nodiscard]] QWidget* buildSessionActions();
@@ -62,6 +65,7 @@ private:
     ReportMaker reports_;
     std::unique_ptr<QTemporaryDir> replayed_;
 
+    QSplitter* split_;
     SessionList* list_;
     SessionDetails* details_;
     QLabel* says_;

@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QStyledItemDelegate>
 
+#include "app/gui/theme/ExposureText.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -181,7 +182,7 @@ void ExposureTable::showRow(int line, const ExposureRow& row) {
     quantity->setToolTip(row.set.empty() ? title : tr("%1, limit of %2").arg(title, titleOfSet(row)));
     quantity->setData(Qt::ForegroundRole, QVariant());
     const auto missing = compact_ ? QString("–") : tr("not evaluated");
-    auto* value = cell(line, kValue, row.evaluated ? quantityText(row.value, qtext(row.unit), 3) : missing);
+    auto* value = cell(line, kValue, row.evaluated ? valueText(row) : missing);
     value->setToolTip(row.evaluated ? QString() : tr("Not evaluated: %1").arg(qtext(row.reason.view())));
     // Else the palette's own, which follows the theme.
     value->setData(Qt::ForegroundRole, QVariant());

@@ -19,4 +19,8 @@ public:
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
 };
 
+/// The widget's width, or that of the scrolling page around it where that is less: what has to suit the room goes by
+/// this, for a page is never narrower than what stands in it.
+[[nodiscard]] int widthInSight(const QWidget& widget);
+
 }  // namespace tacto::gui

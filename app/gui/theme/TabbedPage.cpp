@@ -7,7 +7,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// All tabs whole, whatever room the tools want: those have a second line for what does not fit.
+/// All tabs whole, whatever room the tools want: those have a menu for what does not fit.
 class WholeTabBar final : public QTabBar {
 public:
     using QTabBar::QTabBar;

@@ -14,7 +14,6 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kStripWidth = 32;
 constexpr int kStripIcon = 16;
 constexpr int kStripGap = 8;
 
@@ -51,9 +50,10 @@ public:
         if (std::exchange(worded_, worded) != worded) updateGeometry();
     }
     [[nodiscard]] QSize sizeHint() const override {
-        if (!worded_) return {kStripWidth, kStripIcon + 2 * kStripGap};
+        const int alone = iconSide() + 2 * kStripGap;
+        if (!worded_) return {alone, alone};
         const QFontMetrics words(textFont(TextSize::Small));
-        return {kStripWidth, kStripIcon + words.horizontalAdvance(text_) + 4 * kStripGap};
+        return {alone, alone + words.horizontalAdvance(text_) + 2 * kStripGap};
     }
     [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
 
@@ -62,15 +62,16 @@ protected:
         QPainter painter(this);
         const auto& c = colours();
         if (underMouse()) painter.fillRect(rect(), c.sunken);
-        painter.drawPixmap((width() - kStripIcon) / 2, kStripGap,
-                           iconPixmap(dock_.iconName(), c.text, kStripIcon, devicePixelRatioF()));
+        const int side = iconSide();
+        painter.drawPixmap((width() - side) / 2, kStripGap,
+                           iconPixmap(dock_.iconName(), c.text, side, devicePixelRatioF()));
         painter.setFont(textFont(TextSize::Small));
         painter.setPen(c.quiet);
-        painter.translate(width(), kStripIcon + 2 * kStripGap);
+        painter.translate(width(), side + 2 * kStripGap);
         painter.rotate(90);
         if (worded_)
-            painter.drawText(QRect(0, 0, height() - kStripIcon - 2 * kStripGap, width()),
-                             Qt::AlignLeft | Qt::AlignVCenter, text_);
+            painter.drawText(QRect(0, 0, height() - side - 2 * kStripGap, width()), Qt::AlignLeft | Qt::AlignVCenter,
+                             text_);
         painter.resetTransform();
         if (!hasFocus()) return;
         painter.setPen(QPen(c.text, 2));
@@ -78,6 +79,8 @@ protected:
     }
 
 private:
+    [[nodiscard]] static int iconSide() { return scaledPx(kStripIcon); }
+
     FoldingDock& dock_;
     QString text_;
     bool worded_ = true;

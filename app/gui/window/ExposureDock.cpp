@@ -6,8 +6,10 @@
 #include <functional>
 
 #include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/ExposureText.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/ExposureNow.h"
 
 namespace tacto::gui {
 
@@ -42,6 +44,7 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
     : FoldingDock(tr("Exposure"), "exposure", "exposureDock", parent),
       controller_(controller),
       empty_(new QLabel),
+      now_(new ElidedLabel),
       enterArea_(new QPushButton(tr("Enter the area…"))) {
     auto* area = new QScrollArea(this);
     area->setFrameShape(QFrame::NoFrame);
@@ -61,6 +64,11 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
     setTextSize(*empty_, TextSize::Small);
     setTone(*empty_, Tone::Quiet);
     column_->addWidget(empty_);
+    now_->setObjectName("exposureNow");
+    setTextSize(*now_, TextSize::Small);
+    setTone(*now_, Tone::Quiet);
+    column_->addWidget(now_);
+    now_->hide();
     enterArea_->setObjectName("enterArea");
     enterArea_->setToolTip(
         tr("Current and power density need the electrode’s area: opens the encoding profile there."));
@@ -98,22 +106,25 @@ void ExposureDock::build(const std::vector<ExposureRow>& rows) {
         column_->insertWidget(column_->count() - 2, bars_.back());
     }
     empty_->setVisible(rows.empty());
+    now_->setVisible(!rows.empty());
 }
 
 void ExposureDock::refresh(const Telemetry& telemetry) {
-    if (telemetry.at == shownAt_ && bars_.empty() == telemetry.exposure().empty()) return;
+    if (telemetry.at == shownAt_ && telemetry.state == shownState_ && bars_.empty() == telemetry.exposure().empty())
+        return;
     shownAt_ = telemetry.at;
-    auto rows = limitsIn(telemetry.exposure());
+    shownState_ = telemetry.state;
+    const auto all = exposureNow(telemetry);
+    auto rows = limitsIn(all);
     putInOrder(rows);
     build(rows);
+    const auto now = outputIsOff(telemetry.state) ? tr("Output is off: nothing is delivered.")
+                                                  : tr("Worst case, with the last 5 s.");
+    if (now_->text() != now) now_->setText(now);
     enterArea_->setVisible(!controller_.profile().electrodeArea &&
                            std::ranges::any_of(rows, [](const ExposureRow& row) { return !row.evaluated; }));
     const auto nearest = std::ranges::max_element(rows, {}, shareOf);
-    nearest_ = nearest == rows.end() || !nearest->evaluated
-                   ? QString()
-                   : tr("%1 of %2")
-                         .arg(quantityText(nearest->value, qtext(nearest->unit), 3),
-                              settingText(nearest->limit, qtext(nearest->unit)));
+    nearest_ = nearest == rows.end() || !nearest->evaluated ? QString() : valueOfLimitText(*nearest);
     for (std::size_t i = 0; i < rows.size(); ++i) bars_[i]->show(rows[i], controller_.limits().sets);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/gui/controller/BenchController.h"
+#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/LimitBar.h"
 #include "core/bench/Telemetry.h"
@@ -32,11 +33,13 @@ private:
 
     const BenchController& controller_;
     QLabel* empty_;
+    ElidedLabel* now_;  ///< whether any of it is delivered
     QPushButton* enterArea_;
     QVBoxLayout* column_;
     std::vector<LimitBar*> bars_;
     QStringList titles_;  ///< of the bars
     Instant shownAt_{-1};
+    InterlockState shownState_ = InterlockState::Disconnected;
     QString nearest_;
 };
 

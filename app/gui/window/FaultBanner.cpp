@@ -2,6 +2,7 @@
 
 #include <QEvent>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -39,6 +40,15 @@ QString nextStep(std::optional<FaultCause> cause) {
     return FaultBanner::tr("Close the bench and open it again. Keep the session: it says what happened.");
 }
 
+/// A table of the gate holds what was booked in its last 5 s.
+constexpr double kKeptInTable_s = 4.5;
+
+/// Whether trains that were delivered before may be as the gate judged them.
+bool saysNothingOfTrains(std::optional<FaultCause> cause) {
+    return cause == FaultCause::OpenElectrode || cause == FaultCause::DeviceLost || cause == FaultCause::LoopSilent ||
+           cause == FaultCause::StaleSensor;
+}
+
 }  // namespace
 
 FaultBanner::FaultBanner(QWidget* parent)
@@ -59,16 +69,51 @@ FaultBanner::FaultBanner(QWidget* parent)
     colour();
 }
 
-void FaultBanner::show(const Telemetry& telemetry) {
+void FaultBanner::refresh(const Telemetry& telemetry, QTime now) {
+    note(telemetry, now);
+    const bool faulted = telemetry.state == InterlockState::Faulted;
+    setVisible(faulted);
+    if (!faulted) return;
     const auto reason = sentence(QString::fromUtf8(telemetry.reason.c_str()));
-    cause_->setText(reason.isEmpty() ? tr("The bench has faulted.") : reason);
-    output_->setText(telemetry.trainsDelivered == 1
-                         ? tr("Output is off and stays off. 1 train was delivered.")
-                         : tr("Output is off and stays off. %1 trains were delivered.").arg(telemetry.trainsDelivered));
+    const auto cause = reason.isEmpty() ? tr("The bench has faulted.") : reason;
+    cause_->setText(faultedAt_.isValid() ? QString("%1 · %2").arg(faultedAt_.toString("HH:mm:ss"), cause) : cause);
+    output_->setText(outputWords(telemetry));
     next_->setText(nextStep(telemetry.fault));
     if (toolTip() == text()) return;
     setToolTip(text());
     setAccessibleDescription(text());
+}
+
+void FaultBanner::note(const Telemetry& telemetry, QTime now) {
+    const bool another =
+        telemetry.state == InterlockState::Disconnected || telemetry.trainsDelivered < trains_ || telemetry.at < at_;
+    if (another) unseen_ = broken_ = notEvaluated_ = false;
+    if (!another && telemetry.trainsDelivered > trains_ && toSeconds(telemetry.at - at_) > kKeptInTable_s)
+        unseen_ = true;
+    for (const auto& row : telemetry.exposure()) {
+        if (std::isnan(row.limit) || row.action == LimitAction::Disclose) continue;
+        if (!row.evaluated)
+            notEvaluated_ = true;
+        else if (!row.within)
+            broken_ = true;
+    }
+    if (telemetry.state == InterlockState::Faulted && state_ != InterlockState::Faulted)
+        faultedAt_ = state_ == InterlockState::Disconnected ? QTime() : now;
+    at_ = telemetry.at;
+    state_ = telemetry.state;
+    trains_ = telemetry.trainsDelivered;
+}
+
+/// That limits were kept only where the gate judged every train, and the fault does not tell otherwise.
+QString FaultBanner::outputWords(const Telemetry& telemetry) const {
+    const auto off = tr("Output is off and stays off.");
+    const auto trains = telemetry.trainsDelivered;
+    if (trains == 0) return tr("%1 No train was delivered.").arg(off);
+    const auto delivered = trains == 1 ? tr("1 train was delivered") : tr("%1 trains were delivered").arg(trains);
+    if (unseen_ || broken_ || telemetry.exposure().empty() || !saysNothingOfTrains(telemetry.fault))
+        return QString("%1 %2.").arg(off, delivered);
+    return (notEvaluated_ ? tr("%1 %2, within every limit that was evaluated.") : tr("%1 %2, within all limits."))
+        .arg(off, delivered);
 }
 
 QString FaultBanner::text() const { return cause_->text() + "\n" + output_->text() + "\n" + next_->text(); }

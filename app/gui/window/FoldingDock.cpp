@@ -78,11 +78,12 @@ void FoldingDock::setContent(QWidget* content, Room room) {
         rows->addStretch();
         area->setWidget(inside_);
         bar_ = area->verticalScrollBar();
-        bar_->installEventFilter(this);
         content = area;
     } else if (auto* area = qobject_cast<QScrollArea*>(content)) {
         inside_ = area->widget();
+        bar_ = area->verticalScrollBar();
     }
+    if (bar_ != nullptr) bar_->installEventFilter(this);
     if (content->toolTip().isEmpty()) content->setWhatsThis(tr("%1. The arrow keys scroll it.").arg(title_->text()));
     column->addWidget(content);
     setWidget(body);
@@ -136,7 +137,7 @@ bool FoldingDock::eventFilter(QObject* watched, QEvent* event) {
 
 void FoldingDock::dress() {
     header_->updateGeometry();
-    picture_->setPixmap(iconPixmap(icon_, colours().text, kDockIcon, devicePixelRatioF()));
+    picture_->setPixmap(iconPixmap(icon_, colours().text, scaledPx(kDockIcon), devicePixelRatioF()));
     toggle_->setIcon(icon(folded_ ? "chevron-right" : "chevron-down"));
     const auto says = folded_ ? tr("Unfold %1") : tr("Fold %1");
     toggle_->setAccessibleName(says.arg(windowTitle()));

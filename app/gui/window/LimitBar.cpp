@@ -5,6 +5,7 @@
 #include <span>
 
 #include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/ExposureText.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -20,37 +21,6 @@ constexpr double kTie = 1e-9;  // relative: shares that differ by less are equal
 QString whereJudged(const ExposureRow& row) {
     if (row.quantity == Quantity::NetCharge) return QObject::tr("measured, of the last pulse's phase charge");
     return row.judged == JudgedAt::Ohm500 ? QObject::tr("into 500 Ω") : QObject::tr("worst case over the load range");
-}
-
-/// Far below its limit no finer than a hundredth of it: "0.05 %" of 1 %. Nothing smaller matters there.
-QString valueText(const ExposureRow& row) {
-    const auto unit = qtext(row.unit);
-    if (unit != "%" || !(row.value < row.limit / 10)) return quantityText(row.value, unit, 3);
-    const double step = row.limit / 100;
-    if (row.value > 0 && row.value < step) return QStringLiteral("< ") + settingText(step, unit);
-    return settingText(std::round(row.value / step) * step, unit);
-}
-
-/// "0.82 of 10 mA": three digits, and no more decimals than matter beside the limit.
-QString briefText(const ExposureRow& row) {
-    auto limit = settingText(row.limit, qtext(row.unit));
-    if (needsArea(row.quantity)) limit.remove(QStringLiteral("/cm²"));  // the title has it
-    const double share = row.value / row.limit;
-    const auto end = limit.indexOf(QChar(0x202f));
-    bool isNumber = false;
-    const double number = limit.left(end).toDouble(&isNumber);
-    if (!isNumber || !(number > 0) || !std::isfinite(share)) return valueText(row) + QObject::tr(" of ") + limit;
-    const double value = share * number;
-    const int most = number < 1 ? 3 : number < 100 ? 2 : 1;
-    const double least = std::pow(10.0, -most);
-    if (value > 0 && value < least) return QObject::tr("< %1 of %2").arg(decimalText(least, most), limit);
-    const int digits = value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2;
-    const auto point = limit.left(end).indexOf('.');
-    const int limitDecimals = point < 0 ? 0 : int(end - point - 1);
-    const int decimals = std::max(std::min(most, digits == 2 && number < 1 ? 3 : digits), limitDecimals);
-    const auto said = decimalText(value, decimals);
-    if (value > number && !(said.toDouble() > number)) return QObject::tr("> %1").arg(limit);
-    return QObject::tr("%1 of %2").arg(said, limit);
 }
 
 }  // namespace
@@ -71,7 +41,7 @@ std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows, const std
 }
 
 LimitBar::LimitBar(const QString& title, QWidget* parent, Shape shape)
-    : QWidget(parent), title_(title), shape_(shape), text_("–"), brief_(text_), share_(std::nan("")) {
+    : QWidget(parent), title_(title), shape_(shape), text_("–"), share_(std::nan("")) {
     setAccessibleName(title);
     setToolTip(tr("%1: no output has been set up yet.").arg(title_));
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
@@ -96,11 +66,10 @@ void LimitBar::show(const std::optional<ExposureRow>& row, std::span<const Limit
     } else if (!evaluated_) {
         text_ = tr("not evaluated");
     } else if (limited_) {
-        text_ = tr("%1 of %2").arg(valueText(*row), settingText(row->limit, qtext(row->unit)));
+        text_ = valueOfLimitText(*row);
     } else {
         text_ = quantityText(row->value, qtext(row->unit), 3);
     }
-    brief_ = limited_ && evaluated_ ? briefText(*row) : text_;
     if (text_ == before && !(share_ != shareBefore && !std::isnan(share_))) return;
     if (row) {
         const auto name = qtext(titleOf(row->quantity));
@@ -115,7 +84,7 @@ void LimitBar::show(const std::optional<ExposureRow>& row, std::span<const Limit
 
 bool LimitBar::fits() const {
     const QFontMetrics metrics(textFont(TextSize::Small));
-    const int title = metrics.horizontalAdvance(title_), said = metrics.horizontalAdvance(numbers());
+    const int title = metrics.horizontalAdvance(title_), said = metrics.horizontalAdvance(text_);
     return shape_ == Shape::Line ? title + scaledPx(kBarWidth / 8) + said <= width() : std::max(title, said) <= width();
 }
 
@@ -138,13 +107,13 @@ void LimitBar::paintEvent(QPaintEvent*) {
     const bool oneLine = shape_ == Shape::Line;
     const QRect top(0, 0, width(), line);
     const QRect bottom(0, height() - line, width(), line);
-    const int taken = oneLine ? metrics.horizontalAdvance(numbers()) + scaledPx(kBarWidth / 8) : 0;
+    const int taken = oneLine ? metrics.horizontalAdvance(text_) + scaledPx(kBarWidth / 8) : 0;
     painter.setPen(oneLine ? c.text : c.quiet);
     painter.drawText(top, Qt::AlignLeft | Qt::AlignVCenter,
                      metrics.elidedText(title_, Qt::ElideRight, width() - taken));
     painter.setPen(share_ >= 0.8 && oneLine ? c.amberText : c.text);
     painter.drawText(oneLine ? top : bottom, (oneLine ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter,
-                     metrics.elidedText(numbers(), Qt::ElideRight, width()));
+                     metrics.elidedText(text_, Qt::ElideRight, width()));
     if (known_ && !limited_ && evaluated_) return;
     const int room = height() - (oneLine ? 1 : 2) * line - 2 * kBarLineGap;
     const QRectF frame(0.5, line + kBarLineGap + 0.5, width() - 1.0, std::max(4, room) - 1.0);

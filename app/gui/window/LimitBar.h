@@ -28,10 +28,8 @@ public:
     void show(const std::optional<ExposureRow>& row, std::span<const LimitSet> sets = {});
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
-    /// "820 µA of 10 mA", "not evaluated", "–": for screen readers.
+    /// "0.82 of 10 mA", "not evaluated", "–": what is painted, and for screen readers.
     [[nodiscard]] QString text() const { return text_; }
-    /// What is painted; in a line the number in the unit of its limit: "0.82 of 10 mA".
-    [[nodiscard]] const QString& numbers() const { return shape_ == Shape::Line ? brief_ : text_; }
     /// Whether title and numbers have room beside each other; stacked, one above the other.
     [[nodiscard]] bool fits() const;
     /// Share of the limit, 0 to 1 and above; NaN without a limit or a value.
@@ -44,7 +42,6 @@ private:
     QString title_;
     Shape shape_;
     QString text_;
-    QString brief_;
     double share_;
     bool known_ = false;
     bool limited_ = false;

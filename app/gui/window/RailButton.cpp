@@ -16,15 +16,23 @@ constexpr int kRailWidth = 96;
 constexpr int kRailNarrow = 56;  // without the word
 constexpr int kRailCell = 64;
 constexpr int kRailLow = 640;
+constexpr int kRailNarrowCell = 56;
 constexpr int kRailLowCell = 44;
+constexpr int kAroundIcon = 8;  // at least
 constexpr int kRailLeft = 12;
 constexpr int kRailIcon = 24;
 constexpr int kRailBar = 4;
 constexpr double kRailNarrowFrom_pt = 15;  // with text this large the word would take the room of the data
 
+bool isLow(const QWidget& button) { return button.window()->height() < kRailLow; }
+
 /// Icons alone, where text is large or the window is too low for all the cells.
-bool isNarrow(const QWidget& button) {
-    return QApplication::font().pointSizeF() > kRailNarrowFrom_pt || button.window()->height() < kRailLow;
+bool isNarrow(const QWidget& button) { return QApplication::font().pointSizeF() > kRailNarrowFrom_pt || isLow(button); }
+
+/// An icon grows with the text, as far as its cell has room.
+int railIcon(const QWidget& button) {
+    const int most = (isLow(button) ? kRailLowCell : kRailNarrowCell) - 2 * kAroundIcon;
+    return isNarrow(button) ? std::min(scaledPx(kRailIcon), most) : scaledPx(kRailIcon);
 }
 
 }  // namespace
@@ -40,7 +48,7 @@ RailButton::RailButton(QAction* action, QString iconName, QWidget* parent)
 }
 
 QSize RailButton::sizeHint() const {
-    if (isNarrow(*this)) return {kRailNarrow, kRailLowCell};
+    if (isNarrow(*this)) return {kRailNarrow, isLow(*this) ? kRailLowCell : kRailNarrowCell};
     const QFontMetrics words(textFont(TextSize::Small));
     return {std::max(kRailWidth, words.horizontalAdvance("Safety check") + kRailLeft + kRailBar), scaledPx(kRailCell)};
 }
@@ -54,16 +62,17 @@ void RailButton::paintEvent(QPaintEvent* /*event*/) {
     } else if (underMouse()) {
         painter.fillRect(rect(), c.sunken);
     }
-    const auto picture = iconPixmap(icon_, isEnabled() ? c.text : c.edge, kRailIcon, devicePixelRatioF());
+    const int size = railIcon(*this);
+    const auto picture = iconPixmap(icon_, isEnabled() ? c.text : c.edge, size, devicePixelRatioF());
     if (isNarrow(*this)) {
-        painter.drawPixmap((width() - kRailIcon) / 2, (height() - kRailIcon) / 2, picture);
+        painter.drawPixmap((width() - size) / 2, (height() - size) / 2, picture);
     } else {
         painter.setFont(textFont(TextSize::Small));
         const int word = painter.fontMetrics().height();
-        const int top = (height() - kRailIcon - word) / 2;
+        const int top = (height() - size - word) / 2;
         painter.drawPixmap(kRailLeft, top, picture);
         painter.setPen(isEnabled() ? c.text : c.edge);
-        painter.drawText(QRect(kRailLeft, top + kRailIcon, width() - kRailLeft, word), Qt::AlignLeft | Qt::AlignVCenter,
+        painter.drawText(QRect(kRailLeft, top + size, width() - kRailLeft, word), Qt::AlignLeft | Qt::AlignVCenter,
                          defaultAction()->text());
     }
     if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;

@@ -9,9 +9,11 @@
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/ExposureNow.h"
 #include "app/gui/window/FaultBanner.h"
 #include "app/gui/window/LimitBarRow.h"
 #include "app/gui/window/StateBlock.h"
+#include "app/gui/window/StateWords.h"
 #include "app/gui/window/StopButton.h"
 #include "core/safety/TrainCheck.h"
 #include "core/safety/TrainExposure.h"
@@ -66,33 +68,6 @@ std::optional<ExposureRow> netCharge(const Telemetry& telemetry) {
     return row;
 }
 
-/// The sentence under the state's word.
-QString reasonOf(const Telemetry& telemetry) {
-    const auto reason = QString::fromUtf8(telemetry.reason.c_str());
-    switch (telemetry.state) {
-        case InterlockState::Disconnected:
-            return SafetyBar::tr("No stimulator is open.");
-        case InterlockState::Faulted:
-            return SafetyBar::tr("Output is off.");
-        case InterlockState::Disarmed:
-            return reason.isEmpty() ? SafetyBar::tr("Output is off. “Arm…” asks before anything flows.")
-                                    : SafetyBar::tr("Output is off: %1. “Arm…” goes on.").arg(reason);
-        case InterlockState::Checking:
-            return SafetyBar::tr("One small pulse measures the impedance.");
-        case InterlockState::Delivering:
-            return telemetry.driving == DriveSource::Sensor
-                       ? SafetyBar::tr("From the fingertip. Space stops.")
-                       : SafetyBar::tr("Set by hand or by a protocol. Space stops.");
-        case InterlockState::Paused:
-            return SafetyBar::tr("No train is delivered until you resume.");
-        case InterlockState::Armed:
-            return telemetry.driving == DriveSource::Off      ? SafetyBar::tr("Choose a drive to deliver.")
-                   : telemetry.driving == DriveSource::Sensor ? SafetyBar::tr("The fingertip drives it. Space stops.")
-                                                              : SafetyBar::tr("The next train follows. Space stops.");
-    }
-    return {};
-}
-
 }  // namespace
 
 SafetyBar::SafetyBar(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent)
@@ -131,9 +106,6 @@ QWidget* SafetyBar::buildFacts() {
     column->setContentsMargins(kBarGap, 0, kBarGap, 0);
     column->setSpacing(0);
     load_ = new ElidedLabel(holder);
-    load_->setToolTip(
-        tr("Impedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
-           "measured again before the next train."));
     device_ = new ElidedLabel(holder);
     calibration_ = new ElidedLabel(holder);
     calibration_->setObjectName("calibrationAge");
@@ -226,7 +198,9 @@ void SafetyBar::giveRoom() {
     const int facts = std::max(calibrated, unmeasured) + 2 * kBarGap;
     block_->fit(width() - always);
     const int left = width() - always - block_->width();
-    facts_->setFixedWidth(left < facts / 2 ? 0 : std::min(left, facts));  // three ellipses say nothing
+    factsFit_ = left >= facts / 2;  // three ellipses say nothing
+    facts_->setFixedWidth(std::min(left, facts));
+    facts_->setVisible(factsFit_ && state_ != InterlockState::Faulted);
 }
 
 QSize SafetyBar::minimumSizeHint() const {
@@ -247,12 +221,11 @@ void SafetyBar::resizeEvent(QResizeEvent* event) {
 void SafetyBar::refresh(const Telemetry& telemetry) {
     showState(telemetry);
     const bool faulted = telemetry.state == InterlockState::Faulted;
-    facts_->setVisible(!faulted);
+    facts_->setVisible(!faulted && factsFit_);
     bars_->setVisible(!faulted && !blind_);
     blindFacts_->setVisible(!faulted && blind_);
     if (blind_) showBlind(telemetry);
-    if (faulted) fault_->show(telemetry);
-    fault_->setVisible(faulted);
+    fault_->refresh(telemetry);
     showDevice(telemetry);
     showExposure(telemetry);
     showButtons(telemetry.state);
@@ -269,8 +242,15 @@ void SafetyBar::showState(const Telemetry& telemetry) {
     if (hidden)
         block_->show(InterlockState::Armed, tr("The session presents and asks. Space stops."), false);
     else
-        block_->show(telemetry.state, closed ? tr("A run closed the open bench.") : reasonOf(telemetry), pulse_ > 0);
+        block_->show(telemetry.state, closed ? tr("A run closed the open bench.") : stateWords(telemetry, protocol()),
+                     pulse_ > 0);
     if (pulse_ > 0) --pulse_;
+}
+
+/// The one that has the bench; empty while a person has it.
+QString SafetyBar::protocol() const {
+    const auto open = controller_.open();
+    return open && controller_.activity() == Activity::Running ? procedureText(open->about.protocol) : QString();
 }
 
 void SafetyBar::showDevice(const Telemetry& telemetry) {
@@ -294,6 +274,9 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
         : std::isfinite(telemetry.impedance_ohm)
             ? QString("%1 · %2").arg(quantityText(telemetry.impedance_ohm, "ohm", 3), ageText(telemetry.impedanceAge_s))
             : tr(kUnmeasured));
+    load_->setToolTip(tr("%1\nImpedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
+                         "measured again before the next train.")
+                          .arg(load_->text()));
     showCalibration();
 }
 
@@ -310,17 +293,21 @@ void SafetyBar::showCalibration() {
     if (calibration_->text() != text) {
         calibration_->setText(text);
         calibration_->setToolTip(
-            standing ? titled(whole) + ". " + standingTip(*standing)
+            standing ? (counts ? text + ". " : QString()) + titled(whole) + ". " + standingTip(*standing)
                      : tr("Calibration of the stimulator. Without a valid one it is for bench loads only."));
     }
     setTone(*calibration_, counts ? Tone::Text : Tone::Warning);
 }
 
 void SafetyBar::showExposure(const Telemetry& telemetry) {
+    const auto rows = exposureNow(telemetry);
+    const bool off = outputIsOff(telemetry.state);
     for (std::size_t i = 0; i < allBars().size(); ++i) {
         const auto& quantities = allBars()[i].quantities;
-        const auto row = quantities.empty() ? netCharge(telemetry) : tightest(telemetry.exposure(), quantities);
+        const auto row = quantities.empty() ? netCharge(telemetry) : tightest(rows, quantities);
         bars_->show(i, row, controller_.limits().sets);
+        // It was measured, and stays that of the last pulse.
+        if (quantities.empty()) bars_->setTitle(i, off && row ? tr("Last net charge") : tr(allBars()[i].title));
         // The command against the profile's ceiling and the peak against the limit set's are two things.
         if (i == kPeakBar) bars_->setTitle(i, row ? shortRowTitle(*row) : tr(allBars()[i].title));
     }

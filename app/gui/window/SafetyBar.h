@@ -61,6 +61,7 @@ private:
     void showBlind(const Telemetry& telemetry);
     void giveRoom();
     void showState(const Telemetry& telemetry);
+    [[nodiscard]] QString protocol() const;
     void showDevice(const Telemetry& telemetry);
     void showCalibration();
     void showExposure(const Telemetry& telemetry);
@@ -89,6 +90,7 @@ private:
     QPushButton* details_ = nullptr;  ///< in its place while faulted
     StopButton* stop_ = nullptr;
     std::uint64_t trainsSeen_ = 0;
+    bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash that goes with each train
     InterlockState state_ = InterlockState::Disconnected;
 };

@@ -12,17 +12,27 @@ namespace {
 
 using nlohmann::json;
 
-bool isOfALimit(const SafetyRow& row) {
-    return std::isfinite(row.limit) && row.limit > 0 && !row.load.empty() && row.item != "reference" &&
-           row.item != "time_reference";
+bool isTripRow(const SafetyRow& row) { return row.item == "trip"; }
+
+bool isShown(const SafetyRow& row) {
+    if (row.load.empty() || row.item == "reference" || row.item == "time_reference") return false;
+    return isTripRow(row) || (std::isfinite(row.limit) && row.limit > 0);
 }
 
 LimitCell cellOf(const SafetyRow& row) {
     LimitCell cell{row.value, row.expanded, std::nan(""), row.verdict, row.note};
     if (row.basis == RowBasis::Commanded) cell.expanded = 0;  // a command is what it was
-    if (std::isfinite(cell.value) && cell.expanded >= 0)
+    if (std::isfinite(row.limit) && std::isfinite(cell.value) && cell.expanded >= 0)
         cell.margin_pct = 100 * (row.limit - cell.value - cell.expanded) / row.limit;
     return cell;
+}
+
+/// Output must end by itself whether or not trains run when the circuit opens: the longer time, the worse verdict.
+LimitCell worseOf(const LimitCell& a, const LimitCell& b) {
+    auto worse = a;
+    worse.value = std::fmax(a.value, b.value);
+    worse.verdict = summaryOf({a.verdict, b.verdict});
+    return worse;
 }
 
 /// What its limit set says of it; the laboratory's own limits are in none.
@@ -84,20 +94,23 @@ LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& 
         return matrix.loads.size() - 1;
     };
     const auto add = [&](const SafetyRow& row, const std::string& load) {
-        if (!isOfALimit(row)) return;
+        if (!isShown(row)) return;
         const auto column = columnOf(load);
         const auto same = [&](const LimitLine& line) {
-            return line.item == row.item && line.set == row.set && line.limit == row.limit && line.source == row.source;
+            return line.item == row.item && line.set == row.set && line.source == row.source &&
+                   (line.limit == row.limit || isTripRow(row));
         };
         auto line = std::find_if(matrix.lines.begin(), matrix.lines.end(), same);
         if (line == matrix.lines.end()) {
             LimitLine begun;
-            begun.item = row.item, begun.title = row.title, begun.unit = row.unit, begun.set = row.set;
+            begun.item = row.item, begun.title = isTripRow(row) ? "output ends by itself" : row.title;
+            begun.unit = isTripRow(row) ? "s" : row.unit, begun.set = row.set;
             begun.limit = row.limit, begun.source = row.source;
             line = matrix.lines.insert(matrix.lines.end(), std::move(begun));
         }
         if (line->cells.size() <= column) line->cells.resize(column + 1);
-        line->cells[column] = cellOf(row);
+        auto& cell = line->cells[column];
+        cell = cell && isTripRow(row) ? worseOf(*cell, cellOf(row)) : cellOf(row);
     };
     for (const auto& row : found.rows) add(row, row.load);
     for (const auto& row : found.worstCase.rows) add(row, kExtrapolatedColumn);
@@ -133,7 +146,7 @@ json toJson(const LimitMatrix& matrix) {
                          {"title", line.title},
                          {"unit", line.unit},
                          {"set", line.set},
-                         {"limit", line.limit},
+                         {"limit", numberOrNull(line.limit)},
                          {"compare", line.strict ? "<" : "<="},
                          {"source", line.source},
                          {"confidence", line.confidence.empty() ? json() : json(line.confidence)},

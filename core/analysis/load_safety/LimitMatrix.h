@@ -1,5 +1,6 @@
 // LimitMatrix.h - limits x loads: every limit once, what was measured against it on each load, and how much of the
-// limit is left. Made from the rows of a load-safety check, so that it can say nothing that they do not.
+// limit is left; and whether the output ended by itself on an open and on a short circuit. Made from the rows of a
+// load-safety check, so that it can say nothing that they do not.
 //
 // Thread-safety: plain data and pure functions.
 #pragma once
@@ -24,8 +25,8 @@ struct LimitCell {
 
 struct LimitLine {
     std::string item, title, unit, set;
-    double limit = std::numeric_limits<double>::quiet_NaN();
-    bool strict = false;     ///< "<" and not "≤"
+    double limit = std::numeric_limits<double>::quiet_NaN();  ///< NaN: output must end before the next train (H3)
+    bool strict = false;                                      ///< "<" and not "≤"
     std::string source;      ///< document and clause
     std::string confidence;  ///< in that source, as its limit set states it; empty for this program's own
     double margin_pct = std::numeric_limits<double>::quiet_NaN();  ///< the smallest of the cells
@@ -43,8 +44,9 @@ struct LimitMatrix {
 /// `sets`: those that `found` was judged by; they say what kind of limit it is and how sure its source.
 [[nodiscard]] LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& sets);
 
-/// {"loads": [...], "lines": [{"item","title","unit","set","limit","compare","source","confidence","margin_pct",
-/// "worst_load","verdict","cells": [null or {"load","value","expanded_uncertainty","margin_pct","note","verdict"}]}]}
+/// {"loads": [...], "lines": [{"item","title","unit","set","limit" (null: NaN),"compare","source","confidence",
+/// "margin_pct","worst_load","verdict",
+/// "cells": [null or {"load","value","expanded_uncertainty","margin_pct","note","verdict"}]}]}
 [[nodiscard]] nlohmann::json toJson(const LimitMatrix& matrix);
 
 }  // namespace tacto

@@ -147,12 +147,13 @@ LoadSafety judgeLoadSafety(const LoadSafetyInput& input) {
     LoadSafety out;
     for (const auto& record : input.loads) {
         if (isTrip(record)) {
-            // Judged by the trip alone: its row is among the trips.
+            // Judged by its trips alone: their rows are among the trips.
             LoadLine line;
             line.name = record.name;
-            for (const auto& trip : tripRows(input)) {
-                if (trip.load == record.name && trip.item == "trip") line.verdict = trip.verdict;
-            }
+            std::vector<RowVerdict> verdicts;
+            for (const auto& trip : tripRows(input))
+                if (trip.load == record.name) verdicts.push_back(trip.verdict);
+            line.verdict = summaryOf(verdicts);
             out.loads.push_back(std::move(line));
             continue;
         }

@@ -171,7 +171,8 @@ std::vector<SafetyRow> tripRows(const LoadSafetyInput& input) {
     std::vector<SafetyRow> rows;
     for (const auto name : kRequiredTrips) {
         SafetyRow row;
-        row.load = name == "open" || name == "short" ? name : "";
+        for (const std::string_view load : {"open", "short"})
+            if (name.starts_with(load)) row.load = load;
         row.item = "trip";
         row.title = fmt::format("trip: {}", name);
         row.set = "interlock";

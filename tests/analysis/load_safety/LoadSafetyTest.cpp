@@ -2,6 +2,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "core/analysis/load_safety/LimitMatrix.h"
 #include "core/analysis/load_safety/LoadSafety.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 #include "tests/analysis/load_safety/LoadCaptures.h"
@@ -76,6 +77,52 @@ TEST_F(LoadSafetyCheck, PassesWhenEverythingIsMeasuredAndWithin) {
     EXPECT_EQ(found.worstCase.verdict, RowVerdict::Pass);
     EXPECT_GE(found.worstCase.amplitudeFactor.value, 1.0);
     EXPECT_LE(found.worstCase.amplitudeFactor.value, 1.01);
+}
+
+/// The matrix' line of what must end by itself, and its cells of an open and a short circuit.
+class LoadSafetyTrips : public LoadSafetyCheck {
+protected:
+    TripTrial& trip(std::string_view name) {
+        return *std::find_if(input.trips.begin(), input.trips.end(), [&](const auto& t) { return t.name == name; });
+    }
+    const LimitLine& line() {
+        matrix = limitMatrixOf(judgeLoadSafety(input), input.limits);
+        return *std::find_if(matrix.lines.begin(), matrix.lines.end(), [](const auto& l) { return l.item == "trip"; });
+    }
+    const LimitCell& cell(std::string_view load) {
+        const auto at = std::find(matrix.loads.begin(), matrix.loads.end(), load) - matrix.loads.begin();
+        return line().cells.at(static_cast<std::size_t>(at)).value();
+    }
+
+    LimitMatrix matrix;
+};
+
+TEST_F(LoadSafetyTrips, AreALineOfTheMatrixWithTheLongerTime) {
+    trip("open while delivering").after_s = 0.49;
+    EXPECT_EQ(line().title, "output ends by itself");
+    EXPECT_EQ(line().verdict, RowVerdict::Pass);
+    EXPECT_EQ(std::count_if(line().cells.begin(), line().cells.end(), [](const auto& c) { return c.has_value(); }), 2);
+    EXPECT_EQ(cell("open").value, 0.49);
+    EXPECT_EQ(cell("short").value, 0.1);
+    EXPECT_TRUE(std::isnan(cell("open").margin_pct)) << "a time before the next train, and no limit in seconds";
+    EXPECT_TRUE(toJson(matrix)["lines"].back()["limit"].is_null());
+}
+
+TEST_F(LoadSafetyTrips, OneThatDidNotEndTheOutputFailsItsLoadAndStandsFirst) {
+    RecordProperty("hazard", "H3");
+    for (const auto* name : {"short", "short while delivering"}) {
+        trip(name).tripped = false;
+        EXPECT_EQ(cell("short").verdict, RowVerdict::Fail) << name;
+        EXPECT_EQ(cell("open").verdict, RowVerdict::Pass) << name;
+        EXPECT_EQ(matrix.lines.front().item, "trip") << name;
+        for (const auto& load : judgeLoadSafety(input).loads) {
+            EXPECT_EQ(load.verdict, load.name == "short" ? RowVerdict::Fail : RowVerdict::Pass) << load.name;
+        }
+        trip(name).tripped = true;
+        trip(name).evaluated = false;
+        EXPECT_EQ(cell("short").verdict, RowVerdict::NotEvaluated) << name << " unknown is not a pass";
+        trip(name).evaluated = true;
+    }
 }
 
 TEST_F(LoadSafetyCheck, WithoutAnElectrodeAreaIsNoPassAndSaysSoOnce) {

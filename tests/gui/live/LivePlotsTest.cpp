@@ -254,6 +254,7 @@ TEST_F(Plots, WhileAFaultHoldsTheOutputOffTheTrainsAreShadedAndNoneIsCalledNotDe
     telemetry.at = toInstant(5);
     history.take(tap, telemetry);
     ask(5.5);
+    ask(4.98);  // the one that the fault took: its line says so
     telemetry.at = toInstant(6);
     history.take(tap, telemetry);
     t_s = 6;

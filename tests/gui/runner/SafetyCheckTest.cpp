@@ -42,7 +42,10 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_GE(matrix.columnCount(), 9);
     EXPECT_GE(matrix.height(), 300);
     EXPECT_LE(matrix.horizontalHeader()->length(), matrix.viewport()->width());
-    int judged = 0;
+    const auto trips = matrix.findItems("Output ends by itself", Qt::MatchExactly);
+    ASSERT_EQ(trips.size(), 1);
+    EXPECT_THAT(trips.first()->toolTip().toStdString(), HasSubstr("before the next train"));
+    int judged = 0, endsItself = 0;
     for (int row = 0; row < matrix.rowCount(); ++row) {
         for (int column = 1; column < matrix.columnCount(); ++column) {
             const auto* cell = matrix.item(row, column);
@@ -50,9 +53,12 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
             EXPECT_FALSE(cell->text().isEmpty());
             EXPECT_FALSE(cell->toolTip().contains('_')) << cell->toolTip().toStdString();
             judged += cell->text().startsWith("✔") ? 1 : 0;
+            endsItself +=
+                row == trips.first()->row() && cell->text().startsWith("✔") && cell->text().endsWith("s") ? 1 : 0;
         }
     }
     EXPECT_GT(judged, 50);
+    EXPECT_EQ(endsItself, 2) << "on an open and on a short circuit";
     EXPECT_THAT(primaries(), testing::ElementsAre("Sign report…"));
     shot(*workspace, "safety_result");
     // The tracing stands below the limits; the outputs join it where there is room for both.

@@ -1,7 +1,9 @@
 // The oscilloscope in small and large windows, with small and large text, light and dark.
+#include <QMenu>
 #include <QScrollArea>
 #include <QTableWidget>
 #include <QToolButton>
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/Theme.h"
@@ -19,6 +21,14 @@ protected:
     ~ScopeSizes() override {
         writeAt(before_.pointSizeF());
         gui::applyTheme(gui::Theme::Light);
+    }
+
+    /// Tools that have no room stand in the menu of the last button of their row.
+    bool isInMoreTools(const char* name) {
+        auto* more = scope.findChild<QToolButton*>("moreTools");
+        if (more == nullptr || !more->isVisible()) return false;
+        emit more->menu()->aboutToShow();
+        return std::ranges::any_of(more->menu()->actions(), [&](const auto* action) { return action->text() == name; });
     }
 
 private:
@@ -50,6 +60,7 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
     }
     for (const auto* name : {"Run", "Single", "Auto", "Fit", "Time cursors", "Mask", "Save", "Controls"}) {
         auto* button = find<QAbstractButton>(scope, name);
+        if (button == nullptr && isInMoreTools(name)) continue;
         ASSERT_NE(button, nullptr) << name;
         EXPECT_TRUE(all.contains(QRect(button->mapTo(&scope, QPoint()), button->size()))) << name;
     }

@@ -57,6 +57,23 @@ TEST(ExposureTable, ANewValueDrawsItsBarAgainAlsoWhereItStandsUnderTheQuantity) 
     }
 }
 
+TEST(ExposureTable, AValueStandsInTheUnitOfItsLimit) {
+    RecordProperty("hazard", "H9");
+    gui::ExposureTable table;
+    table.resize(1200, 300);
+    const auto shown = [&](double value) {
+        auto row = peak(value);
+        row.quantity = Quantity::RmsCurrent5s;
+        row.unit = "mA";
+        row.limit = 10;
+        table.show(std::span(&row, 1), {});
+        return table.item(1, 1)->text().replace(QChar(0x202f), ' ').toStdString();
+    };
+    EXPECT_EQ(shown(0.69), "0.69 mA") << "beside 10 mA, not 690 µA";
+    EXPECT_EQ(shown(0.0004), "< 0.01 mA");
+    EXPECT_EQ(shown(0), "0 mA");
+}
+
 TEST(ExposureTable, LimitSetsStandUnderTheirTitles) {
     LimitSet set;
     set.id = "paper";

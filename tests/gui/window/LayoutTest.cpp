@@ -2,6 +2,7 @@
 #include <QAbstractSpinBox>
 #include <QDockWidget>
 #include <QLineEdit>
+#include <QMenu>
 #include <QMenuBar>
 #include <QSplitter>
 #include <QStackedWidget>
@@ -297,6 +298,66 @@ TEST_F(Layout, InLargeTextEveryDockIsInSightInTheStrip) {
     shot(window, "strip-200");
     gui::applyTextSize(100);
     window.showWorkspace(0);
+}
+
+/// The rows from the first to the last pixel of text's colour, without a word beside the icon.
+int inkHeight(const QWidget& widget) {
+    const QRect icon(5, 0, widget.width() - 10, std::min(widget.width(), widget.height()));
+    const auto picture = widget.window()->grab(icon.translated(widget.mapTo(widget.window(), QPoint()))).toImage();
+    int first = -1, last = -1;
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            if (contrast(picture.pixelColor(x, y), gui::colours().text) > 1.5) continue;
+            if (first < 0) first = y;
+            last = y;
+        }
+    }
+    return last - first + 1;
+}
+
+TEST_F(Layout, IconsGrowWithTheText) {
+    window.resize(1280, 600);  // the rail without words at either size
+    window.showWorkspace(5);
+    auto& rail = *bar("workspaces").findChild<QToolButton*>("workspaceButton");
+    auto& strip = *find<QToolButton>(bar("dockStrip"), "Drive");
+    const int railBefore = inkHeight(rail), stripBefore = inkHeight(strip);
+    ASSERT_GT(railBefore, 5);
+    ASSERT_GT(stripBefore, 5);
+    gui::applyTextSize(200);
+    window.resize(1280, 720);
+    EXPECT_IN_TIME(comesTrue([&] { return inkHeight(rail) >= 1.5 * railBefore; })) << inkHeight(rail);
+    EXPECT_IN_TIME(comesTrue([&] { return inkHeight(strip) >= 1.8 * stripBefore; })) << inkHeight(strip);
+    for (const auto* button : bar("workspaces").findChildren<QToolButton*>("workspaceButton"))
+        EXPECT_TRUE(bar("workspaces").rect().contains(button->geometry())) << button->accessibleName().toStdString();
+    EXPECT_LE(bar("workspaces").width(), 60) << "the data keep the room";
+    gui::applyTextSize(100);
+    window.showWorkspace(0);
+}
+
+TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
+    open();
+    window.showWorkspace(0);
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    auto* more = window.findChild<QToolButton*>("moreTools");
+    window.resize(1920, 1080);
+    EXPECT_IN_TIME(comesTrue([&] { return !more->isVisible(); })) << "there is room for all of them";
+    auto* cursors = find<QToolButton>(window, "Time cursors");
+    ASSERT_NE(cursors, nullptr);
+    gui::applyTextSize(200);
+    window.resize(1280, 720);
+    EXPECT_IN_TIME(comesTrue([&] { return more->isVisible() && !cursors->isVisible(); }));
+    EXPECT_EQ(more->visibleRegion().boundingRect().size(), more->size());
+    emit more->menu()->aboutToShow();
+    QAction* action = nullptr;
+    for (auto* each : more->menu()->actions())
+        if (each->text() == "Time cursors") action = each;
+    ASSERT_NE(action, nullptr);
+    action->trigger();
+    EXPECT_TRUE(cursors->isChecked()) << "as a click on it";
+    gui::applyTextSize(100);
+    window.resize(1920, 1080);
+    EXPECT_IN_TIME(comesTrue([&] { return cursors->isVisible() && !more->isVisible(); }));
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
 }
 
 TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen) {

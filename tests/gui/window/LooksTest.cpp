@@ -52,6 +52,33 @@ TEST_F(Window, LooksRightInBothThemesAndSizes) {
     gui::applyTheme(gui::Theme::Light);
 }
 
+TEST_F(Window, LooksRightWithTextAtTwiceTheSize) {
+    open();
+    gui::applyTextSize(200);
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (const auto size : {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)}) {
+            window.resize(size);
+            for (int page = 0; page < 8; ++page) {  // the oscilloscope is the last
+                window.showWorkspace(page % 7);
+                window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page / 7);
+                static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 1500));
+                const auto name = QString("window-200-%1-%2-%3")
+                                      .arg(theme == gui::Theme::Dark ? "dark" : "light")
+                                      .arg(size.width())
+                                      .arg(page);
+                shot(window, name);
+                EXPECT_EQ(faultsOf(window), "") << name.toStdString();
+            }
+            EXPECT_LE(window.width(), size.width());
+            EXPECT_LE(window.height(), size.height());
+        }
+    }
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
+    gui::applyTextSize(100);
+    gui::applyTheme(gui::Theme::Light);
+}
+
 class DocksOfTheWindow : public Window {
 protected:
     ~DocksOfTheWindow() override { QSettings().remove("docks"); }

@@ -31,6 +31,7 @@ constexpr MeasuredRow kMeasured[] = {{"|Z| at the end of the leading phase", "me
                                      {"Energy of a pulse", "energy_mj", "mJ"},
                                      {"Current density", "current_density_ma_cm2", "mA/cm2"},
                                      {"Power density over 1 s", "power_density_w_cm2", "W/cm2", true}};
+constexpr const char* kBeforeNextTrain = "before the next train";
 constexpr std::size_t kCritical = 3;  // rows closest to their limits that are named before the matrix
 
 /// A list of the matrix; empty where nothing was analysed.
@@ -41,6 +42,8 @@ const Json& ofMatrix(const Json& found, const char* key) {
 }
 
 const Json& linesOf(const Json& found) { return ofMatrix(found, "lines"); }
+
+bool hasLimit(const Json& line) { return line.at("limit").is_number(); }
 
 /// The same limit from two documents is one row of the matrix; the table of sources has both.
 bool isSameLimit(const Json& a, const Json& b) {
@@ -65,6 +68,7 @@ Json limitRows(const Json& found) {
             Json row = line;
             row["sets"] = Json::array({line.at("set")});
             row.erase("set");
+            if (!hasLimit(line)) row["note"] = kBeforeNextTrain;
             rows.push_back(std::move(row));
         } else {
             (*same)["sets"].push_back(line.at("set"));
@@ -158,12 +162,17 @@ Json outputs(const Json& found) {
     return rows;
 }
 
+std::string limitText(const Json& line) {
+    if (!hasLimit(line)) return kBeforeNextTrain;
+    return fmt::format("{} {}", textIn(line, "compare") == "<" ? "<" : "≤",
+                       scaledText(numberIn(line, "limit"), textIn(line, "unit"), 3));
+}
+
 /// Where each limit comes from and how sure that is, once and not on every row.
 Json sources(const Json& found) {
     Json rows = Json::array();
     for (const auto& line : linesOf(found)) {
-        const auto limit = fmt::format("{} {} {}", textIn(line, "title"), textIn(line, "compare") == "<" ? "<" : "≤",
-                                       scaledText(numberIn(line, "limit"), textIn(line, "unit"), 3));
+        const auto limit = textIn(line, "title") + " " + limitText(line);
         const auto confidence = textIn(line, "confidence").empty() ? "our own" : textIn(line, "confidence");
         const auto same = std::ranges::find_if(rows, [&](const Json& row) {
             return row.at("source") == line.at("source") && row.at("confidence") == confidence;

@@ -1,0 +1,32 @@
+#include "app/gui/pilot/PilotOrder.h"
+
+#include "app/scripting/engine/ProtocolLibrary.h"
+
+namespace tacto::gui {
+
+Result<RunOrder> pilotOrder(const PilotStart& start, BenchController& controller) {
+    auto source = ProtocolLibrary().find(start.protocol);
+    if (!source) return failure(source);
+    auto declaration = readDeclaration(*source);
+    if (!declaration) return failure(declaration);
+    std::map<std::string, std::string> given{
+        {"participant", start.participant}, {"method", start.method}, {"modality", start.modality}};
+    if (!start.unfinished.empty()) given["unfinished"] = start.unfinished;
+    if (start.blocks) given["blocks"] = std::to_string(*start.blocks);
+    auto settings = applySettings(*declaration, given);
+    if (!settings) return failure(settings);
+    RunOrder order;
+    order.script = std::move(*source);
+    order.declaration = std::move(*declaration);
+    order.settings = std::move(*settings);
+    order.uris = start.devices;
+    order.needed = order.declaration.needs;
+    order.seed = start.seed;
+    order.realtime = start.person || start.realTime;
+    order.notes = controller.day().notes();
+    order.profile = controller.profile();
+    order.limits = controller.limits();
+    return order;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,24 @@
+#include "app/gui/window/ExposureNow.h"
+
+#include <cmath>
+
+namespace tacto::gui {
+
+bool outputIsOff(InterlockState state) {
+    return state == InterlockState::Disconnected || state == InterlockState::Disarmed ||
+           state == InterlockState::Faulted;
+}
+
+std::vector<ExposureRow> exposureNow(const Telemetry& telemetry) {
+    const auto booked = telemetry.exposure();
+    std::vector<ExposureRow> rows(booked.begin(), booked.end());
+    if (!outputIsOff(telemetry.state)) return rows;
+    for (auto& row : rows) {
+        if (!row.evaluated || std::isnan(row.value) || windowOf(row.quantity) > 0) continue;
+        row.value = 0;
+        row.within = true;
+    }
+    return rows;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,65 @@
+#include "app/gui/window/StateWords.h"
+
+#include <cmath>
+
+#include "app/gui/theme/Text.h"
+
+namespace tacto::gui {
+
+namespace {
+
+QString deliveringWords(const Telemetry& telemetry) {
+    const bool repeats = std::isfinite(telemetry.interval_s);
+    const auto every = repeats ? quantityText(telemetry.interval_s, "s", 3) : QString();
+    switch (telemetry.driving) {
+        case DriveSource::Manual:
+            return repeats ? QObject::tr("A train every %1, set by hand. Space stops.").arg(every)
+                           : QObject::tr("Set by hand. Space stops.");
+        case DriveSource::Sensor:
+            return repeats ? QObject::tr("From the fingertip, every %1. Space stops.").arg(every)
+                           : QObject::tr("From the fingertip. Space stops.");
+        case DriveSource::Off:
+            break;
+    }
+    return QObject::tr("The last train ends by itself. Space stops.");
+}
+
+QString armedWords(DriveSource driving) {
+    switch (driving) {
+        case DriveSource::Manual:
+            return QObject::tr("Set by hand: the next train follows. Space stops.");
+        case DriveSource::Sensor:
+            return QObject::tr("The fingertip drives it. Space stops.");
+        case DriveSource::Off:
+            break;
+    }
+    return QObject::tr("Choose a drive to deliver.");
+}
+
+}  // namespace
+
+QString stateWords(const Telemetry& telemetry, const QString& protocol) {
+    const auto reason = qtext(telemetry.reason.view());
+    switch (telemetry.state) {
+        case InterlockState::Disconnected:
+            return QObject::tr("No stimulator is open.");
+        case InterlockState::Faulted:
+            return QObject::tr("Output is off.");
+        case InterlockState::Disarmed:
+            return reason.isEmpty() ? QObject::tr("Output is off. “Arm…” asks before anything flows.")
+                                    : QObject::tr("Output is off: %1. “Arm…” goes on.").arg(reason);
+        case InterlockState::Checking:
+            return QObject::tr("One small pulse measures the impedance.");
+        case InterlockState::Delivering:
+            return protocol.isEmpty() ? deliveringWords(telemetry)
+                                      : QObject::tr("By the protocol %1. Space stops.").arg(protocol);
+        case InterlockState::Paused:
+            return QObject::tr("No train is delivered until you resume.");
+        case InterlockState::Armed:
+            return protocol.isEmpty() ? armedWords(telemetry.driving)
+                                      : QObject::tr("Armed by the protocol %1. Space stops.").arg(protocol);
+    }
+    return {};
+}
+
+}  // namespace tacto::gui

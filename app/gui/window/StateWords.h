@@ -1,0 +1,16 @@
+// StateWords.h - the sentence under the state's word: what is being done, by whom, and what to do next.
+//
+// Thread-safety: pure.
+#pragma once
+
+#include <QString>
+
+#include "core/bench/Telemetry.h"
+
+namespace tacto::gui {
+
+/// "A train every 500 ms, set by hand. Space stops." `protocol` is the name of the one that has the bench; empty: a
+/// person has it. What was commanded decides, not what was asked last.
+[[nodiscard]] QString stateWords(const Telemetry& telemetry, const QString& protocol);
+
+}  // namespace tacto::gui

@@ -1,0 +1,28 @@
+// PlotLooks.h - what can be judged of how plots look: words that are cut or lie over each other, legends over data.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QString>
+#include <QStringList>
+#include <QWidget>
+#include <qcustomplot.h>
+#include <vector>
+
+namespace tacto::test {
+
+/// A word of a plot as it is drawn: tick label, title of an axis, legend entry, item.
+struct PlotWord {
+    QString text;
+    QRectF ink;   ///< what its letters cover, in pixels of the plot
+    QRectF room;  ///< what it may cover: the plot, or what it is clipped to
+};
+/// All upright or quarter-turned words of the plot without its watermark, which lies behind them.
+[[nodiscard]] std::vector<PlotWord> wordsOf(QCustomPlot& plot);
+
+/// Words of visible plots that lie over each other, or that their plot's edge cuts.
+[[nodiscard]] QStringList plotWordFaults(const QWidget& in);
+/// Legends within axes that lie over points or lines of their plot.
+[[nodiscard]] QStringList legendsOverData(const QWidget& in);
+
+}  // namespace tacto::test

@@ -1,0 +1,59 @@
+// After a stop the panel of the drive says what drove, so that the operator goes on knowingly; it goes on with nothing.
+#include <QPushButton>
+
+#include "tests/gui/live/LiveBench.h"
+#include "tests/support/InTime.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::StartsWith;
+
+class DriveThatWas : public LiveBench {
+protected:
+    DriveThatWas() {
+        RecordProperty("hazard", "H2");
+        RecordProperty("hazard", "H12");
+    }
+    [[nodiscard]] std::string says() { return drive.findChild<QLabel*>("driveSays")->text().toStdString(); }
+    [[nodiscard]] bool saysOff() {
+        return comesTrue([this] { return drive.chosen() == DriveSource::Off && drive.headline() == "Off"; });
+    }
+};
+
+TEST_F(DriveThatWas, IsNamedAfterAStopAndStartsNothing) {
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(comesTrue([this] { return drive.isEnabled(); }));
+    EXPECT_THAT(says(), StartsWith("Nothing drives the output."));
+    ASSERT_IN_TIME(armed());
+    controller.drive(DriveSource::Manual, 0.4, 0.6);
+    ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().trainsDelivered > 0; }));
+    ASSERT_IN_TIME(comesTrue([this] { return drive.chosen() == DriveSource::Manual; }));
+    controller.stop("test");
+    ASSERT_IN_TIME(saysOff());
+    EXPECT_THAT(says(), StartsWith("Was by hand, R 0.40, P 0.60."));
+    const auto delivered = controller.telemetry().trainsDelivered;
+    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(passes(2.5));
+    EXPECT_EQ(controller.telemetry().trainsDelivered, delivered) << "what was does not go on by itself";
+    EXPECT_EQ(controller.telemetry().driving, DriveSource::Off);
+}
+
+TEST_F(DriveThatWas, IsTheFingertipWhereItDroveAndAnotherBenchKnowsOfNone) {
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(armed());
+    controller.present("P120", 50, 1);
+    controller.drive(DriveSource::Sensor);
+    ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().trainsDelivered > 0; }));
+    ASSERT_IN_TIME(comesTrue([this] { return drive.chosen() == DriveSource::Sensor; }));
+    controller.disarm();
+    ASSERT_IN_TIME(saysOff());
+    EXPECT_THAT(says(), StartsWith("Was the fingertip, R "));
+    controller.close();
+    ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Closed; }));
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(comesTrue([this] { return says().starts_with("Nothing drives the output."); }));
+}
+
+}  // namespace
+}  // namespace tacto::test

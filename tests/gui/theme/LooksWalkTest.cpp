@@ -1,0 +1,205 @@
+// The walk of looks finds a fault that is put there, and accepts what is sound.
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QScrollArea>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QTest>
+#include <QVBoxLayout>
+#include <gtest/gtest.h>
+#include <qcustomplot.h>
+
+#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/Person.h"
+#include "tests/gui/PlotLooks.h"
+#include "tests/gui/RoomLooks.h"
+#include "tests/support/InTime.h"
+
+namespace tacto::test {
+namespace {
+
+class WalkOfLooks : public testing::Test {
+protected:
+    WalkOfLooks() {
+        gui::applyTheme(gui::Theme::Light);
+        window.resize(480, 360);
+    }
+    void show() {
+        window.show();
+        ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
+        QTest::qWait(20);
+    }
+    QWidget window;
+    QVBoxLayout layout{&window};
+};
+
+class WalkOfPlots : public WalkOfLooks {
+protected:
+    WalkOfPlots() : plot(*new QCustomPlot(&window)) {
+        layout.addWidget(&plot);
+        plot.xAxis->setLabel("Time (s)");
+        plot.yAxis->setLabel("Voltage (V)");
+        plot.addGraph()->setData({0.0, 1.0, 2.0}, {0.0, 2.0, 4.0});
+        plot.graph()->setName("channel 1");
+        plot.xAxis->setRange(0, 2);
+        plot.yAxis->setRange(0, 4);
+        gui::stylePlot(plot);
+        gui::addWatermark(*plot.axisRect());
+        show();
+        plot.replot();
+    }
+    QCPItemText& text(const QString& words, double x, double y) {
+        auto* item = new QCPItemText(&plot);
+        item->setText(words);
+        item->position->setCoords(x, y);
+        item->setFont(gui::textFont(gui::TextSize::Body));
+        plot.replot();
+        return *item;
+    }
+    QCustomPlot& plot;
+};
+
+TEST_F(WalkOfPlots, SeesTickLabelsTitlesAndItems) {
+    text("a mark", 1, 3);
+    QStringList all;
+    for (const auto& word : wordsOf(plot)) all << word.text;
+    for (const auto* seen : {"a mark", "Time", "Voltage", "2"})
+        EXPECT_TRUE(all.join('|').contains(seen)) << seen << ": " << all.join('|').toStdString();
+    EXPECT_FALSE(all.join('|').contains("SIMULATED")) << "a watermark lies behind everything by right";
+    EXPECT_EQ(faultsOf(window), "");
+}
+
+TEST_F(WalkOfPlots, FindsWordsOverEachOther) {
+    text("one word", 1, 3);
+    text("another", 1.02, 3);
+    EXPECT_TRUE(plotWordFaults(window).join('\n').contains("lie over each other"));
+    plot.clearItems();
+    plot.xAxis->setNumberPrecision(9);
+    auto ticks = QSharedPointer<QCPAxisTickerText>::create();
+    ticks->addTick(1, "a long label of a tick");
+    ticks->addTick(1.1, "beside another one");
+    plot.xAxis->setTicker(ticks);
+    plot.replot();
+    EXPECT_TRUE(plotWordFaults(window).join('\n').contains("lie over each other")) << "labels of ticks";
+}
+
+TEST_F(WalkOfPlots, FindsWordsThatAnEdgeCuts) {
+    auto& item = text("a mark at the edge", 2, 3);
+    EXPECT_TRUE(plotWordFaults(window).join('\n').contains("is cut")) << "by its axes";
+    item.setClipToAxisRect(false);
+    plot.replot();
+    EXPECT_TRUE(plotWordFaults(window).join('\n').contains("is cut")) << "by the plot";
+    item.position->setCoords(1, 3);
+    plot.replot();
+    EXPECT_EQ(plotWordFaults(window).join('\n').toStdString(), "");
+    plot.yAxis->setLabel("A title that is much longer than the axis that it belongs to is high");
+    plot.replot();
+    EXPECT_TRUE(plotWordFaults(window).join('\n').contains("is cut")) << "a title of an axis";
+}
+
+TEST_F(WalkOfPlots, FindsALegendOverData) {
+    plot.legend->setVisible(true);
+    plot.axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignRight);
+    plot.replot();
+    EXPECT_EQ(legendsOverData(window).size(), 1) << "the line ends there";
+    plot.axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
+    plot.replot();
+    EXPECT_EQ(legendsOverData(window).join('\n').toStdString(), "");
+    plot.graph()->setData({0.0, 2.0}, {3.5, 3.5});
+    plot.replot();
+    EXPECT_EQ(legendsOverData(window).size(), 1) << "a line that has no point below it";
+}
+
+TEST_F(WalkOfLooks, FindsPagesThatAreCutSideways) {
+    auto* area = new QScrollArea(&window);
+    auto* page = new QLabel("a page");
+    area->setWidgetResizable(true);
+    area->setWidget(page);
+    layout.addWidget(area);
+    show();
+    EXPECT_EQ(cutSideways(window).join('\n').toStdString(), "");
+    page->setMinimumHeight(2000);
+    QTest::qWait(20);
+    EXPECT_EQ(cutSideways(window).join('\n').toStdString(), "") << "it may scroll down";
+    page->setMinimumWidth(900);
+    QTest::qWait(20);
+    EXPECT_EQ(cutSideways(window).size(), 1);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    QTest::qWait(20);
+    EXPECT_EQ(cutSideways(window).size(), 1) << "without a way to scroll there";
+}
+
+TEST_F(WalkOfLooks, FindsWhatStandsPartlyOutside) {
+    auto* holder = new QWidget(&window);
+    auto* row = new QVBoxLayout(holder);
+    auto* button = new QLineEdit("whole", holder);
+    row->addWidget(button);
+    layout.addWidget(holder);
+    show();
+    EXPECT_EQ(beyondTheirPlace(window).join('\n').toStdString(), "");
+    button->move(button->x(), holder->height() - button->height() / 2);
+    EXPECT_EQ(beyondTheirPlace(window).size(), 1);
+}
+
+TEST_F(WalkOfLooks, FindsCellsWithoutRoom) {
+    auto* table = new QTableWidget(1, 3, &window);
+    const QString words = "more words than have room";
+    for (int column = 0; column < 3; ++column) table->setItem(0, column, new QTableWidgetItem(words));
+    table->setWordWrap(false);
+    table->horizontalHeader()->setStretchLastSection(true);
+    layout.addWidget(table);
+    window.resize(900, 200);
+    show();
+    table->resizeColumnsToContents();
+    EXPECT_EQ(cutCells(window).join('\n').toStdString(), "");
+    table->setColumnWidth(0, 40);
+    table->item(0, 0)->setToolTip(words);
+    EXPECT_EQ(cutCells(window).size(), 1) << "only the last one may elide";
+    table->resizeColumnsToContents();
+    window.resize(table->columnWidth(0) * 2 + 120, 200);
+    QTest::qWait(20);
+    EXPECT_EQ(cutCells(window).size(), 1) << "the last one says it nowhere";
+    table->item(0, 2)->setToolTip(words);
+    EXPECT_EQ(cutCells(window).join('\n').toStdString(), "");
+}
+
+TEST_F(WalkOfLooks, FindsFieldsWithoutRoom) {
+    auto* edit = new QLineEdit("a text of several words", &window);
+    auto* spin = new QSpinBox(&window);
+    spin->setRange(0, 1'000'000);
+    spin->setValue(1'000'000);
+    spin->setSuffix(" pulses");
+    for (QWidget* each : {static_cast<QWidget*>(edit), static_cast<QWidget*>(spin)}) layout.addWidget(each);
+    show();
+    EXPECT_EQ(cutFields(window).join('\n').toStdString(), "");
+    edit->setFixedWidth(80);
+    QTest::qWait(20);
+    EXPECT_EQ(cutFields(window).size(), 1);
+    edit->setToolTip("It says: a text of several words.");
+    EXPECT_EQ(cutFields(window).size(), 0);
+    edit->clear();
+    edit->setPlaceholderText("what belongs here");
+    EXPECT_EQ(cutFields(window).size(), 1) << "a placeholder is read too";
+    edit->setFixedWidth(300);
+    spin->setFixedWidth(80);
+    QTest::qWait(20);
+    EXPECT_EQ(cutFields(window).size(), 1);
+}
+
+TEST_F(WalkOfLooks, FindsElidedWordsThatNoToolTipTells) {
+    auto* label = new gui::ElidedLabel("a line of several words that may end", &window);
+    layout.addWidget(label);
+    show();
+    EXPECT_EQ(untoldElisions(window).join('\n').toStdString(), "");
+    label->setFixedWidth(120);
+    QTest::qWait(20);
+    EXPECT_EQ(untoldElisions(window).size(), 1);
+    label->setToolTip(label->text());
+    EXPECT_EQ(untoldElisions(window).size(), 0);
+}
+
+}  // namespace
+}  // namespace tacto::test
