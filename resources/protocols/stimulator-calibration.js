@@ -16,7 +16,7 @@ protocol({
       value: "full",
     },
     store: { label: "Keep the result for this stimulator", type: "boolean", value: false },
-    valid_days: { label: "It holds for", unit: "d", type: "integer", min: 1, max: 366, value: 365 },
+    valid_days: { label: "Valid for", unit: "d", type: "integer", min: 1, max: 366, value: 365 },
     scope_due: { label: "Oscilloscope's own calibration is due", type: "date", step: "reference", value: "" },
     quantities: {
       label: "Calibrate",

@@ -1,11 +1,15 @@
 #include "app/gui/calibrate/CalibrationView.h"
 
+#include <QAction>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/ToleranceCard.h"
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -64,8 +68,31 @@ QWidget* CalibrationView::buildHead() {
         tr("Residuals: each reading's distance from its command, in the tolerance band. Measured: each "
            "reading against its command, with the fitted line."));
     row->addWidget(kind_);
+    addTools(*row);
     kind_->hide();  // until the plot is there
     return head;
+}
+
+/// As on the oscilloscope.
+void CalibrationView::addTools(QBoxLayout& row) {
+    const auto add = [&](const QString& name, const QString& tip, const QString& iconName, auto task) {
+        auto* tool = new QToolButton(this);
+        tool->setAccessibleName(name);
+        tool->setToolTip(tip);
+        tool->setIcon(icon(iconName));
+        tool->setAutoRaise(true);
+        tool->setFocusPolicy(Qt::StrongFocus);
+        connect(tool, &QToolButton::clicked, this, task);
+        row.addWidget(tool);
+    };
+    const auto plot = [this]() -> QCustomPlot& { return *static_cast<QCustomPlot*>(plots_->currentWidget()); };
+    add(tr("Save the plot"), tr("Saves the plot as a picture: PNG, SVG or PDF."), "save",
+        [plot] { askSavePicture(plot(), "calibration"); });
+    add(tr("Copy the plot"), tr("Copies the plot as a picture."), "copy", [plot] { copyPicture(plot()); });
+    add(tr("Plot only"), tr("F11: the safety bar and the plot alone; F11 again brings the rest back."), "plot-only",
+        [this] {
+            if (auto* only = window()->findChild<QAction*>("plotOnly")) only->trigger();
+        });
 }
 
 void CalibrationView::begin(const nlohmann::json& parameters) {

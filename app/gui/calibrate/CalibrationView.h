@@ -43,6 +43,7 @@ protected:
 
 private:
     [[nodiscard]] QWidget* buildHead();
+    void addTools(QBoxLayout& row);
     [[nodiscard]] CalibrationReadings& of(const std::string& quantity);
     void choose(int index);
     void arrange();

@@ -87,12 +87,12 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     row->setContentsMargins(0, 0, 0, 0);
     folder_->setObjectName("studyFolder");
     folder_->setAccessibleName(tr("Folder of the rehearsal"));
-    const auto tell = [this] {
-        folder_->setToolTip(
-            tr("%1\nA new folder, or the folder of a rehearsal to continue.").arg(folder_->text()).trimmed());
+    const auto showBeginning = [this] {
+        if (!folder_->hasFocus()) folder_->setCursorPosition(0);
+        folder_->setToolTip(folder_->text() + "\n" + tr("A new folder, or the folder of a rehearsal to continue."));
     };
-    tell();
-    connect(folder_, &QLineEdit::textChanged, this, tell);
+    connect(folder_, &QLineEdit::textChanged, this, showBeginning);
+    showBeginning();
     auto* choose = new QPushButton(tr("Ch&oose…"), place);
     choose->setAutoDefault(false);
     choose->setToolTip(tr("Chooses the folder from a list."));
@@ -120,6 +120,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     form->addRow(tr("Pace"), pace_);
     seed_->setObjectName("rehearsalSeed");
     seed_->setRange(1, kMaxSeed);
+    seed_->setButtonSymbols(QAbstractSpinBox::NoButtons);  // no seed is more than another
     seed_->setToolTip(tr("The same seed gives the same order, and the same virtual participant."));
     form->addRow(tr("Seed"), seed_);
     modality_->setObjectName("rehearsalModality");

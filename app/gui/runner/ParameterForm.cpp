@@ -95,7 +95,7 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
         };
         field.editor = box;
     } else if (parameter.type == ParameterType::Boolean) {
-        auto* box = new QCheckBox(tr("yes"), this);
+        auto* box = new QCheckBox(this);
         box->setChecked(parameter.value.is_boolean() && parameter.value.get<bool>());
         connect(box, &QCheckBox::toggled, this, &ParameterForm::judge);
         field.text = [box] { return box->isChecked() ? QString("true") : QString("false"); };

@@ -7,6 +7,12 @@
 
 namespace tacto::gui {
 
+namespace {
+
+constexpr double kPoint = 8;  // pixels
+
+}  // namespace
+
 TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Trials"));
     for (auto* axis : {xAxis, yAxis}) axis->setNumberFormat("gb");
@@ -17,6 +23,7 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
     setMinimumHeight(fontMetrics().height() * 12);
+    connect(this, &QCustomPlot::afterLayout, this, &TrialPlane::nameClusters);
     begin(false);
     onLookChange(*this, [this] {
         colour();
@@ -35,6 +42,8 @@ void TrialPlane::begin(bool simulated, Features features) {
                            : tr("Slides over the surfaces\nappear here."));
     for (const auto& [name, graph] : conditions_) removePlottable(graph);
     conditions_.clear();
+    for (auto* name : names_) removeItem(name);
+    names_.clear();
     trials_ = drawn_ = 0;
     watermark_->setVisible(simulated);
     empty_->setVisible(true);
@@ -73,8 +82,13 @@ void TrialPlane::add(const nlohmann::json& trial) {
         graph->setLineStyle(QCPGraph::lsNone);
         conditions_.emplace_back(name, graph);
         found = std::prev(conditions_.end());
+        auto* words = new QCPItemText(this);
+        words->setText(name);
+        words->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+        words->position->setType(QCPItemPosition::ptAbsolute);
+        words->setPadding({});
+        names_.push_back(words);
         empty_->setVisible(false);
-        legend->setVisible(true);
         colour();
         wrapLegend();
     }
@@ -107,8 +121,60 @@ void TrialPlane::colour() {
     for (const auto& [name, graph] : conditions_) {
         const auto style = conditionInTheme(name, index++);
         graph->setPen(QPen(style.color));
-        graph->setScatterStyle(QCPScatterStyle(style.marker, QPen(style.color, 1.5), QBrush(Qt::NoBrush), 8));
+        graph->setScatterStyle(QCPScatterStyle(style.marker, QPen(style.color, 1.5), QBrush(Qt::NoBrush), kPoint));
     }
+}
+
+QRectF TrialPlane::pixelsOf(const QCPGraph& graph) const {
+    QRectF box;
+    for (const auto& point : *graph.data()) {
+        QRectF its(0, 0, kPoint, kPoint);
+        its.moveCenter(QPointF(xAxis->coordToPixel(point.key), yAxis->coordToPixel(point.value)));
+        box |= its;
+    }
+    return box;
+}
+
+std::optional<QRectF> TrialPlane::placeOf(const QSizeF& name, std::size_t cluster,
+                                          const std::vector<QRectF>& taken) const {
+    const auto points = pixelsOf(*conditions_[cluster].second);
+    const QRectF area(axisRect()->rect());
+    QRectF box(QPointF(), name);
+    const double across = points.center().x() - name.width() / 2, up = points.center().y() - name.height() / 2;
+    const double within = std::clamp(across, area.left() + kPoint, area.right() - name.width() - kPoint);
+    for (const auto& at :
+         {QPointF(within, points.top() - name.height() - kPoint / 2), QPointF(within, points.bottom() + kPoint / 2),
+          QPointF(points.right() + kPoint, up), QPointF(points.left() - name.width() - kPoint, up)}) {
+        box.moveTopLeft(at);
+        if (!area.contains(box)) continue;
+        if (std::none_of(taken.begin(), taken.end(), [&](const QRectF& its) { return its.intersects(box); }))
+            return box;
+    }
+    return std::nullopt;
+}
+
+void TrialPlane::nameClusters() {
+    const auto font = textFont(TextSize::Small, QFont::DemiBold);
+    const QFontMetricsF metrics(font);
+    std::vector<QRectF> taken;
+    for (const auto& [name, graph] : conditions_) taken.push_back(pixelsOf(*graph));
+    bool all = true;
+    for (std::size_t i = 0; i < conditions_.size(); ++i) {
+        const QSizeF size(metrics.horizontalAdvance(conditions_[i].first) + 2, metrics.height());
+        const auto place = placeOf(size, i, taken);
+        all = all && place;
+        if (!place) continue;
+        names_[i]->position->setPixelPosition(place->topLeft());
+        taken.push_back(*place);
+    }
+    for (auto* name : names_) {
+        name->setFont(font);
+        name->setColor(colours().text);
+        name->setVisible(all);
+    }
+    if (legend->visible() == (!all && !conditions_.empty())) return;
+    legend->setVisible(!all && !conditions_.empty());
+    replot(QCustomPlot::rpQueuedReplot);  // its row is another
 }
 
 /// Names in one row where they fit, else in two columns.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <qcustomplot.h>
 #include <vector>
 
@@ -24,6 +25,8 @@ public:
     [[nodiscard]] Features features() const { return features_; }
     [[nodiscard]] int trials() const { return trials_; }
     [[nodiscard]] int drawn() const { return drawn_; }
+    /// Every condition's name stands at its points; else a legend above the plot names them.
+    [[nodiscard]] bool namedInPlace() const { return !conditions_.empty() && !legend->visible(); }
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -32,8 +35,14 @@ private:
     void colour();
     void fit();
     void wrapLegend();
+    void nameClusters();
+    /// Beside its points and off everything else; nothing where there is no such place.
+    [[nodiscard]] std::optional<QRectF> placeOf(const QSizeF& name, std::size_t cluster,
+                                                const std::vector<QRectF>& taken) const;
+    [[nodiscard]] QRectF pixelsOf(const QCPGraph& graph) const;
     Features features_ = Features::Trains;
     std::vector<std::pair<QString, QCPGraph*>> conditions_;
+    std::vector<QCPItemText*> names_;  ///< of the conditions, at their points; owned by the plot
     QCPItemText* watermark_ = nullptr;
     QCPItemText* empty_ = nullptr;
     int trials_ = 0;

@@ -47,9 +47,23 @@ void RoundTicker::generate(const QCPRange& range, const QLocale&, QChar, int, QV
     const double step = stepOver(range);
     const double first = std::ceil((range.lower - position_) * perCoordinate_ / step - kOnTheEdge);
     const double last = std::floor((range.upper - position_) * perCoordinate_ / step + kOnTheEdge);
+    double lowest = first, highest = last;
+    if (numbered_) {
+        lowest = std::floor(numbered_->first / step);
+        highest = std::ceil(numbered_->second / step);
+        if (lowest <= 0 && highest >= 0) {  // a line that rests at zero has a scale, too
+            lowest = std::min(lowest, -1.0);
+            highest = std::max(highest, 1.0);
+        }
+        if (lowest > last || highest < first) {
+            lowest = first;
+            highest = last;
+        }
+    }
     for (double k = first; k <= last; ++k) {
+        const bool blank = blank_ || k < lowest || k > highest;
         ticks << std::clamp(k * step / perCoordinate_ + position_, range.lower, range.upper);
-        if (labels != nullptr) labels->append(blank_ ? QString() : written(k * step, step));
+        if (labels != nullptr) labels->append(blank ? QString() : written(k * step, step));
     }
 }
 

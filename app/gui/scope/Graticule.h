@@ -3,6 +3,7 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <optional>
 #include <qcustomplot.h>
 #include <utility>
 #include <vector>
@@ -20,6 +21,9 @@ public:
     /// No two numbers are nearer to each other, in coordinates.
     void setLeast(double coordinates) { least_ = coordinates; }
     void setBlank(bool blank) { blank_ = blank; }
+    /// Only what lies around low..high gets a number, to the next step beyond either: two lanes share the height. Where
+    /// nothing of that is in view, all of it. Nothing: all.
+    void setNumbered(std::optional<std::pair<double, double>> numbered) { numbered_ = numbered; }
     /// In the quantity's own unit.
     [[nodiscard]] double stepOver(const QCPRange& range) const;
     /// The wider of the two numbers at the ends, as it would be written.
@@ -36,6 +40,7 @@ private:
     double factor_ = 1;
     double least_ = 0;
     bool blank_ = false;
+    std::optional<std::pair<double, double>> numbered_;
 };
 
 /// Hatches the time for which there is no record: before it, after it, and between two of them.

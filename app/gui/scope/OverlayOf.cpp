@@ -154,7 +154,7 @@ OverlayState overlayOf(const ScopeModel& model) {
     for (const auto& lane : model.lanes()) {
         if (lane.reference() || !lane.shown) continue;
         o.lanes.push_back({lane.key, lane.letter, laneInk(model, lane), model.scaleOf(lane).position,
-                           lane.key == model.activeLane()});
+                           lane.key == model.activeLane(), !o.lanes.empty() && lane.unit == "A"});
     }
     fillTrigger(model, o);
     fillComing(model, o);

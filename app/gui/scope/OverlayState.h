@@ -22,6 +22,7 @@ struct OverlayState {
         QColor colour;
         double height = 0;
         bool active = false;
+        bool right = false;  ///< its handle is at the right edge
     };
     struct Trigger {
         std::optional<double> height;  ///< nothing: its channel is not shown

@@ -12,6 +12,7 @@
 #include "app/gui/scope/ScopeStatus.h"
 #include "app/gui/scope/ScopeTools.h"
 #include "app/gui/scope/SpectrumPanel.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -22,7 +23,7 @@ const QList<int> kFirstSizes{600, 200, 190};
 }  // namespace
 
 ScopeColumns::ScopeColumns(const Parts& parts, QWidget* parent)
-    : QWidget(parent), parts_(parts), plots_(new QSplitter(Qt::Vertical, this)) {
+    : QWidget(parent), parts_(parts), head_(new QWidget(this)), plots_(new QSplitter(Qt::Vertical, this)) {
     plots_->setChildrenCollapsible(false);
     plots_->addWidget(&parts_.screen);
     plots_->addWidget(&parts_.spectrum);
@@ -38,13 +39,19 @@ ScopeColumns::ScopeColumns(const Parts& parts, QWidget* parent)
     auto* column = new QVBoxLayout(left);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    column->addWidget(&parts_.status);
     column->addWidget(plots_, 1);
+    column_ = column;
+    auto* tools = new QHBoxLayout(head_);
+    tools->setContentsMargins(0, 0, 0, 0);
+    tools->setSpacing(0);
+    tools->addWidget(&parts_.tools, 1);
+    head_->installEventFilter(this);
+    placeStatus();
 
     auto* rows = new QVBoxLayout(this);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(0);
-    rows->addWidget(&parts_.tools);
+    rows->addWidget(head_);
     auto* row = new QHBoxLayout;
     row->addWidget(left, 1);
     row->addWidget(&parts_.controls);
@@ -74,6 +81,23 @@ void ScopeColumns::fitControls() {
     parts_.controls.setVisible(on);
 }
 
+bool ScopeColumns::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == head_ && event->type() == QEvent::Resize) placeStatus();
+    return QWidget::eventFilter(watched, event);
+}
+
+/// A line that the screen has instead where the tools leave enough room beside them.
+void ScopeColumns::placeStatus() {
+    constexpr int kWide = 1340;  // tools, lanes, trigger and captures
+    auto& row = *static_cast<QBoxLayout*>(head_->layout());
+    const bool beside = head_->width() >= scaledPx(kWide);
+    auto& here = beside ? row : *column_;
+    if (here.indexOf(&parts_.status) >= 0) return;
+    (beside ? column_ : &row)->removeWidget(&parts_.status);
+    beside ? row.addWidget(&parts_.status, 1) : column_->insertWidget(0, &parts_.status);
+    row.setStretchFactor(&parts_.tools, beside ? 0 : 1);
+}
+
 void ScopeColumns::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     fitControls();
@@ -82,7 +106,13 @@ void ScopeColumns::resizeEvent(QResizeEvent* event) {
 void ScopeColumns::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     if (event->type() != QEvent::FontChange || plots_ == nullptr) return;
-    QMetaObject::invokeMethod(this, &ScopeColumns::fitControls, Qt::QueuedConnection);  // once all have the new font
+    QMetaObject::invokeMethod(
+        this,
+        [this] {
+            fitControls();
+            placeStatus();
+        },
+        Qt::QueuedConnection);  // once all have the new font
 }
 
 void ScopeColumns::save(QSettings& settings) const {

@@ -1,11 +1,12 @@
-// ScopeColumns.h - the oscilloscope's parts on the page: tools above; status, screen, spectrum and measurements below
-// each other; the controls beside them, where there is room.
+// ScopeColumns.h - the oscilloscope's parts on the page: tools above, status beside them or below; screen, spectrum and
+// measurements below each other; the controls beside them, where there is room.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>
 
+class QBoxLayout;
 class QSettings;
 class QSplitter;
 
@@ -30,6 +31,8 @@ public:
         ScopeControls& controls;
     };
     ScopeColumns(const Parts& parts, QWidget* parent);
+    /// The tools, and the status beside them where there is room: above the columns unless a page takes it.
+    [[nodiscard]] QWidget& head() { return *head_; }
     /// Shows or hides the controls; here also where they take room from the screen.
     void askForControls(bool on);
 
@@ -41,11 +44,15 @@ public:
 protected:
     void resizeEvent(QResizeEvent* event) override;
     void changeEvent(QEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+    void placeStatus();
     void fitControls();
 
     Parts parts_;
+    QWidget* head_;
+    QBoxLayout* column_ = nullptr;
     QSplitter* plots_;
     bool wanted_ = false;
     bool forced_ = false;  ///< asked for where there is no room for them

@@ -25,6 +25,32 @@ QString letterFor(const Trace& trace, const std::vector<TracePtr>& all) {
 /// On the axis where time 0 is the trigger.
 TraceSpan fromTrigger(const TracePtr& trace) { return {trace, trace ? trace->start_s - trace->zero_s : 0}; }
 
+constexpr double kPairZero = 1.5;  // divisions
+
+/// What of the quantity it shows; nothing for a reference, and where the capture lacks it.
+std::optional<std::pair<double, double>> rangeOf(const ScopeLane& lane, const ShownCapture& newest) {
+    const auto trace = lane.reference() ? nullptr : newest.trace(lane.key);
+    if (!trace) return std::nullopt;
+    Envelope all = trace->pyramid.over(0, trace->size());
+    for (const auto& span : lane.spans) {
+        const auto its = span.trace->pyramid.over(0, span.trace->size());
+        all.low = std::min(all.low, its.low);
+        all.high = std::max(all.high, its.high);
+    }
+    double low = all.empty() ? 0 : static_cast<double>(all.low);
+    double high = all.empty() ? 0 : static_cast<double>(all.high);
+    // A flat line is not blown up to its last bit.
+    const double least = trace->low < trace->high ? (trace->high - trace->low) / 60
+                         : low == high            ? std::max(1e-3, std::abs(low))
+                                                  : 0;
+    if (high - low < least) {
+        const double middle = (low + high) / 2;
+        low = middle - least / 2;
+        high = middle + least / 2;
+    }
+    return std::pair(low, high);
+}
+
 }  // namespace
 
 ScopeLane* ScopeLanes::find(const QString& key) { return const_cast<ScopeLane*>(std::as_const(*this).find(key)); }
@@ -140,27 +166,20 @@ void ScopeLanes::fit(const ShownCapture& newest, Viewport& view) const {
         std::count_if(lanes_.begin(), lanes_.end(), [](const ScopeLane& l) { return !l.reference() && l.shown; });
     const auto count = static_cast<double>(std::max<std::ptrdiff_t>(1, visible));
     const double room = kDivisionsUp / count;
+    // Zeros of two lanes stand 1.5 divisions above and below the middle, on lines of the grid.
+    const bool pair = visible == 2 && std::all_of(lanes_.begin(), lanes_.end(), [&](const ScopeLane& lane) {
+                          const auto range = lane.shown ? rangeOf(lane, newest) : std::nullopt;
+                          return !range || (range->first <= 0 && range->second >= 0);
+                      });
     int place = 0;
     std::optional<double> first;
     for (const auto& lane : lanes_) {
-        const auto trace = lane.reference() ? nullptr : newest.trace(lane.key);
-        if (!trace) continue;
-        Envelope all = trace->pyramid.over(0, trace->size());
-        for (const auto& span : lane.spans) {
-            const auto its = span.trace->pyramid.over(0, span.trace->size());
-            all.low = std::min(all.low, its.low);
-            all.high = std::max(all.high, its.high);
-        }
-        double low = all.empty() ? 0 : static_cast<double>(all.low);
-        double high = all.empty() ? 0 : static_cast<double>(all.high);
-        // A flat line is not blown up to its last bit.
-        const double least = trace->low < trace->high ? (trace->high - trace->low) / 60
-                             : low == high            ? std::max(1e-3, std::abs(low))
-                                                      : 0;
-        if (high - low < least) {
-            const double middle = (low + high) / 2;
-            low = middle - least / 2;
-            high = middle + least / 2;
+        const auto range = rangeOf(lane, newest);
+        if (!range) continue;
+        const auto [low, high] = *range;
+        if (pair && lane.shown) {
+            view.lanes[lane.key] = aroundZero(low, high, place++ == 0 ? kPairZero : -kPairZero);
+            continue;
         }
         // A hidden lane takes no room, but it must stand somewhere when it is shown: in the middle.
         const double middle = lane.shown ? kHalfUp - (place++ + 0.5) * room : 0;

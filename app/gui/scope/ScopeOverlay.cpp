@@ -25,12 +25,29 @@ QRect ScopeOverlay::clipRect() const { return plane_.area().adjusted(-1, -1, 2, 
 
 Pennant ScopeOverlay::lanePennant(int lane) const {
     const auto& its = state.lanes[static_cast<std::size_t>(lane)];
-    return plane_.pennant(Qt::LeftEdge, plane_.y(its.height), its.letter);
+    return plane_.pennant(its.right ? Qt::RightEdge : Qt::LeftEdge, plane_.y(its.height), its.letter);
+}
+
+/// At its level; inwards of a lane's handle that stands there.
+Pennant ScopeOverlay::triggerPennant() const {
+    auto its = plane_.pennant(Qt::RightEdge, plane_.y(*state.trigger->height), "T");
+    for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
+        if (!state.lanes[static_cast<std::size_t>(lane)].right) continue;
+        const auto other = lanePennant(lane).shape.boundingRect();
+        if (!other.intersects(its.shape.boundingRect())) continue;
+        const double inwards = other.left() - 2 - its.box.right();
+        its.box.translate(inwards, 0);
+        its.shape.translate(inwards, 0);
+    }
+    return its;
 }
 
 Pennant ScopeOverlay::levelTag(int cursor) const {
     const auto i = static_cast<std::size_t>(cursor);
-    return plane_.pennant(Qt::RightEdge, plane_.y(state.levelCursors[i]), state.levelTexts[i]);
+    // Opposite the handle of their lane.
+    const bool left = std::any_of(state.lanes.begin(), state.lanes.end(),
+                                  [](const OverlayState::Lane& lane) { return lane.active && lane.right; });
+    return plane_.pennant(left ? Qt::LeftEdge : Qt::RightEdge, plane_.y(state.levelCursors[i]), state.levelTexts[i]);
 }
 
 GripAt ScopeOverlay::at(const QPointF& pixel) const {
@@ -47,7 +64,7 @@ GripAt ScopeOverlay::at(const QPointF& pixel) const {
     }
     if (state.trigger) {
         const auto& t = *state.trigger;
-        if (t.height && within(plane_.pennant(Qt::RightEdge, plane_.y(*t.height), "T"))) return {Grip::TriggerLevel, 0};
+        if (t.height && within(triggerPennant())) return {Grip::TriggerLevel, 0};
         if (t.moment_s && within(plane_.pennant(Qt::TopEdge, plane_.x(*t.moment_s), "T")))
             return {Grip::TriggerMoment, 0};
     }
@@ -107,7 +124,7 @@ void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
         if (at >= a.top() && at <= a.bottom()) {
             plane_.drawLine(painter, QLineF(a.left(), at, a.right(), at), t.colour, Qt::DotLine);
         }
-        plane_.drawPennant(painter, plane_.pennant(Qt::RightEdge, at, "T"), "T", t.colour, !t.held);
+        plane_.drawPennant(painter, triggerPennant(), "T", t.colour, !t.held);
     }
     if (!t.text.isEmpty())
         plane_.drawTag(painter, QPointF(a.center().x(), a.top() + a.height() * 0.12), t.text, t.colour);

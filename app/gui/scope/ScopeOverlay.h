@@ -35,6 +35,7 @@ protected:
 
 private:
     [[nodiscard]] Pennant lanePennant(int lane) const;
+    [[nodiscard]] Pennant triggerPennant() const;
     [[nodiscard]] Pennant levelTag(int cursor) const;
     void drawLevelCursors(QCPPainter& painter) const;
     void drawTrigger(QCPPainter& painter) const;

@@ -103,18 +103,14 @@ std::unique_ptr<ScopeScreen> captioned(const ScopeStill& still) {
 
 }  // namespace
 
-QString laneScalesText(const ScopeModel& model) {
-    QStringList parts;
-    for (const auto& lane : model.lanes()) {
-        if (!lane.shown || lane.reference()) continue;
-        parts << QObject::tr("%1 %2/div").arg(lane.letter, settingText(model.scaleOf(lane).perDivision, lane.unit));
-    }
-    return parts.join(QStringLiteral(" · "));
+QString laneScaleText(const ScopeModel& model, const ScopeLane& lane) {
+    return QObject::tr("%1 %2/div").arg(lane.letter, settingText(model.scaleOf(lane).perDivision, lane.unit));
 }
 
 QString scalesText(const ScopeModel& model) {
     QStringList parts;
-    if (const auto lanes = laneScalesText(model); !lanes.isEmpty()) parts << lanes;
+    for (const auto& lane : model.lanes())
+        if (lane.shown && !lane.reference()) parts << laneScaleText(model, lane);
     parts << QObject::tr("%1/div").arg(settingText(stepNotBelow(model.viewport().perDivision_s), "s"));
     if (const auto& shown = model.shown()) {
         parts << QObject::tr("%1 samples at %2")

@@ -18,6 +18,7 @@
 namespace tacto::gui {
 
 class ScopeModel;
+struct ScopeLane;
 class ScopeScreen;
 
 /// What stands beside the plot; empty lines are left out.
@@ -28,7 +29,7 @@ struct ScopeCaption {
 };
 
 /// "V 20 V/div · I 20 mA/div".
-[[nodiscard]] QString laneScalesText(const ScopeModel& model);
+[[nodiscard]] QString laneScaleText(const ScopeModel& model, const ScopeLane& lane);
 
 /// "V 20 V/div · I 20 mA/div · 100 µs/div · 20000 samples at 2 MS/s · averaged 16": as the model has it.
 [[nodiscard]] QString scalesText(const ScopeModel& model);

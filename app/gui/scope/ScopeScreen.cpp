@@ -12,6 +12,18 @@ namespace tacto::gui {
 
 namespace {
 
+/// What it shows, in its unit.
+std::optional<std::pair<double, double>> shownRange(const ScopeLane& lane) {
+    std::optional<std::pair<double, double>> range;
+    for (const auto& span : lane.spans) {
+        const auto its = span.trace->pyramid.over(0, span.trace->size());
+        if (its.empty()) continue;
+        const double low = static_cast<double>(its.low), high = static_cast<double>(its.high);
+        range = range ? std::pair(std::min(range->first, low), std::max(range->second, high)) : std::pair(low, high);
+    }
+    return range;
+}
+
 constexpr double kHeld = 0.55;  // so much of the ground is in a trace that is held
 
 QColor mixed(const QColor& a, const QColor& b, double share) {
@@ -233,12 +245,13 @@ void ScopeScreen::applyAxes() {
             right = &lane;
         }
     }
-    numberAxis(*yAxis, *leftTicker_, left);
-    numberAxis(*yAxis2, *rightTicker_, right);
+    numberAxis(*yAxis, *leftTicker_, left, right != nullptr);
+    numberAxis(*yAxis2, *rightTicker_, right, true);
 }
 
-void ScopeScreen::numberAxis(QCPAxis& axis, RoundTicker& ticker, const ScopeLane* lane) const {
+void ScopeScreen::numberAxis(QCPAxis& axis, RoundTicker& ticker, const ScopeLane* lane, bool shared) const {
     ticker.setBlank(lane == nullptr);
+    ticker.setNumbered(shared && lane != nullptr ? shownRange(*lane) : std::nullopt);
     axis.setLabel(QString());
     if (lane == nullptr) return;
     const auto scale = model_.scaleOf(*lane);

@@ -56,7 +56,7 @@ private:
     void restyle();
     void apply();
     void applyAxes();
-    void numberAxis(QCPAxis& axis, RoundTicker& ticker, const ScopeLane* lane) const;
+    void numberAxis(QCPAxis& axis, RoundTicker& ticker, const ScopeLane* lane, bool shared) const;
     void fillOverlay();
     void refreshOverlay();
 

@@ -4,11 +4,13 @@
 #include <QLabel>
 #include <QToolButton>
 
+#include "app/gui/scope/LaneLegend.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
-ScopeStatus::ScopeStatus(QWidget* parent) : QWidget(parent), text_(new QLabel(this)), cancel_(new QToolButton(this)) {
+ScopeStatus::ScopeStatus(const ScopeModel& model, QWidget* parent)
+    : QWidget(parent), text_(new QLabel(this)), cancel_(new QToolButton(this)) {
     text_->setObjectName("scopeStatus");
     text_->setWordWrap(true);
     setTextSize(*text_, TextSize::Small);
@@ -19,7 +21,8 @@ ScopeStatus::ScopeStatus(QWidget* parent) : QWidget(parent), text_(new QLabel(th
     cancel_->hide();
     connect(cancel_, &QToolButton::clicked, this, &ScopeStatus::cancelClicked);
     auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(8, 4, 8, 0);
+    row->setContentsMargins(8, 0, 8, 0);
+    row->addWidget(new LaneLegend(model, this), 0, Qt::AlignVCenter);
     row->addWidget(text_, 1);
     row->addWidget(cancel_);
 }

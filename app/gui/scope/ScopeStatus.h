@@ -14,10 +14,13 @@ class QToolButton;
 
 namespace tacto::gui {
 
+class ScopeModel;
+
 class ScopeStatus final : public QWidget {
     Q_OBJECT
 public:
-    explicit ScopeStatus(QWidget* parent = nullptr);
+    /// `model` outlives this: its lanes stand before the words.
+    ScopeStatus(const ScopeModel& model, QWidget* parent);
 
     /// Sentences; empty for nothing. They stay until they are forgotten, and long enough to be read.
     void tell(const QString& done, const QString& problem);

@@ -34,6 +34,10 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     addViews(*row);
     row->addGap();
     addPanels(*row);
+    auto* mark =
+        tool(tr("Mark"), tr("Ctrl+M: marks this moment with a word, in the record and in every plot."), false, "mark");
+    connect(mark, &QToolButton::clicked, this, &ScopeTools::markClicked);
+    row->addWidget(mark);
     row->addGap();
     auto* save =
         tool(tr("Save"), tr("Copies and saves the picture and its data, opens captures. Ctrl+S saves."), false, "save");
@@ -44,6 +48,19 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
         tool(tr("Controls"), tr("Lanes, view, mask, trigger and record, in a column at the right."), true, "settings");
     connect(controls_, &QToolButton::clicked, this, &ScopeTools::controlsClicked);
     row->addWidget(controls_);
+    auto* only = tool(tr("Plot only"), tr("F11: the safety bar and the plot alone; F11 again brings the rest back."),
+                      false, "plot-only");
+    connect(only, &QToolButton::clicked, this, &ScopeTools::plotOnlyClicked);
+    row->addWidget(only);
+}
+
+/// Its icon and its tip say it where a word would begin a second row.
+void ScopeTools::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    const bool worded = single_->toolButtonStyle() == Qt::ToolButtonTextBesideIcon;
+    const int word = fontMetrics().horizontalAdvance(single_->text()) + 2 * fontMetrics().averageCharWidth();
+    const bool room = width() >= layout()->sizeHint().width() + (worded ? 0 : word);
+    if (room != worded) single_->setToolButtonStyle(room ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
 }
 
 void ScopeTools::addModes(ToolRow& row) {

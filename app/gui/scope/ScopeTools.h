@@ -52,6 +52,11 @@ signals:
     void spectrumClicked(bool on);
     void tableClicked(bool on);
     void controlsClicked(bool on);
+    void markClicked();
+    void plotOnlyClicked();
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
     /// With an icon, `text` is its name for screen readers.

@@ -42,7 +42,7 @@ ScopeWorkspace::ScopeWorkspace(BenchController& controller, QWidget* parent)
       controller_(controller),
       files_(std::make_unique<ScopeFiles>(pipe_, model_, *this)),
       tools_(new ScopeTools(files_->menu(), this)),
-      status_(new ScopeStatus(this)),
+      status_(new ScopeStatus(model_, this)),
       screen_(new ScopeScreen(model_, this)),
       gestures_(std::make_unique<ScopeGestures>(model_, *screen_)),
       controls_(new ScopeControls(model_, *screen_, this)),
@@ -106,6 +106,8 @@ void ScopeWorkspace::connectTools() {
     connect(status_, &ScopeStatus::cancelClicked, &pipe_, &CapturePipe::cancelOpen);
     connect(files_.get(), &ScopeFiles::openWanted, this, &ScopeWorkspace::openCaptureFile);
     connect(files_.get(), &ScopeFiles::told, this, &ScopeWorkspace::tell);
+    connect(tools_, &ScopeTools::markClicked, this, &ScopeWorkspace::markWanted);
+    connect(tools_, &ScopeTools::plotOnlyClicked, this, &ScopeWorkspace::plotOnlyWanted);
     addScopeKeys(*this, *tools_, *files_);
 }
 
@@ -253,7 +255,7 @@ void ScopeWorkspace::benchChanged() {
     showState();
 }
 
-QWidget* ScopeWorkspace::tools() { return tools_; }
+QWidget* ScopeWorkspace::tools() { return &columns_->head(); }
 
 ScopeSettings ScopeWorkspace::settings() const { return controls_->acquisition().settings(); }
 
@@ -345,13 +347,12 @@ void ScopeWorkspace::showState() {
     controls_->mask().canMake(triggered);
     const bool empty = !model_.shown() && controller_.activity() == Activity::Closed && !pipe_.opening();
     stack_->setCurrentIndex(empty ? 0 : 1);
+    status_->setVisible(!empty);
     say();
 }
 
 void ScopeWorkspace::say() {
     auto standing = acquisition_->statusText(model_.shown().get(), pipe_.skippedCaptures());
-    if (const auto scales = laneScalesText(model_); !scales.isEmpty() && model_.shown())
-        standing += (standing.isEmpty() ? "" : " · ") + scales;
     if (const auto mask = controls_->mask().said(); !mask.isEmpty()) standing += " · " + mask;
     status_->show(pipe_.opening() ? std::optional(pipe_.percentRead()) : std::nullopt, standing);
     const auto& shown = model_.shown();

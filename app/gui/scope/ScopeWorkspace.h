@@ -81,6 +81,9 @@ signals:
     void openBenchWanted();
     /// The key for the drive was pressed: the window shows its dock.
     void driveWanted();
+    void markWanted();
+    /// The screen without what is around it, or back.
+    void plotOnlyWanted();
 
 protected:
     void showEvent(QShowEvent* event) override;

@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kBetweenTools = 4, kBetweenGroups = 12;
+constexpr int kBetweenTools = 0, kBetweenGroups = 8;
 
 /// Also of one that is hidden.
 QSize wishOf(const QLayoutItem& item) {

@@ -88,6 +88,12 @@ LaneScale fittingLevels(double low, double high, double middle, double height) {
     return lane;
 }
 
+LaneScale aroundZero(double low, double high, double position) {
+    constexpr double kEitherWay = 2.45;  // 2.5 less the noise on it
+    const double most = std::max({std::abs(low), std::abs(high), kFinest});
+    return {stepWithin(stepNotBelow(most / kEitherWay), kFinest, kCoarsest), position};
+}
+
 LaneScale restingLevels(double low, double high, double middle, double height) {
     constexpr double kInside = kDivisionsUp / 2.0 - 0.1;
     constexpr double kHalfDivision = 0.5;

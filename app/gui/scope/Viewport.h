@@ -63,8 +63,12 @@ struct Viewport {
 /// The smallest scale with which low..high fits into `height` divisions around `middle`.
 [[nodiscard]] LaneScale fittingLevels(double low, double high, double middle, double height);
 
-/// The same for a lane that is to be looked at: its zero on half a division, so that the axis has round numbers, and
-/// all of it inside the screen, even if it has to leave the middle.
+/// One of two lanes that reach to both sides of zero: all of it in 2.5 divisions either way. With zeros three divisions
+/// apart two lanes of the same course never cross.
+[[nodiscard]] LaneScale aroundZero(double low, double high, double position);
+
+/// As fittingLevels() for a lane that is to be looked at: its zero on half a division, so that the axis has round
+/// numbers, and all of it inside the screen, even if it has to leave the middle.
 [[nodiscard]] LaneScale restingLevels(double low, double high, double middle, double height);
 
 /// Views to go back to. Turns of the same kind that follow within moments are one: a turn of the wheel is undone whole.

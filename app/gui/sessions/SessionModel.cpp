@@ -125,7 +125,9 @@ QVariant SessionModel::data(const QModelIndex& index, int role) const {
         case Qt::DisplayRole:
             return text(shown, index.column());
         case Qt::ToolTipRole:
-            return about(shown);
+            // A cell may be too narrow for what it says.
+            return QStringList{text(shown, index.column()), about(shown)}.join(
+                text(shown, index.column()).isEmpty() ? "" : "\n");
         case Qt::TextAlignmentRole:
             return index.column() == kLength ? int(Qt::AlignRight | Qt::AlignVCenter)
                                              : int(Qt::AlignLeft | Qt::AlignVCenter);

@@ -136,6 +136,7 @@ MainWindow::~MainWindow() {
 void MainWindow::connectWorkspaces() {
     connect(workspaces_, &Workspaces::complained, banner_, &NoticeBanner::complain);
     connect(workspaces_, &Workspaces::markWanted, this, &MainWindow::markMoment);
+    connect(workspaces_, &Workspaces::plotOnlyWanted, this, [this] { findChild<QAction*>("plotOnly")->trigger(); });
     connect(workspaces_, &Workspaces::simulatedBenchWanted, this, &MainWindow::openSimulatedBench);
     connect(workspaces_, &Workspaces::completed, this, &MainWindow::noteComplete);
 }

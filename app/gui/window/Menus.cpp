@@ -110,6 +110,7 @@ void Menus::addView(const QActionGroup& workspaces, DockColumn& docks) {
         });
     auto* plotOnly = view->addAction(tr("Plot &only"), QKeySequence(Qt::Key_F11), &window_, &MainWindow::showPlotOnly);
     plotOnly->setCheckable(true);
+    plotOnly->setObjectName("plotOnly");
     view->addAction(tr("&Full screen"), QKeySequence(Qt::SHIFT | Qt::Key_F11), &window_,
                     [this] { window_.setWindowState(window_.windowState() ^ Qt::WindowFullScreen); });
     view->addAction(tr("Reset la&yout"), &window_, &MainWindow::resetLayout);

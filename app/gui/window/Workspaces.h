@@ -60,6 +60,7 @@ signals:
     void completed();
     void complained(const QString& why);  ///< about a file or a recording that was not opened
     void markWanted();
+    void plotOnlyWanted();
     void simulatedBenchWanted();
     void captured(std::shared_ptr<const tacto::Capture> capture);  ///< by a run
 

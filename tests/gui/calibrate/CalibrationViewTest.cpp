@@ -1,6 +1,9 @@
 // Readings of a calibration as they come: which way, which stand out, in which band.
+#include <QClipboard>
 #include <QComboBox>
+#include <QGuiApplication>
 #include <QTest>
+#include <QToolButton>
 #include <gmock/gmock.h>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
@@ -50,6 +53,45 @@ protected:
     }
     gui::CalibrationView view;
 };
+
+TEST_F(View, NoLegendCoversAReadingOrAMean) {
+    sweep();
+    for (const auto& size : {QSize(1000, 420), QSize(1400, 700), QSize(700, 420)}) {
+        view.resize(size);
+        QTest::qWait(20);
+        for (auto* plot : {&errors(), &measured()}) {
+            view.findChild<QComboBox*>("calibrationPlotKind")->setCurrentIndex(plot == &measured());
+            plot->replot(QCustomPlot::rpImmediateRefresh);
+            const QRect legend = plot->legend->outerRect();
+            ASSERT_FALSE(legend.isEmpty());
+            EXPECT_TRUE(plot->axisRect()->rect().contains(legend)) << "it stands inside its plot";
+            int points = 0;
+            for (int g = 0; g < plot->graphCount(); ++g) {
+                const auto* graph = plot->graph(g);
+                if (graph->scatterStyle().isNone()) continue;
+                for (const auto& point : *graph->data()) {
+                    ++points;
+                    const QPointF at(plot->xAxis->coordToPixel(point.key), plot->yAxis->coordToPixel(point.value));
+                    EXPECT_FALSE(QRectF(legend).contains(at))
+                        << plot->accessibleName().toStdString() << " at " << size.width() << ": " << point.key;
+                }
+            }
+            EXPECT_GT(points, 20);
+        }
+    }
+}
+
+TEST_F(View, ThePlotThatIsShownIsCopiedAndSavedByButtons) {
+    sweep();
+    QGuiApplication::clipboard()->clear();
+    auto* copy = find<QToolButton>(view, "Copy the plot");
+    ASSERT_NE(copy, nullptr);
+    click(*copy);
+    EXPECT_FALSE(QGuiApplication::clipboard()->image().isNull());
+    EXPECT_NE(find<QToolButton>(view, "Save the plot"), nullptr);
+    EXPECT_NE(find<QToolButton>(view, "Plot only"), nullptr);
+    shot(view, "calibrate-view-tools");
+}
 
 TEST_F(View, EachPlotHasItsOwnTitleAndLegend) {
     sweep();

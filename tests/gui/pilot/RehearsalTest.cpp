@@ -118,6 +118,17 @@ TEST_F(RehearsalInTheWindow, AtTheSessionsOwnPaceThereIsSomethingToWatch) {
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
 }
 
+TEST_F(RehearsalInTheWindow, ALongFolderIsReadFromItsBeginningAndASeedIsTyped) {
+    pilot = window.findChild<gui::PilotWorkspace*>();
+    auto* place = pilot->findChild<QLineEdit*>("studyFolder");
+    const auto path = QString("/data/").leftJustified(400, 'x');
+    place->clearFocus();
+    place->setText(path);
+    EXPECT_EQ(place->cursorPosition(), 0) << "its beginning is in sight";
+    EXPECT_TRUE(place->toolTip().startsWith(path)) << "and all of it in the tip";
+    EXPECT_EQ(pilot->findChild<QSpinBox*>("rehearsalSeed")->buttonSymbols(), QAbstractSpinBox::NoButtons);
+}
+
 TEST_F(RehearsalInTheWindow, ANewOneHasAFolderOfItsOwnAndKeepsTheRest) {
     begin(false, "massager");
     const auto first = pilot->findChild<QLineEdit*>("studyFolder")->text();

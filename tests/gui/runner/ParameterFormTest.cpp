@@ -1,4 +1,5 @@
 // The form of a protocol's parameters.
+#include <QCheckBox>
 #include <QLineEdit>
 #include <QTest>
 #include <gtest/gtest.h>
@@ -32,6 +33,23 @@ TEST(ParameterForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBla
     const auto chosen = form.read().value();
     EXPECT_EQ(chosen.given, (std::set<std::string>{"area", "file"}));
     EXPECT_EQ(chosen.parameters.at("area"), 5);
+}
+
+TEST(ParameterForm, ATickSaysYesByItself) {
+    ProtocolDeclaration declaration;
+    ProtocolParameter keep;
+    keep.name = "keep";
+    keep.label = "Keep the captures";
+    keep.type = ParameterType::Boolean;
+    keep.value = true;
+    declaration.parameters = {keep};
+    gui::ParameterForm form;
+    form.show(declaration);
+    const auto* box = form.findChild<QCheckBox*>("keep");
+    ASSERT_NE(box, nullptr);
+    EXPECT_TRUE(box->isChecked());
+    EXPECT_EQ(box->text(), "");
+    EXPECT_EQ(box->accessibleName(), "Keep the captures");
 }
 
 ProtocolParameter areaFromTheProfile() {

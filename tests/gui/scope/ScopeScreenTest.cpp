@@ -27,7 +27,8 @@ protected:
     void draw() { screen.replot(QCustomPlot::rpImmediateRefresh); }
     gui::LaneScale scaleOf(const QString& key) { return model.scaleOf(*model.lane(key)); }
     QColor colourOf(const QString& key) { return gui::laneColour(model, *model.lane(key)); }
-    QPoint letterOf(const QString& key) { return at(screen, 0.1, scaleOf(key).position); }
+    /// Voltage at the left edge, current at the right.
+    QPoint letterOf(const QString& key) { return at(screen, key == amps ? 9.9 : 0.1, scaleOf(key).position); }
 
     gui::ScopeModel model;
     gui::ScopeScreen screen{model};
@@ -64,6 +65,53 @@ TEST_F(Screen, FitsTheWholeRecordAroundItsTriggerInStepsOfOneTwoFive) {
     EXPECT_GT(v.position, 0) << "voltage above";
     EXPECT_LT(i.position, 0) << "current below";
     shot(screen, "view");
+}
+
+TEST_F(Screen, TwoLanesHaveTheirZerosOnLinesOfTheGridAndNumbersWhereTheyAre) {
+    for (const double level : {40.0, 25.0, 12.0}) {
+        gui::ScopeModel its;
+        gui::ScopeScreen plot{its};
+        plot.resize(1000, 600);
+        its.show(prepared(twoPulses(99.999, level)));
+        plot.replot(QCustomPlot::rpImmediateRefresh);
+        const auto v = its.scaleOf(*its.lane(volts)), i = its.scaleOf(*its.lane(amps));
+        EXPECT_DOUBLE_EQ(v.position, 1.5);
+        EXPECT_DOUBLE_EQ(i.position, -1.5);
+        EXPECT_DOUBLE_EQ(v.perDivision, i.perDivision * 1000) << "the same divisions at 1 kΩ: they never cross";
+        EXPECT_GE(level / v.perDivision, 1.2) << "the room is used";
+        EXPECT_LE(level / v.perDivision, 2.5);
+        const auto ticks = plot.yAxis->tickVector();
+        const auto onLine = [&](double height) {
+            return std::any_of(ticks.begin(), ticks.end(), [&](double at) { return std::abs(at - height) < 1e-9; });
+        };
+        EXPECT_TRUE(onLine(v.position));
+        EXPECT_TRUE(onLine(i.position));
+        for (const auto* axis : {plot.yAxis, plot.yAxis2}) {
+            for (auto label : axis->tickVectorLabels()) {
+                if (label.isEmpty()) continue;
+                EXPECT_LE(std::abs(label.replace(QChar(0x2212), '-').toDouble()), level + v.perDivision)
+                    << "beside the other lane it says nothing";
+            }
+        }
+        const auto& lanes = plot.overlay().lanes;
+        EXPECT_FALSE(lanes[0].right);
+        EXPECT_TRUE(lanes[1].right);
+    }
+    shot(screen, "pair");
+    model.setLaneShown(amps, false);
+    draw();
+    const auto labels = screen.yAxis->tickVectorLabels();
+    EXPECT_FALSE(labels.contains(QString())) << "alone it has the whole axis";
+}
+
+TEST_F(Screen, TheTriggersLevelStandsBesideAHandleAtTheSameHeight) {
+    model.setTrigger(amps, 2e-3, false);
+    draw();
+    const auto zero = letterOf(amps);
+    EXPECT_EQ(screen.gripAt(zero).grip, Grip::Lane);
+    const int level = at(screen, 0, scaleOf(amps).heightOf(2e-3)).y();
+    EXPECT_EQ(screen.gripAt(QPoint(zero.x() - 30, level)).grip, Grip::TriggerLevel);
+    shot(screen, "trigger-beside-handle");
 }
 
 TEST_F(Screen, TheWheelZoomsTimeAroundTheMouseAndCtrlZGoesBack) {
@@ -206,7 +254,8 @@ TEST_F(Screen, FlagsLeaveTheTracesInSightWhereThereIsRoom) {
 
 TEST_F(Screen, TicksAreRoundWhateverABoxMakesOfThem) {
     const auto roundOn = [&](const QCPAxis& axis) {
-        const auto labels = axis.tickVectorLabels();
+        auto labels = axis.tickVectorLabels();
+        labels.removeAll(QString());  // beside the other lane's part
         ASSERT_GE(labels.size(), 3);
         const double first = QString(labels[0]).replace(QChar(0x2212), '-').toDouble();
         const double step = QString(labels[1]).replace(QChar(0x2212), '-').toDouble() - first;

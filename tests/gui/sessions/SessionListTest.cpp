@@ -70,6 +70,18 @@ TEST_F(Sessions, AColumnThatComesIntoSightIsAsWideAsItsTitle) {
         EXPECT_GE(table().columnWidth(column), table().horizontalHeader()->sectionSizeHint(column)) << column;
 }
 
+TEST_F(Sessions, ACellThatIsTooNarrowSaysAllOfItInItsTip) {
+    sessions.write({.name = "a"});
+    begin();
+    listed(1);
+    for (int column = 0; column < gui::SessionModel::kColumns; ++column) {
+        const auto index = table().model()->index(0, column);
+        const auto tip = index.data(Qt::ToolTipRole).toString();
+        EXPECT_TRUE(tip.startsWith(index.data().toString())) << column << ": " << tip.toStdString();
+        EXPECT_THAT(tip.toStdString(), HasSubstr("a.tacto")) << "and which session it is";
+    }
+}
+
 TEST_F(Sessions, FiveThousandAreListedInUnderASecond) {
     // Fifty that differ, a hundred names each: what a listing does for a name does not depend on whose bytes they are.
     constexpr int kDifferent = 50, kNames = 100;

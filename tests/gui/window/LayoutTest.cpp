@@ -63,9 +63,14 @@ TEST_F(Layout, TheOscilloscopesScreenHasTheRoomWithTheDocksOpen) {
         window.resize(size);
         QTest::qWait(100);
         ASSERT_TRUE(dock("driveDock").isVisible());
-        auto* around = screen->parentWidget()->parentWidget();  // with the line that says what is shown
-        EXPECT_GE(shareOf(*around), share) << size.width();
-        EXPECT_GE(shareOf(*screen), share - 0.04) << size.width();
+        EXPECT_GE(shareOf(*screen), share) << size.width() << ": the plot alone, without tools and caption";
+        EXPECT_LE(screen->axisRect()->left(), 80) << "and little of it is for numbers";
+        EXPECT_LE(screen->width() - screen->axisRect()->right(), 80);
+        EXPECT_EQ(window.findChild<QWidget*>("scopeStatus")->mapTo(&window, QPoint()).y() <
+                      screen->mapTo(&window, QPoint()).y() - 20,
+                  size.width() > 1500)
+            << "the caption stands beside the tools where there is room";
+        shot(window, QString("scope-share-%1").arg(size.width()));
     }
 }
 
@@ -103,6 +108,28 @@ TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     window.showWorkspace(3);
     EXPECT_TRUE(free->isVisible());
     window.showWorkspace(0);  // the next window begins where this one was
+}
+
+TEST_F(Layout, TheOscilloscopesToolsHaveTheKeysForAMarkAndForThePlotAlone) {
+    open();
+    window.showWorkspace(0);
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    auto& head = *window.findChild<QWidget*>("livePage")->findChild<QWidget*>("tabRow");
+    for (const int width : {1280, 1920}) {
+        window.resize(width, width * 9 / 16);
+        QTest::qWait(50);
+        EXPECT_LT(head.height(), 50) << "one row of tools at " << width;
+    }
+    auto* only = find<QToolButton>(head, "Plot only");
+    ASSERT_NE(only, nullptr);
+    click(*only);
+    EXPECT_IN_TIME(comesTrue([this] { return !bar("workspaces").isVisible(); }));
+    key(Qt::Key_F11);
+    EXPECT_IN_TIME(comesTrue([this] { return bar("workspaces").isVisible(); })) << "the same as the key";
+    auto* mark = find<QToolButton>(head, "Mark");
+    ASSERT_NE(mark, nullptr);
+    click(*mark);
+    EXPECT_IN_TIME(comesTrue([this] { return window.findChild<QWidget*>("markLine")->isVisible(); }));
 }
 
 TEST_F(Layout, F11HidesTheTabsAndTheirKeysStay) {

@@ -1,0 +1,119 @@
+// What is written in the plots of the window, at each size: the watermark whole, nothing twice.
+#include <QLabel>
+#include <QSettings>
+#include <QStackedWidget>
+#include <gmock/gmock.h>
+#include <qcustomplot.h>
+#include <set>
+
+#include "app/gui/theme/TabbedPage.h"
+#include "tests/gui/window/WindowFixture.h"
+
+namespace tacto::test {
+namespace {
+
+/// What the watermark changes of the plot's picture: it is clipped at the axes, so a cropped one reaches their edges.
+QRect inkOf(QCustomPlot& plot, QCPItemText& mark) {
+    const bool before = mark.visible();
+    const auto picture = [&](bool visible) {
+        mark.setVisible(visible);
+        return plot.toPixmap().toImage().convertToFormat(QImage::Format_RGB32);
+    };
+    const auto with = picture(true), without = picture(false);
+    mark.setVisible(before);
+    QRect ink;
+    for (int y = 0; y < with.height(); ++y) {
+        const auto* a = reinterpret_cast<const QRgb*>(with.constScanLine(y));
+        const auto* b = reinterpret_cast<const QRgb*>(without.constScanLine(y));
+        for (int x = 0; x < with.width(); ++x)
+            if (a[x] != b[x]) ink |= QRect(x, y, 1, 1);
+    }
+    return ink;
+}
+
+std::vector<QCPItemText*> wordsIn(const QCustomPlot& plot) {
+    std::vector<QCPItemText*> all;
+    for (int i = 0; i < plot.itemCount(); ++i) {
+        auto* words = qobject_cast<QCPItemText*>(plot.item(i));
+        if (words != nullptr && words->visible() && !words->text().isEmpty()) all.push_back(words);
+    }
+    return all;
+}
+
+class PlotTexts : public Window {
+protected:
+    ~PlotTexts() override { QSettings().clear(); }
+    QWidget& page() { return *window.findChild<QWidget*>("centre")->findChild<QStackedWidget*>()->currentWidget(); }
+    std::vector<QCustomPlot*> plots() {
+        std::vector<QCustomPlot*> visible;
+        for (auto* plot : page().findChildren<QCustomPlot*>())
+            if (plot->isVisible() && plot->height() > 0) visible.push_back(plot);
+        return visible;
+    }
+    /// Of every workspace, at each size, in turn: `look` with where it is.
+    void everywhere(const std::function<void(const std::string&)>& look) {
+        auto& live = *window.findChild<gui::TabbedPage*>("livePage");
+        for (const auto& size : {QSize(1024, 640), QSize(1280, 720), QSize(1920, 1080)}) {
+            window.resize(size);
+            for (int workspace = 0; workspace < 7; ++workspace) {
+                window.showWorkspace(workspace);
+                for (int tab = 0; tab < (workspace == 0 ? 2 : 1); ++tab) {
+                    if (workspace == 0) live.setCurrentIndex(tab);
+                    QTest::qWait(60);
+                    look("workspace " + std::to_string(workspace) + "." + std::to_string(tab) + " at " +
+                         std::to_string(size.width()));
+                }
+            }
+        }
+        live.setCurrentIndex(0);
+        window.showWorkspace(0);
+    }
+};
+
+TEST_F(PlotTexts, AWatermarkStandsWhollyInsideItsPlotAtEachSize) {
+    open();
+    int seen = 0;
+    everywhere([&](const std::string& where) {
+        for (auto* plot : plots()) {
+            for (int i = 0; i < plot->itemCount(); ++i) {
+                auto* mark = qobject_cast<QCPItemText*>(plot->item(i));
+                if (mark == nullptr || mark->objectName() != "watermark") continue;
+                ++seen;
+                const QRect room = mark->clipAxisRect()->rect().adjusted(1, 1, -1, -1);
+                QRect ink = inkOf(*plot, *mark);
+                // What moved between the two pictures counts as well: a word that is cut is so in each pair.
+                for (int again = 0; again < 3 && !room.contains(ink); ++again) ink = inkOf(*plot, *mark);
+                EXPECT_FALSE(ink.isEmpty()) << where << ": " << plot->accessibleName().toStdString();
+                EXPECT_TRUE(room.contains(ink)) << where << ": " << plot->accessibleName().toStdString() << ", cropped";
+            }
+        }
+    });
+    EXPECT_GE(seen, 10);
+}
+
+TEST_F(PlotTexts, NothingIsWrittenInAPlotThatStandsInItsHead) {
+    open();
+    int words = 0;
+    everywhere([&](const std::string& where) {
+        std::set<QString> heads;
+        for (const auto* label : page().findChildren<QLabel*>())
+            if (label->isVisible() && label->text().size() > 3) heads.insert(label->text());
+        for (const auto* plot : plots()) {
+            std::multiset<QString> inside;
+            for (const auto* item : wordsIn(*plot)) inside.insert(item->text());
+            for (const auto* title : plot->findChildren<QCPTextElement*>())
+                if (title->visible()) inside.insert(title->text());
+            for (const auto* axis : plot->findChildren<QCPAxis*>())
+                if (axis->visible()) inside.insert(axis->label());
+            for (const auto& text : inside) {
+                if (text.size() <= 3) continue;
+                ++words;
+                EXPECT_FALSE(heads.contains(text)) << where << ": " << text.toStdString();
+            }
+        }
+    });
+    EXPECT_GE(words, 10);
+}
+
+}  // namespace
+}  // namespace tacto::test
