@@ -43,7 +43,7 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     : QWidget(parent), controller_(controller), book_(book) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(4);
+    column->setSpacing(0);
     tabs_ = new PageTabs(this);
     tabs_->setObjectName("calibratePages");
     tabs_->setDocumentMode(true);
