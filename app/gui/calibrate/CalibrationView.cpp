@@ -18,7 +18,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kLowLines = 26;  // below this height the cards are one line, so that the plot keeps its own
-constexpr int kCardsApart = 8, kCardsBelow = 4;
+constexpr int kCardsApart = 8, kCardsBelow = 0;
 
 }  // namespace
 

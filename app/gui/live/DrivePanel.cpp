@@ -261,7 +261,9 @@ void DrivePanel::followFinger(const Telemetry& telemetry) {
 void DrivePanel::refresh(const Telemetry& telemetry) {
     if (controller_.activity() == Activity::Live) {
         follow(telemetry.driving);
-        if (telemetry.driving != DriveSource::Off)
+        const bool known = std::isfinite(telemetry.roughness) && std::isfinite(telemetry.pressure);
+        const bool another = !was_ || was_->source != telemetry.driving;
+        if (telemetry.driving != DriveSource::Off && (known || another))  // the last that is known of it
             was_ = DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure};
     }
     followFinger(telemetry);

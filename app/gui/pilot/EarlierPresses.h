@@ -1,4 +1,4 @@
-// EarlierPresses.h - keys and buttons that went down while no target was there: those that are still held do not answer.
+// EarlierPresses.h - keys and buttons that went down while no target was there: while still held they do not answer.
 //
 // Thread-safety: none of its own.
 #pragma once

@@ -4,6 +4,7 @@
 #include <QSpacerItem>
 #include <QWidget>
 #include <algorithm>
+#include <utility>
 
 #include "app/gui/theme/Icons.h"
 
@@ -86,8 +87,12 @@ std::size_t ToolRow::fitting(int width) const {
 
 void ToolRow::setGeometry(const QRect& area) {
     QLayout::setGeometry(area);
-    const auto fits = fitting(area.width());
+    if (std::exchange(placing_, true)) return;  // from within: what is shown may have its parent laid out anew
+    auto fits = fitting(area.width());
     putAway(fits);
+    // Shown or hidden, a part may want another size.
+    if (const auto now = fitting(geometry().width()); now != fits) putAway(fits = now);
+    placing_ = false;
     int x = area.left();
     const auto place = [&](const QSize& size) {
         const QRect at(QPoint(x, area.top() + (area.height() - size.height()) / 2), size);

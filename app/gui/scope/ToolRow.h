@@ -36,6 +36,7 @@ private:
 
     std::vector<std::unique_ptr<QLayoutItem>> items_;
     QToolButton* more_;
+    bool placing_ = false;
     std::set<QWidget*> away_;  // hidden here, and shown again once there is room
 };
 

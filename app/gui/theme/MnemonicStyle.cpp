@@ -39,8 +39,9 @@ int MnemonicStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, c
         case PM_LayoutRightMargin:
         case PM_LayoutBottomMargin:
         case PM_LayoutHorizontalSpacing:
-        case PM_LayoutVerticalSpacing:
             return kGrid;
+        case PM_LayoutVerticalSpacing:
+            return kGrid / 2;  // rows are high enough as they are
         case PM_SmallIconSize:
         case PM_LineEditIconSize:
             return scaledPx(kButtonIcon);

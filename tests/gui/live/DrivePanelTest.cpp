@@ -1,5 +1,6 @@
 // After a stop the panel of the drive says what drove, so that the operator goes on knowingly; it goes on with nothing.
 #include <QPushButton>
+#include <cmath>
 
 #include "tests/gui/live/LiveBench.h"
 #include "tests/support/InTime.h"
@@ -46,6 +47,11 @@ TEST_F(DriveThatWas, IsTheFingertipWhereItDroveAndAnotherBenchKnowsOfNone) {
     controller.drive(DriveSource::Sensor);
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().trainsDelivered > 0; }));
     ASSERT_IN_TIME(comesTrue([this] { return drive.chosen() == DriveSource::Sensor; }));
+    ASSERT_IN_TIME(comesTrue([this] {
+        const auto telemetry = controller.telemetry();
+        drive.refresh(telemetry);
+        return std::isfinite(telemetry.roughness) && std::isfinite(telemetry.pressure);
+    }));
     controller.disarm();
     ASSERT_IN_TIME(saysOff());
     EXPECT_THAT(says(), StartsWith("Was the fingertip, R "));

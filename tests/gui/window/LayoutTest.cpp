@@ -343,7 +343,7 @@ TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
     auto* more = window.findChild<QToolButton*>("moreTools");
     window.resize(1920, 1080);
     EXPECT_IN_TIME(comesTrue([&] { return !more->isVisible(); })) << "there is room for all of them";
-    auto* cursors = find<QToolButton>(window, "Time cursors");
+    auto* cursors = find<QToolButton>(window, "Level cursors");
     ASSERT_NE(cursors, nullptr);
     gui::applyTextSize(200);
     window.resize(1280, 720);
@@ -352,7 +352,7 @@ TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
     emit more->menu()->aboutToShow();
     QAction* action = nullptr;
     for (auto* each : more->menu()->actions())
-        if (each->text() == "Time cursors") action = each;
+        if (each->text() == "Level cursors") action = each;
     ASSERT_NE(action, nullptr);
     action->trigger();
     EXPECT_TRUE(cursors->isChecked()) << "as a click on it";

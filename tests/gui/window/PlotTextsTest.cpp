@@ -50,7 +50,7 @@ protected:
             if (plot->isVisible() && plot->height() > 0) visible.push_back(plot);
         return visible;
     }
-    /// Of every workspace, at each size, in turn: `look` with where it is.
+    /// `look` at every workspace and at each size, in turn, told where that is.
     void everywhere(const std::function<void(const std::string&)>& look) {
         auto& live = *window.findChild<gui::TabbedPage*>("livePage");
         for (const auto& size : {QSize(1024, 640), QSize(1280, 720), QSize(1920, 1080)}) {
