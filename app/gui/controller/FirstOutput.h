@@ -15,15 +15,19 @@ namespace tacto::gui {
 /// delivered.
 [[nodiscard]] std::optional<Command> firstByHand(const BenchController& controller, const Telemetry& telemetry);
 
+/// What "By hand" would ask for first, whatever drives. Nothing where nothing can be delivered.
+[[nodiscard]] std::optional<Command> wouldByHand(const BenchController& controller);
+
 /// A train that was not delivered yet.
 struct ComingTrain {
     PulseTrain train;                     ///< in volts
     std::optional<double> impedance_ohm;  ///< |Z| that it meets; nothing: not measured
+    bool asked = false;                   ///< it comes next; else it would, once "By hand" is chosen
     bool operator==(const ComingTrain&) const = default;
 };
 
-/// The train of firstByHand() while the output is armed and has delivered none. Nothing in any other state, for a
-/// massager, and where a run has the bench.
+/// The train of firstByHand(), or of wouldByHand() while nothing drives, while the output is armed and has delivered
+/// none. Nothing in any other state, for a massager, and where a run has the bench.
 [[nodiscard]] std::optional<ComingTrain> comingTrain(const BenchController& controller, const Telemetry& telemetry);
 
 }  // namespace tacto::gui

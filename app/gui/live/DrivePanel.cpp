@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/controller/FirstOutput.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/encoding/Encoder.h"
@@ -98,6 +99,7 @@ void DrivePanel::addIndex(QGridLayout& grid, Index& index, const char* objectNam
         const QSignalBlocker quiet(index.slider);
         index.slider->setValue(int(std::lround(v * kSteps)));
         index.byHand = v;
+        controller_.setHand(roughness_.byHand, pressure_.byHand);
         if (byHand_->isChecked()) drive();
     });
 }
@@ -137,6 +139,7 @@ void DrivePanel::begin() {
         bench_ = bench;
         was_.reset();
         for (auto* index : {&roughness_, &pressure_}) index->byHand = 0;
+        controller_.setHand(0, 0);
     }
     showHand();
 }
@@ -204,7 +207,7 @@ QString DrivePanel::trainText(double amplitude_v, double interval_s) const {
 QString DrivePanel::offWords() const {
     const auto nothing = was_ ? wasWords() : tr("Nothing drives the output.");
     if (controller_.activity() != Activity::Live) return nothing;
-    const auto first = Encoder(controller_.profile().encoding).encode(roughness_.byHand, pressure_.byHand);
+    const auto first = wouldByHand(controller_);
     if (!first) return nothing;
     return tr("%1 By hand asks for %2.").arg(nothing, trainText(first->amplitude.value(), first->interval.count()));
 }

@@ -11,6 +11,7 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/PathField.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -50,7 +51,7 @@ std::optional<Unfinished> unfinishedIn(const QString& folder, const std::string&
 RehearsalPage::RehearsalPage(QWidget* parent)
     : QWidget(parent),
       title_(new QLabel(this)),
-      folder_(new QLineEdit(newFolder(), this)),
+      folder_(new PathField(newFolder(), tr("A new folder, or the folder of a rehearsal to continue."), this)),
       offer_(new UnfinishedOffer(this)),
       who_(new QComboBox(this)),
       pace_(new QComboBox(this)),
@@ -87,12 +88,6 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     row->setContentsMargins(0, 0, 0, 0);
     folder_->setObjectName("studyFolder");
     folder_->setAccessibleName(tr("Folder of the rehearsal"));
-    const auto showBeginning = [this] {
-        if (!folder_->hasFocus()) folder_->setCursorPosition(0);
-        folder_->setToolTip(folder_->text() + "\n" + tr("A new folder, or the folder of a rehearsal to continue."));
-    };
-    connect(folder_, &QLineEdit::textChanged, this, showBeginning);
-    showBeginning();
     auto* choose = new QPushButton(tr("Ch&oose…"), place);
     choose->setAutoDefault(false);
     choose->setToolTip(tr("Chooses the folder from a list."));

@@ -24,7 +24,8 @@ QString whyAndWhere(const QString& error, const QString& meaning) {
 }
 
 constexpr int kBesideBlock = 16;
-constexpr int kMostBlocks = 3;  // height of the reasons: more scroll
+constexpr int kNarrowChars = 60;  // words and block are closer then
+constexpr int kMostBlocks = 3;    // height of the reasons: more scroll
 
 /// A script's words: one line each, as plain text.
 QLabel* wordsLabel(const char* name, QWidget* parent) {
@@ -128,6 +129,8 @@ void ResultHead::resizeEvent(QResizeEvent* event) {
 }
 
 void ResultHead::giveRoom() {
+    const bool narrow = width() < fontMetrics().averageCharWidth() * kNarrowChars;
+    layout()->setSpacing(narrow ? kBesideBlock / 2 : kBesideBlock);
     const int block = verdict_->sizeHint().height();
     const auto* page = area_->widget();
     const int needed = page->layout()->totalHeightForWidth(area_->width());

@@ -76,7 +76,7 @@ void fillComing(const ScopeModel& model, OverlayState& o) {
         line.colour = laneInk(model, *lane);
         line.line = linesOf(coming->train, *perVolt, model.scaleOf(*lane));
         const auto level = quantityText(volts * *perVolt, unit == "V" ? "V" : "A", 3);
-        line.text = unit == "V" ? QObject::tr("next train %1").arg(level)
+        line.text = unit == "V" ? (coming->asked ? QObject::tr("next train %1") : QObject::tr("by hand: %1")).arg(level)
                                 : QObject::tr("%1 at %2").arg(level, quantityText(*coming->impedance_ohm, "ohm", 3));
         o.coming.push_back(std::move(line));
     }

@@ -58,10 +58,10 @@ struct OverlayState {
         QString position;  ///< "200.0 µs"
         std::vector<Row> rows;
     };
-    /// The train that comes next, in one lane.
+    /// The train that comes next, or would by hand, in one lane.
     struct Coming {
         std::vector<QPointF> line;  ///< times and heights
-        QString text;               ///< "next train 30.7 V", over the first phase
+        QString text;               ///< "next train 30.7 V" or "by hand: 30.7 V", over the first phase
         QColor colour;
     };
     std::vector<Lane> lanes;

@@ -202,7 +202,8 @@ void SessionList::fitColumns() {
     for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
     const auto* header = table_->horizontalHeader();
     const int least = header->length() - header->sectionSize(SessionModel::kNote) + header->minimumSectionSize();
-    const int room = width() - table_->verticalScrollBar()->sizeHint().width();  // the table has its own size later
+    // The table has its own size later.
+    const int room = width() - table_->verticalScrollBar()->sizeHint().width() - 2 * table_->frameWidth();
     table_->setColumnHidden(SessionModel::kSample, least > room);
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/PathField.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -21,7 +22,7 @@ constexpr int kNewPad = 16, kFormWide = 900;
 NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     : QWidget(parent),
       study_(study),
-      folder_(new QLineEdit(this)),
+      folder_(new PathField({}, tr("A new or empty folder. Its keys lie elsewhere, in your own key folder."), this)),
       form_(new StudyForm(this)),
       trouble_(new TroubleLine("newStudyTrouble", this)) {
     setObjectName("newStudy");
@@ -46,7 +47,6 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     word->setBuddy(folder_);
     folder_->setObjectName("newStudyFolder");
     folder_->setAccessibleName(tr("Folder of the new study"));
-    folder_->setToolTip(tr("A new or empty folder. Its keys lie elsewhere, in your own key folder."));
     auto* choose = new QPushButton(tr("Ch&oose…"), place);
     choose->setAutoDefault(false);
     connect(choose, &QPushButton::clicked, this, [this] {

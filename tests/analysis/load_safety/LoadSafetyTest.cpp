@@ -85,23 +85,25 @@ protected:
     TripTrial& trip(std::string_view name) {
         return *std::find_if(input.trips.begin(), input.trips.end(), [&](const auto& t) { return t.name == name; });
     }
-    const LimitLine& line() {
+    LimitLine line() {
         matrix = limitMatrixOf(judgeLoadSafety(input), input.limits);
         return *std::find_if(matrix.lines.begin(), matrix.lines.end(), [](const auto& l) { return l.item == "trip"; });
     }
-    const LimitCell& cell(std::string_view load) {
+    LimitCell cell(std::string_view load) {
+        const auto cells = line().cells;
         const auto at = std::find(matrix.loads.begin(), matrix.loads.end(), load) - matrix.loads.begin();
-        return line().cells.at(static_cast<std::size_t>(at)).value();
+        return cells.at(static_cast<std::size_t>(at)).value();
     }
 
-    LimitMatrix matrix;
+    LimitMatrix matrix;  // of the last line() or cell()
 };
 
 TEST_F(LoadSafetyTrips, AreALineOfTheMatrixWithTheLongerTime) {
     trip("open while delivering").after_s = 0.49;
-    EXPECT_EQ(line().title, "output ends by itself");
-    EXPECT_EQ(line().verdict, RowVerdict::Pass);
-    EXPECT_EQ(std::count_if(line().cells.begin(), line().cells.end(), [](const auto& c) { return c.has_value(); }), 2);
+    const auto found = line();
+    EXPECT_EQ(found.title, "output ends by itself");
+    EXPECT_EQ(found.verdict, RowVerdict::Pass);
+    EXPECT_EQ(std::count_if(found.cells.begin(), found.cells.end(), [](const auto& c) { return c.has_value(); }), 2);
     EXPECT_EQ(cell("open").value, 0.49);
     EXPECT_EQ(cell("short").value, 0.1);
     EXPECT_TRUE(std::isnan(cell("open").margin_pct)) << "a time before the next train, and no limit in seconds";

@@ -69,7 +69,7 @@ TEST_F(Coming, TheFirstTrainOfAnArmedOutputIsDrawnDashedOverTheLastOne) {
     EXPECT_LT(coloured, across * 9 / 10);
 }
 
-TEST_F(Coming, NothingIsDrawnUnlessItIsKnownThatItComes) {
+TEST_F(Coming, NothingIsDrawnUnlessItIsKnownWhatComes) {
     RecordProperty("hazard", "H12");
     holdATrain();
     controller.drive(DriveSource::Manual, 0.69, 0.8);
@@ -80,8 +80,12 @@ TEST_F(Coming, NothingIsDrawnUnlessItIsKnownThatItComes) {
         see(state, DriveSource::Manual);
         EXPECT_TRUE(drawn().empty()) << nameOf(state);
     }
+    controller.setHand(0.69, 0.8);
     see(InterlockState::Armed, DriveSource::Off);
-    EXPECT_TRUE(drawn().empty()) << "nothing drives";
+    ASSERT_EQ(drawn().size(), 2U) << "what would follow";
+    EXPECT_EQ(drawn()[0].text, "by hand: 30.7\u202fV") << "and not that it does";
+    see(InterlockState::Disarmed, DriveSource::Off);
+    EXPECT_TRUE(drawn().empty());
     see(InterlockState::Armed, DriveSource::Sensor);
     EXPECT_TRUE(drawn().empty()) << "what the fingertip will feel is not known";
     auto unmeasured = telling(InterlockState::Armed, DriveSource::Manual);
@@ -108,9 +112,11 @@ TEST_F(Coming, TheNextTrainComesWithTheArmedOutputAndGoesWithTheFirstOne) {
     request.operatorConfirmed = true;
     controller.arm(request);
     ASSERT_IN_TIME(comes([this] { return controller.telemetry().state == InterlockState::Armed; }));
-    EXPECT_TRUE(drawn().empty()) << "a stop switched the drive off";
+    ASSERT_IN_TIME(comes([this] { return drawn().size() == 2; }));
+    EXPECT_THAT(drawn()[0].text.toStdString(), testing::StartsWith("by hand: ")) << "a stop switched the drive off";
     controller.drive(DriveSource::Manual, 0.9, 0.8);
-    ASSERT_IN_TIME(comes([this] { return drawn().size() == 2; })) << "paused: it waits";
+    ASSERT_IN_TIME(comes([this] { return drawn().size() == 2 && drawn()[0].text.startsWith("next train "); }))
+        << "paused: it waits";
     controller.resume();
     ASSERT_IN_TIME(comes([this] { return controller.telemetry().state == InterlockState::Delivering; }));
     EXPECT_TRUE(drawn().empty());
