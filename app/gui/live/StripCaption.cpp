@@ -73,15 +73,18 @@ void StripCaption::write(QCPPainter& painter, const Words& words, const QFont& f
 void StripCaption::draw(QCPPainter* painter) {
     const auto& c = colours();
     const double middle = below_.top() - kUnder_px - QFontMetricsF(font_).height() / 2;
-    const double right = below_.left() + below_.width() - value_.width;
     double x = below_.left() + kBefore_px;
+    // A value that would lie over the title is left out.
+    const double end = below_.left() + below_.width();
+    const bool hasValue = end - value_.width >= x + title_.width + kBetween_px;
+    const double right = hasValue ? end - value_.width : end;
     painter->setPen(c.text);
     write(*painter, title_, strong_, x);
     x = std::max(below_.left() + double(scaledPx(kKeysFrom)), x + title_.width + kBetween_px);
     for (const auto& each : keys_) {
         if (each.words.text.text().isEmpty()) continue;
-        const double end = x + kSample_px + kToSample_px + each.words.width;
-        if (end > right - kBetween_px) break;  // there is no room for it beside the value
+        const double until = x + kSample_px + kToSample_px + each.words.width;
+        if (until > right - kBetween_px) break;  // there is no room for it beside the value
         painter->setPen(each.line);
         painter->drawLine(QPointF(x, middle), QPointF(x + kSample_px, middle));
         if (!each.mark.isNone()) {
@@ -91,8 +94,9 @@ void StripCaption::draw(QCPPainter* painter) {
         painter->setBrush(Qt::NoBrush);
         painter->setPen(c.quiet);
         write(*painter, each.words, font_, x + kSample_px + kToSample_px);
-        x = end + kBetween_px;
+        x = until + kBetween_px;
     }
+    if (!hasValue) return;
     painter->setPen(describes_ ? c.quiet : c.text);
     write(*painter, value_, describes_ ? font_ : strong_, right);
 }

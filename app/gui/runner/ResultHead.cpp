@@ -24,7 +24,7 @@ QString whyAndWhere(const QString& error, const QString& meaning) {
 }
 
 constexpr int kBesideBlock = 16;
-constexpr int kNarrowChars = 60;  // words and block are closer then
+constexpr int kNarrowChars = 64;  // words and block are closer then
 constexpr int kMostBlocks = 3;    // height of the reasons: more scroll
 
 /// A script's words: one line each, as plain text.

@@ -201,7 +201,8 @@ void SessionList::fitColumns() {
     table_->setColumnHidden(SessionModel::kSample, false);
     for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
     const auto* header = table_->horizontalHeader();
-    const int least = header->length() - header->sectionSize(SessionModel::kNote) + header->minimumSectionSize();
+    const int note = std::max(header->minimumSectionSize(), header->sectionSizeHint(SessionModel::kNote));
+    const int least = header->length() - header->sectionSize(SessionModel::kNote) + note;
     // The table has its own size later.
     const int room = width() - table_->verticalScrollBar()->sizeHint().width() - 2 * table_->frameWidth();
     table_->setColumnHidden(SessionModel::kSample, least > room);

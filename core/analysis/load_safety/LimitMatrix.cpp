@@ -120,7 +120,9 @@ LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& 
         summarise(line);
     }
     const auto order = [](const LimitLine& line) {
-        return std::tuple(rankOf(line.verdict), std::isfinite(line.margin_pct) ? line.margin_pct : 1e9);
+        // What ended the output has no margin: first of those that passed, last of those that tell nothing.
+        const double without = line.item == "trip" ? -1e9 : 1e9;
+        return std::tuple(rankOf(line.verdict), std::isfinite(line.margin_pct) ? line.margin_pct : without);
     };
     std::stable_sort(matrix.lines.begin(), matrix.lines.end(),
                      [&](const LimitLine& a, const LimitLine& b) { return order(a) < order(b); });

@@ -107,7 +107,8 @@ TEST_F(LoadSafetyTrips, AreALineOfTheMatrixWithTheLongerTime) {
     EXPECT_EQ(cell("open").value, 0.49);
     EXPECT_EQ(cell("short").value, 0.1);
     EXPECT_TRUE(std::isnan(cell("open").margin_pct)) << "a time before the next train, and no limit in seconds";
-    EXPECT_TRUE(toJson(matrix)["lines"].back()["limit"].is_null());
+    EXPECT_EQ(matrix.lines.front().item, "trip") << "no margin is a number nearer to its limit than it";
+    EXPECT_TRUE(toJson(matrix)["lines"].front()["limit"].is_null());
 }
 
 TEST_F(LoadSafetyTrips, OneThatDidNotEndTheOutputFailsItsLoadAndStandsFirst) {

@@ -29,6 +29,7 @@
 #include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/LimitBar.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/PlotLooks.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 
@@ -410,6 +411,8 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
     const auto* item = list->topLevelItem(0);
     EXPECT_GE(list->visualItemRect(item).height(), QFontMetrics(item->font(0)).height()) << "whole rows";
     shot(window, "docks-open-200-live");
+    EXPECT_IN_TIME(comesTrue([this] { return plotWordFaults(window).isEmpty(); }))
+        << plotWordFaults(window).join('\n').toStdString();
     gui::applyTextSize(100);
 }
 
