@@ -85,22 +85,27 @@ std::size_t ToolRow::fitting(int width) const {
     return std::max<std::size_t>(fits, 1);
 }
 
+/// What has room is placed now; what is shown or hidden for it changes in the next turn of the event loop, since that
+/// has the parent laid out anew.
 void ToolRow::setGeometry(const QRect& area) {
     QLayout::setGeometry(area);
-    if (std::exchange(placing_, true)) return;  // from within: what is shown may have its parent laid out anew
-    auto fits = fitting(area.width());
-    putAway(fits);
-    // Shown or hidden, a part may want another size.
-    if (const auto now = fitting(geometry().width()); now != fits) putAway(fits = now);
-    placing_ = false;
+    const auto fits = fitting(area.width());
     int x = area.left();
-    const auto place = [&](const QSize& size) {
+    const auto next = [&](const QSize& size) {
         const QRect at(QPoint(x, area.top() + (area.height() - size.height()) / 2), size);
         x += size.width() + spacing();
         return at;
     };
-    for (std::size_t i = 0; i < fits; ++i) items_[i]->setGeometry(place(wishOf(*items_[i])));
-    if (fits < items_.size()) more_->setGeometry(place(more_->sizeHint()));
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        if (i < fits)
+            items_[i]->setGeometry(next(wishOf(*items_[i])));
+        else
+            items_[i]->setGeometry(QRect(area.topLeft(), QSize(0, 0)));
+    }
+    if (fits < items_.size()) more_->setGeometry(next(more_->sizeHint()));
+    if (std::exchange(fits_, fits) == fits) return;
+    QMetaObject::invokeMethod(
+        more_, [this] { putAway(fits_); }, Qt::QueuedConnection);
 }
 
 void ToolRow::putAway(std::size_t from) {

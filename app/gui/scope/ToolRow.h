@@ -36,7 +36,7 @@ private:
 
     std::vector<std::unique_ptr<QLayoutItem>> items_;
     QToolButton* more_;
-    bool placing_ = false;
+    std::size_t fits_ = 0;     // so many have room
     std::set<QWidget*> away_;  // hidden here, and shown again once there is room
 };
 
