@@ -139,6 +139,7 @@ void TactilePlane::show(const Series& frames, double now_s, double roughness, do
     trail_->setData(t_, r_, p_, true);
     now_->data()->clear();
     if (std::isfinite(roughness) && std::isfinite(pressure)) now_->addData(roughness, pressure);
+    if (viewport() != rect()) setViewport(rect());  // a height that was bounded while it was resized
     replot(QCustomPlot::rpQueuedReplot);
 }
 

@@ -270,6 +270,8 @@ TEST_F(ResultsInTheWindow, TheReadmesPicturesLookRight) {
     };
     ASSERT_IN_TIME(delivered(12));
     EXPECT_EQ(faultsOf(window), "");
+    const auto* plane = find<gui::TactilePlane>(window, "Tactile plane");
+    EXPECT_EQ(plane->viewport().height(), plane->height()) << "drawn as high as it is";
     shot(window, "readme-window");
     driveByHand(0.96, 0.81);
     tabs->setCurrentIndex(1);
