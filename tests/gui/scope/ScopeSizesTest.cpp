@@ -110,18 +110,20 @@ TEST_F(Scope, TheControlsColumnGoesWhereThereIsNoRoomAndComesWhenAskedFor) {
     ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     auto* button = find<QToolButton>(scope, "Controls");
     auto* controls = scope.findChild<QScrollArea*>("scopeControls");
+    // Without room it stands in the More menu, which clicks it.
+    const auto ask = [&] { button->isVisible() ? click(*button) : button->click(); };
     EXPECT_TRUE(controls->isVisible());
     scope.resize(420, 480);
     QCoreApplication::processEvents();
     EXPECT_FALSE(controls->isVisible());
     EXPECT_FALSE(button->isChecked());
-    click(*button);
+    ask();
     EXPECT_TRUE(controls->isVisible()) << "asked for, it comes";
-    click(*button);
+    ask();
     scope.resize(1280, 760);
     QCoreApplication::processEvents();
     EXPECT_FALSE(controls->isVisible()) << "sent away, it stays away";
-    click(*button);
+    ask();
     EXPECT_TRUE(controls->isVisible());
 }
 
