@@ -1,6 +1,5 @@
 #include "app/gui/calibrate/CalibrationView.h"
 
-#include <QAction>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
@@ -90,9 +89,7 @@ void CalibrationView::addTools(QBoxLayout& row) {
         [plot] { askSavePicture(plot(), "calibration"); });
     add(tr("Copy the plot"), tr("Copies the plot as a picture."), "copy", [plot] { copyPicture(plot()); });
     add(tr("Plot only"), tr("F11: the safety bar and the plot alone; F11 again brings the rest back."), "plot-only",
-        [this] {
-            if (auto* only = window()->findChild<QAction*>("plotOnly")) only->trigger();
-        });
+        [this] { emit plotOnlyWanted(); });
 }
 
 void CalibrationView::begin(const nlohmann::json& parameters) {

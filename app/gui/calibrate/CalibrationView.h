@@ -36,6 +36,10 @@ public:
     /// Residuals or measured, in the line above the plot; or wherever its owner puts it: it is visible with the plot.
     [[nodiscard]] QComboBox& plotKind() noexcept { return *kind_; }
 
+signals:
+    /// The plot without what is around it, or back.
+    void plotOnlyWanted();
+
 protected:
     void showEvent(QShowEvent* event) override;
     void hideEvent(QHideEvent* event) override;

@@ -134,8 +134,9 @@ public:
     void drive(DriveSource source, double roughness = 0, double pressure = 0);
     /// As it was last ordered here; whether the bench still follows it, telemetry says.
     [[nodiscard]] const DriveCommand& lastDrive() const noexcept { return lastDrive_; }
-    /// What "By hand" would ask for, as a person has set it; it orders nothing.
-    void setHand(double roughness, double pressure) { hand_ = {DriveSource::Manual, roughness, pressure}; }
+    /// What "By hand" would ask for, as a person set it last on this bench; its source counts for nothing, and it
+    /// orders nothing.
+    void setHand(const DriveCommand& hand) { hand_ = hand; }
     [[nodiscard]] const DriveCommand& hand() const noexcept { return hand_; }
     void setProfile(const Profile& profile);
     void setSpeed(double speed);
@@ -203,7 +204,7 @@ private:
     std::shared_ptr<const OpenBench> open_;
     std::shared_ptr<BenchTap> tap_;
     Profile profile_;
-    DriveCommand lastDrive_, hand_{DriveSource::Manual};
+    DriveCommand lastDrive_, hand_;
     std::uint64_t lastRun_ = 0;             ///< the number of it
     std::optional<LiveOrder> lastLive_;     ///< of the bench that is open
     std::optional<LiveOrder> closedByRun_;  ///< see closedByRun()

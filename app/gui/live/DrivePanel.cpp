@@ -98,8 +98,9 @@ void DrivePanel::addIndex(QGridLayout& grid, Index& index, const char* objectNam
     connect(index.box, &QDoubleSpinBox::valueChanged, this, [this, &index](double v) {
         const QSignalBlocker quiet(index.slider);
         index.slider->setValue(int(std::lround(v * kSteps)));
-        index.byHand = v;
-        controller_.setHand(roughness_.byHand, pressure_.byHand);
+        auto hand = controller_.hand();
+        hand.*index.its = v;
+        controller_.setHand(hand);
         if (byHand_->isChecked()) drive();
     });
 }
@@ -138,15 +139,14 @@ void DrivePanel::begin() {
     if (const auto bench = controller_.tap(); bench != bench_.lock() || !bench) {
         bench_ = bench;
         was_.reset();
-        for (auto* index : {&roughness_, &pressure_}) index->byHand = 0;
-        controller_.setHand(0, 0);
+        controller_.setHand({});
     }
     showHand();
 }
 
 void DrivePanel::showHand() {
     for (const auto* index : {&roughness_, &pressure_})
-        if (index->box->value() != index->byHand) showIndex(*index, index->byHand);
+        if (const double hand = controller_.hand().*index->its; index->box->value() != hand) showIndex(*index, hand);
 }
 
 /// Without asking anything of the bench.

@@ -42,7 +42,7 @@ private:
     struct Index {
         QSlider* slider = nullptr;
         QDoubleSpinBox* box = nullptr;
-        double byHand = 0;  ///< as a person set it last on this bench; the fingertip's values do not count
+        double DriveCommand::*its = nullptr;  ///< of BenchController::hand(): the fingertip's values do not count
     };
     void addIndex(QGridLayout& grid, Index& index, const char* objectName, const QString& label, const QString& name,
                   const QString& tip);
@@ -64,7 +64,7 @@ private:
     QPushButton* off_;
     QPushButton* byHand_;
     QPushButton* finger_;
-    Index roughness_, pressure_;
+    Index roughness_{.its = &DriveCommand::roughness}, pressure_{.its = &DriveCommand::pressure};
     std::weak_ptr<BenchTap> bench_;  // the one that they were set on
     QLabel* output_;
     QLabel* says_;

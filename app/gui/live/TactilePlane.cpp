@@ -52,8 +52,9 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
 
 /// Never much higher than wide: both of its axes are 0 to 1.
 void TactilePlane::resizeEvent(QResizeEvent* event) {
-    QCustomPlot::resizeEvent(event);
+    // First: while it is being shown, a height that is bounded here tells of no further resizing.
     setMaximumHeight(std::max(minimumHeight(), int(width() * kHighest)));
+    QCustomPlot::resizeEvent(event);
 }
 
 /// The names of the conditions have room outside the square; the point moves inside it.
@@ -139,7 +140,6 @@ void TactilePlane::show(const Series& frames, double now_s, double roughness, do
     trail_->setData(t_, r_, p_, true);
     now_->data()->clear();
     if (std::isfinite(roughness) && std::isfinite(pressure)) now_->addData(roughness, pressure);
-    if (viewport() != rect()) setViewport(rect());  // a height that was bounded while it was resized
     replot(QCustomPlot::rpQueuedReplot);
 }
 

@@ -51,7 +51,7 @@ QString howToAnswer(const ParticipantView& view) {
 
 }  // namespace
 
-QString stateWords(ScreenState state) {
+QString screenWords(ScreenState state) {
     switch (state) {
         case ScreenState::Rest:
             return QObject::tr("Rest");

@@ -26,7 +26,7 @@ class ShareBars;
 [[nodiscard]] bool isStopTestPrompt(const PilotPrompt& prompt);
 
 /// "Presentation", for the operator.
-[[nodiscard]] QString stateWords(ScreenState state);
+[[nodiscard]] QString screenWords(ScreenState state);
 
 struct ParticipantView {
     const PilotScreen& screen;

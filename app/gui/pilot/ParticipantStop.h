@@ -33,8 +33,7 @@ private:
     QString buttons_;
     int word_px_ = 92;
     int lines_px_ = 20;
-    QPixmap
-        drawn_;  // kept, so that each paint has the same pixels: Qt draws the edges of large letters not always alike
+    QPixmap drawn_;  // kept, for the same pixels in each paint: Qt draws edges of large letters not always alike
     Looks drawnFor_{};
 };
 

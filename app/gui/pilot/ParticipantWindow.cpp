@@ -106,7 +106,7 @@ void ParticipantWindow::showBreak(bool on) {
 QString ParticipantWindow::says() const {
     if (stopped_) return tr("Stopped");
     if (asking_) return tr("Answer phase");
-    return stateWords(screen_.state);
+    return screenWords(screen_.state);
 }
 
 bool ParticipantWindow::feels() const {

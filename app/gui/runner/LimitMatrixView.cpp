@@ -245,15 +245,17 @@ void LimitMatrixView::addLine(int row, const json& line) {
         const auto share = judged == "not evaluated"    ? tr("n. e.")
                            : judged == "not applicable" ? QString("–")
                            : std::isfinite(most)        ? shareText(used)
+                           : !std::isfinite(value)      ? (judged == "fail" ? tr("no") : QString("–"))
                                                         : decimalText(value, 2) + " " + unit;
         item->setText(verdictStyle(judged).shape + " " + share);
         item->setData(kCellVerdict, judged);
         item->setData(kCellShare, share);
         item->setData(kCellNear, used >= kNear_pct);
         const auto measured = uncertainText(value, numberOr(memberAt(cell, "expanded_uncertainty")), unit);
-        QStringList says{std::isfinite(most)
-                             ? tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)
-                             : tr("%1 on %2: after %3, %4.").arg(title, loads_[at], quantityText(value, unit), limit)};
+        QStringList says{
+            std::isfinite(most) ? tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)
+            : judged == "pass"  ? tr("%1 on %2: after %3, %4.").arg(title, loads_[at], quantityText(value, unit), limit)
+                                : tr("%1 on %2: not shown to be %3.").arg(title, loads_[at], limit)};
         if (std::isfinite(used))
             says << tr("%1 used with its uncertainty, margin %2.").arg(share, shareText(100 - used));
         says << tr("Verdict: %1.").arg(judged) << wordsOf(memberAt(cell, "note"));

@@ -126,6 +126,7 @@ void ProtocolWorkspace::connectPages() {
     connect(&pages_->wiring(), &WiringPanel::edited, this, &ProtocolWorkspace::judge);
     connect(&pages_->views(), &RunViews::scriptErrorChosen, this,
             [this](int line, const QString& why) { edit(source_, line, why); });
+    connect(&pages_->views(), &RunViews::plotOnlyWanted, this, &ProtocolWorkspace::plotOnlyWanted);
     connect(&pages_->views(), &RunViews::nextChosen, this, &ProtocolWorkspace::goOn);
     connect(&pages_->sign(), &SignPage::stateChanged, this, [this] {
         steps_->setNote(kSign, pages_->sign().state());

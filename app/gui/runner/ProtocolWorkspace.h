@@ -63,6 +63,7 @@ signals:
     void sessionWanted(const QString& path);
     void safetyCheckWanted();
     void liveWanted();
+    void plotOnlyWanted();
 
 protected:
     void resizeEvent(QResizeEvent* event) override;

@@ -24,8 +24,7 @@ QString whyAndWhere(const QString& error, const QString& meaning) {
 }
 
 constexpr int kBesideBlock = 16;
-constexpr int kNarrowChars = 64;  // words and block are closer then
-constexpr int kMostBlocks = 3;    // height of the reasons: more scroll
+constexpr int kMostBlocks = 3;  // height of the reasons: more scroll
 
 /// A script's words: one line each, as plain text.
 QLabel* wordsLabel(const char* name, QWidget* parent) {
@@ -129,10 +128,11 @@ void ResultHead::resizeEvent(QResizeEvent* event) {
 }
 
 void ResultHead::giveRoom() {
-    const bool narrow = width() < fontMetrics().averageCharWidth() * kNarrowChars;
-    layout()->setSpacing(narrow ? kBesideBlock / 2 : kBesideBlock);
     const int block = verdict_->sizeHint().height();
     const auto* page = area_->widget();
+    const int besideFarBlock = area_->viewport()->width() + layout()->spacing() - kBesideBlock;
+    const bool narrow = besideFarBlock < page->minimumSizeHint().width();
+    layout()->setSpacing(narrow ? kBesideBlock / 2 : kBesideBlock);
     const int needed = page->layout()->totalHeightForWidth(area_->width());
     area_->setFixedHeight(std::clamp(needed, block, kMostBlocks * block));
 }

@@ -91,6 +91,7 @@ QWidget* RunViews::buildPlots() {
     judged_->setStretchFactor(0, 1);
     judged_->setStretchFactor(1, 0);
     calibration_ = new CalibrationView(holder);
+    connect(calibration_, &CalibrationView::plotOnlyWanted, this, &RunViews::plotOnlyWanted);
     none_ = new QLabel(tr("This protocol has no plot of its own: what it says is in the log, what it found in the "
                           "tables."),
                        holder);

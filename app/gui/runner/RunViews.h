@@ -57,6 +57,7 @@ public:
 signals:
     void scriptErrorChosen(int line, const QString& why);
     void nextChosen(tacto::gui::NextStep step);
+    void plotOnlyWanted();
 
 protected:
     void resizeEvent(QResizeEvent* event) override;

@@ -31,12 +31,10 @@ constexpr double kPairZero = 1.5;  // divisions
 std::optional<std::pair<double, double>> rangeOf(const ScopeLane& lane, const ShownCapture& newest) {
     const auto trace = lane.reference() ? nullptr : newest.trace(lane.key);
     if (!trace) return std::nullopt;
-    Envelope all = trace->pyramid.over(0, trace->size());
-    for (const auto& span : lane.spans) {
-        const auto its = span.trace->pyramid.over(0, span.trace->size());
-        all.low = std::min(all.low, its.low);
-        all.high = std::max(all.high, its.high);
-    }
+    auto all = lane.envelope();
+    const auto whole = trace->pyramid.over(0, trace->size());
+    all.low = std::min(all.low, whole.low);
+    all.high = std::max(all.high, whole.high);
     double low = all.empty() ? 0 : static_cast<double>(all.low);
     double high = all.empty() ? 0 : static_cast<double>(all.high);
     // A flat line is not blown up to its last bit.
@@ -52,6 +50,16 @@ std::optional<std::pair<double, double>> rangeOf(const ScopeLane& lane, const Sh
 }
 
 }  // namespace
+
+Envelope ScopeLane::envelope() const {
+    Envelope all;
+    for (const auto& span : spans) {
+        const auto its = span.trace->pyramid.over(0, span.trace->size());
+        all.low = std::min(all.low, its.low);
+        all.high = std::max(all.high, its.high);
+    }
+    return all;
+}
 
 ScopeLane* ScopeLanes::find(const QString& key) { return const_cast<ScopeLane*>(std::as_const(*this).find(key)); }
 

@@ -23,6 +23,8 @@ struct ScopeLane {
     std::vector<TraceSpan> spans;   ///< oldest first
     std::vector<TraceSpan> behind;  ///< of the captures that persist, oldest first; no trace where a capture lacks it
     [[nodiscard]] bool reference() const noexcept { return stored != nullptr; }
+    /// The lowest and the highest of what it shows, in its unit.
+    [[nodiscard]] Envelope envelope() const;
     /// The lane whose scale it is drawn with.
     [[nodiscard]] const QString& scaleKey() const noexcept { return follows.isEmpty() ? key : follows; }
 };

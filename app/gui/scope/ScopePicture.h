@@ -28,7 +28,7 @@ struct ScopeCaption {
     QStringList lines;  ///< devices, scales, trigger, cursors, readings, mask
 };
 
-/// "V 20 V/div · I 20 mA/div".
+/// "V 20 V/div".
 [[nodiscard]] QString laneScaleText(const ScopeModel& model, const ScopeLane& lane);
 
 /// "V 20 V/div · I 20 mA/div · 100 µs/div · 20000 samples at 2 MS/s · averaged 16": as the model has it.

@@ -14,14 +14,9 @@ namespace {
 
 /// What it shows, in its unit.
 std::optional<std::pair<double, double>> shownRange(const ScopeLane& lane) {
-    std::optional<std::pair<double, double>> range;
-    for (const auto& span : lane.spans) {
-        const auto its = span.trace->pyramid.over(0, span.trace->size());
-        if (its.empty()) continue;
-        const double low = static_cast<double>(its.low), high = static_cast<double>(its.high);
-        range = range ? std::pair(std::min(range->first, low), std::max(range->second, high)) : std::pair(low, high);
-    }
-    return range;
+    const auto its = lane.envelope();
+    if (its.empty()) return std::nullopt;
+    return std::pair(static_cast<double>(its.low), static_cast<double>(its.high));
 }
 
 constexpr double kHeld = 0.55;  // so much of the ground is in a trace that is held

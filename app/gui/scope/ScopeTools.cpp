@@ -54,7 +54,7 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     row->addWidget(only);
 }
 
-/// Its icon and its tip say it where a word would begin a second row.
+/// Its icon and its tip say it where a word would put other tools away.
 void ScopeTools::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     const bool worded = single_->toolButtonStyle() == Qt::ToolButtonTextBesideIcon;

@@ -126,8 +126,7 @@ QVariant SessionModel::data(const QModelIndex& index, int role) const {
             return text(shown, index.column());
         case Qt::ToolTipRole:
             // A cell may be too narrow for what it says.
-            return QStringList{text(shown, index.column()), about(shown)}.join(
-                text(shown, index.column()).isEmpty() ? "" : "\n");
+            return QString(text(shown, index.column()) + "\n" + about(shown)).trimmed();
         case Qt::TextAlignmentRole:
             return index.column() == kLength ? int(Qt::AlignRight | Qt::AlignVCenter)
                                              : int(Qt::AlignLeft | Qt::AlignVCenter);

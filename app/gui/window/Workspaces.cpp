@@ -83,6 +83,7 @@ void Workspaces::connectRunners() {
         connect(runner, &ProtocolWorkspace::sessionWanted, this, &Workspaces::openFile);
         connect(runner, &ProtocolWorkspace::safetyCheckWanted, this, [this] { showPage(kSafetyCheck); });
         connect(runner, &ProtocolWorkspace::liveWanted, this, [this] { showPage(kLive); });
+        connect(runner, &ProtocolWorkspace::plotOnlyWanted, this, &Workspaces::plotOnlyWanted);
         connect(runner, &ProtocolWorkspace::captured, this, &Workspaces::captured);
     }
 }

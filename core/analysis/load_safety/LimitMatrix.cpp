@@ -120,7 +120,7 @@ LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& 
         summarise(line);
     }
     const auto order = [](const LimitLine& line) {
-        // What ended the output has no margin: first of those that passed, last of those that tell nothing.
+        // Whether the output ended has no margin: it stands first of its rank, others without one last.
         const double without = line.item == "trip" ? -1e9 : 1e9;
         return std::tuple(rankOf(line.verdict), std::isfinite(line.margin_pct) ? line.margin_pct : without);
     };

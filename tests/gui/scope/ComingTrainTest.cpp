@@ -80,7 +80,7 @@ TEST_F(Coming, NothingIsDrawnUnlessItIsKnownWhatComes) {
         see(state, DriveSource::Manual);
         EXPECT_TRUE(drawn().empty()) << nameOf(state);
     }
-    controller.setHand(0.69, 0.8);
+    controller.setHand({DriveSource::Manual, 0.69, 0.8});
     see(InterlockState::Armed, DriveSource::Off);
     ASSERT_EQ(drawn().size(), 2U) << "what would follow";
     EXPECT_EQ(drawn()[0].text, "by hand: 30.7\u202fV") << "and not that it does";

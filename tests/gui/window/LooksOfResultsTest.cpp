@@ -115,6 +115,10 @@ TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
     looksRight("result-calibrate");
     // Below it stand the cards, one for each quantity: one line each in the small window.
     plotHas<gui::CalibrationPlot>(0.8, "residuals");
+    click(*find<QToolButton>(window, "Plot only"));
+    EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") == nullptr; })) << "as F11";
+    click(*find<QToolButton>(window, "Plot only"));
+    EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") != nullptr; }));
 }
 
 TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {

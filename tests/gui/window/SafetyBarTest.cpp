@@ -12,6 +12,7 @@
 #include "app/gui/window/StateBlock.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/window/TickingRun.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -376,22 +377,13 @@ TEST_F(Bar, ADoubleClickOnPauseLeavesItPaused) {
 
 TEST_F(Bar, PauseHoldsAProtocolBetweenItsTrainsToo) {
     RecordProperty("hazard", "H12");
-    RunOrder order;
-    order.script.name = "ticks";
-    order.script.text =
-        "protocol({ title: 'T', needs: [], parameters: {} });\n"
-        "function run(p) { for (;;) { bench.wait(0.1); log('tick'); } }";
-    const auto declaration = readDeclaration(order.script);
-    ASSERT_TRUE(declaration) << declaration.error().message;
-    order.declaration = *declaration;
-    order.uris.push_back(*DeviceUri::parse("sim:"));
-    order.profile = controller.profile();
-    order.limits = controller.limits();
+    const auto order = tickingRun(controller, "ticks");
+    ASSERT_TRUE(order) << order.error().message;
     auto* pause = bar.findChild<gui::ConfirmButton*>("pauseButton");
     ASSERT_NE(pause, nullptr);
     bar.refresh(controller.telemetry());
     EXPECT_FALSE(pause->isEnabled()) << "there is nothing to hold";
-    (void)controller.run(order);
+    (void)controller.run(*order);
     ASSERT_IN_TIME(comesTrue([&] { return !controller.takeRunFeed().log.empty(); }));
     bar.refresh(controller.telemetry());
     ASSERT_TRUE(pause->isEnabled()) << word().toStdString();

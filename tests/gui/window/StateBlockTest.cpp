@@ -9,9 +9,9 @@
 #include "app/gui/window/SafetyBar.h"
 #include "app/gui/window/StateBlock.h"
 #include "app/gui/window/StateWords.h"
-#include "app/run/ProtocolRun.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/window/TickingRun.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -143,18 +143,9 @@ TEST_F(StateOnTheBar, WhatIsDeliveredStandsThereWhole) {
 
 TEST_F(StateOnTheBar, NamesTheProtocolThatHasTheBench) {
     RecordProperty("hazard", "H12");
-    RunOrder order;
-    order.script.name = "slow-ticks";
-    order.script.text =
-        "protocol({ title: 'T', needs: [], parameters: {} });\n"
-        "function run(p) { for (;;) { bench.wait(0.1); log('tick'); } }";
-    const auto declaration = readDeclaration(order.script);
-    ASSERT_TRUE(declaration) << declaration.error().message;
-    order.declaration = *declaration;
-    order.uris.push_back(*DeviceUri::parse("sim:"));
-    order.profile = controller.profile();
-    order.limits = controller.limits();
-    static_cast<void>(controller.run(order));
+    const auto order = tickingRun(controller, "slow-ticks");
+    ASSERT_TRUE(order) << order.error().message;
+    static_cast<void>(controller.run(*order));
     ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Running; }));
     bar.refresh(inState(InterlockState::Delivering, DriveSource::Manual));
     EXPECT_THAT(says().text().toStdString(), StartsWith("By the protocol Slow ticks."));
