@@ -1,10 +1,8 @@
 #include "app/gui/live/LiveWorkspace.h"
 
 #include <QHBoxLayout>
-#include <QScrollArea>
 #include <QScrollBar>
 #include <QShortcut>
-#include <QSplitter>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -22,7 +20,9 @@
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/ToolRow.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/acquisition/Recording.h"
 #include "core/measure/PulseMeasurement.h"
@@ -116,26 +116,27 @@ QWidget* LiveWorkspace::buildBench() {
     setTone(*staleLine_, Tone::Warning);
     staleLine_->hide();
     layout->addWidget(staleLine_);
-    auto* split = new QSplitter(Qt::Horizontal, bench);
-    split->setChildrenCollapsible(false);
-    strips_ = new StripPlots(history_, split);
-    split->addWidget(strips_);
-    side_ = buildSide();
-    split->addWidget(side_);
-    split->setStretchFactor(0, 1);
-    split->setStretchFactor(1, 0);
-    layout->addWidget(split, 1);
+    split_ = new QSplitter(Qt::Horizontal, bench);
+    split_->setChildrenCollapsible(false);
+    strips_ = new StripPlots(history_, split_);
+    split_->addWidget(strips_);
+    side_ = new QScrollArea(split_);
+    fillSide();
+    split_->addWidget(side_);
+    split_->setStretchFactor(0, 1);
+    split_->setStretchFactor(1, 0);
+    layout->addWidget(split_, 1);
+    afterLookChange(*this, [this] { fit(); });
     return bench;
 }
 
-QWidget* LiveWorkspace::buildSide() {
-    auto* area = new QScrollArea;
-    area->setObjectName("fingertipSide");
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    area->setWhatsThis(tr("Where the fingertip is, and what it feels. The arrow keys scroll it."));
-    QWidget* side = new LeastColumn(area);
+void LiveWorkspace::fillSide() {
+    side_->setObjectName("fingertipSide");
+    side_->setWidgetResizable(true);
+    side_->setFrameShape(QFrame::NoFrame);
+    side_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    side_->setWhatsThis(tr("Where the fingertip is, and what it feels. The arrow keys scroll it."));
+    QWidget* side = new LeastColumn(side_);
     auto* layout = new QVBoxLayout(side);
     layout->setContentsMargins(8, 0, 8, 0);
     auto* where = new QLabel(tr("Where the fingertip is"), side);
@@ -155,16 +156,24 @@ QWidget* LiveWorkspace::buildSide() {
     connect(profile, &QPushButton::clicked, this, [this] { editProfile(); });
     layout->addWidget(profile);
     layout->addStretch();
-    area->setWidget(side);
-    for (auto* ground : {side, area->viewport()}) ground->setAutoFillBackground(false);
-    // What it needs, and a scroll bar: it scrolls from top to bottom only.
-    const auto fit = [this, area, side] {
-        area->setMinimumWidth(side->minimumSizeHint().width() + area->verticalScrollBar()->sizeHint().width());
-        strips_->setMinimumWidth(fontMetrics().averageCharWidth() * kStripChars);
-    };
-    fit();
-    afterLookChange(*area, fit);
-    return area;
+    side_->setWidget(side);
+    for (auto* ground : {side, side_->viewport()}) ground->setAutoFillBackground(false);
+}
+
+/// Beside the strips where there is room, by what is in sight: a page that scrolls is as wide as its parts ask for.
+/// There it scrolls from top to bottom by itself; below them the page does, and it stands there whole.
+void LiveWorkspace::fit() {
+    const auto* side = side_->widget();
+    const int narrowest = side->minimumSizeHint().width() + side_->verticalScrollBar()->sizeHint().width();
+    side_->setMinimumWidth(narrowest);
+    strips_->setMinimumWidth(fontMetrics().averageCharWidth() * kStripChars);
+    const auto edges = split_->parentWidget()->layout()->contentsMargins();
+    const int room = widthInSight(*this) - edges.left() - edges.right();
+    const bool beside = room >= strips_->minimumWidth() + split_->handleWidth() + narrowest;
+    split_->setOrientation(beside ? Qt::Horizontal : Qt::Vertical);
+    side_->setMinimumHeight(beside ? 0 : side->heightForWidth(room));
+    freeze_->setText(beside ? tr("Free&ze") : QString());  // its icon and its tip say it where a word has no room
+    rig_->setLow(height() < fontMetrics().height() * kRigLines);
 }
 
 void LiveWorkspace::buildTools() {
@@ -174,6 +183,7 @@ void LiveWorkspace::buildTools() {
     row->setSpacing(8);
     freeze_ = new QPushButton(icon("pause"), tr("Free&ze"), tools_);
     makeQuiet(*freeze_);
+    freeze_->setAccessibleName(tr("Freeze"));
     freeze_->setCheckable(true);
     freeze_->setToolTip(tr("The plots stand still, to be dragged and zoomed; output and recording go on."));
     connect(freeze_, &QPushButton::toggled, strips_, &StripPlots::setFrozen);
@@ -190,12 +200,16 @@ void LiveWorkspace::buildTools() {
     health_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setTone(*health_, Tone::Quiet);
     setTextSize(*health_, TextSize::Small);
+    health_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // it gives way to the tools
     row->addWidget(freeze_);
     row->addWidget(window);
-    addPlotTools(*row);
+    auto* tools = new QWidget(tools_);
+    addPlotTools(*new ToolRow(tools));
+    row->addWidget(tools);
+    row->addWidget(health_, 1);
 }
 
-void LiveWorkspace::addPlotTools(QHBoxLayout& row) {
+void LiveWorkspace::addPlotTools(ToolRow& row) {
     const auto tool = [&](const QString& name, const QString& tip, const char* picture, auto&& does) {
         auto* button = new QToolButton(tools_);
         button->setAccessibleName(name);
@@ -213,7 +227,6 @@ void LiveWorkspace::addPlotTools(QHBoxLayout& row) {
                       "undo-zoom", [this] { strips_->undoZoom(); });
     tool(tr("Mark"), tr("Ctrl+M: marks this moment of the recording, with a word."), "mark",
          [this] { emit markWanted(); });
-    row.addWidget(health_, 1);
     tool(tr("Save picture"), tr("Saves the plots as PNG, SVG or PDF."), "save",
          [this] { askSavePicture(*strips_, "live"); });
     tool(tr("Copy picture"), tr("Copies the plots to the clipboard, as a picture."), "copy",
@@ -230,7 +243,7 @@ void LiveWorkspace::addPlotTools(QHBoxLayout& row) {
 
 void LiveWorkspace::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    rig_->setLow(height() < fontMetrics().height() * kRigLines);
+    fit();
 }
 
 void LiveWorkspace::begin() {

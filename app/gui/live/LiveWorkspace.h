@@ -7,6 +7,8 @@
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QSplitter>
 #include <QStackedWidget>
 #include <QWidget>
 
@@ -21,6 +23,7 @@ class RigPanel;
 class StripPlots;
 class TactilePlane;
 class TaxelMap;
+class ToolRow;
 
 class LiveWorkspace final : public QWidget {
     Q_OBJECT
@@ -52,9 +55,10 @@ private:
     enum Page { kEmpty, kOpening, kBench };
     [[nodiscard]] QWidget* buildEmpty();
     [[nodiscard]] QWidget* buildBench();
-    [[nodiscard]] QWidget* buildSide();
+    void fillSide();
     void buildTools();
-    void addPlotTools(QHBoxLayout& row);
+    void addPlotTools(ToolRow& row);
+    void fit();
     void begin();
     void showPlane(const Telemetry& telemetry);
     void showSide(const Telemetry& telemetry);
@@ -80,7 +84,8 @@ private:
     QWidget* tools_ = nullptr;
     ElidedLabel* health_ = nullptr;
     ElidedLabel* staleLine_ = nullptr;  // where the tools with health_ are hidden
-    QWidget* side_ = nullptr;
+    QSplitter* split_ = nullptr;
+    QScrollArea* side_ = nullptr;
     bool plotOnly_ = false;
     QElapsedTimer sinceReading_, sincePlane_, sinceSide_;
     std::vector<float> newest_;  // reused

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kStepWidth = 224, kStepHeight = 56, kStepLow = 36;
 constexpr int kShapeLeft = 24, kShape = 16, kWordsLeft = 48, kChosenBar = 4, kDot = 12;
-constexpr int kAcrossHeight = 40, kAcrossSide = 12, kAcrossDot = 20, kAcrossGap = 8;
+constexpr int kAcrossHeight = 40, kAcrossSide = 12, kAloneSide = 8, kAcrossDot = 20, kAcrossGap = 8;
 
 }  // namespace
 
@@ -57,9 +57,10 @@ void StepButton::setAcross(bool across, bool named) {
 }
 
 int StepButton::widthAcross(bool named) const {
-    const int shape = 2 * scaledPx(kAcrossSide) + scaledPx(kAcrossDot);
+    const int dot = scaledPx(kAcrossDot);
+    if (!named) return 2 * scaledPx(kAloneSide) + dot;
     const QFontMetrics name(textFont(TextSize::Body, QFont::DemiBold));  // as wide as when it is the one shown
-    return named ? shape + scaledPx(kAcrossGap) + name.horizontalAdvance(text()) + 1 : shape;
+    return 2 * scaledPx(kAcrossSide) + dot + scaledPx(kAcrossGap) + name.horizontalAdvance(text()) + 1;
 }
 
 void StepButton::say() {
@@ -85,7 +86,7 @@ void StepButton::say() {
 QSize StepButton::sizeHint() const {
     if (across_) {
         const int name = QFontMetrics(textFont(TextSize::Body)).height();
-        return {widthAcross(named_ || isChecked()), std::max(scaledPx(kAcrossHeight), name + 8)};
+        return {widthAcross(named_), std::max(scaledPx(kAcrossHeight), name + 8)};
     }
     const int words =
         QFontMetrics(textFont(TextSize::Body)).height() + (low_ ? 0 : QFontMetrics(textFont(TextSize::Small)).height());
@@ -137,9 +138,9 @@ void StepButton::paintGround(QPainter& painter) const {
 
 void StepButton::paintAcross(QPainter& painter) const {
     const auto& c = colours();
-    const int dot = scaledPx(kAcrossDot), side = scaledPx(kAcrossSide);
+    const int dot = scaledPx(kAcrossDot), side = scaledPx(named_ ? kAcrossSide : kAloneSide);
     paintShape(painter, {side + dot / 2, height() / 2});
-    if (!named_ && !isChecked()) return;
+    if (!named_) return;
     painter.setFont(textFont(TextSize::Body, isChecked() ? QFont::DemiBold : QFont::Normal));
     painter.setPen(isEnabled() ? c.text : c.quiet);
     const int left = side + dot + scaledPx(kAcrossGap);

@@ -23,7 +23,7 @@ public:
     void setOutOfReach(const QString& why);
     /// Without the note, where the window is low.
     void setLow(bool low);
-    /// Beside the others in place of below them; `named`: with its name. The step that is shown always has it.
+    /// Beside the others in place of below them; `named`: with its name.
     void setAcross(bool across, bool named);
     /// In a row, with its name or with its shape alone.
     [[nodiscard]] int widthAcross(bool named) const;

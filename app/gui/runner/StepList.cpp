@@ -80,31 +80,37 @@ void StepList::setAcross(bool across) {
     updateGeometry();
 }
 
-int StepList::widthAcross(bool named) const {
+bool StepList::named(std::size_t step, Names names) const {
+    return names == Names::All || (names == Names::OfShown && int(step) == shown_);
+}
+
+int StepList::widthAcross(Names names) const {
     int width = 0;
     for (std::size_t i = 0; i < buttons_.size(); ++i) {
-        if (!buttons_[i]->isHidden()) width += buttons_[i]->widthAcross(named || int(i) == shown_);
+        if (!buttons_[i]->isHidden()) width += buttons_[i]->widthAcross(named(i, names));
     }
     return width;
 }
 
 void StepList::placeAcross() {
     if (!across_) return;
-    const bool named = width() >= widthAcross(true);
+    const auto names = width() >= widthAcross(Names::All)       ? Names::All
+                       : width() >= widthAcross(Names::OfShown) ? Names::OfShown
+                                                                : Names::None;
     for (std::size_t i = 0; i < buttons_.size(); ++i) {
-        buttons_[i]->setAcross(true, named);
-        buttons_[i]->setFixedWidth(buttons_[i]->widthAcross(named || int(i) == shown_));
+        buttons_[i]->setAcross(true, named(i, names));
+        buttons_[i]->setFixedWidth(buttons_[i]->widthAcross(named(i, names)));
     }
     layout_->activate();
     updateGeometry();
 }
 
 QSize StepList::sizeHint() const {
-    return across_ ? QSize(widthAcross(true), QWidget::sizeHint().height()) : QWidget::sizeHint();
+    return across_ ? QSize(widthAcross(Names::All), QWidget::sizeHint().height()) : QWidget::sizeHint();
 }
 
 QSize StepList::minimumSizeHint() const {
-    return across_ ? QSize(widthAcross(false), QWidget::minimumSizeHint().height()) : QWidget::minimumSizeHint();
+    return across_ ? QSize(widthAcross(Names::None), QWidget::minimumSizeHint().height()) : QWidget::minimumSizeHint();
 }
 
 void StepList::resizeEvent(QResizeEvent* event) {

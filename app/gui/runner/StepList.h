@@ -1,6 +1,7 @@
 // StepList.h - a procedure is a path: its steps below each other, each to do, under way, done or ended early by its
 // shape, with a word on how it stands. A click goes to a step that was reached. Where there is little room they stand
-// in a row, numbered; in a narrow one only the step that is shown has its name.
+// in a row, numbered; in a narrow one only the step that is shown has its name, in the narrowest
+// none.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -46,8 +47,10 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    /// All steps in a row, with every name or with the one of the step that is shown.
-    [[nodiscard]] int widthAcross(bool named) const;
+    enum class Names { None, OfShown, All };
+    /// All steps in a row.
+    [[nodiscard]] int widthAcross(Names names) const;
+    [[nodiscard]] bool named(std::size_t step, Names names) const;
     void placeAcross();
     QBoxLayout* layout_;
     bool across_ = false;

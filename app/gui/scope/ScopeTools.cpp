@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "app/gui/scope/Steps.h"
-#include "app/gui/scope/ToolRow.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/ToolRow.h"
 
 namespace tacto::gui {
 

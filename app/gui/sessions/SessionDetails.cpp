@@ -5,9 +5,11 @@
 
 #include "app/gui/sessions/SessionOverview.h"
 #include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
@@ -49,7 +51,8 @@ std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::
 SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : QTabWidget(parent), limits_(limits) {
     setWhatsThis(tr("What the selected session holds. The left and right arrow keys change the page."));
     setDocumentMode(true);
-    tabBar()->setUsesScrollButtons(false);  // all of them in sight
+    afterLookChange(*this, [this] { fitTabs(); });
+    fitTabs();
     overview_ = new SessionOverview(this);
     connect(overview_, &SessionOverview::labelsSaved, this, &SessionDetails::labelsSaved);
     connect(overview_, &SessionOverview::labelsRefused, this, &SessionDetails::labelsRefused);
@@ -91,6 +94,14 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
             emit streamChosen(session_->streams[std::size_t(row)].id);
     });
     say(tr("Choose a session at the left."));
+}
+
+/// All of them in sight where there is room, by what is in sight: see fitPanes() of the workspace.
+void SessionDetails::fitTabs() { tabBar()->setUsesScrollButtons(widthInSight(*this) < tabBar()->sizeHint().width()); }
+
+void SessionDetails::resizeEvent(QResizeEvent* event) {
+    QTabWidget::resizeEvent(event);
+    fitTabs();
 }
 
 void SessionDetails::say(const QString& why) {

@@ -38,6 +38,7 @@ signals:
 
 protected:
     void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
     [[nodiscard]] QString aboutHtml() const;
@@ -46,6 +47,7 @@ private:
     void removeAxes();
     void drawMarks();
     void colour();
+    void fitTabs();
     std::shared_ptr<const ReadSession> session_;
     const ShippedLimits& limits_;
     SessionOverview* overview_;

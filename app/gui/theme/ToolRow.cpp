@@ -1,4 +1,4 @@
-#include "app/gui/scope/ToolRow.h"
+#include "app/gui/theme/ToolRow.h"
 
 #include <QMenu>
 #include <QSpacerItem>
