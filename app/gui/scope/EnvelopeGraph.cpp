@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/gui/theme/PlotLegend.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -301,8 +303,7 @@ void EnvelopeGraph::drawMarks(QCPPainter& painter, const Screen& screen) const {
 }
 
 void EnvelopeGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) const {
-    painter->setPen(mPen);
-    painter->drawLine(QLineF(rect.left(), rect.center().y(), rect.right(), rect.center().y()));
+    drawLineIcon(*painter, rect, mPen);
 }
 
 }  // namespace tacto::gui

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kWorkspaces = 7;
 
-/// What a person works: buttons and fields that Tab should reach by themselves. Of radio buttons the group is reached;
+/// What a person works: buttons and fields that Tab should reach by themselves. Radio buttons are reached as a group;
 /// a box's own field has its focus.
 std::vector<QWidget*> controlsOf(const QWidget& in) {
     std::vector<QWidget*> controls;
