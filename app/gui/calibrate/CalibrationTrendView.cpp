@@ -261,7 +261,7 @@ QString CalibrationTrendView::jumpText(const std::vector<TrendJump>& jumps) cons
     if (jumps.empty()) {
         const bool judged = std::ranges::all_of(points_, [](const TrendPoint& p) { return std::isfinite(p.gainU); });
         return judged ? tr("No change from one to the next is larger than both U explain.")
-                      : tr("Where no U is stated, changes are not judged.");
+                      : tr("Changes are not judged where U is not stated.");
     }
     QStringList all;
     for (auto jump = jumps.rbegin(); jump != jumps.rend() && all.size() < kMaxJumps; ++jump) {

@@ -110,7 +110,8 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     withdraw_ = new ConfirmButton({}, this);
     withdraw_->setObjectName("withdrawCertificate");
     withdraw_->setAutoDefault(false);
-    withdraw_->setToolTip(tr("For one that was entered wrongly: it stays in the list and is not used any more."));
+    withdraw_->setToolTip(
+        tr("Withdraws a certificate that was entered wrongly. It stays in the list but is no longer used."));
     auto* row = new QHBoxLayout;
     row->addStretch(1);
     row->addWidget(withdraw_);
@@ -251,7 +252,7 @@ void CertificateDialog::judge() {
     enter_->setEnabled(certificate.has_value());
     if (!certificate) return says_->setText(sentence(certificate.error()));
     const auto today = utcToday();
-    says_->setText(certificate->due < today    ? tr("It is expired: it would be kept and not used.")
+    says_->setText(certificate->due < today    ? tr("It has expired: it would be kept but not used.")
                    : certificate->date > today ? tr("It is dated in the future: it is not used before its date.")
                                                : QString());
 }

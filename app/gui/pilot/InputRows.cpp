@@ -209,8 +209,8 @@ void InputRows::buildBefore(Row& row, QVBoxLayout& column) {
     told->setText(same ? tr("As in the last session.")
                   : row.seat.device.hasSerial
                       ? tr("In the last session it was %1.").arg(whose)
-                      : tr("In the last session one of this model was %1. It states no serial number, so this may be "
-                           "another: press a button of it first.")
+                      : tr("In the last session a device of this model was %1. It has no serial number, so this may be "
+                           "another one: press one of its buttons first.")
                             .arg(whose));
     column.addWidget(told);
     if (same) return;

@@ -47,13 +47,13 @@ QString useOf(SpectralWindow window) {
         case SpectralWindow::Rectangular:
             return QObject::tr("The finest lines; levels are right only where whole periods are on the screen.");
         case SpectralWindow::Hann:
-            return QObject::tr("For most things. Between two lines a level reads up to 1.4 dB low.");
+            return QObject::tr("For most signals. Halfway between two lines a level reads up to 1.4 dB low.");
         case SpectralWindow::BlackmanHarris:
             return QObject::tr("For small lines beside large ones: nothing leaks above −92 dB.");
         case SpectralWindow::FlatTop:
             break;
     }
-    return QObject::tr("For levels: right within 0.01 dB wherever a sine lies, with wide lines.");
+    return QObject::tr("For levels: right within 0.01 dB at any frequency, but its lines are wide.");
 }
 
 }  // namespace
