@@ -30,10 +30,10 @@ enum CertificateColumn {
 };
 
 /// What goes first where there is no room for every column; the tool tip of a row tells all of it.
-constexpr std::array kLeastNeeded{int(kLab),    kFirstU + 3, kFirstU + 2, int(kDate),
-                                  int(kDevice), kFirstU + 1, int(kFirstU)};
-constexpr int kWide = 1020;   // all columns
-constexpr int kMostRows = 8;  // in sight; more scroll
+constexpr std::array kDroppedFirst{int(kLab),    kFirstU + 3, kFirstU + 2, int(kDate),
+                                   int(kDevice), kFirstU + 1, int(kFirstU)};
+constexpr int kWide = 1020;  // all columns
+constexpr int kMaxRows = 8;  // in sight; more scroll
 constexpr int kIndexRole = Qt::UserRole;
 constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
 
@@ -96,7 +96,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     // As high as its rows are, and no higher than a few.
     table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     table_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
-    table_->setMaximumHeight(kMostRows * table_->verticalHeader()->defaultSectionSize());
+    table_->setMaximumHeight(kMaxRows * table_->verticalHeader()->defaultSectionSize());
     table_->verticalHeader()->hide();
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -165,7 +165,7 @@ void CertificateDialog::fitColumns() {
     for (int column = 0; column < kCertificateColumns; ++column) table_->setColumnHidden(column, false);
     table_->horizontalHeader()->setStretchLastSection(false);  // else it is as wide as the rest
     table_->resizeColumnsToContents();
-    for (const int column : kLeastNeeded) {
+    for (const int column : kDroppedFirst) {
         if (table_->horizontalHeader()->length() <= table_->viewport()->width()) break;
         table_->setColumnHidden(column, true);
     }

@@ -27,7 +27,7 @@ void addUses(QComboBox& box) {
     add(QObject::tr("nothing"), Nothing);
     add(QObject::tr("STOP"), Stop);
     add(QObject::tr("hold"), Hold);
-    for (int i = 1; i <= kMostAnswers; ++i) add(QObject::tr("answer %1").arg(i), Answer, i);
+    for (int i = 1; i <= kMaxAnswers; ++i) add(QObject::tr("answer %1").arg(i), Answer, i);
 }
 
 }  // namespace

@@ -21,7 +21,6 @@
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "app/report/TableContent.h"
 #include "core/base/JsonText.h"
 

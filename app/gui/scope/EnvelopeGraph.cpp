@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kFewestPerPixel = 2;   ///< samples; below it the samples themselves are drawn
+constexpr double kMinPerPixel = 2;      ///< samples; below it the samples themselves are drawn
 constexpr double kDotsFrom = 4;         ///< pixels between samples
 constexpr int kBlock = 16;              ///< columns
 constexpr double kManyPixels = 60'000;  ///< of verticals: from here on filling rows is quicker
@@ -121,7 +121,7 @@ void EnvelopeGraph::draw(QCPPainter* painter) {
     for (const auto& span : spans_) {
         if (!span.trace || span.trace->size() == 0) continue;
         const double pixelsPerSample = screen.xPerKey / span.trace->rate_hz;
-        if (pixelsPerSample * kFewestPerPixel <= screen.pixel) {
+        if (pixelsPerSample * kMinPerPixel <= screen.pixel) {
             drawColumns(span, screen);
         } else {
             painter->setPen(pen);

@@ -19,7 +19,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kRow = 32;
-constexpr int kLeastRows = 4;  // in sight, with that of the titles
+constexpr int kMinRows = 4;  // in sight, with that of the titles
 constexpr int kListIcon = 16;
 constexpr int kSeenAfter_ms = 150;
 constexpr int kMeasuredRows = 60;  // for the widths of columns
@@ -138,7 +138,7 @@ void SessionList::buildTable() {
     const auto grow = [this] {
         table_->verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
         table_->setIconSize({scaledPx(kListIcon), scaledPx(kListIcon)});
-        table_->setMinimumHeight(scaledPx(kLeastRows * kRow));
+        table_->setMinimumHeight(scaledPx(kMinRows * kRow));
     };
     grow();
     onLookChange(*this, [this, grow] {

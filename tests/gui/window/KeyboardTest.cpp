@@ -50,8 +50,8 @@ protected:
         first.setFocus(Qt::TabFocusReason);
         std::set<const QWidget*> reached;
         const QWidget* before = nullptr;
-        constexpr int kMostPresses = 300;
-        for (int i = 0; i < kMostPresses; ++i) {
+        constexpr int kMaxPresses = 300;
+        for (int i = 0; i < kMaxPresses; ++i) {
             auto* at = QApplication::focusWidget();
             if (at == nullptr) {
                 ADD_FAILURE() << "Tab leads nowhere from " << (before != nullptr ? widgetName(*before) : "the start");
