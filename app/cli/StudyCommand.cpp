@@ -148,7 +148,7 @@ int withdraw(Study& study, const QCommandLineParser& parser, const QStringList& 
         const auto exports = study.exports();
         say(stderr, "{}\n",
             exports.empty() ? "Nothing was exported from this study."
-                            : "Exports lie where they were written, and are deleted by hand:");
+                            : "Exported files stay where they were saved. Delete them by hand:");
         for (const auto& each : exports) say(stderr, "  {}\n", each.place);
     }
     return changed(done, study, code, parser);

@@ -11,10 +11,10 @@
 //   {"kind": "notes", "operator": "...", "sample": "...", "reviewer": "...", "ambient": "..."}   as it was entered
 //   {"kind": "basis", "results": {...}}        what the verdict rests on, of a run without one: ReportBasis.h
 // Exposure: measurements named kExposureMeasurement, which the program alone writes, with {"rows": [...]} like those of
-// a figure of type exposure, in a section of its own, titled as computed from approved trains. Of rows alike in name,
-// source and limit the worst is shown; not evaluated is worse than any number (H9). A figure of a script that says no
-// more than they is left out; another stands under the script's caption, as its other figures. Captures in figures are
-// named by their seq. Verdict: the last verdict row; without one, a stop, a fault or a script's error makes it
+// a figure of type exposure, in a section of its own, titled as computed from approved trains. The worst of the rows
+// alike in name, source and limit is shown; not evaluated is worse than any number (H9). A figure of a script that says
+// no more than they is left out; another stands under the script's caption, as its other figures. Captures in figures
+// are named by their seq. Verdict: the last verdict row; without one, a stop, a fault or a script's error makes it
 // *stopped*; a session that was not closed is *stopped*, whatever its last verdict: close() it before its report is
 // made. Events: faults, refusals, stops, remarks; not the quiet ones of a normal run.
 //

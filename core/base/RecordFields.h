@@ -28,6 +28,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/JsonText.h"
 #include "core/base/RecordTable.h"
 
 namespace tacto {
@@ -175,6 +176,15 @@ template <class Record, class Stored, class From, class To>
         return stored.check(toStored(record), place, key);
     });
     return kind;
+}
+
+/// The record that `text` holds. `source` begins every message. Errors: ParseError.
+template <class Record>
+[[nodiscard]] Result<Record> parseRecord(const RecordFields<Record>& fields, std::string_view text,
+                                         std::string_view source, const JsonLimits& limits = {}) {
+    const auto document = parseJson(text, source, limits);
+    if (!document) return failure(document);
+    return fields.read(*document, {.file = std::string(source)}).map_error(asParseError);
 }
 
 }  // namespace tacto

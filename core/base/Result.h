@@ -41,6 +41,12 @@ template <class... Args>
     return tl::unexpected<Error>(Error{code, fmt::format(text, std::forward<Args>(args)...)});
 }
 
+/// The same for a value that no caller may pass: `return invalid("{} pulses; 1 or more are expected", pulses);`
+template <class... Args>
+[[nodiscard]] tl::unexpected<Error> invalid(fmt::format_string<Args...> text, Args&&... args) {
+    return fail(ErrorCode::InvalidArgument, text, std::forward<Args>(args)...);
+}
+
 /// Passes another Result's error on: `if (!x) return failure(x);`
 template <class T>
 [[nodiscard]] tl::unexpected<Error> failure(const Result<T>& failed) {

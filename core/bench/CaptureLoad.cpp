@@ -10,11 +10,11 @@ namespace tacto {
 namespace {
 
 /// Below this a current is not distinguished from none (the limit of the load-safety check too).
-constexpr double kFewestSteps = 10;
+constexpr double kMinSteps = 10;
 
 /// The least that |Z| can be where `current` stays within its channel's last steps.
 std::optional<Ohms> leastImpedance(const Capture& capture, std::size_t voltage, const CaptureChannel& current) {
-    const double visible = kFewestSteps * current.lsb;
+    const double visible = kMinSteps * current.lsb;
     if (!(visible > 0) || current.samples.empty()) return std::nullopt;
     const auto [low, high] = std::minmax_element(current.samples.begin(), current.samples.end());
     const double swing = static_cast<double>(*high) - static_cast<double>(*low);

@@ -20,6 +20,9 @@ using CalibrationDate = std::chrono::year_month_day;
 [[nodiscard]] std::string dateText(CalibrationDate date);
 /// As the field of a record: its text.
 [[nodiscard]] ValueKind<CalibrationDate> dateKind();
+[[nodiscard]] constexpr int daysBetween(CalibrationDate from, CalibrationDate to) {
+    return static_cast<int>((std::chrono::sys_days(to) - std::chrono::sys_days(from)).count());
+}
 /// Today, UTC.
 [[nodiscard]] CalibrationDate utcToday();
 

@@ -1,8 +1,8 @@
 // CertificateStore.h - the calibration certificates of a lab's oscilloscopes: one file, a line per certificate or
 // withdrawal, never overwritten.
 //
-// The lines are chained (ChainedLines.h). Of the certificates of one serial number the one with the latest date counts,
-// from that date until its due date; an expired one is shown and not used, and does not bring back an older one. A
+// The lines are chained (ChainedLines.h). The certificate with the latest date counts for its serial number, from
+// that date until its due date; an expired one is shown and not used, and does not bring back an older one. A
 // certificate that was entered wrongly is withdrawn: the one before it counts again.
 //
 // Thread-safety: none; one owner. add() and withdraw() lock the file against other processes.

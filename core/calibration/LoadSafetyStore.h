@@ -1,8 +1,8 @@
 // LoadSafetyStore.h - the load-safety checks of a lab's stimulators: one file, never overwritten.
 //
-// A check has a line when it begins and another when it ends, with the program's own verdict. Of each serial number the
-// last line counts, whatever it says: a check that failed, was not decided, was stopped or never ended takes the place
-// of a pass before it. A check on a simulated bench counts for no stimulator.
+// A check has a line when it begins and another when it ends, with the program's own verdict. The last line of each
+// serial number counts, whatever it says: a check that failed, was not decided, was stopped or never ended takes the
+// place of a pass before it. A check on a simulated bench counts for no stimulator.
 //
 // The lines are chained (ChainedLines.h). A file that was changed cannot be read, and then no check counts (hazard H9).
 //

@@ -24,10 +24,6 @@ void ForceTrack::clear() noexcept {
     normaliseCursor_ = readCursor_ = stale_ = invalid_ = outOfOrder_ = 0;
 }
 
-double ForceTrack::newest_s() const noexcept {
-    return samples_.end() == 0 ? -kInfinity_s : samples_.t(samples_.end() - 1);
-}
-
 void ForceTrack::push(double t_s, double force_n) noexcept {
     if (!std::isfinite(t_s) || !std::isfinite(force_n)) {
         ++invalid_;

@@ -29,7 +29,7 @@ public:
     void clear() noexcept;
 
     /// Stamp of the newest sample; -infinity before the first.
-    [[nodiscard]] double newest_s() const noexcept;
+    [[nodiscard]] double newest_s() const noexcept { return samples_.newest_s(); }
     /// Stamp of the first sample with contact; infinity before it.
     [[nodiscard]] double firstContact_s() const noexcept { return firstContact_; }
 

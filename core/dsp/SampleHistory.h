@@ -29,6 +29,8 @@ public:
     [[nodiscard]] std::size_t end() const noexcept { return end_; }
     [[nodiscard]] bool empty() const noexcept { return begin_ == end_; }
     [[nodiscard]] double t(std::size_t number) const noexcept { return t_[number - offset_]; }
+    /// Stamp of the newest sample there was; -infinity before the first.
+    [[nodiscard]] double newest_s() const noexcept { return end_ == 0 ? -kInfinity_s : t(end_ - 1); }
     [[nodiscard]] const double* values(std::size_t number) const noexcept {
         return values_.data() + (number - offset_) * width_;
     }

@@ -65,10 +65,6 @@ void TaxelTrack::preset(const RestLevels& rest) {
     validFrom_ = -kInfinity_s;
 }
 
-double TaxelTrack::newest_s() const noexcept {
-    return samples_.end() == 0 ? -kInfinity_s : samples_.t(samples_.end() - 1);
-}
-
 void TaxelTrack::push(double t_s, const double* values) noexcept {
     if (!std::isfinite(t_s) || !std::all_of(values, values + taxels_, [](double x) { return std::isfinite(x); })) {
         ++invalid_;

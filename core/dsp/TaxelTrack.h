@@ -27,7 +27,7 @@ public:
     void preset(const RestLevels& rest);
 
     [[nodiscard]] double first_s() const noexcept { return first_; }
-    [[nodiscard]] double newest_s() const noexcept;
+    [[nodiscard]] double newest_s() const noexcept { return samples_.newest_s(); }
     /// A sample further than this from a frame does not speak for it.
     [[nodiscard]] double reach_s() const noexcept { return reach_; }
 

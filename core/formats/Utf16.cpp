@@ -1,6 +1,9 @@
 #include "core/formats/Utf16.h"
 
+#include <array>
 #include <cstdint>
+
+#include "core/base/Utf8.h"
 
 namespace tacto {
 
@@ -9,22 +12,8 @@ namespace {
 constexpr std::uint32_t kReplacement = 0xFFFD;
 
 void appendCodePoint(std::uint32_t c, std::string& text) {
-    const auto byte = [&](std::uint32_t value) { text.push_back(static_cast<char>(value)); };
-    if (c < 0x80) {
-        byte(c);
-    } else if (c < 0x800) {
-        byte(0xC0U | c >> 6U);
-        byte(0x80U | (c & 0x3FU));
-    } else if (c < 0x10000) {
-        byte(0xE0U | c >> 12U);
-        byte(0x80U | (c >> 6U & 0x3FU));
-        byte(0x80U | (c & 0x3FU));
-    } else {
-        byte(0xF0U | c >> 18U);
-        byte(0x80U | (c >> 12U & 0x3FU));
-        byte(0x80U | (c >> 6U & 0x3FU));
-        byte(0x80U | (c & 0x3FU));
-    }
+    std::array<char, 4> bytes{};
+    text.append(bytes.data(), encodeUtf8(c, bytes));
 }
 
 bool isUtf8(std::string_view text) noexcept {

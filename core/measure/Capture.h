@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/NaN.h"
@@ -44,5 +45,13 @@ struct Capture {
         return channels.empty() ? 0 : channels.front().samples.size();
     }
 };
+
+/// The channel of exactly that name; null where there is none. findChannel() is for names that people type.
+[[nodiscard]] inline const CaptureChannel* channelOf(const Capture& capture, std::string_view name) noexcept {
+    for (const auto& channel : capture.channels) {
+        if (channel.name == name) return &channel;
+    }
+    return nullptr;
+}
 
 }  // namespace tacto

@@ -10,11 +10,11 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kFewestFlat = 10;          // samples that keep the extreme, where the noise says enough
+constexpr std::size_t kMinFlat = 10;             // samples that keep the extreme, where the noise says enough
 constexpr std::size_t kManyFlat = 50;            // where it does not
 constexpr double kKeeps = 0.95;                  // of the samples between the first and the last at the extreme
 constexpr std::size_t kJudgedTriples = 100'000;  // triples of neighbours
-constexpr std::size_t kFewestTriples = 50;       // of them
+constexpr std::size_t kMinTriples = 50;          // of them
 constexpr double kEdge = 0.05;                   // of the record's span: a larger step is an edge and no noise
 constexpr double kJitters = 0.01;                // of the triples: noise of at least three codes
 constexpr double kMoves = 0.2;                   // of the steps: noise at all
@@ -87,7 +87,7 @@ Rest restBetween(const PhaseSpans& phases, const CaptureChannel& channel, double
         judged.push_back(steps);
     }
     const auto n = static_cast<double>(judged.size());
-    if (judged.size() < kFewestTriples || static_cast<double>(moves) < kMoves * n) return Rest::Still;
+    if (judged.size() < kMinTriples || static_cast<double>(moves) < kMoves * n) return Rest::Still;
     const auto turns = std::ranges::count_if(judged, [&](const Steps& s) {
         return s.before * s.after < 0 && std::max(std::abs(s.before), std::abs(s.after)) > 1.5 * least;
     });
@@ -100,7 +100,7 @@ bool isFlat(std::span<const float> samples, float extreme, Rest rest) {
     auto end = samples.end();
     while (*(end - 1) != extreme) --end;
     const auto length = static_cast<std::size_t>(end - first);
-    if (length < kFewestFlat || 2 * length < samples.size()) return false;
+    if (length < kMinFlat || 2 * length < samples.size()) return false;
     const auto kept = static_cast<std::size_t>(std::count(first, end, extreme));
     if (rest == Rest::Moves) return kept == length && length >= kManyFlat;
     return static_cast<double>(kept) >= kKeeps * static_cast<double>(length);

@@ -113,9 +113,7 @@ InstrumentStatement InstrumentProfile::statement() const {
 
 Result<InstrumentProfile> parseInstrumentProfile(std::string_view text, std::string_view source) {
     static const auto fields = buildInstrumentFields();
-    const auto parsed = parseJson(text, source);
-    if (!parsed) return failure(parsed);
-    return fields.read(*parsed, {.file = std::string(source)}).map_error(asParseError);
+    return parseRecord(fields, text, source);
 }
 
 InstrumentStatement statementOf(const std::vector<InstrumentProfile>& profiles, std::string_view name) {

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kBeforeFrom = 2.0;  // widths before the onset: the silence the voltage counts from
 constexpr double kBeforeTo = 0.25;
-constexpr std::size_t kFewestBefore = 5;  // samples of it
-constexpr double kLineFrom = 0.5;         // of the width
+constexpr std::size_t kMinSamplesBefore = 5;  // samples of it
+constexpr double kLineFrom = 0.5;             // of the width
 constexpr double kLineTo = 0.95;
 // A line through these n samples, read at the end of the width, is this much less certain than their mean:
 // √(1 + 12·((1 - 0.725)/0.45)²).
@@ -41,7 +41,7 @@ public:
         const auto silence = between(std::max(load.onset_s - kBeforeFrom * width_s, silentFrom_s + kBeforeTo * width_s),
                                      load.onset_s - kBeforeTo * width_s);
         const auto whole = between(load.onset_s - 0.1 * width_s, end_s + 0.1 * width_s);
-        if (silence.size() < kFewestBefore || !isUsable(whole)) return load;
+        if (silence.size() < kMinSamplesBefore || !isUsable(whole)) return load;
         const double zero_v = mean(voltage_.samples, silence);
         const double zero_a = current.states.baseline;
         load.voltage_v = atEnd(voltage_.samples, pulse.leading) - zero_v;

@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kFewestPhaseSamples = 10;
+constexpr std::size_t kMinPhaseSamples = 10;
 constexpr std::size_t kAmplePhaseSamples = 40;
 constexpr double kRinging = 0.05;        // of the area of the phase before: more is a phase of its own
 constexpr double kLower = 0.6;           // than the phase before: as high is a pulse of its own, however short
@@ -49,7 +49,7 @@ void flagPhase(const FoundPhase& phase, PulseFlags& flags) {
     flags.clipped = flags.clipped || phase.clipped;
     flags.truncated = flags.truncated || phase.truncated;
     flags.incomplete = flags.incomplete || phase.incomplete;
-    flags.underSampled = flags.underSampled || phase.measured.samples < kFewestPhaseSamples;
+    flags.underSampled = flags.underSampled || phase.measured.samples < kMinPhaseSamples;
     flags.coarse = flags.coarse || phase.measured.samples < kAmplePhaseSamples;
     flags.flatTop = flags.flatTop || phase.flatTop;
 }

@@ -16,7 +16,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kFewestForLevels = 20;
+constexpr std::size_t kMinForLevels = 20;
 constexpr double kSpanInNoise = 8;          // Gaussian noise alone reaches 7 to 9 in a record's span
 constexpr double kSmallestBaseline = 0.05;  // of the samples, between two other states
 constexpr double kSmallestReturn = 0.2;     // of the leading phase's charge, to be a second phase and not ringing
@@ -180,8 +180,8 @@ StateLevels findStateLevels(std::span<const float> samples, double lsb, bool log
 StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic) {
     const double low = static_cast<double>(blocks.lowest());
     const double high = static_cast<double>(blocks.highest());
-    if (blocks.finite() < kFewestForLevels)
-        return none(fmt::format("it has {} samples; {} are the least", blocks.finite(), kFewestForLevels));
+    if (blocks.finite() < kMinForLevels)
+        return none(fmt::format("it has {} samples; {} are the least", blocks.finite(), kMinForLevels));
     if (!(high > low)) return none(fmt::format("it stays at {:.4g}", low));
     if (logic) {
         StateLevels levels;

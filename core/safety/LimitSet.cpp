@@ -107,9 +107,7 @@ std::string_view nameOf(LimitAction action) noexcept { return wordFor(kActions, 
 
 Result<LimitSet> parseLimitSet(std::string_view text, std::string_view name) {
     static const auto fields = buildLimitSetFields();
-    const auto document = parseJson(text, name);
-    if (!document) return failure(document);
-    return fields.read(*document, {.file = std::string(name)}).map_error(asParseError);
+    return parseRecord(fields, text, name);
 }
 
 std::string_view shortTitleOf(std::string_view id) noexcept {

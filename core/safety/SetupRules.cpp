@@ -11,11 +11,6 @@ namespace {
 bool positive(double value) noexcept { return std::isfinite(value) && value > 0; }
 bool notNegative(double value) noexcept { return std::isfinite(value) && value >= 0; }
 
-template <class... Args>
-tl::unexpected<Error> invalid(fmt::format_string<Args...> text, Args&&... args) {
-    return fail(ErrorCode::InvalidArgument, text, std::forward<Args>(args)...);
-}
-
 // --- limits ---------------------------------------------------------------------------------------------------------
 
 struct RowOfSet {

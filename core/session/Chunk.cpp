@@ -68,10 +68,7 @@ std::optional<StampLine> lineThrough(std::span<const double> t_s) noexcept {
 std::string toJsonText(const ChunkHead& head) { return dumpJson(chunkFields().write(head)); }
 
 Result<ChunkHead> parseChunkHead(std::string_view text) {
-    constexpr const char* kPlace = "the description of a chunk";
-    const auto json = parseJson(text, kPlace);
-    if (!json) return failure(json);
-    return chunkFields().read(*json, {.file = kPlace}).map_error(asParseError);
+    return parseRecord(chunkFields(), text, "the description of a chunk");
 }
 
 Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<const std::byte> stamps,

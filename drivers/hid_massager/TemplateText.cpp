@@ -162,9 +162,7 @@ RecordFields<MassagerTemplate> buildTemplateFields() {
 
 Result<MassagerTemplate> parseMassagerTemplate(std::string_view text, std::string_view file) {
     static const auto fields = buildTemplateFields();
-    const auto document = parseJson(text, file, {.bytes = kMaxTemplate});
-    if (!document) return failure(document);
-    auto made = fields.read(*document, {.file = std::string(file)}).map_error(asParseError);
+    auto made = parseRecord(fields, text, file, {.bytes = kMaxTemplate});
     if (made) made->key = std::filesystem::path(file).stem().string();
     return made;
 }

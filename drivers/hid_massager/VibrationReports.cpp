@@ -7,11 +7,6 @@ namespace tacto::hid {
 
 namespace {
 
-template <class... Args>
-tl::unexpected<Error> invalid(fmt::format_string<Args...> text, Args&&... args) {
-    return fail(ErrorCode::InvalidArgument, text, std::forward<Args>(args)...);
-}
-
 /// The bit of the report where bit `i` of the value stands.
 std::size_t placeOf(const ReportField& field, std::size_t i) noexcept {
     if (field.order == ByteOrder::Little) return field.bit + i;

@@ -90,7 +90,7 @@ Result<std::unique_ptr<Watchdog>> WatchdogProcess::start(const StopWay& way, con
     } answer{};
     if (!waitFor(ends[0], kStart_ms) || recv(ends[0], &answer, sizeof answer, 0) < 1) {
         kill(process, SIGKILL);
-        return notDriven(ErrorCode::Io, "{} did not answer within {} ms", program.string(), kStart_ms);
+        return notDriven(ErrorCode::Timeout, "{} did not answer within {} ms", program.string(), kStart_ms);
     }
     if (answer.word != static_cast<char>(WatchdogWord::Ready)) {
         int reason = 0;

@@ -56,7 +56,7 @@ function predict(p, levels, label, changed) {
   return analysis.variation(Object.assign(options, changed));
 }
 
-// "94.8 (66.7 to 99.2)": the median, 5 and 95 %. Of one participant, and of none, no more than there is.
+// "94.8 (66.7 to 99.2)": the median, 5 and 95 %. One participant has no range, and none has no number.
 function spread(estimate, digits, factor) {
   const shown = (x) => (factor * x).toFixed(digits);
   const middle = estimate.median !== undefined ? estimate.median : estimate.value;

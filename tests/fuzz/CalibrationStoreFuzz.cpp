@@ -52,10 +52,10 @@ std::filesystem::path chained(std::span<const std::uint8_t> bytes) {
     const auto path = fuzz::scratchFolder() / "chained.jsonl";
     std::filesystem::remove(path);
     std::filesystem::remove(path.string() + ".end");
-    constexpr std::size_t kMostLines = 8;  // each is committed to a disk
+    constexpr std::size_t kMaxLines = 8;  // each is committed to a disk
     std::istringstream lines(std::string(bytes.begin(), bytes.end()));
     std::size_t count = 0;
-    for (std::string line; count < kMostLines && std::getline(lines, line);) {
+    for (std::string line; count < kMaxLines && std::getline(lines, line);) {
         const auto json = parseJson(line, "fuzz.json");
         if (!json || !json->is_object()) continue;
         ChainedLines file(path, "line");

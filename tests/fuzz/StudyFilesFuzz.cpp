@@ -27,7 +27,7 @@ using Input = std::span<const std::uint8_t>;
 
 constexpr const char* kStudy = "0123456789abcdef";
 constexpr const char* kPerson = "00112233445566aa";
-constexpr std::size_t kMostRows = 12;  // each is committed to a disk
+constexpr std::size_t kMaxRows = 12;  // each is committed to a disk
 
 template <class T>
 bool refused(const Result<T>& read) {
@@ -103,7 +103,7 @@ void checkLedger(Input input) {
     auto seq = (*writer)->event(Instant{0}, ledger::kStudy, {{"settings", {{"participants_max", 5}}}, {"sha256", ""}});
     std::istringstream lines{std::string(textOf(input))};
     std::size_t rows = 0;
-    for (std::string name, body; rows < kMostRows && lines >> name && std::getline(lines, body);) {
+    for (std::string name, body; rows < kMaxRows && lines >> name && std::getline(lines, body);) {
         const auto row = parseJson(body, "fuzz");
         if (!row || !row->is_object()) continue;
         require(seq.has_value());

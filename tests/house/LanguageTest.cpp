@@ -167,17 +167,17 @@ std::string misplacedNoIn(const std::string& line) {
     return "";
 }
 
-/// What a line says without its subject or in words that are not used: "nobody" and the like, a comment that begins as
-/// a fragment ("Of a pass"), "is no file" for "is not a file".
+/// What a line says without its subject or in words that are not used: "nobody" and the like, a sentence of a comment
+/// that begins with "Of" ("Of a pass the last line counts"), "is no file" for "is not a file".
 std::string riddleIn(const std::string& line) {
     const auto has = [&](const char* part) { return strcasestr(line.c_str(), part) != nullptr; };
     if (has("is no ") || has("are no ") || has("was no ") || has("were no ") || has("be no ") || has("been no ")) {
         if (auto found = misplacedNoIn(line); !found.empty()) return found;
     }
-    if (!has("body") && !has("whoever") && !has("/ Of ") && !has("broken off")) return "";
+    if (!has("body") && !has("whoever") && !has(" Of ") && !has("broken off")) return "";
     static const std::regex words(R"(\b(nobody|somebody|anybody|whoever|was broken off|is broken off)\b)",
                                   std::regex::icase);
-    static const std::regex fragment(R"(//[/!<]*\s+Of [a-z])");
+    static const std::regex fragment(R"(//[/!<]*(?:.*[.:;!?)])?\s+Of [a-z])");
     std::smatch found;
     return std::regex_search(line, found, words) || std::regex_search(line, found, fragment) ? found.str() : "";
 }
@@ -205,6 +205,8 @@ TEST(Language, RiddlesAreFound) {
     EXPECT_EQ(riddleIn("x();  // nobody looks"), "nobody");
     EXPECT_EQ(riddleIn("EXPECT_TRUE(x) << \"Whoever asks\";"), "Whoever");
     EXPECT_EQ(riddleIn("    /// Of a pass: what was found"), "/// Of a");
+    EXPECT_EQ(riddleIn("x();  // Lines are kept. Of each the last counts"), "// Lines are kept. Of e");
+    EXPECT_EQ(riddleIn("x(\"Done. Of two\");  // The Bank Of example"), "");
     EXPECT_EQ(riddleIn("/// The body of a request, of one kind"), "");
     EXPECT_EQ(riddleIn("fail(\"{} is no folder\")"), "is no folder");
     EXPECT_EQ(riddleIn("/// Ten bytes that are no frame."), "are no frame");

@@ -1,5 +1,5 @@
-// A file is a thing, named after it; a line fits in 120 columns; the environment is asked where the user's data lie in
-// one place.
+// A file is a thing, named after it; a line fits in 120 columns; a limit is kMin or kMax; the environment is asked
+// where the user's data lie in one place.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <regex>
@@ -50,6 +50,18 @@ TEST(Sources, AFileIsAThingAndNoRestOfOne) {
     static const std::regex rest(R"(.*(Parts|Helpers?|Utils?|Manager|Misc|Common)$)");
     forSources({"app", "core", "drivers", "tests"}, [](const fs::path& file, const std::string&) {
         EXPECT_FALSE(std::regex_match(file.stem().string(), rest)) << file;
+    });
+}
+
+TEST(Sources, ALimitIsNamedByMinOrMax) {
+    static const std::regex other(R"(\bk(Most|Fewest|Least)([A-Z_]\w*)?\b)");
+    forSources({"app", "core", "drivers", "tests"}, [](const fs::path& file, const std::string& text) {
+        if (file.filename() == "SourcesTest.cpp") return;
+        for (const char* begin : {"kMost", "kFewest", "kLeast"}) {
+            if (text.find(begin) == std::string::npos) continue;
+            std::smatch found;
+            EXPECT_FALSE(std::regex_search(text, found, other)) << file << ": " << found.str();
+        }
     });
 }
 

@@ -6,8 +6,9 @@
 // alone is tried again where the machine stood still (support/Standstill.cpp); any other failure is one. There an
 // ASSERT_IN_TIME also ends the test from within a function that the test calls.
 //
-// A value that is not accepted, a file or reply of another format, and an ability that a device does not have are
-// wrong on any machine: a Result that fails with one of these errors missed no deadline.
+// A Result missed a deadline only if its error is one that lateness causes: no answer in time (Timeout), the output off
+// by then (NotArmed), what went on ended (Stopped), or a device that reports a fault (Device: the control loop was
+// silent, an approval had expired, a watchdog had to stop the output). Every other error is wrong on any machine.
 //
 // Thread-safety: as gtest's assertions.
 #pragma once
@@ -27,9 +28,9 @@ template <class Happened>
     if constexpr (requires { happened.error().message; }) {
         const auto& error = happened.error();
         using Code = std::remove_cvref_t<decltype(error.code)>;
-        const bool wrong =
-            error.code == Code::InvalidArgument || error.code == Code::ParseError || error.code == Code::Unsupported;
-        return testing::AssertionFailure() << (wrong ? "" : kNotInTime) << what << ": " << error.message;
+        const bool late = error.code == Code::Timeout || error.code == Code::NotArmed || error.code == Code::Stopped ||
+                          error.code == Code::Device;
+        return testing::AssertionFailure() << (late ? kNotInTime : "") << what << ": " << error.message;
     } else {
         return testing::AssertionFailure() << kNotInTime << what;
     }

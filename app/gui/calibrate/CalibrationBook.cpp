@@ -9,10 +9,6 @@ namespace tacto::gui {
 
 namespace {
 
-int daysBetween(CalibrationDate from, CalibrationDate to) {
-    return static_cast<int>((std::chrono::sys_days(to) - std::chrono::sys_days(from)).count());
-}
-
 QString daysText(int days) { return QObject::tr("%1 d").arg(days); }
 
 }  // namespace

@@ -235,12 +235,6 @@ void CalibrationPlot::nameNearest(const CalibrationReadings& of, const AxisUnit&
     nearestLead_->setVisible((yAxis->range().upper + band) / yAxis->range().size() < kLeadFrom);
 }
 
-void CalibrationPlot::setSimulated(bool simulated) {
-    if (watermark_->visible() == simulated) return;
-    watermark_->setVisible(simulated);
-    replot(QCustomPlot::rpQueuedReplot);
-}
-
 void CalibrationPlot::colour() {
     stylePlot(*this);
     const auto& c = colours();

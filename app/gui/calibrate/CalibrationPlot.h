@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationReadings.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -20,7 +21,7 @@ public:
     explicit CalibrationPlot(Kind kind, QWidget* parent = nullptr);
     void clear();
     void show(const CalibrationReadings& of);
-    void setSimulated(bool simulated);
+    void setSimulated(bool simulated) { showWatermark(*watermark_, simulated); }
 
     [[nodiscard]] int drawnUp() const { return up_->dataCount(); }
     [[nodiscard]] int drawnDown() const { return down_->dataCount(); }

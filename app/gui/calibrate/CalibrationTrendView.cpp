@@ -24,10 +24,6 @@ double secondsOf(CalibrationDate day) {
     return std::chrono::duration<double>(std::chrono::sys_days(day).time_since_epoch()).count();
 }
 
-int daysFrom(CalibrationDate from, CalibrationDate to) {
-    return static_cast<int>((std::chrono::sys_days(to) - std::chrono::sys_days(from)).count());
-}
-
 QString dayText(CalibrationDate day) { return qtext(dateText(day)); }
 
 QString signedText(const QString& text, double value) { return value > 0 ? "+" + text : text; }
@@ -253,7 +249,7 @@ void CalibrationTrendView::drawDays() {
 
 QString CalibrationTrendView::dueText() const {
     if (points_.empty()) return {};
-    const int left = daysFrom(utcToday(), due_);
+    const int left = daysBetween(utcToday(), due_);
     const auto days = [](int count) { return count == 1 ? tr("1 day") : tr("%1 days").arg(count); };
     if (left < 0) return tr("The calibration was due on %1, %2 ago. Calibrate again.").arg(dayText(due_), days(-left));
     return left == 0 ? tr("The next calibration is due today, %1.").arg(dayText(due_))
@@ -265,7 +261,7 @@ QString CalibrationTrendView::jumpText(const std::vector<TrendJump>& jumps) cons
     if (jumps.empty()) {
         const bool judged = std::ranges::all_of(points_, [](const TrendPoint& p) { return std::isfinite(p.gainU); });
         return judged ? tr("No change from one to the next is larger than both U explain.")
-                      : tr("Where no U is stated, changes are not judged.");
+                      : tr("Changes are not judged where U is not stated.");
     }
     QStringList all;
     for (auto jump = jumps.rbegin(); jump != jumps.rend() && all.size() < kMaxJumps; ++jump) {

@@ -30,10 +30,10 @@ enum CertificateColumn {
 };
 
 /// What goes first where there is no room for every column; the tool tip of a row tells all of it.
-constexpr std::array kLeastNeeded{int(kLab),    kFirstU + 3, kFirstU + 2, int(kDate),
-                                  int(kDevice), kFirstU + 1, int(kFirstU)};
-constexpr int kWide = 1020;   // all columns
-constexpr int kMostRows = 8;  // in sight; more scroll
+constexpr std::array kDroppedFirst{int(kLab),    kFirstU + 3, kFirstU + 2, int(kDate),
+                                   int(kDevice), kFirstU + 1, int(kFirstU)};
+constexpr int kWide = 1020;  // all columns
+constexpr int kMaxRows = 8;  // in sight; more scroll
 constexpr int kIndexRole = Qt::UserRole;
 constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
 
@@ -96,7 +96,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     // As high as its rows are, and no higher than a few.
     table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     table_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
-    table_->setMaximumHeight(kMostRows * table_->verticalHeader()->defaultSectionSize());
+    table_->setMaximumHeight(kMaxRows * table_->verticalHeader()->defaultSectionSize());
     table_->verticalHeader()->hide();
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -110,7 +110,8 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     withdraw_ = new ConfirmButton({}, this);
     withdraw_->setObjectName("withdrawCertificate");
     withdraw_->setAutoDefault(false);
-    withdraw_->setToolTip(tr("For one that was entered wrongly: it stays in the list and is not used any more."));
+    withdraw_->setToolTip(
+        tr("Withdraws a certificate that was entered wrongly. It stays in the list but is no longer used."));
     auto* row = new QHBoxLayout;
     row->addStretch(1);
     row->addWidget(withdraw_);
@@ -164,7 +165,7 @@ void CertificateDialog::fitColumns() {
     for (int column = 0; column < kCertificateColumns; ++column) table_->setColumnHidden(column, false);
     table_->horizontalHeader()->setStretchLastSection(false);  // else it is as wide as the rest
     table_->resizeColumnsToContents();
-    for (const int column : kLeastNeeded) {
+    for (const int column : kDroppedFirst) {
         if (table_->horizontalHeader()->length() <= table_->viewport()->width()) break;
         table_->setColumnHidden(column, true);
     }
@@ -251,7 +252,7 @@ void CertificateDialog::judge() {
     enter_->setEnabled(certificate.has_value());
     if (!certificate) return says_->setText(sentence(certificate.error()));
     const auto today = utcToday();
-    says_->setText(certificate->due < today    ? tr("It is expired: it would be kept and not used.")
+    says_->setText(certificate->due < today    ? tr("It has expired: it would be kept but not used.")
                    : certificate->date > today ? tr("It is dated in the future: it is not used before its date.")
                                                : QString());
 }

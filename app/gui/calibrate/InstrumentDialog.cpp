@@ -245,7 +245,7 @@ void InstrumentDialog::judge() {
     if (!preset) {
         says = name.empty() ? QString() : sentence(preset.error());
     } else if (preset->expired(utcToday())) {
-        says = tr("Its certificate expired: it would be kept, and its figures not used.");
+        says = tr("Its certificate has expired: the instrument would be kept, but its figures would not be used.");
     }
     trouble_->setText(says);
 }

@@ -378,6 +378,18 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     end();
 }
 
+RunOrder BenchController::orderOf(ProtocolSource script, ProtocolDeclaration declaration,
+                                  ProtocolSettings settings) const {
+    RunOrder order;
+    order.script = std::move(script);
+    order.declaration = std::move(declaration);
+    order.settings = std::move(settings);
+    order.notes = day_.notes();
+    order.profile = profile_;
+    order.limits = limits_;
+    return order;
+}
+
 }  // namespace tacto::gui
 
 #include "moc_BenchController.cpp"

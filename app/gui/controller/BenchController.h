@@ -94,6 +94,9 @@ public:
     [[nodiscard]] const ShippedLimits& limits() const noexcept { return limits_; }
     /// Who works here today, on which sample: in every session that is begun.
     [[nodiscard]] DayNotes& day() noexcept { return day_; }
+    /// A run of that script, with the profile, the limits and the notes of the day as they are now.
+    [[nodiscard]] RunOrder orderOf(ProtocolSource script, ProtocolDeclaration declaration,
+                                   ProtocolSettings settings) const;
     /// What is present.
     [[nodiscard]] DeviceWatch& watch() noexcept { return watch_; }
     /// Whether these are simulated devices and recordings only: nothing that can put out a current.

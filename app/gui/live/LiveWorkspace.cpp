@@ -185,7 +185,7 @@ void LiveWorkspace::buildTools() {
     makeQuiet(*freeze_);
     freeze_->setAccessibleName(tr("Freeze"));
     freeze_->setCheckable(true);
-    freeze_->setToolTip(tr("The plots stand still, to be dragged and zoomed; output and recording go on."));
+    freeze_->setToolTip(tr("Stops the plots so that you can drag and zoom them. Output and recording continue."));
     connect(freeze_, &QPushButton::toggled, strips_, &StripPlots::setFrozen);
     auto* window = new QComboBox(tools_);
     for (const int seconds : {2, 5, 10, 30}) window->addItem(tr("%1 s").arg(seconds), seconds);
@@ -221,10 +221,11 @@ void LiveWorkspace::addPlotTools(ToolRow& row) {
         row.addWidget(button);
         return button;
     };
-    auto* fit = tool(tr("Fit"), tr("All of a frozen picture again, as a double click on it. Freeze it first."), "fit",
-                     [this] { strips_->fit(); });
-    auto* undo = tool(tr("Undo zoom"), tr("Ctrl+Z: the view of a frozen picture before the last drag or zoom."),
-                      "undo-zoom", [this] { strips_->undoZoom(); });
+    auto* fit =
+        tool(tr("Fit"), tr("Shows the whole frozen picture again, like a double click on it. Freeze the plots first."),
+             "fit", [this] { strips_->fit(); });
+    auto* undo = tool(tr("Undo zoom"), tr("Ctrl+Z: undoes the last drag or zoom of a frozen picture."), "undo-zoom",
+                      [this] { strips_->undoZoom(); });
     tool(tr("Mark"), tr("Ctrl+M: marks this moment of the recording, with a word."), "mark",
          [this] { emit markWanted(); });
     tool(tr("Save picture"), tr("Saves the plots as PNG, SVG or PDF."), "save",

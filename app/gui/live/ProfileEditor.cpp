@@ -39,7 +39,7 @@ ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDi
     auto* naming = new QHBoxLayout;
     auto* nameLabel = new QLabel(tr("&Name"), this);
     name_ = new QLineEdit(this);
-    name_->setToolTip(tr("Stands in reports and session files."));
+    name_->setToolTip(tr("Appears in reports and session files."));
     nameLabel->setBuddy(name_);
     connect(name_, &QLineEdit::textChanged, this, &ProfileEditor::judge);
     naming->addWidget(nameLabel);
@@ -99,9 +99,9 @@ QWidget* ProfileEditor::buildButtons() {
         row->addWidget(made);
         return made;
     };
-    button(tr("&Open…"), tr("A profile from a file (JSON) into this form."), &ProfileEditor::chooseFile);
+    button(tr("&Open…"), tr("Loads a profile from a file (JSON) into this form."), &ProfileEditor::chooseFile);
     save_ = button(tr("&Save…"), tr("This form into a file (JSON)."), &ProfileEditor::chooseTarget);
-    button(tr("S&hipped values"), tr("The values that come with the program, into this form."), [this] {
+    button(tr("S&hipped values"), tr("Fills this form with the values that come with the program."), [this] {
         if (const auto shipped = shippedProfile())
             fill(*shipped);
         else

@@ -35,7 +35,7 @@ QWidget* RigPanel::buildSurfaces() {
     material_->setObjectName("surface");
     material_->addItem(tr("nothing (lifted)"), "");  // see begin() for what the finger does by itself
     for (const auto* name : kMaterials) material_->addItem(name, name);
-    material_->setToolTip(tr("The surface that the finger slides over, from smooth to rough."));
+    material_->setToolTip(tr("The surface under the sliding finger, from smooth to rough."));
     const auto spin = [&](double low, double high, double step, int decimals, double value, const QString& unit) {
         auto* box = new QDoubleSpinBox(group);
         box->setRange(low, high);
@@ -48,8 +48,7 @@ QWidget* RigPanel::buildSurfaces() {
         return box;
     };
     speed_ = spin(0, 200, 5, 0, 50, QStringLiteral("\u202fmm/s"));
-    speed_->setToolTip(
-        tr("Sliding speed. At 0 the finger rests on the surface, and nothing of its vibration is felt."));
+    speed_->setToolTip(tr("Sliding speed. At 0 the finger rests on the surface and feels no vibration."));
     force_ = spin(0.05, 10, 0.1, 2, 1, QStringLiteral("\u202fN"));
     force_->setObjectName("fingerForce");
     force_->setToolTip(tr("How hard the finger presses."));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/PlotLegend.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -128,10 +130,7 @@ void RollingGraph::addBar(int column, double from, double to) {
     bars_.append(QRect(column, top, 1, bottom - top + 1));
 }
 
-void RollingGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) const {
-    painter->setPen(mPen);
-    painter->drawLine(QLineF(rect.left(), rect.center().y(), rect.right(), rect.center().y()));
-}
+void RollingGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) const { drawLineIcon(*painter, rect, mPen); }
 
 }  // namespace tacto::gui
 

@@ -15,7 +15,7 @@ constexpr double kRadius = 8, kKeyRadius = 4, kEdge = 2;
 constexpr double kIconShare = 1.75;  // of the words' size
 constexpr double kPadShare = 0.9;
 constexpr double kBetweenCaps = 0.4;  // of the key's size
-constexpr int kLeast_px = 11;
+constexpr int kMinText_px = 11;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ QFont AnswerTarget::wordFont(int px) const {
     return font;
 }
 
-int AnswerTarget::keyPx() const { return std::max(kLeast_px, std::min(key_px_, height() / 5)); }
+int AnswerTarget::keyPx() const { return std::max(kMinText_px, std::min(key_px_, height() / 5)); }
 
 /// The width of a key's cap or a button's circle.
 int AnswerTarget::capWide(const QString& of) const {
@@ -74,7 +74,7 @@ int AnswerTarget::capsWide() const {
     return capWide(key_) + between + capWide(button_) + margin;
 }
 
-int AnswerTarget::leastPx() const { return std::max(kLeast_px, int(words_px_ * 0.3)); }
+int AnswerTarget::leastPx() const { return std::max(kMinText_px, int(words_px_ * 0.3)); }
 
 int AnswerTarget::fittingPx() const {
     const int least = leastPx();

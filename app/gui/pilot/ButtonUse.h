@@ -19,7 +19,7 @@ struct ButtonUse {
     bool operator==(const ButtonUse&) const = default;
 };
 
-inline constexpr int kMostAnswers = 6;  ///< of a question that buttons answer
+inline constexpr int kMaxAnswers = 6;  ///< of a question that buttons answer
 
 /// What the buttons of a device do, by their number, until the operator says otherwise: one pedal is STOP, of two the
 /// first holds, of up to five the last is STOP, and of more the fifth and the sixth are, the shoulder buttons of a game

@@ -40,7 +40,8 @@ DeviceRows::DeviceRows(QFormLayout& form, QWidget& parent, const DeviceWatch& wa
     looks_->setObjectName("looksAtMotor");
     looks_->setPlaceholderText(tr("none chosen"));
     looks_->setToolTip(
-        tr("A sensor board on the motor measures what the massager really does. Without one nothing is known of it."));
+        tr("A sensor board on the motor measures what the massager really does. Without one, its vibration is not "
+           "measured."));
     form.addRow(tr("On its motor"), looks_);
     for (auto* box : {delivers_, looks_}) connect(box, &QComboBox::currentIndexChanged, this, &DeviceRows::judge);
     connect(&watch_, &DeviceWatch::changed, this, [this] {

@@ -93,10 +93,7 @@ void ImpedanceTrend::setPlan(int trials, int blocks) {
     draw();
 }
 
-void ImpedanceTrend::setSimulated(bool simulated) {
-    watermark_->setVisible(simulated);
-    plot_->replot(QCustomPlot::rpQueuedReplot);
-}
+void ImpedanceTrend::setSimulated(bool simulated) { showWatermark(*watermark_, simulated); }
 
 void ImpedanceTrend::note(int trial, double ohm) {
     if (!(ohm > 0) || trial < 1) return;

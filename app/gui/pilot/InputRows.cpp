@@ -27,7 +27,7 @@ void addUses(QComboBox& box) {
     add(QObject::tr("nothing"), Nothing);
     add(QObject::tr("STOP"), Stop);
     add(QObject::tr("hold"), Hold);
-    for (int i = 1; i <= kMostAnswers; ++i) add(QObject::tr("answer %1").arg(i), Answer, i);
+    for (int i = 1; i <= kMaxAnswers; ++i) add(QObject::tr("answer %1").arg(i), Answer, i);
 }
 
 }  // namespace
@@ -209,8 +209,8 @@ void InputRows::buildBefore(Row& row, QVBoxLayout& column) {
     told->setText(same ? tr("As in the last session.")
                   : row.seat.device.hasSerial
                       ? tr("In the last session it was %1.").arg(whose)
-                      : tr("In the last session one of this model was %1. It states no serial number, so this may be "
-                           "another: press a button of it first.")
+                      : tr("In the last session a device of this model was %1. It has no serial number, so this may be "
+                           "another one: press one of its buttons first.")
                             .arg(whose));
     column.addWidget(told);
     if (same) return;

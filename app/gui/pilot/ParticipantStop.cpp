@@ -12,7 +12,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kStopRadius = 8;
-constexpr int kLeastFoot_px = 11;
+constexpr int kMinFoot_px = 11;
 
 /// The largest size, up to `px`, at which `words` are no wider than `room`.
 QFont fitted(const QString& words, QFont font, int px, int room) {
@@ -94,7 +94,7 @@ QPixmap ParticipantStop::draw(const QColor& ground) const {
     auto lines = fitted(longest, textFont(TextSize::Body), lines_px_, room);
     const int footHigh = QFontMetrics(lines).lineSpacing() * 2 + QFontMetrics(lines).descent();
     const QFontMetrics above(word);
-    const bool hasFoot = QFontMetrics(lines).horizontalAdvance(longest) <= room && lines.pixelSize() >= kLeastFoot_px &&
+    const bool hasFoot = QFontMetrics(lines).horizontalAdvance(longest) <= room && lines.pixelSize() >= kMinFoot_px &&
                          height() > above.height() + 3 * footHigh + lines.pixelSize() * 2;
     if (!hasFoot) lines = fitted(keys, lines, lines_px_, room);
     const QFontMetrics below(lines);

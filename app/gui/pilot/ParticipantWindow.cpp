@@ -167,8 +167,8 @@ void ParticipantWindow::showState() {
                  .asked = asking_ ? std::optional(prompt_) : std::nullopt,
                  .keys = keys_,
                  .holdKey = QKeySequence(holdKey()).toString(),
-                 .buttons = asking_ ? buttonsOfTargets() : QStringList(),
-                 .holdButton = buttonLabels_.hold,
+                 .buttons = asking_ ? buttons_.textsFor(prompt_) : QStringList(),
+                 .holdButton = buttons_.labels.hold,
                  .stopped = stopped_,
                  .pause = break_ && !feels()});
 }
@@ -250,24 +250,9 @@ bool ParticipantWindow::takesPress(int code, SteadyTime at, bool repeated, std::
     return !held;
 }
 
-/// Nothing where buttons do not reach all targets: those that they do not reach would be chosen less.
-std::optional<int> ParticipantWindow::targetOfAnswer(int answer) const {
-    if (prompt_.kind == PromptKind::Scale || prompt_.kind == PromptKind::Several || prompt_.kind == PromptKind::Hold)
-        return std::nullopt;
-    const int count = targetCount(prompt_);
-    return answer >= 1 && answer <= count && count <= buttonAnswers_ ? std::optional(answer - 1) : std::nullopt;
-}
-
 void ParticipantWindow::setButtonLabels(const ButtonLabels& labels) {
-    buttonLabels_ = labels;
+    buttons_.labels = labels;
     face_->setStopButtons(labels.stops);
-}
-
-QStringList ParticipantWindow::buttonsOfTargets() const {
-    QStringList buttons;
-    for (int i = 0; i < targetCount(prompt_) && targetOfAnswer(i + 1) == i; ++i)
-        buttons << buttonLabels_.answers.value(i);
-    return buttons;
 }
 
 void ParticipantWindow::moveButton(int code, const ButtonUse& use, bool down, SteadyTime at) {
@@ -293,7 +278,7 @@ void ParticipantWindow::moveButton(int code, const ButtonUse& use, bool down, St
         case ButtonUse::Does::Answer:
             break;
     }
-    const auto target = targetOfAnswer(use.answer);
+    const auto target = buttons_.targetOf(use.answer, prompt_);
     if (takesPress(key, at, false, target) && target) choose(*target, at);
 }
 

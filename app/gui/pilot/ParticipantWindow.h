@@ -16,8 +16,8 @@
 #include <QWidget>
 #include <functional>
 
+#include "app/gui/pilot/AnswerButtons.h"
 #include "app/gui/pilot/AnswerKeys.h"
-#include "app/gui/pilot/ButtonUse.h"
 #include "app/gui/pilot/EarlierPresses.h"
 #include "app/gui/pilot/ParticipantDesk.h"
 
@@ -36,7 +36,7 @@ public:
     /// A button of theirs went down or came up; `code` is the same for the same button. A question is answered by
     /// buttons only where they reach each of its targets: see setButtonAnswers().
     void moveButton(int code, const ButtonUse& use, bool down, SteadyTime at);
-    void setButtonAnswers(int reached) { buttonAnswers_ = reached; }
+    void setButtonAnswers(int reached) { buttons_.reached = reached; }
     /// Written on the targets of questions that buttons answer, on what is held, and on STOP.
     void setButtonLabels(const ButtonLabels& labels);
     /// Half a sentence: a device of either person is unplugged, so no presentation starts; empty: all are there.
@@ -85,8 +85,6 @@ private:
     [[nodiscard]] int holdKey() const;
     void choose(int target, SteadyTime at);
     [[nodiscard]] bool takesPress(int code, SteadyTime at, bool repeated, std::optional<int> would);
-    [[nodiscard]] std::optional<int> targetOfAnswer(int answer) const;
-    [[nodiscard]] QStringList buttonsOfTargets() const;
     /// Of Several.
     [[nodiscard]] std::vector<std::string> chosenKeys() const;
     void give(PilotAnswer answer, SteadyTime at);
@@ -112,8 +110,7 @@ private:
     bool painted_ = false;
     int heldKey_ = 0;  ///< or button
     SteadyTime heldAt_{};
-    int buttonAnswers_ = 0;
-    ButtonLabels buttonLabels_;
+    AnswerButtons buttons_;
     QString inputGone_;
     EarlierPresses pressed_;
     QElapsedTimer since_;  // the targets were shown

@@ -15,17 +15,11 @@ Result<RunOrder> pilotOrder(const PilotStart& start, BenchController& controller
     if (start.blocks) given["blocks"] = std::to_string(*start.blocks);
     auto settings = applySettings(*declaration, given);
     if (!settings) return failure(settings);
-    RunOrder order;
-    order.script = std::move(*source);
-    order.declaration = std::move(*declaration);
-    order.settings = std::move(*settings);
+    auto order = controller.orderOf(std::move(*source), std::move(*declaration), std::move(*settings));
     order.uris = start.devices;
     order.needed = order.declaration.needs;
     order.seed = start.seed;
     order.realtime = start.person || start.realTime;
-    order.notes = controller.day().notes();
-    order.profile = controller.profile();
-    order.limits = controller.limits();
     return order;
 }
 

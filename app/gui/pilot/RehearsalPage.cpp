@@ -74,8 +74,8 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     setTextSize(*title_, TextSize::Large);
     column->addWidget(title_);
     column->addWidget(explanation(
-        tr("The whole session as a participant and an operator live it, on simulated devices: checklist, thresholds, "
-           "training, test, ratings. Nothing of it reaches a person."),
+        tr("The whole session as participant and operator see it, on simulated devices: checklist, thresholds, "
+           "training, test, ratings. No person receives any output."),
         inside));
     auto* holder = new QWidget(inside);
     boundWidth(*holder, kFormWide);
@@ -122,8 +122,8 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     modality_->addItem(tr("electrodes"), qtext(nameOf(Modality::Electrodes)));
     modality_->addItem(tr("a massager"), qtext(nameOf(Modality::Massager)));
     modality_->setToolTip(
-        tr("What is felt comes from these; a massager has a strength in place of a current. A rehearsal keeps what it "
-           "began with."));
+        tr("These devices make what is felt; a massager has a strength instead of a current. A rehearsal keeps the "
+           "devices that it began with."));
     form->addRow(tr("Felt through"), modality_);
     protocol_->setObjectName("rehearsalProtocol");
     protocol_->addItem(tr("the whole session"), "pilot-identification");

@@ -28,7 +28,7 @@ std::optional<ButtonUse> useFrom(const QString& text) {
     const int does = numbers[0].toInt(&isDoes), answer = numbers[1].toInt(&isAnswer);
     const bool answers = does == int(ButtonUse::Does::Answer);
     if (!isDoes || !isAnswer || does < 0 || does > int(ButtonUse::Does::Answer)) return std::nullopt;
-    if (answers ? answer < 1 || answer > kMostAnswers : answer != 0) return std::nullopt;
+    if (answers ? answer < 1 || answer > kMaxAnswers : answer != 0) return std::nullopt;
     return ButtonUse{ButtonUse::Does(does), answer};
 }
 

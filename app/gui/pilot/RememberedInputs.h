@@ -13,8 +13,8 @@ namespace tacto::gui {
 
 /// `place`: the study's id, or kRehearsals. What was remembered of it before is forgotten.
 void rememberInputs(const QString& place, const std::vector<SeatedDevice>& seats);
-/// How this device was seated; nothing where it was not used there, or has other buttons by now. Of a device without a
-/// serial number (ButtonDeviceInfo::hasSerial) it may have been another one of its model.
+/// How this device was seated; nothing where it was not used there, or has other buttons by now. A device without a
+/// serial number (ButtonDeviceInfo::hasSerial) is taken for any other of its model.
 [[nodiscard]] std::optional<SeatedDevice> rememberedInput(const QString& place, const ButtonDeviceInfo& device);
 
 inline constexpr const char* kRehearsals = "rehearsals";

@@ -21,8 +21,8 @@ NextStepWords wordsOf(NextStep step) {
     switch (step) {
         case NextStep::UseProfile:
             return {QObject::tr("Use this profile"), "verdict-pass",
-                    QObject::tr("The profile that this run made comes into force: for the open bench and for the next "
-                                "runs. Arming asks as always.")};
+                    QObject::tr("Uses the profile that this run made, for the open bench and for later runs. Arming "
+                                "asks as always.")};
         case NextStep::Check:
             return {QObject::tr("Run check"), "run",
                     QObject::tr("Checks the stored calibration at three levels of each quantity. Stores nothing.")};

@@ -18,9 +18,9 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPageSide = 16, kPageTop = 8;
-constexpr int kFormWidth = 400;        // fields are read from label to value
-constexpr int kLeastScrolled = 96;     // a field and its title
-constexpr int kColumnsFromChars = 88;  // two columns from this width on
+constexpr int kFormWidth = 400;         // fields are read from label to value
+constexpr int kMinScrolledHeight = 96;  // a field and its title
+constexpr int kColumnsFromChars = 88;   // two columns from this width on
 
 enum PageIndex { kWiringPage, kReferencePage, kSettingsPage, kRunPage, kSignPage };
 
@@ -48,8 +48,8 @@ QScrollArea* scrolling(QWidget* part, QWidget* parent) {
     area->setFrameShape(QFrame::NoFrame);
     area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     area->setFocusPolicy(Qt::NoFocus);
-    area->setMinimumHeight(scaledPx(kLeastScrolled));
-    onFontChange(*area, [area] { area->setMinimumHeight(scaledPx(kLeastScrolled)); });
+    area->setMinimumHeight(scaledPx(kMinScrolledHeight));
+    onFontChange(*area, [area] { area->setMinimumHeight(scaledPx(kMinScrolledHeight)); });
     area->setWidget(part);
     for (auto* ground : {part, area->viewport()}) ground->setAutoFillBackground(false);
     return area;

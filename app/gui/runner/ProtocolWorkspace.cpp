@@ -21,7 +21,6 @@
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "app/report/TableContent.h"
 #include "core/base/JsonText.h"
 
@@ -63,7 +62,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     connect(runs, &QShortcut::activated, this, &ProtocolWorkspace::runAsked);
     connect(&controller_, &BenchController::finished, this, &ProtocolWorkspace::ended);
     connect(&controller_, &BenchController::changed, this, [this] {
-        if (asked_) withdraw();  // it was asked of the profile and the bench as they were
+        if (asked_.waits()) withdraw();  // it was asked of the profile and the bench as they were
         previewLater_.start();
         const auto open = controller_.open();
         showBench();
@@ -142,7 +141,7 @@ void ProtocolWorkspace::fillChooser(const QString& select) {
 
 void ProtocolWorkspace::choose(const QString& nameOrPath) {
     declaration_.reset();
-    asked_.reset();
+    asked_.withdraw();
     showButtons();
     auto source = ProtocolLibrary().find(nameOrPath.toStdString());
     if (!source) return panel_->say(sentence(source.error()));
@@ -212,7 +211,7 @@ void ProtocolWorkspace::showSetup() {
 
 /// What was asked was about other settings, or another profile.
 void ProtocolWorkspace::withdraw() {
-    asked_.reset();
+    asked_.withdraw();
     panel_->withdrawQuestion();
 }
 
@@ -239,14 +238,8 @@ Result<RunOrder> ProtocolWorkspace::order() {
     if (!declaration_) return fail(ErrorCode::InvalidArgument, "there is no protocol to run");
     auto settings = pages_->form().read();
     if (!settings) return failure(settings);
-    RunOrder order;
-    order.script = source_;
-    order.declaration = *declaration_;
-    order.settings = std::move(*settings);
+    auto order = controller_.orderOf(source_, *declaration_, std::move(*settings));
     if (auto filled = pages_->wiring().fill(order); !filled) return failure(filled);
-    order.notes = controller_.day().notes();
-    order.profile = controller_.profile();
-    order.limits = controller_.limits();
     return order;
 }
 
@@ -269,14 +262,12 @@ void ProtocolWorkspace::runAsked() {
     }
     const auto harmless = controller_.allVirtual(asked->uris);
     if (!harmless) return panel_->say(tr("%1 Nothing was opened.").arg(sentence(harmless.error())));
-    asked_ = std::move(*asked);
-    askedAt_ = controller_.mark();
-    askedSince_.start();
+    asked_.ask(std::move(*asked), controller_.mark());
     if (*harmless) return runNow();
     panel_->say({});
     panel_->askToArm(tr("This run puts out current on hardware, into a load declared as %1. Is exactly that "
                         "connected, and no person?")
-                         .arg(QString::fromStdString(declaredLoad(asked_->settings.parameters))));
+                         .arg(QString::fromStdString(declaredLoad(asked_.order().settings.parameters))));
 }
 
 /// Also one that is just ending: what it still says is not this page's.
@@ -285,19 +276,18 @@ bool ProtocolWorkspace::anotherRuns() const {
 }
 
 void ProtocolWorkspace::runNow() {
-    if (running_ || !asked_) return;
+    if (running_ || !asked_.waits()) return;
     if (anotherRuns()) return panel_->say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
-    // The first of the two steps is void after a stop, and does not wait forever.
-    if (controller_.stoppedSince(askedAt_) || askedSince_.nsecsElapsed() > Interlock::kConfirmWithin.count())
+    if (asked_.isVoid(controller_))
         return panel_->say(tr("The question was answered after a stop or after 30 s. Press Run again."));
     running_ = true;
     last_.reset();
-    pages_->views().begin(declaration_->view, asked_->settings.parameters);
+    pages_->views().begin(declaration_->view, asked_.order().settings.parameters);
     pages_->sign().clear();
     path_->showRun();
     showStep(kRun);
     showButtons();
-    run_ = controller_.run(*std::exchange(asked_, std::nullopt), askedAt_);
+    run_ = asked_.start(controller_);
 }
 
 void ProtocolWorkspace::refresh() {

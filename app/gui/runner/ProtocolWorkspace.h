@@ -7,12 +7,11 @@
 #pragma once
 
 #include <QBoxLayout>
-#include <QElapsedTimer>
 #include <QFrame>
 #include <QTimer>
 #include <set>
 
-#include "app/gui/controller/BenchController.h"
+#include "app/gui/runner/AskedRun.h"
 #include "app/gui/runner/NextSteps.h"
 #include "app/gui/runner/ProcedurePages.h"
 #include "app/gui/runner/ScriptReading.h"
@@ -98,11 +97,9 @@ private:
     const QString fixed_;  ///< the one protocol, or empty
     ProtocolSource source_;
     std::optional<ProtocolDeclaration> declaration_;
-    QString obstacle_;               // why it may not run: a limit that it would break, a question without an answer
-    bool byProfile_ = false;         // another profile would end that
-    std::optional<RunOrder> asked_;  // waits for the second step
-    StopMark askedAt_;               // when the first was taken
-    QElapsedTimer askedSince_;
+    QString obstacle_;        // why it may not run: a limit that it would break, a question without an answer
+    bool byProfile_ = false;  // another profile would end that
+    AskedRun asked_;          // waits for the second step
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
     std::set<Step> seen_;  // of this protocol

@@ -45,8 +45,8 @@ QWidget* ReportView::buildRow() {
     print_ = new QPushButton(tr("Print"), holder);
     print_->setObjectName("printReport");
     print_->setToolTip(
-        tr("Prints all pages on the printer that you choose. For some of them, or several copies, open the "
-           "report in the PDF viewer."));
+        tr("Prints all pages on the printer that you choose. To print some pages or several copies, open the report in "
+           "the PDF viewer."));
     auto* printers = new QMenu(print_);
     connect(printers, &QMenu::aboutToShow, this, [this, printers] { printer_->offer(*printers, report_); });
     print_->setMenu(printers);

@@ -24,7 +24,7 @@ QString whyAndWhere(const QString& error, const QString& meaning) {
 }
 
 constexpr int kBesideBlock = 16;
-constexpr int kMostBlocks = 3;  // height of the reasons: more scroll
+constexpr int kMaxBlocks = 3;  // height of the reasons: more scroll
 
 /// A script's words: one line each, as plain text.
 QLabel* wordsLabel(const char* name, QWidget* parent) {
@@ -134,7 +134,7 @@ void ResultHead::giveRoom() {
     const bool narrow = besideFarBlock < page->minimumSizeHint().width();
     layout()->setSpacing(narrow ? kBesideBlock / 2 : kBesideBlock);
     const int needed = page->layout()->totalHeightForWidth(area_->width());
-    area_->setFixedHeight(std::clamp(needed, block, kMostBlocks * block));
+    area_->setFixedHeight(std::clamp(needed, block, kMaxBlocks * block));
 }
 
 }  // namespace tacto::gui

@@ -139,7 +139,7 @@ QWidget* RunPanel::buildQuestion() {
         emit confirmed();
     });
     back_ = new QPushButton(tr("Back"), holder);
-    back_->setToolTip(tr("Nothing is opened and nothing put out."));
+    back_->setToolTip(tr("Nothing is opened, and the output stays off."));
     back_->setAutoDefault(false);
     connect(back_, &QPushButton::clicked, this, [this] {
         question_->hide();

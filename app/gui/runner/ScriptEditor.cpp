@@ -167,7 +167,7 @@ void ScriptEditor::buildButtons() {
     save_ = button(tr("&Save"), tr("Into the lab's own protocols (Ctrl+S)."), &ScriptEditor::save);
     row->addStretch();
     button(tr("&Run…"), tr("Saves it and shows its settings in the workspace, where F5 runs it (F5)."), saveAndRun);
-    button(tr("C&lose"), tr("Closes the editor; asks where something is not saved."), &QDialog::reject);
+    button(tr("C&lose"), tr("Closes the editor. Asks first if there are unsaved changes."), &QDialog::reject);
     static_cast<QVBoxLayout*>(layout())->addLayout(row);
     connect(new QShortcut(QKeySequence::Save, this), &QShortcut::activated, this, &ScriptEditor::save);
     connect(new QShortcut(QKeySequence::Find, this), &QShortcut::activated, this, [this] {

@@ -53,12 +53,6 @@ void TrialPlane::begin(bool simulated, Features features) {
     replot(QCustomPlot::rpQueuedReplot);
 }
 
-void TrialPlane::setSimulated(bool simulated) {
-    if (watermark_->visible() == simulated) return;
-    watermark_->setVisible(simulated);
-    replot(QCustomPlot::rpQueuedReplot);
-}
-
 void TrialPlane::add(const nlohmann::json& trial) {
     ++trials_;
     const auto number = [&](const char* key) {

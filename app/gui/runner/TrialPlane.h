@@ -9,6 +9,8 @@
 #include <qcustomplot.h>
 #include <vector>
 
+#include "app/gui/theme/Theme.h"
+
 namespace tacto::gui {
 
 class TrialPlane final : public QCustomPlot {
@@ -18,7 +20,7 @@ public:
 
     explicit TrialPlane(QWidget* parent = nullptr);
     void begin(bool simulated, Features features = Features::Trains);
-    void setSimulated(bool simulated);
+    void setSimulated(bool simulated) { showWatermark(*watermark_, simulated); }
     /// A trial as record.trial() was given it; one without both features is counted and not drawn. A slide of a
     /// fingertip without taxels is drawn over its number.
     void add(const nlohmann::json& trial);

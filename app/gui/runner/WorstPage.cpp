@@ -105,7 +105,7 @@ QString WorstPage::judge(const BenchController& controller, const Result<Protoco
                                             : tr("⚠ %1 %2").arg(strongest, worst->refused));
     // Without a load of its own the protocol is judged by its script, load by load.
     const bool judged = drives && settings->parameters.contains("load") && !worst->refused.isEmpty();
-    return judged ? tr("%1 Choose another load or profile. Nothing is put out.").arg(worst->refused) : QString();
+    return judged ? tr("%1 Choose another load or profile. The output stays off.").arg(worst->refused) : QString();
 }
 
 }  // namespace tacto::gui

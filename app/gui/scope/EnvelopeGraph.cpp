@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "app/gui/theme/PlotLegend.h"
+
 namespace tacto::gui {
 
 namespace {
 
-constexpr double kFewestPerPixel = 2;   ///< samples; below it the samples themselves are drawn
+constexpr double kMinPerPixel = 2;      ///< samples; below it the samples themselves are drawn
 constexpr double kDotsFrom = 4;         ///< pixels between samples
 constexpr int kBlock = 16;              ///< columns
 constexpr double kManyPixels = 60'000;  ///< of verticals: from here on filling rows is quicker
@@ -119,7 +121,7 @@ void EnvelopeGraph::draw(QCPPainter* painter) {
     for (const auto& span : spans_) {
         if (!span.trace || span.trace->size() == 0) continue;
         const double pixelsPerSample = screen.xPerKey / span.trace->rate_hz;
-        if (pixelsPerSample * kFewestPerPixel <= screen.pixel) {
+        if (pixelsPerSample * kMinPerPixel <= screen.pixel) {
             drawColumns(span, screen);
         } else {
             painter->setPen(pen);
@@ -301,8 +303,7 @@ void EnvelopeGraph::drawMarks(QCPPainter& painter, const Screen& screen) const {
 }
 
 void EnvelopeGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) const {
-    painter->setPen(mPen);
-    painter->drawLine(QLineF(rect.left(), rect.center().y(), rect.right(), rect.center().y()));
+    drawLineIcon(*painter, rect, mPen);
 }
 
 }  // namespace tacto::gui

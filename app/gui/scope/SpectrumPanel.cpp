@@ -25,7 +25,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kFewest = 16;
+constexpr std::size_t kMinSamples = 16;
 constexpr double kPeakOverMedian = 10;  ///< 20 dB: noise alone comes to 10 or 12
 
 QString titleOf(SpectralWindow window) {
@@ -47,13 +47,13 @@ QString useOf(SpectralWindow window) {
         case SpectralWindow::Rectangular:
             return QObject::tr("The finest lines; levels are right only where whole periods are on the screen.");
         case SpectralWindow::Hann:
-            return QObject::tr("For most things. Between two lines a level reads up to 1.4 dB low.");
+            return QObject::tr("For most signals. Halfway between two lines a level reads up to 1.4 dB low.");
         case SpectralWindow::BlackmanHarris:
             return QObject::tr("For small lines beside large ones: nothing leaks above −92 dB.");
         case SpectralWindow::FlatTop:
             break;
     }
-    return QObject::tr("For levels: right within 0.01 dB wherever a sine lies, with wide lines.");
+    return QObject::tr("For levels: right within 0.01 dB at any frequency, but its lines are wide.");
 }
 
 }  // namespace
@@ -159,8 +159,8 @@ void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
     std::size_t first = index(from_s);
     const std::size_t last = index(to_s);
     const std::size_t seen = last > first ? last - first : 0;
-    if (seen < kFewest) {
-        spectrum_.note = tr("Fewer than %1 samples are on the screen: zoom out.").arg(kFewest);
+    if (seen < kMinSamples) {
+        spectrum_.note = tr("Fewer than %1 samples are on the screen: zoom out.").arg(kMinSamples);
         return;
     }
     // A power of two is quick at any zoom, and the same plan serves the next frame.

@@ -41,7 +41,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
     centre_->setAccessibleName(tr("Time position"));
     centre_->setToolTip(tr("The time in the middle of the screen. Dragging the screen does the same."));
     persistence_->setAccessibleName(tr("Captures that stay"));
-    persistence_->setToolTip(tr("Earlier captures stay on the screen, faded: what jitters shows as a band."));
+    persistence_->setToolTip(tr("Earlier captures stay on the screen, faded: jitter shows as a band."));
     persistence_->addItem(tr("newest only"), 0);
     for (const int n : {4, 8, 16, ScopeModel::kMaxBehind}) persistence_->addItem(tr("and %1 before").arg(n), n);
     average_->setAccessibleName(tr("Average"));
@@ -52,7 +52,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
     for (const int n : kAverages) average_->addItem(tr("%1 captures").arg(n), n);
     power_->setToolTip(tr("Voltage times current, sample by sample, in watts."));
     charge_->setToolTip(
-        tr("The current added up from the record's begin, in coulombs: a balanced pulse returns to "
+        tr("The current added up from the start of the record, in coulombs: a balanced pulse returns to "
            "where it began. After missing samples it begins again at zero."));
     for (auto* box : {base_, persistence_, average_, difference_}) {
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);

@@ -19,7 +19,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kRow = 32;
-constexpr int kLeastRows = 4;  // in sight, with that of the titles
+constexpr int kMinRows = 4;  // in sight, with that of the titles
 constexpr int kListIcon = 16;
 constexpr int kSeenAfter_ms = 150;
 constexpr int kMeasuredRows = 60;  // for the widths of columns
@@ -138,7 +138,7 @@ void SessionList::buildTable() {
     const auto grow = [this] {
         table_->verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
         table_->setIconSize({scaledPx(kListIcon), scaledPx(kListIcon)});
-        table_->setMinimumHeight(scaledPx(kLeastRows * kRow));
+        table_->setMinimumHeight(scaledPx(kMinRows * kRow));
     };
     grow();
     onLookChange(*this, [this, grow] {
@@ -292,12 +292,12 @@ void SessionList::say() {
     if (all == 0)
         empty_->setText(
             tr("No session yet. Every open bench and every protocol run is recorded and appears here: open "
-               "the simulated bench (Ctrl+B) or run Separability. A pilot session lies in its study: Pilot."));
+               "the simulated bench (Ctrl+B) or run Separability. Pilot sessions are kept in their study: see Pilot."));
     else if (search_->text().trimmed().isEmpty())
-        empty_->setText(tr("No session is of this verdict and date."));
+        empty_->setText(tr("No session has this verdict and date."));
     else
-        empty_->setText(tr("No session contains “%1”. Searched are procedure, note, operator, sample, tags, verdict, "
-                           "devices, date and file name.")
+        empty_->setText(tr("No session contains “%1”. The search covers procedure, note, operator, sample, tags, "
+                           "verdict, devices, date and file name.")
                             .arg(search_->text().trimmed()));
 }
 

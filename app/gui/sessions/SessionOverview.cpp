@@ -192,7 +192,7 @@ void SessionOverview::showFields() {
     const std::pair<QLineEdit*, QString> all[] = {
         {operator_, tr("Who ran the session, for the report.")},
         {sample_, tr("Your own id of the sample that was measured.")},
-        {tags_, tr("Words to find it by, with commas between them.")},
+        {tags_, tr("Words to find the session by, separated by commas.")},
         {note_, tr("One line. The search covers it, and the report shows it.")}};
     for (const auto& [edit, tip] : all) {
         edit->setReadOnly(fixed);

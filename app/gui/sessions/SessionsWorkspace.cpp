@@ -162,7 +162,7 @@ QWidget* SessionsWorkspace::buildNews() {
     progress_ = new QProgressBar(holder);
     progress_->setMaximumWidth(fontMetrics().averageCharWidth() * 30);
     cancel_ = new QPushButton(tr("Cancel"), holder);
-    cancel_->setToolTip(tr("Ends what is being done; nothing half-written stays."));
+    cancel_->setToolTip(tr("Cancels what is under way. No half-written file is left."));
     connect(cancel_, &QPushButton::clicked, &work_, &Background::cancel);
     below->addWidget(says_, 1);
     below->addWidget(progress_);

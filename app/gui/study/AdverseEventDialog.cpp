@@ -8,7 +8,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kEventWide = 520, kEventHigh = 580, kLeastForm = 120;
+constexpr int kEventWide = 520, kEventHigh = 580, kMinFormHeight = 120;
 }
 
 AdverseEventDialog::AdverseEventDialog(OpenStudy& study, const QString& code, QWidget* parent)
@@ -34,7 +34,7 @@ AdverseEventDialog::AdverseEventDialog(OpenStudy& study, const QString& code, QW
     form_->setMissingSaidOnceLeft();
     form_->show(fields);
     form_->referencePart().hide();
-    scroll(form_, scaledPx(kLeastForm));
+    scroll(form_, scaledPx(kMinFormHeight));
     auto* note = new QPushButton(tr("Note the event"), this);
     note->setObjectName("noteEvent");
     makePrimary(*note);

@@ -11,11 +11,10 @@ constexpr int kAmendWide = 860, kAmendHigh = 560;
 }
 
 AmendDialog::AmendDialog(OpenStudy& study, QWidget* parent)
-    : StudyDialog(
-          study, "amendDialog", tr("An amendment"),
-          tr("Change what the committee approved anew, and nothing else. From then on sessions keep to it. This "
-             "program’s protocols and limit sets, and the profile in use, are stated anew as well."),
-          parent),
+    : StudyDialog(study, "amendDialog", tr("An amendment"),
+                  tr("Change only what the committee has newly approved. Later sessions follow it. The amendment also "
+                     "restates this program’s protocols and limit sets and the profile in use."),
+                  parent),
       form_(new StudyForm) {
     if (const auto* open = opened().study()) form_->amend(open->settings());
     scroll(form_);

@@ -63,7 +63,7 @@ QString EndPartDialog::exportsText() const {
     if (all.empty()) return tr("Nothing was exported from this study.");
     QStringList places;
     for (const auto& one : all) places << "• " + qtext(one.place);
-    return tr("Exports lie where they were written, and are deleted by hand:") + '\n' + places.join('\n');
+    return tr("Exported files stay where they were saved. Delete them by hand:") + '\n' + places.join('\n');
 }
 
 void EndPartDialog::judge() {

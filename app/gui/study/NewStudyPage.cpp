@@ -22,7 +22,8 @@ constexpr int kNewPad = 16, kFormWide = 900;
 NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     : QWidget(parent),
       study_(study),
-      folder_(new PathField({}, tr("A new or empty folder. Its keys lie elsewhere, in your own key folder."), this)),
+      folder_(new PathField(
+          {}, tr("A new or empty folder. The study’s keys are kept elsewhere, in your own key folder."), this)),
       form_(new StudyForm(this)),
       trouble_(new TroubleLine("newStudyTrouble", this)) {
     setObjectName("newStudy");

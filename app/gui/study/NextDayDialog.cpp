@@ -10,7 +10,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kNextDayWide = 560, kNextDayHigh = 580, kLeastItems = 120;
+constexpr int kNextDayWide = 560, kNextDayHigh = 580, kMinItemsHeight = 120;
 }
 
 NextDayDialog::NextDayDialog(OpenStudy& study, const QString& code, QWidget* parent)
@@ -33,7 +33,7 @@ NextDayDialog::NextDayDialog(OpenStudy& study, const QString& code, QWidget* par
     rows->addWidget(form_);
     rows->addWidget(buildItems());
     rows->addStretch();
-    scroll(inside, scaledPx(kLeastItems));
+    scroll(inside, scaledPx(kMinItemsHeight));
     auto* note = new QPushButton(tr("Note the answers"), this);
     note->setObjectName("noteDay");
     makePrimary(*note);

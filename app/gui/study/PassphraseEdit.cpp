@@ -9,6 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include "core/base/Utf8.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -39,24 +41,8 @@ void PassphraseEdit::wipe() {
 void PassphraseEdit::add(const QString& text) {
     for (const char32_t point : text.toUcs4()) {
         if (point < 0x20 || point == 0x7F) continue;
-        std::array<std::byte, 4> utf8{};
-        std::size_t bytes = 0;
-        const auto put = [&](unsigned byte) { utf8[bytes++] = std::byte(byte); };
-        if (point < 0x80) {
-            put(point);
-        } else if (point < 0x800) {
-            put(0xC0U | point >> 6U);
-            put(0x80U | (point & 0x3FU));
-        } else if (point < 0x10000) {
-            put(0xE0U | point >> 12U);
-            put(0x80U | (point >> 6U & 0x3FU));
-            put(0x80U | (point & 0x3FU));
-        } else {
-            put(0xF0U | point >> 18U);
-            put(0x80U | (point >> 12U & 0x3FU));
-            put(0x80U | (point >> 6U & 0x3FU));
-            put(0x80U | (point & 0x3FU));
-        }
+        std::array<char, 4> utf8{};
+        const std::size_t bytes = encodeUtf8(point, utf8);
         if (size_ + bytes > held_.size()) break;
         std::memcpy(held_.bytes().data() + size_, utf8.data(), bytes);
         size_ += bytes;

@@ -6,12 +6,12 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kFewestLetters = 3;  // fewer before the "…" say nothing
+constexpr int kMinLetters = 3;  // fewer before the "…" say nothing
 }
 
 QString ElidedLabel::shownText() const {
     const auto shown = fontMetrics().elidedText(text(), Qt::ElideRight, contentsRect().width());
-    return shown == text() || shown.size() > kFewestLetters ? shown : QString();
+    return shown == text() || shown.size() > kMinLetters ? shown : QString();
 }
 
 void ElidedLabel::paintEvent(QPaintEvent*) {

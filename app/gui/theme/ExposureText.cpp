@@ -12,7 +12,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr QChar kBeforeUnit(0x202f);
-constexpr int kMostDecimals = 4;  // of a value just below its limit
+constexpr int kMaxDecimals = 4;  // of a value just below its limit
 
 ExposureFigure split(const QString& quantity) {
     const auto end = quantity.indexOf(kBeforeUnit);
@@ -33,7 +33,7 @@ QString numberBeside(double value, double limit, int limitDecimals) {
     const int decimals = std::max(std::min(most, digits == 2 && limit < 1 ? 3 : digits), limitDecimals);
     const auto said = decimalText(value, decimals);
     // What keeps its limit does not read as at it.
-    for (int finer = decimals; value < limit && finer <= kMostDecimals; ++finer) {
+    for (int finer = decimals; value < limit && finer <= kMaxDecimals; ++finer) {
         if (const auto below = decimalText(value, finer); below.toDouble() < limit) return below;
     }
     return value > limit && !(said.toDouble() > limit) ? "> " + decimalText(limit, limitDecimals) : said;

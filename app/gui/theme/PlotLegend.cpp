@@ -42,4 +42,9 @@ void fitLegend(QCustomPlot& plot) {
     legend->setMaximumSize(legend->minimumOuterSizeHint());
 }
 
+void drawLineIcon(QCPPainter& painter, const QRectF& icon, const QPen& pen) {
+    painter.setPen(pen);
+    painter.drawLine(QLineF(icon.left(), icon.center().y(), icon.right(), icon.center().y()));
+}
+
 }  // namespace tacto::gui

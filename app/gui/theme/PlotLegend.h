@@ -11,5 +11,7 @@ namespace tacto::gui {
 void putLegendAbove(QCustomPlot& plot);
 /// Fits it to its entries, in the current theme: call again when they, the theme or the size of text change.
 void fitLegend(QCustomPlot& plot);
+/// A trace's icon in the legend: a level line in its pen.
+void drawLineIcon(QCPPainter& painter, const QRectF& icon, const QPen& pen);
 
 }  // namespace tacto::gui

@@ -271,6 +271,12 @@ QCPItemText* addWatermark(QCPAxisRect& axes, WatermarkPlace place) {
     return item;
 }
 
+void showWatermark(QCPItemText& watermark, bool simulated) {
+    if (watermark.visible() == simulated) return;
+    watermark.setVisible(simulated);
+    watermark.parentPlot()->replot(QCustomPlot::rpQueuedReplot);
+}
+
 QWidget* heading(const QString& text, QWidget* parent) {
     auto* label = new QLabel(text, parent);
     setTextSize(*label, TextSize::Large);

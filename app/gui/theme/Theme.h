@@ -76,6 +76,8 @@ void stylePlot(QCustomPlot& plot);
 /// covers a pixel's width of them.
 enum class WatermarkPlace { Behind, InFront };
 QCPItemText* addWatermark(QCPAxisRect& axes, WatermarkPlace place = WatermarkPlace::Behind);
+/// Shows or hides it, and draws its plot again where that changes it.
+void showWatermark(QCPItemText& watermark, bool simulated);
 
 /// "just now", "2 s ago", "3 min ago"; "–" for NaN.
 [[nodiscard]] QString ageText(double seconds);

@@ -42,11 +42,11 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
     layout->addWidget(explanation(
         check ? tr("One small pulse measures the load. Nothing else is delivered, and the output stays disarmed. Esc "
                    "stops at any time.")
-        : massager_
-            ? tr("There is no load to measure. From then on it vibrates as the drive says. Esc stops at any time.")
-            : tr("One small pulse measures the load first. From then on trains are delivered as the drive says, "
-                 "each judged "
-                 "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
+        : massager_ ? tr("There is no load to measure. Once armed, the massager vibrates as the drive says. Esc stops "
+                         "at any time.")
+                    : tr("One small pulse measures the load first. Then trains are delivered as the drive says, "
+                         "each judged "
+                         "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
         this));
     auto* form = new QFormLayout;
     load_ = new QLineEdit(withOhmSigns(load), this);
@@ -134,7 +134,7 @@ void ArmDialog::sayFirst() {
         const auto first = firstByHand(controller_, controller_.telemetry());
         const auto every = first ? quantityText(first->interval.count(), "s", 3) : QString();
         if (!first)
-            text = tr("Drive is by hand, and asks for nothing that can be delivered.");
+            text = tr("Drive is by hand and is set to a train that cannot be delivered.");
         else if (massager_)
             text = tr("Drive is by hand: the first burst follows at once, at %1 of the strength, every %2.")
                        .arg(quantityText(100 * encoder.massagerIntensity(first->amplitude), "%", 2), every);

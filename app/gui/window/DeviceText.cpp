@@ -40,7 +40,7 @@ bool unpluggedWhileOpen(const SessionDevice& open, const std::vector<DeviceIdent
 QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
     QStringList lines;
     lines << tr("Serial %1, firmware %2").arg(orDash(device.serial), orDash(device.firmware));
-    if (device.simulated) lines << tr("Simulated: no number of it was measured on hardware.");
+    if (device.simulated) lines << tr("Simulated: none of its numbers were measured on hardware.");
     if (device.is(Role::Stimulator) && open.source) {
         const bool current = open.source->drive == Drive::Current;
         lines << tr("%1 source, at most %2")

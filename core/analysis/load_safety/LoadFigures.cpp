@@ -85,7 +85,7 @@ void LoadFigures::addEnd(BudgetRows& rows, const LoadTrains& trains, double samp
 Reading LoadFigures::impedanceOf(const LoadTrains& trains, const ChannelDoubt& v, const ChannelDoubt& i,
                                  double currentLsb) const {
     const double volts = meanOver(trains, &TrainFigures::end_v), amps = meanOver(trains, &TrainFigures::end_a);
-    if (!(currentLsb > 0) || !(amps >= kFewestLsb * currentLsb)) return {};
+    if (!(currentLsb > 0) || !(amps >= kMinLsb * currentLsb)) return {};
     const double samples = trains.front().endSamples * static_cast<double>(trains.size());
     const double ohms = volts / amps;
     BudgetRows rows;

@@ -10,7 +10,7 @@
 namespace tacto {
 
 /// A current below that many steps of its converter says nothing.
-constexpr double kFewestLsb = 10;
+constexpr double kMinLsb = 10;
 
 /// In another unit, or of a part.
 [[nodiscard]] Reading times(double factor, const Reading& reading);

@@ -67,7 +67,7 @@ Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTr
 
     const double peak = largestOf(trains, &TrainFigures::peak_a);
     if (!std::isfinite(peak)) return out;
-    if (!(out.currentLsb > 0) || !(peak >= kFewestLsb * out.currentLsb)) {
+    if (!(out.currentLsb > 0) || !(peak >= kMinLsb * out.currentLsb)) {
         out.underTenLsb = true;
         out.warnings.push_back(fmt::format("the current of {:.3g} mA is below 10 LSB of {:.3g} mA: not evaluated",
                                            1e3 * peak, 1e3 * out.currentLsb));

@@ -23,13 +23,6 @@ bool LoadTrace::clippedNear(std::size_t i, std::size_t aside) const noexcept {
     return false;
 }
 
-const CaptureChannel* channelOf(const Capture& capture, std::string_view name) noexcept {
-    for (const auto& channel : capture.channels) {
-        if (channel.name == name) return &channel;
-    }
-    return nullptr;
-}
-
 std::optional<LoadTrace> traceOf(const Capture& capture, std::string_view name, double onset_s) {
     const auto* channel = channelOf(capture, name);
     if (channel == nullptr || !(capture.rate_hz > 0)) return std::nullopt;

@@ -29,8 +29,6 @@ struct LoadTrace {
     [[nodiscard]] std::size_t indexAt(double t_s) const noexcept;
 };
 
-[[nodiscard]] const CaptureChannel* channelOf(const Capture& capture, std::string_view name) noexcept;
-
 /// Nothing when the channel is missing, a sample is not finite, or fewer than 8 samples of quiet lie before `onset_s`.
 [[nodiscard]] std::optional<LoadTrace> traceOf(const Capture& capture, std::string_view name, double onset_s);
 

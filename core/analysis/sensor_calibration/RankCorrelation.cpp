@@ -60,9 +60,9 @@ Result<RankCorrelation> spearman(std::span<const double> x, std::span<const doub
         return fail(ErrorCode::InvalidArgument, "rank correlation: {} values against {}; as many are expected",
                     x.size(), y.size());
     }
-    if (x.size() < kFewestRanked) {
+    if (x.size() < kMinRanked) {
         return fail(ErrorCode::InvalidArgument, "rank correlation: {} pairs; at least {} are expected", x.size(),
-                    kFewestRanked);
+                    kMinRanked);
     }
     for (const auto side : {x, y}) {
         for (const double value : side) {

@@ -19,7 +19,7 @@
 
 namespace tacto {
 
-inline constexpr std::size_t kFewestRanked = 5;   ///< below it nothing is said: the interval spans nearly all
+inline constexpr std::size_t kMinRanked = 5;      ///< below it nothing is said: the interval spans nearly all
 inline constexpr std::size_t kSmallRanking = 10;  ///< below it the interval is approximate, and the result says so
 
 struct RankCorrelation {
@@ -29,7 +29,7 @@ struct RankCorrelation {
     std::string note;   ///< a sentence where n is small; else empty
 };
 
-/// Errors: InvalidArgument for fewer than kFewestRanked pairs, unequal lengths, a value that is not finite, or a side
+/// Errors: InvalidArgument for fewer than kMinRanked pairs, unequal lengths, a value that is not finite, or a side
 /// on which all values are equal.
 [[nodiscard]] Result<RankCorrelation> spearman(std::span<const double> x, std::span<const double> y);
 

@@ -45,7 +45,7 @@ Result<void> check(const std::vector<SlidSurface>& surfaces) {
     if (const auto* second = secondIn(surfaces, &SlidSurface::name))
         return fail(ErrorCode::InvalidArgument, "sensor calibration: {}", givenTwice("surface {}", second->name));
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        const std::size_t least = i < 2 ? kFewestSlides : 1;
+        const std::size_t least = i < 2 ? kMinSlides : 1;
         if (surfaces[i].slides.size() < least) {
             return fail(ErrorCode::InvalidArgument, "sensor calibration: {} slides over {}; at least {} are expected",
                         surfaces[i].slides.size(), surfaces[i].name, least);
@@ -116,7 +116,7 @@ void rank(const std::vector<SlidSurface>& surfaces, SensorCalibration& found) {
         ra.push_back(surfaces[i].ra_um);
         r.push_back(found.surfaces[i].R.mean);
     }
-    if (ra.size() < kFewestRanked) return;
+    if (ra.size() < kMinRanked) return;
     if (auto ranking = spearman(ra, r)) {
         found.ranking = *std::move(ranking);
     } else {

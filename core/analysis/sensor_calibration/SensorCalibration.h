@@ -60,7 +60,7 @@ struct SensorCalibration {
 };
 
 /// `surfaces` begins with the smooth and the rough reference.
-/// Errors: InvalidArgument for fewer than two surfaces, fewer than kFewestSlides slides of a reference, a name that
+/// Errors: InvalidArgument for fewer than two surfaces, fewer than kMinSlides slides of a reference, a name that
 /// appears twice, and a rough reference whose Ra is not known or not above the smooth one's.
 [[nodiscard]] Result<SensorCalibration> calibrateSensor(const std::vector<SlidSurface>& surfaces,
                                                         const RoughnessSettings& settings, const SensorRest& rest);

@@ -40,10 +40,10 @@ double noncentralityAt(double t, double degreesOfFreedom, double p) noexcept {
 }
 
 Result<Statistics> readingsOf(std::span<const double> readings) {
-    if (readings.size() < kFewestSlides) {
+    if (readings.size() < kMinSlides) {
         return fail(ErrorCode::InvalidArgument,
                     "distance of two surfaces: one surface has only {} slides; at least {} are needed", readings.size(),
-                    kFewestSlides);
+                    kMinSlides);
     }
     for (const double reading : readings) {
         if (!std::isfinite(reading)) {

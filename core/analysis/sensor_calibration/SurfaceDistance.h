@@ -21,8 +21,8 @@
 
 namespace tacto {
 
-inline constexpr double kToldApart = 1;          ///< d′
-inline constexpr std::size_t kFewestSlides = 3;  ///< of each surface
+inline constexpr double kToldApart = 1;       ///< d′
+inline constexpr std::size_t kMinSlides = 3;  ///< of each surface
 
 struct SurfaceDistance {
     Estimate d;             ///< of second less first, with its sign; the ends may be infinite where nothing scatters
@@ -37,7 +37,7 @@ struct SurfaceDistance {
 };
 
 /// Readings that do not scatter at all are infinitely far apart when their means differ, and 0 when they do not.
-/// Errors: InvalidArgument for fewer than kFewestSlides readings of either, or one that is not finite.
+/// Errors: InvalidArgument for fewer than kMinSlides readings of either, or one that is not finite.
 [[nodiscard]] Result<SurfaceDistance> surfaceDistance(std::span<const double> first, std::span<const double> second);
 
 /// P(T ≤ t) of the non-central t distribution. `degreesOfFreedom` ≥ 1. To 1e-6 or better; NaN for arguments that are

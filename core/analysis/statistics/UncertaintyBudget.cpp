@@ -11,7 +11,7 @@ namespace tacto {
 namespace {
 
 constexpr double kCoverage = 0.95;
-constexpr std::size_t kFewestDraws = 1000;
+constexpr std::size_t kMinDraws = 1000;
 
 Result<void> check(const Contribution& row) {
     if (row.value < 0 || std::isinf(row.value)) {
@@ -90,9 +90,9 @@ Result<UncertaintyBudget> combine(std::vector<Contribution> rows, const BudgetOp
     if (rows.empty()) {
         return fail(ErrorCode::InvalidArgument, "an uncertainty budget without rows; at least one was expected");
     }
-    if (options.draws < kFewestDraws) {
+    if (options.draws < kMinDraws) {
         return fail(ErrorCode::InvalidArgument, "{} draws for an uncertainty budget; at least {} were expected",
-                    options.draws, kFewestDraws);
+                    options.draws, kMinDraws);
     }
     UncertaintyBudget budget;
     double squares = 0, widestRectangle = 0;

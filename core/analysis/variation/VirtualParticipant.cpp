@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/analysis/variation/PopulationField.h"
+
 namespace tacto {
 
 namespace {
@@ -27,27 +29,18 @@ double thresholdScale(const PopulationModel& model, Micros width) noexcept {
 }
 
 Result<void> validate(const PopulationModel& model) {
-    const struct {
-        std::string_view name;
-        const LogNormal& of;
-        double most;
-    } drawn[] = {{"series resistance (ohm)", model.series_ohm, 1e9},
-                 {"parallel resistance (ohm)", model.parallel_ohm, 1e9},
-                 {"capacitance (nF)", model.capacitance_nf, 1e6},
-                 {"perception threshold (mA)", model.detection_ma, 1e3},
-                 {"attention threshold (mA)", model.attention_ma, 1e3},
-                 {"intolerance threshold (mA)", model.intolerance_ma, 1e3},
-                 {"Weber fraction of amplitude", model.amplitudeWeber, 1},
-                 {"Weber fraction of interval", model.intervalWeber, 1}};
-    for (const auto& each : drawn) {
-        if (!(each.of.median > 0 && each.of.median <= each.most)) {
-            return fail(ErrorCode::InvalidArgument, "the median {} is {}; above 0 to {:g} is accepted", each.name,
-                        each.of.median, each.most);
-        }
-        if (!(each.of.spread >= 1 && each.of.spread <= 10)) {
-            return fail(ErrorCode::InvalidArgument, "the spread of the {} is {}; 1 (none) to 10 is accepted", each.name,
-                        each.of.spread);
-        }
+    PopulationModel copy = model;
+    for (const auto& field : populationFields()) {
+        const double value = field.in(copy);
+        if (field.accepted.contain(value)) continue;
+        return invalid("the {} is {}; {} is expected", field.name, value, field.accepted.text());
+    }
+    for (const auto* drawn :
+         {&model.series_ohm, &model.parallel_ohm, &model.capacitance_nf, &model.detection_ma, &model.attention_ma,
+          &model.intolerance_ma, &model.amplitudeWeber, &model.intervalWeber}) {
+        if (kAcceptedSpread.contain(drawn->spread)) continue;
+        return invalid("the spread around a median of {:g} is {}; {} is expected", drawn->median, drawn->spread,
+                       kAcceptedSpread.text());
     }
     const double detection = model.detection_ma.median, attention = model.attention_ma.median;
     if (!(detection < attention && attention < model.intolerance_ma.median)) {
@@ -56,26 +49,14 @@ Result<void> validate(const PopulationModel& model) {
                     "than the one before is accepted",
                     detection, attention, model.intolerance_ma.median);
     }
-    if (!(model.discomfort_ma > detection && model.discomfort_ma <= 1e3)) {
+    if (!(model.discomfort_ma > detection)) {
         return fail(ErrorCode::InvalidArgument,
-                    "stimulation is too strong from {:g} mA; more than the perception threshold of {:g} mA, to 1000, "
-                    "is accepted",
+                    "stimulation is too strong from {:g} mA; more than the perception threshold of {:g} mA is accepted",
                     model.discomfort_ma, detection);
-    }
-    if (!(model.thresholdCorrelation >= 0 && model.thresholdCorrelation <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "the correlation of a person's thresholds is {}; 0 to 1 is accepted",
-                    model.thresholdCorrelation);
     }
     if (!(model.skinArea.value() > 0 && std::isfinite(model.skinArea.value()))) {
         return fail(ErrorCode::InvalidArgument, "the area that the skin is given for is {} cm2; above 0 is accepted",
                     model.skinArea.value());
-    }
-    if (!(model.lapseMost >= 0 && model.lapseMost <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "the largest lapse rate is {}; 0 to 1 is accepted", model.lapseMost);
-    }
-    if (!(model.noise_jnd > 0 && model.noise_jnd <= 100)) {
-        return fail(ErrorCode::InvalidArgument, "the noise of what is felt is {} JND; above 0 to 100 is accepted",
-                    model.noise_jnd);
     }
     if (!(model.thresholdWidth.count() > 0 && std::isfinite(model.thresholdWidth.count()))) {
         return fail(ErrorCode::InvalidArgument, "the phase width of the thresholds is {} us; above 0 is accepted",

@@ -25,8 +25,8 @@ namespace tacto {
 
 /// Log-normal. `median` in the unit its name says.
 struct LogNormal {
-    double median = 1;  ///< > 0
-    double spread = 1;  ///< geometric standard deviation, 1 (all alike) to 10
+    double median = 1;
+    double spread = 1;  ///< geometric standard deviation; 1: all alike
 
     /// `z`: a draw from the standard normal distribution.
     [[nodiscard]] double at(double z) const noexcept;
@@ -34,23 +34,24 @@ struct LogNormal {
     bool operator==(const LogNormal&) const = default;
 };
 
+/// What is accepted of each figure stands in PopulationField.h.
 struct PopulationModel {
     LogNormal series_ohm{200, 1.5};     ///< R_s
     LogNormal parallel_ohm{10e3, 1.5};  ///< R_p under `skinArea`: falls with the area
     LogNormal capacitance_nf{50, 1.3};  ///< C under `skinArea`: grows with the area
-    SquareCentimetres skinArea{1};      ///< > 0
+    SquareCentimetres skinArea{1};
     /// Thresholds at `thresholdWidth` per phase; the medians rise in this order.
     LogNormal detection_ma{3.5, 1.4};     ///< perception
     LogNormal attention_ma{6.9, 1.4};     ///< attention
     LogNormal intolerance_ma{13.8, 1.4};  ///< intolerance
-    double thresholdCorrelation = 0.8;    ///< of the logarithms of a person's thresholds; 0 to 1
+    double thresholdCorrelation = 0.8;    ///< of the logarithms of a person's thresholds
     /// From where stimulation is too strong for a median person, above the median of detection. 9.8: the geometric mean
     /// of attention and intolerance.
     double discomfort_ma = 9.8;
     LogNormal amplitudeWeber{kAmplitudeWeberFraction, 1.25};
     LogNormal intervalWeber{kIntervalWeberFraction, 1.25};
-    double lapseMost = 0.06;       ///< a participant's lapse rate is uniform from 0 to this; 0 to 1
-    double noise_jnd = 1;          ///< standard deviation of what is felt, in just-noticeable differences; > 0
+    double lapseMost = 0.06;       ///< a participant's lapse rate is uniform from 0 to this
+    double noise_jnd = 1;          ///< standard deviation of what is felt, in just-noticeable differences
     Micros thresholdWidth{150};    ///< phase width that the thresholds hold for
     Micros strengthDuration{151};  ///< time constant of Weiss' law; 0: thresholds do not depend on the width
 };

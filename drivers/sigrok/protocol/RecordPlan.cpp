@@ -14,11 +14,6 @@ constexpr double kSmallestScale_V = 1e-3;         // libsigrok sends three decim
 constexpr double kSmallestLevel_V = 1e-3;         // likewise
 constexpr std::size_t kStreamDepth = 10'000'000;  // what is kept of a stream: 80 MB for two channels
 
-template <class... Args>
-tl::unexpected<Error> refuse(fmt::format_string<Args...> text, Args&&... args) {
-    return fail(ErrorCode::InvalidArgument, text, std::forward<Args>(args)...);
-}
-
 bool offers(const std::vector<std::string>& list, std::string_view one) {
     return std::ranges::find(list, one) != list.end();
 }
@@ -28,16 +23,16 @@ Result<std::size_t> channelCalled(const std::string& name, const char* role, con
     if (found != abilities.channels.end()) return static_cast<std::size_t>(found - abilities.channels.begin());
     std::vector<std::string> names;
     for (const auto& channel : abilities.channels) names.push_back(channel.name);
-    return refuse("{}={}: this instrument has no such channel; there are {}", role, name, fmt::join(names, ", "));
+    return invalid("{}={}: this instrument has no such channel; there are {}", role, name, fmt::join(names, ", "));
 }
 
 Result<void> checkProbe(std::optional<std::uint64_t> probe, const ChannelAbilities& channel, const char* role) {
     if (!probe || std::ranges::find(channel.probes, *probe) != channel.probes.end()) return {};
     if (channel.probes.empty()) {
-        return refuse("{}={}: the probe factor of {} cannot be set through this driver; set it on the instrument", role,
-                      *probe, channel.name);
+        return invalid("{}={}: the probe factor of {} cannot be set through this driver; set it on the instrument",
+                       role, *probe, channel.name);
     }
-    return refuse("{}={}: {} takes {}", role, *probe, channel.name, fmt::join(channel.probes, ", "));
+    return invalid("{}={}: {} takes {}", role, *probe, channel.name, fmt::join(channel.probes, ", "));
 }
 
 Result<std::optional<Fraction>> scaleFor(double range_V, const ChannelAbilities& channel, std::string_view what) {
@@ -50,8 +45,8 @@ Result<std::optional<Fraction>> scaleFor(double range_V, const ChannelAbilities&
         if (!best || scale.value() < best->value()) best = scale;
     }
     if (best) return best;
-    return refuse("oscilloscope {} range ±{:.6g} V at {}: above 0, at most ±{:.6g} V", what, range_V, channel.name,
-                  kDivisionsUp * largest);
+    return invalid("oscilloscope {} range ±{:.6g} V at {}: above 0, at most ±{:.6g} V", what, range_V, channel.name,
+                   kDivisionsUp * largest);
 }
 
 bool isMultiple(double of, double what) {
@@ -61,18 +56,18 @@ bool isMultiple(double of, double what) {
 
 Result<void> checkRange(const ScopeSettings& s, const ScopeTraits& traits) {
     if (const double rate = s.sampleRate.value(); !(rate > 0) || !(rate <= traits.maxRate.value())) {
-        return refuse("oscilloscope sample rate {} Hz: above 0, at most {} Hz", rate, traits.maxRate.value());
+        return invalid("oscilloscope sample rate {} Hz: above 0, at most {} Hz", rate, traits.maxRate.value());
     }
     if (s.samples < 2 || s.samples > traits.memoryDepth) {
-        return refuse("oscilloscope record of {} samples: 2 to {}", s.samples, traits.memoryDepth);
+        return invalid("oscilloscope record of {} samples: 2 to {}", s.samples, traits.memoryDepth);
     }
     if (!(s.preTrigger >= 0) || !(s.preTrigger <= 1))
-        return refuse("oscilloscope pre-trigger {}: 0 to 1", s.preTrigger);
+        return invalid("oscilloscope pre-trigger {}: 0 to 1", s.preTrigger);
     if (const double volts = s.voltageRange.value(); !(volts > 0) || !(volts <= 10'000)) {
-        return refuse("oscilloscope voltage range {} V: above 0, at most 10000 V", volts);
+        return invalid("oscilloscope voltage range {} V: above 0, at most 10000 V", volts);
     }
     if (const double amps = s.currentRange.value() * 1e-3; !(amps > 0) || !(amps <= 1000)) {
-        return refuse("oscilloscope current range {} A: above 0, at most 1000 A", amps);
+        return invalid("oscilloscope current range {} A: above 0, at most 1000 A", amps);
     }
     return {};
 }
@@ -91,7 +86,7 @@ Result<void> chooseScreen(RecordPlan& plan, const Abilities& abilities, std::siz
         best = timebase;
     }
     if (!best) {
-        return refuse(
+        return invalid(
             "oscilloscope record of {} samples at {} Hz: its records have {} samples, {} divisions long; fewer samples "
             "or a lower rate (in steps of 1, 2, 5) are expected",
             plan.settings.samples, plan.settings.sampleRate.value(), record, abilities.divisions);
@@ -148,7 +143,7 @@ Result<Wiring> wire(const ScopeUri& uri, const Abilities& abilities) {
         if (!found) return failure(found);
         wiring.current = *found;
         if (wiring.current == wiring.voltage) {
-            return refuse("current={}: that is the voltage channel too; name another with voltage=", *uri.current);
+            return invalid("current={}: that is the voltage channel too; name another with voltage=", *uri.current);
         }
     }
     if (const auto probe = checkProbe(uri.voltageProbe, abilities.channels[wiring.voltage], "probe"); !probe) {
@@ -158,9 +153,9 @@ Result<Wiring> wire(const ScopeUri& uri, const Abilities& abilities) {
         const auto probe = checkProbe(uri.currentProbe, abilities.channels[*wiring.current], "currentprobe");
         if (!probe) return failure(probe);
     }
-    if (abilities.streams() && uri.live) return refuse("record=live: this device streams; leave it out");
+    if (abilities.streams() && uri.live) return invalid("record=live: this device streams; leave it out");
     if (uri.live && !offers(abilities.dataSources, "Live"))
-        return refuse("record=live: this driver has no such choice");
+        return invalid("record=live: this driver has no such choice");
     if (!abilities.streams() && !uri.ownTrigger && !(abilities.triggerLevel && !abilities.triggerSources.empty())) {
         return fail(ErrorCode::Unsupported,
                     "libsigrok's {} driver cannot set what this instrument triggers on; set it on the instrument and "
@@ -196,7 +191,7 @@ Result<RecordPlan> planRecord(const ScopeSettings& settings, const Abilities& ab
     plan.settings = settings;
 
     if (settings.triggerOnCurrent && !wiring.current) {
-        return refuse(
+        return invalid(
             "oscilloscope trigger on current: no current channel is named; current=NAME&shunt=OHMS is expected");
     }
     const auto& volts = abilities.channels[wiring.voltage];
@@ -204,13 +199,13 @@ Result<RecordPlan> planRecord(const ScopeSettings& settings, const Abilities& ab
     const double range =
         settings.triggerOnCurrent ? settings.currentRange.value() * 1e-3 : settings.voltageRange.value();
     if (!(settings.triggerLevel > 0) || !(settings.triggerLevel <= range)) {
-        return refuse("oscilloscope trigger level {} {}: above 0, at most the range of {}", settings.triggerLevel,
-                      settings.triggerOnCurrent ? "A" : "V", range);
+        return invalid("oscilloscope trigger level {} {}: above 0, at most the range of {}", settings.triggerLevel,
+                       settings.triggerOnCurrent ? "A" : "V", range);
     }
     plan.triggerLevel_V = settings.triggerLevel * (settings.triggerOnCurrent ? wiring.shunt.value() : 1);
     if (plan.triggerLevel_V < kSmallestLevel_V) {
-        return refuse("oscilloscope trigger level {} V at the instrument: at least {} V", plan.triggerLevel_V,
-                      kSmallestLevel_V);
+        return invalid("oscilloscope trigger level {} V at the instrument: at least {} V", plan.triggerLevel_V,
+                       kSmallestLevel_V);
     }
     if (wiring.falling) plan.triggerLevel_V = -plan.triggerLevel_V;
 
@@ -221,11 +216,11 @@ Result<RecordPlan> planRecord(const ScopeSettings& settings, const Abilities& ab
                              std::abs(std::remainder(rate, abilities.rateStep_hz)) < 1e-6;
         if (!listed && !stepped) {
             if (abilities.rates_hz.empty()) {
-                return refuse("oscilloscope sample rate {} Hz: {} to {} Hz in steps of {}", rate, abilities.rateMin_hz,
-                              abilities.rateMax_hz, abilities.rateStep_hz);
+                return invalid("oscilloscope sample rate {} Hz: {} to {} Hz in steps of {}", rate, abilities.rateMin_hz,
+                               abilities.rateMax_hz, abilities.rateStep_hz);
             }
-            return refuse("oscilloscope sample rate {} Hz: this device has {}", rate,
-                          fmt::join(abilities.rates_hz, ", "));
+            return invalid("oscilloscope sample rate {} Hz: this device has {}", rate,
+                           fmt::join(abilities.rates_hz, ", "));
         }
     } else {
         // The length of a live record is known only when one has come; see the header.
@@ -234,11 +229,11 @@ Result<RecordPlan> planRecord(const ScopeSettings& settings, const Abilities& ab
         placeTrigger(plan, abilities);
         plan.triggerSource = abilities.channels[settings.triggerOnCurrent ? *wiring.current : wiring.voltage].name;
         if (!wiring.ownTrigger && !offers(abilities.triggerSources, plan.triggerSource)) {
-            return refuse("oscilloscope trigger on {}: this instrument triggers on {}", plan.triggerSource,
-                          fmt::join(abilities.triggerSources, ", "));
+            return invalid("oscilloscope trigger on {}: this instrument triggers on {}", plan.triggerSource,
+                           fmt::join(abilities.triggerSources, ", "));
         }
         if (wiring.falling && !wiring.ownTrigger && !abilities.triggerSlope) {
-            return refuse("slope=fall: libsigrok's {} driver cannot set the slope", abilities.driver);
+            return invalid("slope=fall: libsigrok's {} driver cannot set the slope", abilities.driver);
         }
     }
     auto voltageScale = scaleFor(settings.voltageRange.value(), volts, "voltage");

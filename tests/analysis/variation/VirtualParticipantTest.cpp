@@ -1,10 +1,31 @@
+#include <cmath>
 #include <gtest/gtest.h>
 
+#include "core/analysis/variation/PopulationField.h"
 #include "core/analysis/variation/VirtualParticipant.h"
+#include "core/base/NaN.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {
 namespace {
+
+TEST(PopulationModel, RefusesEachFigureOutsideItsRangeByName) {
+    ASSERT_TRUE(validate(PopulationModel()));
+    for (const auto& field : populationFields()) {
+        for (const double wrong : {std::nextafter(field.accepted.low, -1.0), 1.01 * field.accepted.high, kNaN}) {
+            PopulationModel model;
+            field.in(model) = wrong;
+            const auto refused = validate(model);
+            ASSERT_FALSE(refused) << field.key << " " << wrong;
+            EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+            EXPECT_EQ(refused.error().message.find("the " + std::string(field.name) + " is "), 0U)
+                << refused.error().message;
+        }
+    }
+    PopulationModel spread;
+    spread.attention_ma.spread = 0.99;
+    EXPECT_FALSE(validate(spread));
+}
 
 TEST(VirtualParticipant, EachThresholdHasItsMedianAndSpread) {
     const PopulationModel model;

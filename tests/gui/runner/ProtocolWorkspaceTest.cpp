@@ -165,7 +165,7 @@ TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
     auto& run = the<QPushButton>("runButton");
     EXPECT_IN_TIME(comesTrue([&] { return !run.isEnabled(); }));
     EXPECT_THAT(says("runObstacle").toStdString(), HasSubstr("less than 10\u202fmA is allowed"));
-    EXPECT_THAT(says("runObstacle").toStdString(), HasSubstr("Nothing is put out."));
+    EXPECT_THAT(says("runObstacle").toStdString(), HasSubstr("The output stays off."));
     EXPECT_EQ(run.toolTip().toStdString(), says("runObstacle").mid(2).toStdString());
     EXPECT_FALSE(workspace->ready());
     int wanted = 0;

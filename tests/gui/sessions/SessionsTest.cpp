@@ -183,10 +183,11 @@ TEST_F(Recorded, IsFoundVerifiedAndSearchedInTheWorkspace) {
     EXPECT_EQ(table->model()->rowCount(), 0);
     EXPECT_FALSE(verify->isEnabled()) << "what is not seen is not acted on";
     EXPECT_EQ(verify->toolTip(), "Choose a session first.");
-    EXPECT_NE(find<QLabel>(workspace,
-                           "No session contains “no-such-word”. Searched are procedure, note, operator, sample, tags, "
-                           "verdict, devices, date and file name."),
-              nullptr);
+    EXPECT_NE(
+        find<QLabel>(workspace,
+                     "No session contains “no-such-word”. The search covers procedure, note, operator, sample, tags, "
+                     "verdict, devices, date and file name."),
+        nullptr);
     shot(workspace, "sessions-no-hit");
     search->clear();
     EXPECT_EQ(table->model()->rowCount(), all);

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kWorkspaces = 7;
 
-/// What a person works: buttons and fields that Tab should reach by themselves. Of radio buttons the group is reached;
+/// What a person works: buttons and fields that Tab should reach by themselves. Radio buttons are reached as a group;
 /// a box's own field has its focus.
 std::vector<QWidget*> controlsOf(const QWidget& in) {
     std::vector<QWidget*> controls;
@@ -50,8 +50,8 @@ protected:
         first.setFocus(Qt::TabFocusReason);
         std::set<const QWidget*> reached;
         const QWidget* before = nullptr;
-        constexpr int kMostPresses = 300;
-        for (int i = 0; i < kMostPresses; ++i) {
+        constexpr int kMaxPresses = 300;
+        for (int i = 0; i < kMaxPresses; ++i) {
             auto* at = QApplication::focusWidget();
             if (at == nullptr) {
                 ADD_FAILURE() << "Tab leads nowhere from " << (before != nullptr ? widgetName(*before) : "the start");

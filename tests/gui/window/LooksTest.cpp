@@ -31,7 +31,10 @@ using testing::HasSubstr;
 TEST_F(Window, LooksRightInBothThemesAndSizes) {
     open();
     window.controller().present("P120", 50, 1);
-    QTest::qWait(1500);
+    ASSERT_IN_TIME(comesTrue([this] {
+        const auto touch = window.controller().telemetry();
+        return std::isfinite(touch.roughness) && std::isfinite(touch.pressure);
+    })) << "the fingertip's R and P are on the screen";
     for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
         gui::applyTheme(theme);
         for (const auto size : {QSize(1920, 1080), QSize(1280, 720), QSize(1024, 640)}) {

@@ -2,11 +2,82 @@
 // and returns.
 #include "app/scripting/host/analysis/AnalysisObject.h"
 
+#include <array>
+
 #include "core/analysis/load_safety/LoadSafety.h"
+#include "core/analysis/variation/PopulationField.h"
 #include "core/analysis/variation/Variation.h"
 #include "core/analysis/variation/VariationBench.h"
 
 namespace tacto {
+
+namespace {
+
+std::vector<HostParameter> variationParameters(const VariationOptions& predicted) {
+    using namespace takes;
+    const auto& people = predicted.population;
+    std::vector<HostParameter> all{
+        whole("options.participants", "virtual people").range(1, 100'000).otherwise(predicted.participants),
+        whole("options.trials", "per condition and participant").range(1, 10'000).otherwise(predicted.trials),
+        text("options.levels",
+             "personal: from what the participant feels to what is too strong, as far as the profile allows; "
+             "profile: the profile's for everybody")
+            .oneOf({nameOf(AmplitudeLevels::Personal), nameOf(AmplitudeLevels::Profile)})
+            .otherwise(nameOf(predicted.stimulation.levels)),
+        text("options.source", "current: A / |Z|; voltage: as on the bench, refused for people")
+            .oneOf({"current", "voltage"})
+            .otherwise("current"),
+        text("options.guess", "what is answered when nothing is felt")
+            .oneOf({nameOf(GuessBehaviour::None), nameOf(GuessBehaviour::Uniform)})
+            .otherwise(nameOf(predicted.guess)),
+        number("options.width", "", "wanted width of the 95 % interval of accuracy")
+            .range(0.02, 1)
+            .otherwise(predicted.wanted.width),
+        number("options.assurance", "", "with which a pilot is to reach it")
+            .range(0.5, 0.999)
+            .otherwise(predicted.wanted.assurance),
+        whole("options.pilot", "participants of the pilot").range(1, 100'000).otherwise(predicted.wanted.participants),
+        number("options.area_cm2", "cm2", "electrode area: R_p falls with it and C grows")
+            .range(0, 1000)
+            .optional("the profile's, or 1 where it has none,")};
+    // Names of parameters stay where they are.
+    static const auto names = [] {
+        std::vector<std::array<std::string, 2>> made;
+        for (const auto& field : populationFields()) {
+            made.push_back({"options." + std::string(field.key), std::string(field.name)});
+            if (!field.holdsFor.empty()) made.back()[1] += " " + std::string(field.holdsFor);
+        }
+        return made;
+    }();
+    PopulationModel shipped = people;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const auto& field = populationFields()[i];
+        all.push_back(number(names[i][0], field.accepted.unit, names[i][1])
+                          .range(field.accepted.low, field.accepted.high)
+                          .otherwise(field.in(shipped)));
+    }
+    const std::vector<HostParameter> rest{
+        number("options.above_detection", "", "a personal range begins at this times the perception threshold")
+            .range(1, 10)
+            .otherwise(predicted.stimulation.aboveDetection),
+        number("options.below_discomfort", "", "and ends at this times what is too strong")
+            .range(0.01, 1)
+            .otherwise(predicted.stimulation.belowDiscomfort),
+        number("options.skin_spread", "", "geometric standard deviation between people, 1 for none")
+            .range(kAcceptedSpread.low, kAcceptedSpread.high)
+            .optional("1.5, and for C 1.3,"),
+        number("options.threshold_spread", "", "of the three thresholds, likewise")
+            .range(kAcceptedSpread.low, kAcceptedSpread.high)
+            .otherwise(people.detection_ma.spread),
+        number("options.weber_spread", "", "the same of the Weber fractions")
+            .range(kAcceptedSpread.low, kAcceptedSpread.high)
+            .otherwise(people.amplitudeWeber.spread),
+        text("options.label", "what the progress bar says").otherwise("Virtual participants")};
+    all.insert(all.end(), rest.begin(), rest.end());
+    return all;
+}
+
+}  // namespace
 
 std::vector<HostParameter> host::analysis::withWeighing(HostParameter first) {
     using namespace takes;
@@ -26,7 +97,6 @@ std::vector<HostFunction> analysisFunctions() {
     constexpr double kLargest = 1e9;  // of a tolerance
     const LoadSafetyTolerances tolerances;
     const VariationOptions predicted;
-    const auto& people = predicted.population;
     const BenchTolerances bench;
     return {
         {.name = "separability",
@@ -226,84 +296,7 @@ std::vector<HostFunction> analysisFunctions() {
                     "fewest_trains, late, out_of_reach, verdict }.",
          .call = host::analysis::changes},
         {.name = "variation",
-         .parameters =
-             {whole("options.participants", "virtual people").range(1, 100'000).otherwise(predicted.participants),
-              whole("options.trials", "per condition and participant").range(1, 10'000).otherwise(predicted.trials),
-              text("options.levels",
-                   "personal: from what the participant feels to what is too strong, as far as the profile allows; "
-                   "profile: the profile's for everybody")
-                  .oneOf({nameOf(AmplitudeLevels::Personal), nameOf(AmplitudeLevels::Profile)})
-                  .otherwise(nameOf(predicted.stimulation.levels)),
-              text("options.source", "current: A / |Z|; voltage: as on the bench, refused for people")
-                  .oneOf({"current", "voltage"})
-                  .otherwise("current"),
-              text("options.guess", "what is answered when nothing is felt")
-                  .oneOf({nameOf(GuessBehaviour::None), nameOf(GuessBehaviour::Uniform)})
-                  .otherwise(nameOf(predicted.guess)),
-              number("options.width", "", "wanted width of the 95 % interval of accuracy")
-                  .range(0.02, 1)
-                  .otherwise(predicted.wanted.width),
-              number("options.assurance", "", "with which a pilot is to reach it")
-                  .range(0.5, 0.999)
-                  .otherwise(predicted.wanted.assurance),
-              whole("options.pilot", "participants of the pilot")
-                  .range(1, 100'000)
-                  .otherwise(predicted.wanted.participants),
-              number("options.area_cm2", "cm2", "electrode area: R_p falls with it and C grows")
-                  .range(0, 1000)
-                  .optional("the profile's, or 1 where it has none,"),
-              number("options.series_ohm", "ohm", "median R_s of the skin")
-                  .range(1, 1e6)
-                  .otherwise(people.series_ohm.median),
-              number("options.parallel_ohm", "ohm", "median R_p of the skin under 1 cm2")
-                  .range(1, 1e8)
-                  .otherwise(people.parallel_ohm.median),
-              number("options.capacitance_nf", "nF", "median C of the skin under 1 cm2")
-                  .range(0.001, 1e5)
-                  .otherwise(people.capacitance_nf.median),
-              number("options.detection_ma", "mA", "median perception threshold at 150 us per phase")
-                  .range(0.01, 100)
-                  .otherwise(people.detection_ma.median),
-              number("options.attention_ma", "mA", "median attention threshold")
-                  .range(0.01, 1000)
-                  .otherwise(people.attention_ma.median),
-              number("options.discomfort_ma", "mA", "too strong from, for the median participant")
-                  .range(0.01, 1000)
-                  .otherwise(people.discomfort_ma),
-              number("options.intolerance_ma", "mA", "median intolerance threshold")
-                  .range(0.01, 1000)
-                  .otherwise(people.intolerance_ma.median),
-              number("options.threshold_correlation", "", "of the logarithms of a participant's thresholds")
-                  .range(0, 1)
-                  .otherwise(people.thresholdCorrelation),
-              number("options.above_detection", "", "a personal range begins at this times the perception threshold")
-                  .range(1, 10)
-                  .otherwise(predicted.stimulation.aboveDetection),
-              number("options.below_discomfort", "", "and ends at this times what is too strong")
-                  .range(0.01, 1)
-                  .otherwise(predicted.stimulation.belowDiscomfort),
-              number("options.skin_spread", "", "geometric standard deviation between people, 1 for none")
-                  .range(1, 10)
-                  .optional("1.5, and for C 1.3,"),
-              number("options.threshold_spread", "", "of the three thresholds, likewise")
-                  .range(1, 10)
-                  .otherwise(people.detection_ma.spread),
-              number("options.weber_spread", "", "the same of the Weber fractions")
-                  .range(1, 10)
-                  .otherwise(people.amplitudeWeber.spread),
-              number("options.weber_amplitude", "", "median Weber fraction of amplitude")
-                  .range(0.001, 1)
-                  .otherwise(people.amplitudeWeber.median),
-              number("options.weber_interval", "", "median Weber fraction of interval")
-                  .range(0.001, 1)
-                  .otherwise(people.intervalWeber.median),
-              number("options.lapse_most", "", "lapse rates lie between 0 and this")
-                  .range(0, 1)
-                  .otherwise(people.lapseMost),
-              number("options.noise_jnd", "JND", "standard deviation of what is felt")
-                  .range(0.01, 100)
-                  .otherwise(people.noise_jnd),
-              text("options.label", "what the progress bar says").otherwise("Virtual participants")},
+         .parameters = variationParameters(predicted),
          .text = "Predicts how virtual participants tell the conditions apart, drawn with the run's seed: no person "
                  "and no device takes part. Works on all cores, with the same result whatever their number.",
          .returns = "{ simulated, participants, seed, partial, range_v, served, participants_refused, "

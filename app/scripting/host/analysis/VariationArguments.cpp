@@ -1,5 +1,7 @@
 #include "app/scripting/host/analysis/VariationArguments.h"
 
+#include "core/analysis/variation/PopulationField.h"
+
 namespace tacto::host::analysis {
 
 Drive variationSourceFrom(const Arguments& arguments) {
@@ -17,18 +19,8 @@ SourceTraits traitsFor(Bench& bench, Drive drive) {
 
 Result<PopulationModel> populationFrom(const Arguments& arguments) {
     PopulationModel model;
-    model.series_ohm.median = arguments.number("options.series_ohm");
-    model.parallel_ohm.median = arguments.number("options.parallel_ohm");
-    model.capacitance_nf.median = arguments.number("options.capacitance_nf");
-    model.detection_ma.median = arguments.number("options.detection_ma");
-    model.attention_ma.median = arguments.number("options.attention_ma");
-    model.discomfort_ma = arguments.number("options.discomfort_ma");
-    model.intolerance_ma.median = arguments.number("options.intolerance_ma");
-    model.thresholdCorrelation = arguments.number("options.threshold_correlation");
-    model.amplitudeWeber.median = arguments.number("options.weber_amplitude");
-    model.intervalWeber.median = arguments.number("options.weber_interval");
-    model.lapseMost = arguments.number("options.lapse_most");
-    model.noise_jnd = arguments.number("options.noise_jnd");
+    for (const auto& field : populationFields())
+        field.in(model) = arguments.number("options." + std::string(field.key));
     const double detection = model.detection_ma.median;
     const double attention = model.attention_ma.median, intolerance = model.intolerance_ma.median;
     const auto above = [&arguments](const char* key, double value, const char* other, double least) {

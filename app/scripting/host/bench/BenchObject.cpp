@@ -3,6 +3,7 @@
 
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/bench/TrainCaptures.h"
 
 namespace tacto {
 
@@ -11,6 +12,8 @@ std::vector<HostFunction> benchFunctions() {
     constexpr std::string_view kTripErrors =
         "Throws when a fault of another kind came, when the bench cannot change the load, and when the run is stopped. "
         "The fault that was provoked is reset and does not end the run.";
+    static const auto kHowMany = fmt::format("how many trains; {} to {} with intervals", host::bench::kMinTrainsInOne,
+                                             host::bench::kMaxTrainsInOne);
     constexpr auto kMaxTrains = static_cast<double>(ScriptSession::kHeldCaptures);
     const auto speed = number("options.speed_mm_s", "mm/s", "sliding speed").range(0, 1000).otherwise(50);
     const auto force = number("options.force_n", "N", "normal force").range(0, 50);
@@ -47,10 +50,8 @@ std::vector<HostFunction> benchFunctions() {
          .call = host::bench::drive},
         {.name = "capture",
          .parameters =
-             {whole("options.trains", "how many trains; 2 to 8 with intervals")
-                  .range(1, kMaxTrains)
-                  .optional("1, or 2 with intervals,"),
-              rate, whole("options.samples", "per capture").range(1, 1e8).optional("the whole train"),
+             {whole("options.trains", kHowMany).range(1, kMaxTrains).optional("1, or 2 with intervals,"), rate,
+              whole("options.samples", "per capture").range(1, 1e8).optional("the whole train"),
               number("options.voltage_range_v", "V", "full scale is ± this")
                   .range(1e-3, 1e4)
                   .optional("1.3 times the command"),
@@ -59,7 +60,7 @@ std::vector<HostFunction> benchFunctions() {
                   .optional("a range for command and |Z|"),
               number("options.trigger_v", "V", "trigger level").range(1e-6, 1e4).optional("a fifth of the command"),
               flag("options.intervals",
-                   "the intervals between the trains, 2 to 8, are wanted: where the oscilloscope does not state how "
+                   "the intervals between the trains are wanted: where the oscilloscope does not state how "
                    "good the time stamps of its records are, one record holds them all, at a lower rate where it would "
                    "be longer than half a million samples")
                   .otherwise(false)},

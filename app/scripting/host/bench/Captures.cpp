@@ -33,8 +33,6 @@ ScopeSettings scopeSettings(Bench& bench, const CaptureOptions& options) {
     return settings;
 }
 
-constexpr int kTrainsInOne = 8;  // of a record that holds several
-
 /// One record that holds `trains` trains at the interval of now: from one record to another their distance is known
 /// only as well as the records' time stamps are (science.md section 12).
 Result<std::vector<Capture>> captureInOne(Bench& bench, int trains, ScopeSettings settings) {
@@ -64,9 +62,10 @@ Result<std::vector<Capture>> captureTrains(ScriptSession& session, const Capture
 
 Result<Json> capture(ScriptSession& session, const Arguments& arguments) {
     const auto intervals = arguments.flag("options.intervals");
-    const int trains = arguments.whole("options.trains", intervals ? 2 : 1);
-    if (intervals && (trains < 2 || trains > kTrainsInOne))
-        return arguments.wrong("trains", trains, fmt::format("a whole number from 2 to {}", kTrainsInOne));
+    const int trains = arguments.whole("options.trains", intervals ? kMinTrainsInOne : 1);
+    if (intervals && (trains < kMinTrainsInOne || trains > kMaxTrainsInOne))
+        return arguments.wrong("trains", trains,
+                               fmt::format("a whole number from {} to {}", kMinTrainsInOne, kMaxTrainsInOne));
     auto captures = captureTrains(session, {.trains = trains,
                                             .rate_hz = arguments.number("options.rate_hz"),
                                             .samples = static_cast<std::size_t>(arguments.whole("options.samples")),

@@ -11,6 +11,9 @@
 
 namespace tacto::host::bench {
 
+/// Trains in one record, where it is to hold their intervals.
+inline constexpr int kMinTrainsInOne = 2, kMaxTrainsInOne = 8;
+
 /// How the records are taken. NaN, and 0 samples: as the command, the train and |Z| of now suggest.
 struct CaptureOptions {
     int trains = 1;
@@ -19,7 +22,7 @@ struct CaptureOptions {
     double voltageRange_v = kNaN;
     double currentRange_ma = kNaN;
     double trigger_v = kNaN;
-    /// The intervals between the trains, 2 to 8, are wanted: where the oscilloscope does not state how good the time
+    /// The intervals between the trains are wanted: where the oscilloscope does not state how good the time
     /// stamps of its records are, one record holds them all.
     bool intervals = false;
 };

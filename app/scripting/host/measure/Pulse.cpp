@@ -12,13 +12,6 @@ namespace tacto::host::measure {
 
 namespace {
 
-const CaptureChannel* channelOf(const Capture& capture, std::string_view name) {
-    for (const auto& channel : capture.channels) {
-        if (channel.name == name) return &channel;
-    }
-    return nullptr;
-}
-
 /// What the data sheet of the channel that was read states, in the reading's unit (`scale`: mA per A).
 Json instrumentOf(const Capture& capture, const CaptureChannel& channel, double scale) {
     const auto positive = [](double value) { return value > 0 ? Json(value) : Json(); };
