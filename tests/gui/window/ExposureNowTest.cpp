@@ -1,10 +1,14 @@
 // Once the output is off no bar shows what was delivered as if it still were.
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QTest>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/ExposureDock.h"
 #include "app/gui/window/ExposureNow.h"
 #include "tests/gui/window/WindowFixture.h"
@@ -46,6 +50,22 @@ TEST(ExposureNow, WhileTheOutputIsOffNothingOfAPulseIsDeliveredAndAWindowKeepsIt
     }
 }
 
+TEST(ExposureNow, BeforeAnythingIsJudgedNoQuantityIsCalledZero) {
+    RecordProperty("hazard", "H9");
+    Telemetry telemetry;
+    for (const auto quantity : {Quantity::RmsCurrentTrain, Quantity::RmsCurrent1s}) {
+        auto& row = telemetry.exposureRows[telemetry.exposureCount++];
+        row.quantity = quantity;
+        row.value = 0;
+        row.limit = NAN;
+        row.evaluated = true;
+    }
+    telemetry.state = InterlockState::Disarmed;
+    EXPECT_TRUE(gui::exposureNow(telemetry).empty());
+    telemetry.state = InterlockState::Armed;
+    EXPECT_EQ(gui::exposureNow(telemetry).size(), 2U);
+}
+
 class ExposureInTheWindow : public Window {
 protected:
     ExposureInTheWindow() { RecordProperty("hazard", "H9"); }
@@ -55,6 +75,49 @@ protected:
         return nullptr;
     }
 };
+
+TEST_F(ExposureInTheWindow, NoBarIsCutInADockThatHasNoRoomForAll) {
+    open();
+    arm();
+    deliver();
+    window.showWorkspace(0);
+    auto& tabs = *window.findChild<gui::TabbedPage*>("livePage");
+    tabs.setCurrentIndex(1);
+    auto& dock = *window.findChild<gui::ExposureDock*>();
+    auto& bar = *dock.findChild<QScrollArea*>()->verticalScrollBar();
+    const auto inSight = [&] {
+        int whole = 0, cut = 0;
+        QList<QWidget*> rows;
+        for (auto* one : dock.findChildren<gui::LimitBar*>()) rows << one;
+        for (auto* row : rows << dock.findChild<QLabel*>("exposureNow") << dock.findChild<QWidget*>("enterArea")) {
+            auto region = row->visibleRegion();
+            if (const auto drawn = row->parentWidget()->mask(); !drawn.isEmpty())
+                region &= drawn.translated(-row->pos());
+            const auto seen = region.boundingRect();
+            if (!row->isVisible() || seen.isEmpty()) continue;
+            ++(seen.height() == row->height() ? whole : cut);
+        }
+        return std::pair(whole, cut);
+    };
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (const int height : {720, 760, 900}) {
+            window.resize(1280, height);
+            QTest::qWait(150);
+            for (int at = 0; at <= bar.maximum(); at += 7) {
+                bar.setValue(at);
+                EXPECT_GE(inSight().first, 1) << height << ", " << at;
+                EXPECT_EQ(inSight().second, 0) << height << ", " << at;
+            }
+            bar.setValue(0);
+            EXPECT_EQ(dock.findChildren<gui::LimitBar*>().first()->visibleRegion().isEmpty(), false)
+                << "the nearest limit comes first";
+            shot(window, QString("exposure-whole-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(height));
+        }
+    }
+    gui::applyTheme(gui::Theme::Light);
+    tabs.setCurrentIndex(0);
+}
 
 TEST_F(ExposureInTheWindow, AfterAStopItSaysThatNothingIsDelivered) {
     open();
