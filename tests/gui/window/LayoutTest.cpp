@@ -65,8 +65,12 @@ TEST_F(Layout, TheOscilloscopesScreenHasTheRoomWithTheDocksOpen) {
         QTest::qWait(100);
         ASSERT_TRUE(dock("driveDock").isVisible());
         EXPECT_GE(shareOf(*screen), share) << size.width() << ": the plot alone, without tools and caption";
-        EXPECT_LE(screen->axisRect()->left(), 80) << "and little of it is for numbers";
-        EXPECT_LE(screen->width() - screen->axisRect()->right(), 80);
+        EXPECT_LE(screen->axisRect()->left(), 66) << "and little of it is for numbers";
+        EXPECT_LE(screen->width() - screen->axisRect()->right(), 66);
+        const auto frame = screen->axisRect()->size();
+        const double framed = double(frame.width()) * frame.height() / (double(size.width()) * size.height());
+        EXPECT_GE(framed, size.width() < 1500 ? 0.425 : 0.6) << "within the axes";
+        RecordProperty(QString("axes %1").arg(size.width()).toStdString(), std::to_string(framed));
         EXPECT_EQ(window.findChild<QWidget*>("scopeStatus")->mapTo(&window, QPoint()).y() <
                       screen->mapTo(&window, QPoint()).y() - 20,
                   size.width() > 1500)
@@ -120,6 +124,8 @@ TEST_F(Layout, TheOscilloscopesToolsHaveTheKeysForAMarkAndForThePlotAlone) {
         window.resize(width, width * 9 / 16);
         QTest::qWait(50);
         EXPECT_LT(head.height(), 50) << "one row of tools at " << width;
+        for (const auto* name : {"Save", "Copy picture", "Controls", "Plot only"})
+            EXPECT_NE(find<QToolButton>(head, name), nullptr) << name << " is in sight at " << width;
     }
     auto* only = find<QToolButton>(head, "Plot only");
     ASSERT_NE(only, nullptr);
