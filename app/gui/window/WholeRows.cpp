@@ -33,16 +33,16 @@ void WholeRows::drawWholeRows() {
     const int top = bar.value(), bottom = top + viewport()->height();
     const auto all = rows();
     QRect whole;
-    int highest = 0, nearest = top;
+    int highest = 0, nearest = -1;
     for (const auto& row : all) {
         if (top <= row.top() && row.bottom() < bottom) whole |= row;
         highest = std::max(highest, row.height());
-        if (nearest == top || std::abs(row.top() - top) < std::abs(nearest - top)) nearest = row.top();
+        if (row.height() > viewport()->height() || row.top() > bar.maximum()) continue;
+        if (nearest < 0 || std::abs(row.top() - top) < std::abs(nearest - top)) nearest = row.top();
     }
     bar.setSingleStep(highest + widget()->layout()->spacing());
     // Between two rows that have room for one: it goes to the nearer.
-    if (whole.isEmpty() && highest <= viewport()->height() && nearest != top && nearest <= bar.maximum())
-        return bar.setValue(nearest);
+    if (whole.isEmpty() && nearest >= 0 && nearest != top) return bar.setValue(nearest);
     if (whole.isEmpty())
         widget()->clearMask();
     else

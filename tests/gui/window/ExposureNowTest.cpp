@@ -99,8 +99,12 @@ TEST_F(ExposureInTheWindow, NoBarIsCutInADockThatHasNoRoomForAll) {
         }
         return std::pair(whole, cut);
     };
-    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+    for (const bool all : {false, true}) {
+        const auto theme = all ? gui::Theme::Dark : gui::Theme::Light;
         gui::applyTheme(theme);
+        window.resetLayout();
+        if (all)
+            for (auto* each : window.findChildren<gui::FoldingDock*>()) each->fold(false);
         for (const int height : {720, 760, 900}) {
             window.resize(1280, height);
             QTest::qWait(150);
@@ -116,6 +120,7 @@ TEST_F(ExposureInTheWindow, NoBarIsCutInADockThatHasNoRoomForAll) {
         }
     }
     gui::applyTheme(gui::Theme::Light);
+    window.resetLayout();
     tabs.setCurrentIndex(0);
 }
 

@@ -350,22 +350,22 @@ TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
     auto* more = window.findChild<QToolButton*>("moreTools");
     window.resize(1920, 1080);
     EXPECT_IN_TIME(comesTrue([&] { return !more->isVisible(); })) << "there is room for all of them";
-    auto* cursors = find<QToolButton>(window, "Level cursors");
-    ASSERT_NE(cursors, nullptr);
+    auto* spectrum = find<QToolButton>(window, "Spectrum tool");
+    ASSERT_NE(spectrum, nullptr);
     gui::applyTextSize(200);
     window.resize(1280, 720);
-    EXPECT_IN_TIME(comesTrue([&] { return more->isVisible() && !cursors->isVisible(); }));
+    EXPECT_IN_TIME(comesTrue([&] { return more->isVisible() && !spectrum->isVisible(); }));
     EXPECT_EQ(more->visibleRegion().boundingRect().size(), more->size());
     emit more->menu()->aboutToShow();
     QAction* action = nullptr;
     for (auto* each : more->menu()->actions())
-        if (each->text() == "Level cursors") action = each;
+        if (each->text() == "Spectrum tool") action = each;
     ASSERT_NE(action, nullptr);
     action->trigger();
-    EXPECT_TRUE(cursors->isChecked()) << "as a click on it";
+    EXPECT_TRUE(spectrum->isChecked()) << "as a click on it";
     gui::applyTextSize(100);
     window.resize(1920, 1080);
-    EXPECT_IN_TIME(comesTrue([&] { return cursors->isVisible() && !more->isVisible(); }));
+    EXPECT_IN_TIME(comesTrue([&] { return spectrum->isVisible() && !more->isVisible(); }));
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
 }
 
