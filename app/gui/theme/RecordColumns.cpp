@@ -198,14 +198,15 @@ int fitColumns(QTableWidget& table) {
 /// rest by itself. Returns the table's width.
 int narrowWords(QTableWidget& table, int width) {
     const int least = table.fontMetrics().averageCharWidth() * kFewestText;
-    while (width > kRoom) {
+    const int room = scaledPx(kRoom);
+    while (width > room) {
         int widest = -1;
         for (int c = 0; c < table.columnCount(); ++c) {
             if (table.columnWidth(c) <= least || isOfNumbers(table, c)) continue;
             if (widest < 0 || table.columnWidth(c) > table.columnWidth(widest)) widest = c;
         }
         if (widest < 0) return width;
-        const int narrower = std::max(least, table.columnWidth(widest) - std::min(least, width - kRoom));
+        const int narrower = std::max(least, table.columnWidth(widest) - std::min(least, width - room));
         width -= table.columnWidth(widest) - narrower;
         table.setColumnWidth(widest, narrower);
     }
