@@ -8,6 +8,20 @@
 
 namespace tacto::gui {
 
+namespace {
+
+void addParts(const QWidget& in, const QPoint& at, std::vector<QRect>& parts) {
+    for (const auto* child : in.findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
+        if (child->isHidden() || child->isWindow() || child->height() == 0) continue;
+        if (child->layout() != nullptr)
+            addParts(*child, at + child->pos(), parts);
+        else
+            parts.push_back(child->geometry().translated(at));
+    }
+}
+
+}  // namespace
+
 WholeRows::WholeRows(QWidget* rows, QWidget* parent) : QScrollArea(parent) {
     setFrameShape(QFrame::NoFrame);
     setWidgetResizable(true);
@@ -18,11 +32,17 @@ WholeRows::WholeRows(QWidget* rows, QWidget* parent) : QScrollArea(parent) {
     connect(verticalScrollBar(), &QScrollBar::valueChanged, this, &WholeRows::drawWholeRows);
 }
 
+/// What stands beside each other is one row.
 std::vector<QRect> WholeRows::rows() const {
+    std::vector<QRect> parts;
+    addParts(*widget(), {}, parts);
+    std::ranges::sort(parts, {}, &QRect::top);
     std::vector<QRect> all;
-    for (int i = 0; i < widget()->layout()->count(); ++i) {
-        const auto* row = widget()->layout()->itemAt(i)->widget();
-        if (row != nullptr && !row->isHidden()) all.push_back(row->geometry());
+    for (const auto& part : parts) {
+        if (!all.empty() && part.top() <= all.back().bottom())
+            all.back() |= part;
+        else
+            all.push_back(part);
     }
     return all;
 }
@@ -33,20 +53,23 @@ void WholeRows::drawWholeRows() {
     const int top = bar.value(), bottom = top + viewport()->height();
     const auto all = rows();
     QRect whole;
-    int highest = 0, nearest = -1;
+    int highest = 0;
+    const QRect* nearest = nullptr;
     for (const auto& row : all) {
         if (top <= row.top() && row.bottom() < bottom) whole |= row;
         highest = std::max(highest, row.height());
-        if (row.height() > viewport()->height() || row.top() > bar.maximum()) continue;
-        if (nearest < 0 || std::abs(row.top() - top) < std::abs(nearest - top)) nearest = row.top();
+        if (row.top() > bar.maximum()) continue;
+        if (nearest == nullptr || std::abs(row.top() - top) < std::abs(nearest->top() - top)) nearest = &row;
     }
     bar.setSingleStep(highest + widget()->layout()->spacing());
     // Between two rows that have room for one: it goes to the nearer.
-    if (whole.isEmpty() && nearest >= 0 && nearest != top) return bar.setValue(nearest);
-    if (whole.isEmpty())
-        widget()->clearMask();
-    else
-        widget()->setMask(QRect(0, whole.top(), widget()->width(), whole.height()));
+    if (whole.isEmpty() && nearest != nullptr && nearest->top() != top && nearest->height() <= viewport()->height())
+        return bar.setValue(nearest->top());
+    if (whole.isEmpty() || (whole.top() == all.front().top() && whole.bottom() == all.back().bottom()))
+        return widget()->clearMask();
+    if (whole.top() == all.front().top()) whole.setTop(0);
+    if (whole.bottom() == all.back().bottom()) whole.setBottom(widget()->height());
+    widget()->setMask(QRect(0, whole.top(), widget()->width(), whole.height()));
 }
 
 bool WholeRows::eventFilter(QObject* watched, QEvent* event) {

@@ -11,7 +11,8 @@ namespace tacto::gui {
 class WholeRows final : public QScrollArea {
     Q_OBJECT
 public:
-    /// `rows` has a layout whose widgets are the rows. Where not one has room, the first is drawn as far as it goes.
+    /// `rows` has a layout, and what is laid out in it, at any depth, makes the rows. Where not one has room, the first
+    /// is drawn as far as it goes.
     WholeRows(QWidget* rows, QWidget* parent);
 
 protected:

@@ -84,18 +84,20 @@ TEST_F(ExposureInTheWindow, NoBarIsCutInADockThatHasNoRoomForAll) {
     auto& tabs = *window.findChild<gui::TabbedPage*>("livePage");
     tabs.setCurrentIndex(1);
     auto& dock = *window.findChild<gui::ExposureDock*>();
-    auto& bar = *dock.findChild<QScrollArea*>()->verticalScrollBar();
-    const auto inSight = [&] {
+    auto& rows = *dock.findChild<QScrollArea*>();
+    auto& bar = *rows.verticalScrollBar();
+    const auto inSight = [](const QWidget& in) {
         int whole = 0, cut = 0;
-        QList<QWidget*> rows;
-        for (auto* one : dock.findChildren<gui::LimitBar*>()) rows << one;
-        for (auto* row : rows << dock.findChild<QLabel*>("exposureNow") << dock.findChild<QWidget*>("enterArea")) {
-            auto region = row->visibleRegion();
-            if (const auto drawn = row->parentWidget()->mask(); !drawn.isEmpty())
-                region &= drawn.translated(-row->pos());
-            const auto seen = region.boundingRect();
-            if (!row->isVisible() || seen.isEmpty()) continue;
-            ++(seen.height() == row->height() ? whole : cut);
+        for (const auto* row : in.findChildren<QWidget*>()) {
+            const bool isRow = qobject_cast<const gui::LimitBar*>(row) != nullptr ||
+                               qobject_cast<const QLabel*>(row) != nullptr ||
+                               qobject_cast<const QPushButton*>(row) != nullptr;
+            if (!isRow || !row->isVisible() || row->height() == 0) continue;
+            auto seen = row->visibleRegion();
+            for (const auto* around = row->parentWidget(); around != &in; around = around->parentWidget())
+                if (!around->mask().isEmpty()) seen &= around->mask().translated(-row->mapTo(around, QPoint()));
+            if (seen.isEmpty()) continue;
+            ++(seen.boundingRect().height() == row->height() ? whole : cut);
         }
         return std::pair(whole, cut);
     };
@@ -110,10 +112,12 @@ TEST_F(ExposureInTheWindow, NoBarIsCutInADockThatHasNoRoomForAll) {
             QTest::qWait(150);
             for (int at = 0; at <= bar.maximum(); at += 7) {
                 bar.setValue(at);
-                EXPECT_GE(inSight().first, 1) << height << ", " << at;
-                EXPECT_EQ(inSight().second, 0) << height << ", " << at;
+                EXPECT_GE(inSight(rows).first, 1) << height << ", " << at;
+                EXPECT_EQ(inSight(rows).second, 0) << height << ", " << at;
             }
             bar.setValue(0);
+            for (const auto* other : {"driveDock", "measurementDock"})
+                EXPECT_EQ(inSight(*window.findChild<QDockWidget*>(other)->widget()).second, 0) << other;
             EXPECT_EQ(dock.findChildren<gui::LimitBar*>().first()->visibleRegion().isEmpty(), false)
                 << "the nearest limit comes first";
             shot(window, QString("exposure-whole-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(height));
