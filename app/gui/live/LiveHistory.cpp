@@ -80,7 +80,7 @@ void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
     faulted_ = false;
 }
 
-void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry) {
+void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry, QTime clock) {
     now_s_ = toSeconds(telemetry.at);
     while (const auto sample = tap.samples.pop()) {
         if (sample->stream >= samples_.size()) continue;  // of a bench that was opened since
@@ -101,7 +101,7 @@ void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry) {
     }
     missed_ = tap.samples.dropped();
     const bool faulted = telemetry.state == InterlockState::Faulted;
-    if (faulted && !faulted_) fault_ = Fault{.at_s = now_s_, .why = telemetry.reason};
+    if (faulted && !faulted_) fault_ = Fault{.at_s = now_s_, .why = telemetry.reason, .clock = clock};
     if (!faulted && faulted_) fault_->until_s = now_s_;
     faulted_ = faulted;
 }

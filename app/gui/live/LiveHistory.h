@@ -8,6 +8,7 @@
 // Thread-safety: the GUI thread; the one reader of the bench's tap.
 #pragma once
 
+#include <QTime>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -97,8 +98,8 @@ public:
     LiveHistory();
     /// Another bench is open: forgets everything. `streams` as its sensor names them.
     void begin(const std::vector<StreamInfo>& streams);
-    /// Takes what came since the last call.
-    void take(BenchTap& tap, const Telemetry& telemetry);
+    /// Takes what came since the last call; `clock`: the time of day.
+    void take(BenchTap& tap, const Telemetry& telemetry, QTime clock = QTime::currentTime());
 
     [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
     /// Null when the sensor has no such stream.
@@ -118,6 +119,7 @@ public:
         double at_s = 0;
         double until_s = std::numeric_limits<double>::infinity();  ///< its reset
         FixedText<200> why;
+        QTime clock;  ///< as it was seen
     };
     [[nodiscard]] const std::optional<Fault>& fault() const noexcept { return fault_; }
     /// Samples left out of the picture because the window looked too rarely; the recording has them.

@@ -267,7 +267,8 @@ void StripPlots::shareTime(const QCPRange& time) {
     if (frozen_) emit viewChanged();
 }
 
-/// In every lane the instant, in the trains' the cause too, on the side where it has room.
+/// In every lane the instant, in the trains' also the time of day and the cause, on the side where it has room; and
+/// that the output is off, where the shade has no room for these words.
 void StripPlots::markFault(const QCPRange& time) {
     const auto& fault = shown().fault();
     const bool seen = fault && time.contains(fault->at_s);
@@ -276,9 +277,12 @@ void StripPlots::markFault(const QCPRange& time) {
     if (!seen) return;
     const bool left = fault->at_s > time.center();
     const double share = (left ? fault->at_s - time.lower : time.upper - fault->at_s) / time.size();
-    const auto words = qtext(fault->why.view());
+    const auto why = qtext(fault->why.view());
+    QStringList words{why.isEmpty() ? tr("fault") : why};
+    if (fault->clock.isValid()) words.prepend(fault->clock.toString("HH:mm:ss"));
+    if (!trains_->saysOff() && fault->until_s > time.upper) words.insert(words.size() - 1, tr("output off"));
     fault_->setText(QFontMetrics(fault_->font())
-                        .elidedText(words.isEmpty() ? tr("fault") : words, Qt::ElideRight,
+                        .elidedText(words.join(" · "), Qt::ElideRight,
                                     static_cast<int>(share * strips_[kTrains].axes().width()) - 16));
     fault_->setPositionAlignment(Qt::AlignTop | (left ? Qt::AlignRight : Qt::AlignLeft));
     fault_->position->setCoords(fault->at_s, 0);

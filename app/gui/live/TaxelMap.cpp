@@ -3,6 +3,7 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/gui/theme/Theme.h"
 
@@ -32,7 +33,11 @@ TaxelMap::TaxelMap(QWidget* parent) : QWidget(parent) {
 QSize TaxelMap::roomFor(int cellHeight) const {
     const auto grid = gridFor(values_.empty() ? kUsualTaxels : values_.size());
     return {QFontMetrics(textFont(TextSize::Small)).horizontalAdvance("8.88 kPa ") * grid.width(),
-            grid.height() * cellHeight};
+            captionHeight() + grid.height() * cellHeight};
+}
+
+int TaxelMap::captionHeight() const {
+    return simulated_ ? QFontMetrics(textFont(TextSize::Small, QFont::Bold)).ascent() + 2 : 0;
 }
 
 QSize TaxelMap::sizeHint() const { return roomFor(scaledPx(kCellHigh + kCellsApart)); }
@@ -64,7 +69,8 @@ void TaxelMap::setStale(bool stale) {
 }
 
 void TaxelMap::setSimulated(bool simulated) {
-    simulated_ = simulated;
+    if (std::exchange(simulated_, simulated) == simulated) return;
+    updateGeometry();
     update();
 }
 
@@ -86,11 +92,12 @@ void TaxelMap::paintEvent(QPaintEvent*) {
     }
     const int columns = gridFor(values_.size()).width(), rows = gridFor(values_.size()).height();
     const double w = double(width() + kCellsApart) / columns - kCellsApart;
-    const double h = double(height() + kCellsApart) / rows - kCellsApart;
+    const int top = captionHeight();
+    const double h = double(height() - top + kCellsApart) / rows - kCellsApart;
     const auto cellOf = [&](std::size_t i) {
         // Their outer edges are those of the widget.
         const int column = int(i) % columns, row = int(i) / columns;
-        return QRectF(column * (w + kCellsApart), row * (h + kCellsApart), w, h);
+        return QRectF(column * (w + kCellsApart), top + row * (h + kCellsApart), w, h);
     };
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(Qt::NoPen);
@@ -106,9 +113,9 @@ void TaxelMap::paintEvent(QPaintEvent*) {
         painter.drawRoundedRect(cellOf(i), 2, 2);
     }
     if (simulated_) {
-        painter.setFont(textFont(TextSize::Large, QFont::Bold));
-        painter.setPen(c.watermark);
-        painter.drawText(rect(), Qt::AlignCenter, tr("SIMULATED"));
+        painter.setFont(textFont(TextSize::Small, QFont::Bold));
+        painter.setPen(c.quiet);
+        painter.drawText(QRect(0, 0, width(), top), Qt::AlignRight | Qt::AlignVCenter, tr("SIMULATED"));
     }
     painter.setFont(textFont(TextSize::Small));
     for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -126,7 +133,7 @@ void TaxelMap::paintEvent(QPaintEvent*) {
     if (!stale_) return;
     auto veil = c.quiet;
     veil.setAlpha(150);
-    painter.fillRect(rect(), QBrush(veil, Qt::BDiagPattern));
+    painter.fillRect(rect().adjusted(0, top, 0, 0), QBrush(veil, Qt::BDiagPattern));
 }
 
 }  // namespace tacto::gui

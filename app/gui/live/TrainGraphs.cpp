@@ -11,6 +11,7 @@ namespace {
 
 /// A train that was due so shortly before a fault was seen is the one that the fault took: its line says so.
 constexpr double kFaultTakes_s = 0.25;
+constexpr int kAroundWords = 8;  // pixels
 
 template <class Container>
 std::vector<double> valuesOf(const Container& data) {
@@ -75,7 +76,8 @@ void TrainGraphs::drawOff(const LiveHistory& history, const QCPRange& time) {
     const double to = fault ? std::min(fault->until_s, time.upper) : time.upper;
     off_->setVisible(to > from);
     const auto pixels = strip_.axes().width() * (to - from) / time.size();
-    offSays_->setVisible(to > from && QFontMetrics(offSays_->font()).horizontalAdvance(offSays_->text()) < pixels);
+    offSays_->setVisible(to > from &&
+                         QFontMetrics(offSays_->font()).horizontalAdvance(offSays_->text()) + kAroundWords < pixels);
     if (!off_->visible()) return;
     off_->topLeft->setCoords(from, 0);
     off_->bottomRight->setCoords(to, 1);

@@ -36,6 +36,8 @@ public:
     [[nodiscard]] QVector<double> shownFailures() const { return failedAt_; }
     /// What is shaded as off, in seconds; nothing where no fault is in sight.
     [[nodiscard]] std::optional<QCPRange> shownOff() const;
+    /// Whether the words stand in what is shaded: they have room there.
+    [[nodiscard]] bool saysOff() const { return offSays_->visible(); }
 
 private:
     void drawCommand(const LiveHistory& history, const QCPRange& time);

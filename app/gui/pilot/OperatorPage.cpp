@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/gui/pilot/ImpedanceTrend.h"
+#include "app/gui/pilot/SessionPath.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
@@ -28,8 +29,7 @@ QString phaseName(const std::string& phase) {
     return titled(qtext(phase));
 }
 
-}  // namespace
-
+/// "Test, block 2 of 5, trial 27 of 90".
 QString whereText(const PilotScreen& screen) {
     QStringList words{phaseName(screen.phase)};
     if (screen.phase.empty()) words = QStringList(QObject::tr("Preparing"));
@@ -43,6 +43,8 @@ QString whereText(const PilotScreen& screen) {
         words << QObject::tr("trial %1").arg(screen.trial);
     return words.join(", ");
 }
+
+}  // namespace
 
 OperatorPage::OperatorPage(QWidget* parent)
     : QWidget(parent),
@@ -163,6 +165,7 @@ QWidget* OperatorPage::buildBar() {
 void OperatorPage::begin(const PilotStart& start) {
     blind_ = start.blind;
     screen_ = {};
+    asked_.clear();
     answered_ = repeated_ = seenTrial_ = seenBlock_ = 0;
     theirs_.reset();
     vibrates_ = start.massager;
@@ -190,8 +193,9 @@ void OperatorPage::show(const PilotScreen& screen) {
         if (screen.trials > 0) trend_->setPlan(screen.trials, std::max(1, screen.blocks));
     }
     if (screen.state != screen_.state || screen.trial != screen_.trial) phaseSince_.start();
+    if (screen.phase != screen_.phase) asked_.clear();
     screen_ = screen;
-    where_->setText(whereText(screen));
+    showWhere();
     const bool mayKnow = !blind_ || screen.operatorMayKnow;
     const auto told = mayKnow ? qtext(screen.operatorText) : QString();
     hidden_->setText(!told.isEmpty() ? told
@@ -200,6 +204,8 @@ void OperatorPage::show(const PilotScreen& screen) {
     showCounts();
     refresh({});
 }
+
+void OperatorPage::showWhere() { where_->setText(asked_.isEmpty() ? whereText(screen_) : asked_); }
 
 void OperatorPage::showCounts() {
     QStringList words{tr("%1 answered").arg(answered_), tr("%1 repeated").arg(repeated_)};
@@ -214,6 +220,8 @@ void OperatorPage::showCounts() {
 }
 
 void OperatorPage::ask(const PilotPrompt& prompt, quint64 id) {
+    if (const auto step = stepAsked(prompt.name, screen_.phase, vibrates_); !step.isEmpty()) asked_ = step;
+    showWhere();
     if (prompt.to != PromptTo::Participant) ask_->ask(prompt, id);
     if (prompt.to == PromptTo::Operator) return;
     theirs_ = prompt;

@@ -21,9 +21,6 @@ namespace tacto::gui {
 
 class ImpedanceTrend;
 
-/// "Test, block 2 of 5, trial 27 of 90".
-[[nodiscard]] QString whereText(const PilotScreen& screen);
-
 class OperatorPage final : public QWidget {
     Q_OBJECT
 public:
@@ -39,6 +36,8 @@ public:
     void setBreakDue(bool due);
     /// Progress of a session whose screens are not shown: a virtual participant's.
     void setProgress(const QString& what, int done, int total);
+    /// What it is about now, as it heads the page.
+    [[nodiscard]] QString where() const { return where_->text(); }
     [[nodiscard]] OperatorAsk& question() { return *ask_; }
     [[nodiscard]] SessionNotes& notes() { return *notes_; }
     [[nodiscard]] int answered() const { return answered_; }
@@ -54,6 +53,7 @@ protected:
 
 private:
     [[nodiscard]] QWidget* buildBar();
+    void showWhere();
     void showCounts();
     void showTrend();
 
@@ -73,6 +73,7 @@ private:
     QWidget* sure_ = nullptr;
     QPushButton* reallyAbort_ = nullptr;
     PilotScreen screen_;
+    QString asked_;  ///< the step that a question of its phase began
     bool blind_ = true;
     bool breakDue_ = false;
     bool vibrates_ = false;  ///< a massager delivers

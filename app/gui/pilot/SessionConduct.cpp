@@ -267,13 +267,14 @@ void SessionConduct::noteStop(const HeardStop& stop) {
 void SessionConduct::show(const PilotScreen& screen) {
     screen_ = screen;
     page_.show(screen);
-    if (strip_ != nullptr) strip_->setWhere(whereText(screen));
+    if (strip_ != nullptr) strip_->setWhere(page_.where());
     emit screenChanged(screen);
 }
 
 void SessionConduct::ask(const PilotPrompt& prompt, quint64 id) {
     if (prompt.name == kScreenPrompt) screenPrompt_ = id;
     page_.ask(prompt, id);
+    if (strip_ != nullptr) strip_->setWhere(page_.where());
     emit asked(prompt);
     if (prompt.to == PromptTo::Participant) return;
     // On the only screen the question comes up where the operator can reach it.

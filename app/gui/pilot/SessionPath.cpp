@@ -35,10 +35,38 @@ std::optional<int> stepOf(const std::string& name, int now) {
     return {};
 }
 
+QString titleOf(int step, bool massager) {
+    switch (step) {
+        case kChecklist:
+            return QObject::tr("Checklist");
+        case kStopTest:
+            return QObject::tr("Stop test");
+        case kSkin:
+            return massager ? QObject::tr("Skin and massager") : QObject::tr("Skin and electrodes");
+        case kThresholds:
+            return QObject::tr("Thresholds and range");
+        case kTraining:
+            return QObject::tr("Training");
+        case kTest:
+            return QObject::tr("Test");
+        case kRatings:
+            return QObject::tr("Ratings");
+        default:
+            return massager ? QObject::tr("Massager off, skin") : QObject::tr("Electrodes off, skin");
+    }
+}
+
 // The design's minutes at which each step begins; the end of the session is the last.
 constexpr double kBegins_min[kSteps + 1] = {0, 4, 6, 12, 23, 30, 58, 62, 66};
 
 }  // namespace
+
+QString stepAsked(const std::string& prompt, const std::string& phase, bool massager) {
+    const bool before = phase.empty() || phase == "checklist";
+    if (!before && phase != "ratings") return {};
+    const auto step = stepOf(prompt, before ? kChecklist : kRatings);
+    return step ? titleOf(*step, massager) : QString();
+}
 
 SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     setObjectName("path");
@@ -58,15 +86,9 @@ SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     top->addWidget(title_);
     top->addWidget(below_);
     column->addLayout(top);
-    steps_ = new StepList({tr("Checklist"),
-                           tr("Stop test"),
-                           {},
-                           tr("Thresholds and range"),
-                           tr("Training"),
-                           tr("Test"),
-                           tr("Ratings"),
-                           {}},
-                          this);
+    QStringList titles;
+    for (int step = 0; step < kSteps; ++step) titles << titleOf(step, false);
+    steps_ = new StepList(titles, this);
     column->addWidget(steps_);
     column->addStretch();
     auto* foot = new QVBoxLayout;
@@ -98,8 +120,7 @@ void SessionPath::begin(int blocks, bool counts, bool massager) {
 }
 
 void SessionPath::nameSeats(bool massager) {
-    steps_->setName(kSkin, massager ? tr("Skin and massager") : tr("Skin and electrodes"));
-    steps_->setName(kAfter, massager ? tr("Massager off, skin") : tr("Electrodes off, skin"));
+    for (const int step : {kSkin, kAfter}) steps_->setName(step, titleOf(step, massager));
 }
 
 void SessionPath::clear() {

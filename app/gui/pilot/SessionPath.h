@@ -13,6 +13,10 @@ namespace tacto::gui {
 
 class StepList;
 
+/// The step that the question named `prompt` begins where the phase does not tell it: before the first trains, and
+/// after the test. Empty for any other question. `massager`: there are no electrodes.
+[[nodiscard]] QString stepAsked(const std::string& prompt, const std::string& phase, bool massager);
+
 class SessionPath final : public QWidget {
     Q_OBJECT
 public:

@@ -268,11 +268,21 @@ void LimitMatrixView::setFillsHeight(bool fills) {
     if (std::exchange(fillsHeight_, fills) != fills) fitColumns();
 }
 
+/// Where not all rows have room, those in sight fill it: none is cut at the lower edge.
+void LimitMatrixView::fitRows() {
+    const int room = height() - heightOf(0), least = scaledPx(kRow);
+    const int inSight = std::clamp(room / least, 1, std::max(1, rowCount()));
+    const bool scrolls = inSight < rowCount();
+    const int most = fillsHeight_ || scrolls ? scaledPx(kHighRow) : least;
+    verticalHeader()->setDefaultSectionSize(std::clamp(room / inSight, least, most));
+    const int left = scrolls && room > least ? room % inSight : 0;
+    for (int row = 0; row < rowCount(); ++row)
+        if (row % inSight < left) setRowHeight(row, verticalHeader()->defaultSectionSize() + 1);
+}
+
 void LimitMatrixView::fitColumns() {
     horizontalHeader()->setFixedHeight(2 * QFontMetrics(textFont(TextSize::Small)).height() + kPad);
-    const int each_px = (height() - heightOf(0)) / std::max(1, rowCount());
-    const int least = scaledPx(kRow), most = fillsHeight_ ? scaledPx(kHighRow) : least;
-    verticalHeader()->setDefaultSectionSize(std::clamp(each_px, least, most));
+    fitRows();
     setMaximumHeight(fillsHeight_ ? QWIDGETSIZE_MAX : heightOf(rowCount()));  // what is left below is the tracing's
     if (columnCount() < 2) return;
     auto* header = horizontalHeader();

@@ -27,8 +27,7 @@ public:
     [[nodiscard]] int heightOf(int rows) const;
     /// Its rows share all the height that it is given; else it is no higher than they need.
     void setFillsHeight(bool fills);
-    static constexpr int kInSight = 10;  ///< limits in sight before anything else has room below them
-    static constexpr int kHinted = 6;    ///< a page that hints at more would be higher than its window
+    static constexpr int kHinted = 6;  ///< a page that hints at more would be higher than its window
     [[nodiscard]] QSize sizeHint() const override { return {QTableWidget::sizeHint().width(), heightOf(kHinted)}; }
 
 signals:
@@ -41,6 +40,7 @@ protected:
 
 private:
     void addLine(int row, const nlohmann::json& line);
+    void fitRows();
     void fitColumns();
     void choose(int row, int column);
     bool fillsHeight_ = false;

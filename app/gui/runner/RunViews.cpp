@@ -24,7 +24,7 @@ constexpr int kLogLines = 5000;           // shown; all of them are in the sessi
 constexpr int kBesideChars = 115;         // the waveform stands beside the plot from this width on
 constexpr int kDisclosedFromChars = 120;  // the outputs stand beside the tracing from this width on
 constexpr int kTracedFromChars = 165;     // and the tracing beside the limits from this one
-constexpr int kTracingPart = 3;           // below them it has one part of so many
+constexpr double kTracingShare = 0.18;    // of their height it has below them: the limits keep 80 % of the column
 constexpr int kRoomyLines = 34;           // of less height the bar below is as low as its buttons let it
 constexpr int kPageGap = 6, kViewSide = 16, kViewTop = 4, kBarPad = 12, kBarPadLow = 6;
 
@@ -167,7 +167,7 @@ void RunViews::placeTracing(bool judged) {
     disclosed_->setVisible(judged);
     if (!judged) return;
     const int chars = fontMetrics().averageCharWidth();
-    const bool high = views_->height() >= matrix_->heightOf(LimitMatrixView::kInSight) + disclosed_->leastHeight();
+    const bool high = views_->height() * kTracingShare >= disclosed_->leastHeight();
     const auto place = width() >= chars * kTracedFromChars ? Tracing::Beside : high ? Tracing::Below : Tracing::OwnView;
     using Outputs = DisclosedPanel::Outputs;
     const bool roomy = place != Tracing::Beside && width() >= chars * kDisclosedFromChars;
@@ -182,7 +182,7 @@ void RunViews::placeTracing(bool judged) {
     judged_->addWidget(disclosed_);
     judged_->setOrientation(place == Tracing::Beside ? Qt::Horizontal : Qt::Vertical);
     const int all = place == Tracing::Beside ? judged_->width() : judged_->height();
-    const int part = place == Tracing::Beside ? disclosed_->minimumSizeHint().width() : all / kTracingPart;
+    const int part = place == Tracing::Beside ? disclosed_->minimumSizeHint().width() : int(all * kTracingShare);
     judged_->setSizes({all - part, part});
 }
 

@@ -168,6 +168,7 @@ void TrialPlane::nameClusters() {
     }
     if (legend->visible() == (!all && !conditions_.empty())) return;
     legend->setVisible(!all && !conditions_.empty());
+    fitLegend(*this);
     replot(QCustomPlot::rpQueuedReplot);  // its row is another
 }
 

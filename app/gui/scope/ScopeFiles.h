@@ -31,6 +31,7 @@ public:
     [[nodiscard]] static QString captureGlobs();
     void askOpen();
     void askSavePicture();
+    void copyPicture();
     /// Picture by its ending (.png, .svg, .pdf), or the visible data (.csv, in the background), of what is shown now.
     void saveAs(const QString& path) { saveAs(path, still()); }
 
@@ -44,7 +45,6 @@ private:
     void askSave(const QString& filter, const QString& ending);
     void saveAs(const QString& path, const ScopeStill& still);
     [[nodiscard]] ScopeStill still() const { return stillOf(model_, *screen_, caption_()); }
-    void copyPicture();
     void copyData();
 
     CapturePipe& pipe_;

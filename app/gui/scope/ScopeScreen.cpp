@@ -153,9 +153,10 @@ void ScopeScreen::restyle() {
     for (auto* axis : {xAxis, yAxis}) axis->grid()->setVisible(true);
     for (auto* axis : {xAxis2, yAxis2}) axis->grid()->setVisible(false);
     const QFontMetrics small(xAxis->tickLabelFont());
-    // Room for the widest numbers, so that the screen does not jump while they change.
-    const int side = small.horizontalAdvance("−000.00") + small.height() + 12;
-    axisRect()->setMinimumMargins(QMargins(side, small.height() / 2 + 5, side, small.height() * 2 + 12));
+    // Room for the numbers of every usual scale, so that the screen does not jump while they change; for longer ones
+    // it grows.
+    const int side = small.horizontalAdvance("−0000") + small.height() + 12;
+    axisRect()->setMinimumMargins(QMargins(side, small.height() / 2 + 1, side, small.height() * 2 + 6));
     for (auto* band : bands_) band->setColours(c.passCell, c.passText);
     for (const auto& lane : model_.lanes()) {
         const auto& graphs = graphs_[lane.key];

@@ -44,6 +44,9 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     save->setPopupMode(QToolButton::InstantPopup);
     save->setMenu(files);
     row->addWidget(save);
+    auto* copy = tool(tr("Copy picture"), tr("Copies the picture of the screen to the clipboard."), false, "copy");
+    connect(copy, &QToolButton::clicked, this, &ScopeTools::copyClicked);
+    row->addWidget(copy);
     controls_ =
         tool(tr("Controls"), tr("Lanes, view, mask, trigger and record, in a column at the right."), true, "settings");
     connect(controls_, &QToolButton::clicked, this, &ScopeTools::controlsClicked);
@@ -188,7 +191,7 @@ void ScopeTools::showTimeBase(double perDivision_s, double least_s) {
     // What lies between two lines of the grid, which stand at round numbers.
     base_->setText(tr("%1/div").arg(settingText(base_s_, "s")));
     base_->setAccessibleName(tr("Time base tool"));
-    base_->setMinimumWidth(base_->fontMetrics().horizontalAdvance("00.00 µs/div") + scaledPx(24));
+    base_->setMinimumWidth(base_->fontMetrics().horizontalAdvance("000 µs/div") + scaledPx(24));
 }
 
 void ScopeTools::markTimeBase() {

@@ -52,6 +52,7 @@ signals:
     void spectrumClicked(bool on);
     void tableClicked(bool on);
     void controlsClicked(bool on);
+    void copyClicked();
     void markClicked();
     void plotOnlyClicked();
 

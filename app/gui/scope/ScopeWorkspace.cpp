@@ -106,6 +106,7 @@ void ScopeWorkspace::connectTools() {
     connect(status_, &ScopeStatus::cancelClicked, &pipe_, &CapturePipe::cancelOpen);
     connect(files_.get(), &ScopeFiles::openWanted, this, &ScopeWorkspace::openCaptureFile);
     connect(files_.get(), &ScopeFiles::told, this, &ScopeWorkspace::tell);
+    connect(tools_, &ScopeTools::copyClicked, files_.get(), &ScopeFiles::copyPicture);
     connect(tools_, &ScopeTools::markClicked, this, &ScopeWorkspace::markWanted);
     connect(tools_, &ScopeTools::plotOnlyClicked, this, &ScopeWorkspace::plotOnlyWanted);
     addScopeKeys(*this, *tools_, *files_);

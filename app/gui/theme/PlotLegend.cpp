@@ -19,7 +19,7 @@ void putLegendAbove(QCustomPlot& plot) {
     plot.axisRect()->setMinimumMargins(QMargins(15, kBelow, 15, 15));
     line->addElement(0, 0, legend);
     auto* rest = new QCPTextElement(&plot);
-    rest->setMinimumSize(0, 0);
+    rest->setMinimumSize(1, 1);
     rest->setMaximumSize(QWIDGETSIZE_MAX, 1);
     line->addElement(0, 1, rest);
     legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
@@ -39,7 +39,9 @@ void fitLegend(QCustomPlot& plot) {
     legend->setRowSpacing(0);
     legend->setMargins(QMargins(scaledPx(8), 2, scaledPx(8), 2));
     legend->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
-    legend->setMaximumSize(legend->minimumOuterSizeHint());
+    // One that is hidden leaves its line to the axes.
+    legend->setMinimumSize(legend->visible() ? QSize(0, 0) : QSize(1, 1));
+    legend->setMaximumSize(legend->visible() ? legend->minimumOuterSizeHint() : QSize(1, 1));
 }
 
 void drawLineIcon(QCPPainter& painter, const QRectF& icon, const QPen& pen) {

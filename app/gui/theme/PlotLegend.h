@@ -9,7 +9,8 @@ namespace tacto::gui {
 
 /// Puts the legend of `plot` into a line of its own. Call once, before anything is drawn.
 void putLegendAbove(QCustomPlot& plot);
-/// Fits it to its entries, in the current theme: call again when they, the theme or the size of text change.
+/// Fits it to its entries, in the current theme: call again when they, the theme or the size of text change, and when
+/// it is shown or hidden.
 void fitLegend(QCustomPlot& plot);
 /// A trace's icon in the legend: a level line in its pen.
 void drawLineIcon(QCPPainter& painter, const QRectF& icon, const QPen& pen);

@@ -1,6 +1,7 @@
 #include "app/gui/theme/RecordColumns.h"
 
 #include <QHeaderView>
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/theme/Text.h"
@@ -21,6 +22,7 @@ constexpr double kOnePrefix = 1e4;        // numbers further apart than this hav
 constexpr double kOnePrefixWithU = 1000;  // and those with all the decimals of an uncertainty
 constexpr int kHeaderPad = 10;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
+constexpr int kFewestText = 10;   // and where numbers need the room
 constexpr int kRoom = 860;        // pixels beside a path in a window of 1280: a wider table is set small
 const QString kNone = QStringLiteral("–");
 
@@ -172,14 +174,41 @@ void fitHeader(QTableWidget& table) {
     header->setFixedHeight(lines * QFontMetrics(textFont(TextSize::Small)).height() + kHeaderPad);
 }
 
-/// The width of the table with columns as wide as what is in them.
+bool isOfNumbers(const QTableWidget& table, int column) {
+    for (int row = 0; row < table.rowCount(); ++row) {
+        const auto* item = table.item(row, column);
+        if (item != nullptr && (item->textAlignment() & Qt::AlignRight) != 0) return true;
+    }
+    return false;
+}
+
+/// The width of the table with columns as wide as what is in them, words up to their bound.
 int fitColumns(QTableWidget& table) {
     const int longest = table.fontMetrics().averageCharWidth() * kLongestText;
     table.resizeColumnsToContents();
     int width = 2 * table.frameWidth();
     for (int c = 0; c < table.columnCount(); ++c) {
-        if (table.columnWidth(c) > longest) table.setColumnWidth(c, longest);
+        if (table.columnWidth(c) > longest && !isOfNumbers(table, c)) table.setColumnWidth(c, longest);
         width += table.columnWidth(c);
+    }
+    return width;
+}
+
+/// Takes what is missing from the columns of words, the widest first: a number is never cut. The last one takes the
+/// rest by itself. Returns the table's width.
+int narrowWords(QTableWidget& table, int width) {
+    const int least = table.fontMetrics().averageCharWidth() * kFewestText;
+    const int room = scaledPx(kRoom);
+    while (width > room) {
+        int widest = -1;
+        for (int c = 0; c < table.columnCount(); ++c) {
+            if (table.columnWidth(c) <= least || isOfNumbers(table, c)) continue;
+            if (widest < 0 || table.columnWidth(c) > table.columnWidth(widest)) widest = c;
+        }
+        if (widest < 0) return width;
+        const int narrower = std::max(least, table.columnWidth(widest) - std::min(least, width - room));
+        width -= table.columnWidth(widest) - narrower;
+        table.setColumnWidth(widest, narrower);
     }
     return width;
 }
@@ -258,11 +287,10 @@ void layOutRecordTable(QTableWidget& table) {
     int width = fitColumns(table);
     if (width > kRoom) {
         setTextSize(table, TextSize::Small);
-        width = fitColumns(table);
+        width = narrowWords(table, fitColumns(table));
     }
     // A last column of words takes the rest; one of numbers stands beside the others.
-    const auto* last = table.item(0, table.columnCount() - 1);
-    const bool words = last == nullptr || (last->textAlignment() & Qt::AlignRight) == 0;
+    const bool words = !isOfNumbers(table, table.columnCount() - 1);
     header->setStretchLastSection(words);
     table.setMaximumWidth(words ? QWIDGETSIZE_MAX : width);
     table.resizeRowsToContents();

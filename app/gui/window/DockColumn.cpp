@@ -17,9 +17,13 @@ namespace {
 constexpr int kStripIcon = 16;
 constexpr int kStripGap = 8;
 
-constexpr int kFewLines = 80;  ///< of a dock that gives way to those above it
+constexpr int kFewLines = 88;  ///< of a dock that gives way to those above it: its header and a button
 
 QString settingOf(int workspace) { return QString("docks/collapsed%1").arg(workspace); }
+
+int leastOf(const QDockWidget& dock, int wanted) {
+    return std::max(std::min(wanted, scaledPx(kFewLines)), dock.minimumSizeHint().height());
+}
 
 QString settingOf(const QString& view, const FoldingDock& dock) {
     return QString("docks/folded-%1-%2").arg(view, dock.objectName());
@@ -233,8 +237,9 @@ void DockColumn::share() {
     int left = room;
     for (qsizetype i = 0; i < open.size(); ++i) {
         int below = 0;
-        for (qsizetype j = i + 1; j < open.size(); ++j) below += std::min(wanted[j], scaledPx(kFewLines));
-        heights << std::clamp(left - below, std::min(wanted[i], scaledPx(kFewLines)), wanted[i]);
+        for (qsizetype j = i + 1; j < open.size(); ++j) below += leastOf(*open[j], wanted[j]);
+        const int least = leastOf(*open[i], wanted[i]);
+        heights << std::clamp(left - below, least, std::max(least, wanted[i]));
         left -= heights.back();
     }
     window_.resizeDocks(open, heights, Qt::Vertical);

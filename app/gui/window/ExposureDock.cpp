@@ -1,6 +1,5 @@
 #include "app/gui/window/ExposureDock.h"
 
-#include <QScrollArea>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +9,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/ExposureNow.h"
+#include "app/gui/window/WholeRows.h"
 
 namespace tacto::gui {
 
@@ -46,13 +46,7 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
       empty_(new QLabel),
       now_(new ElidedLabel),
       enterArea_(new QPushButton(tr("Enter the area…"))) {
-    auto* area = new QScrollArea(this);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setWidgetResizable(true);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    area->setMinimumHeight(1);
-    area->setAccessibleName(tr("Exposure against limits"));
-    auto* body = new QWidget(area);
+    auto* body = new QWidget;
     body->setToolTip(
         tr("Worst case over the permitted load range, exposure of the last 5 s included. Hatched: not "
            "evaluated, and never a pass."));
@@ -76,8 +70,9 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
     column_->addWidget(enterArea_, 0, Qt::AlignLeft);
     enterArea_->hide();
     column_->addStretch();
-    area->setWidget(body);
-    setContent(area);
+    rows_ = new WholeRows(body, this);
+    rows_->setAccessibleName(tr("Exposure against limits"));
+    setContent(rows_);
 }
 
 /// Bars stay where they are and only their numbers change, until another one is clearly nearer to its limit than the
@@ -106,7 +101,18 @@ void ExposureDock::build(const std::vector<ExposureRow>& rows) {
         column_->insertWidget(column_->count() - 2, bars_.back());
     }
     empty_->setVisible(rows.empty());
-    now_->setVisible(!rows.empty());
+    giveRoom();
+}
+
+/// In a low dock the nearest limit comes first, and the line above the bars gives way to it.
+void ExposureDock::giveRoom() {
+    now_->setVisible(!bars_.empty() && rows_->height() >= now_->sizeHint().height() + column_->spacing() +
+                                                              bars_.front()->sizeHint().height());
+}
+
+void ExposureDock::resizeEvent(QResizeEvent* event) {
+    FoldingDock::resizeEvent(event);
+    giveRoom();
 }
 
 void ExposureDock::refresh(const Telemetry& telemetry) {

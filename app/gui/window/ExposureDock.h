@@ -16,6 +16,8 @@
 
 namespace tacto::gui {
 
+class WholeRows;
+
 class ExposureDock final : public FoldingDock {
     Q_OBJECT
 public:
@@ -27,7 +29,11 @@ public:
 signals:
     void areaWanted();  ///< of the electrode, which current and power density need
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
+    void giveRoom();
     void putInOrder(std::vector<ExposureRow>& rows) const;
     void build(const std::vector<ExposureRow>& rows);
 
@@ -36,6 +42,7 @@ private:
     ElidedLabel* now_;  ///< whether any of it is delivered
     QPushButton* enterArea_;
     QVBoxLayout* column_;
+    WholeRows* rows_ = nullptr;
     std::vector<LimitBar*> bars_;
     QStringList titles_;  ///< of the bars
     Instant shownAt_{-1};

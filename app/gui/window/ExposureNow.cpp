@@ -1,5 +1,6 @@
 #include "app/gui/window/ExposureNow.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tacto::gui {
@@ -13,6 +14,7 @@ std::vector<ExposureRow> exposureNow(const Telemetry& telemetry) {
     const auto booked = telemetry.exposure();
     std::vector<ExposureRow> rows(booked.begin(), booked.end());
     if (!outputIsOff(telemetry.state)) return rows;
+    if (std::ranges::all_of(rows, [](const ExposureRow& row) { return std::isnan(row.limit); })) return {};
     for (auto& row : rows) {
         if (!row.evaluated || std::isnan(row.value) || windowOf(row.quantity) > 0) continue;
         row.value = 0;

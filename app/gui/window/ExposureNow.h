@@ -15,7 +15,7 @@ namespace tacto::gui {
 
 /// The rows of `telemetry`. While the output is off a quantity of single pulses and trains is 0, for none is delivered;
 /// one over a window still has the trains of that window in it, as the gate counts them. What was not evaluated stays
-/// so.
+/// so. None while the output is off and nothing has been judged against a limit yet: unknown is not 0.
 [[nodiscard]] std::vector<ExposureRow> exposureNow(const Telemetry& telemetry);
 
 }  // namespace tacto::gui

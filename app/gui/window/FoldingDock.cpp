@@ -11,6 +11,7 @@
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/WholeRows.h"
 
 namespace tacto::gui {
 
@@ -64,19 +65,14 @@ void FoldingDock::setContent(QWidget* content, Room room) {
     auto* column = new QVBoxLayout(body);
     column->setContentsMargins(kDockPadding, 4, 0, kDockPadding);
     if (qobject_cast<QAbstractScrollArea*>(content) == nullptr) {
-        auto* area = new QScrollArea(body);
-        area->setFrameShape(QFrame::NoFrame);
-        area->setWidgetResizable(true);
-        area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-        area->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
-        area->setFocusPolicy(Qt::NoFocus);
-        area->setMinimumHeight(1);
-        inside_ = new QWidget(area);
+        inside_ = new QWidget;
         auto* rows = new QVBoxLayout(inside_);
         rows->setContentsMargins(0, 0, kDockPadding, 0);
         rows->addWidget(content);
         rows->addStretch();
-        area->setWidget(inside_);
+        auto* area = new WholeRows(inside_, body);
+        area->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+        area->setFocusPolicy(Qt::NoFocus);
         bar_ = area->verticalScrollBar();
         content = area;
     } else if (auto* area = qobject_cast<QScrollArea*>(content)) {

@@ -210,12 +210,18 @@ TEST_F(Plots, AFaultIsALineInEveryLaneWithItsCauseInTheTrains) {
     telemetry.state = InterlockState::Faulted;
     telemetry.reason = "the stimulator is unplugged";
     telemetry.at = toInstant(5.02);
-    history.take(tap, telemetry);
+    history.take(tap, telemetry, QTime(3, 48, 53));
     t_s = 5.02;
-    telemetry.at = toInstant(6);
+    telemetry.at = toInstant(5.2);
     history.take(tap, telemetry);
     draw();
-    EXPECT_EQ(plots.faultSaid(), "the stimulator is unplugged");
+    EXPECT_FALSE(plots.trains().saysOff()) << "the shade is narrow";
+    EXPECT_EQ(plots.faultSaid(), "03:48:53 · output off · the stimulator is unplugged");
+    telemetry.at = toInstant(7);
+    history.take(tap, telemetry);
+    draw();
+    EXPECT_TRUE(plots.trains().saysOff());
+    EXPECT_EQ(plots.faultSaid(), "03:48:53 · the stimulator is unplugged") << "each is said once";
     const auto image = plots.grab().toImage();
     shot(plots, "strips-fault");
     for (auto* axes : plots.axisRects()) {
@@ -346,6 +352,24 @@ TEST(TaxelMap, IsBluerWhereItIsPressed) {
     const auto fresh = map.grab().toImage();
     map.setStale(true);
     EXPECT_NE(map.grab().toImage(), fresh) << "old values are marked";
+}
+
+TEST(TaxelMap, SaysThatItIsSimulatedWhereNoNumberStands) {
+    RecordProperty("hazard", "H9");
+    gui::TaxelMap map;
+    const float eight[] = {0, 0, 0, 0, 0, 0, 0, 0};
+    map.show(eight, "Pa");
+    const auto before = map.sizeHint();
+    map.setSimulated(true);
+    const int line = map.sizeHint().height() - before.height();
+    EXPECT_GE(line, QFontMetrics(gui::textFont(gui::TextSize::Small)).ascent());
+    map.resize(map.sizeHint().expandedTo({280, 0}));
+    const auto marked = map.grab().toImage();
+    map.setSimulated(false);
+    map.resize(before.expandedTo({280, 0}));
+    const auto cells = map.grab().toImage();
+    EXPECT_EQ(marked.copy(0, line, cells.width(), cells.height()), cells) << "the cells are as they are without it";
+    shot(map, "taxels");
 }
 
 TEST(TaxelMap, IsAsLowAsTwoLinesWhereRoomIsShort) {

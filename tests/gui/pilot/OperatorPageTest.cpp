@@ -69,6 +69,34 @@ TEST_F(Operator8b, SaysWhereTheSessionIs) {
     EXPECT_THAT(says, HasSubstr("26 answers on disk"));
 }
 
+TEST_F(Operator8b, SaysTheSameStepAsThePath) {
+    PilotScreen screen;
+    screen.phase = "checklist";
+    page.show(screen);
+    EXPECT_EQ(page.where(), "Checklist");
+    auto stop = goOnPrompt("Press STOP now: the participant's is being tested.", PromptTo::Participant);
+    stop.name = "stop-test";
+    page.ask(stop, 1);
+    EXPECT_EQ(page.where(), "Stop test");
+    page.closeQuestion(1);
+    page.show(screen);
+    EXPECT_EQ(page.where(), "Stop test") << "it is not gone back to";
+    page.ask(yesNoPrompt("erythema", "Is there a reddening?", PromptTo::Operator), 2);
+    EXPECT_EQ(page.where(), "Skin and electrodes");
+    screen.phase = "ascending";
+    page.show(screen);
+    EXPECT_EQ(page.where(), "Rising levels");
+    screen.phase = "ratings";
+    page.show(screen);
+    EXPECT_EQ(page.where(), "Ratings");
+    page.ask(yesNoPrompt("erythema", "Is there a reddening?", PromptTo::Operator), 3);
+    EXPECT_EQ(page.where(), "Electrodes off, skin");
+    start.massager = true;
+    page.begin(start);
+    page.ask(yesNoPrompt("erythema", "Is there a reddening?", PromptTo::Operator), 4);
+    EXPECT_EQ(page.where(), "Skin and massager");
+}
+
 TEST_F(Operator8b, WhileBlindNothingOfAConditionIsShown) {
     RecordProperty("hazard", "H9");
     auto screen = testScreen(ScreenState::Feel);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/TableContent.h"
 
 namespace tacto::test {
@@ -62,6 +63,38 @@ TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
     for (const auto as : {As::Number, As::Share, As::Verdict, As::Text}) EXPECT_EQ(cell({"M", "a.b", as}), "–");
     const auto unknown = columnText({"V", "value", As::Number, "V", "u"}, Json{{{"value", 1.5}, {"u", nullptr}}});
     EXPECT_THAT(unknown.cells.first().toStdString(), HasSubstr("U unknown"));
+}
+
+TEST(RecordColumns, ANumberIsNeverCutAndWordsGiveWayFirst) {
+    RecordProperty("hazard", "H9");
+    gui::applyTheme(gui::Theme::Light);
+    std::vector<RecordColumn> columns{{"Condition", "words", As::Text}, {"Load", "words", As::Text}};
+    Json row{{"words", "a surface of many words that go on for longer than any column has room"},
+             {"many", {{"value", 123456.7}, {"low", -123456.7}, {"high", 123456.7}}},
+             {"far", {{"value", 1e-6}, {"low", -1e-6}, {"high", 1e-6}}}};
+    columns.push_back({"Far", "many", As::Number, "ohm"});  // longer than words may be
+    for (int i = 0; i < 2; ++i) {
+        row["v" + std::to_string(i)] = {{"mean", 40.12}, {"sd", 0.46}};
+        columns.push_back({"Amplitude as measured", "v" + std::to_string(i), As::Number, "V"});
+    }
+    columns.push_back({"Note", "words", As::Text});
+    auto far = row;
+    far["many"] = row["far"];
+    QWidget page;
+    const auto* table = gui::makeRecordTable(columns, Json{row, far}, &page);
+    int width = 2 * table->frameWidth();
+    for (int c = 0; c < table->columnCount(); ++c) {
+        width += table->columnWidth(c);
+        for (int r = 0; r < table->rowCount(); ++r) {
+            const auto* cell = table->item(r, c);
+            const int needs = table->fontMetrics().horizontalAdvance(cell->text());
+            const bool number = (cell->textAlignment() & Qt::AlignRight) != 0;
+            const bool fits = table->columnWidth(c) >= needs;
+            EXPECT_TRUE(fits || !number) << cell->text().toStdString();
+            EXPECT_TRUE(fits || cell->toolTip() == cell->text()) << "the tip has the whole text";
+        }
+    }
+    EXPECT_LE(width, 860) << "beside a path in a window of 1280";
 }
 
 }  // namespace

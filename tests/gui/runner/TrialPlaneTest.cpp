@@ -50,6 +50,7 @@ TEST_F(Plane, EachClusterIsNamedAtItsPointsAndNothingIsCovered) {
         draw();
         EXPECT_TRUE(plane.namedInPlace()) << size.width();
         EXPECT_FALSE(plane.legend->visible()) << "a name that stands twice";
+        EXPECT_LE(plane.axisRect()->top(), 16) << "its line is the plot's";
         for (int g = 0; g < plane.graphCount(); ++g) {
             const auto box = boxOf(plane.graph(g)->name());
             ASSERT_FALSE(box.isEmpty()) << plane.graph(g)->name().toStdString();

@@ -198,7 +198,11 @@ TEST_F(Scope, SavesAndCopies) {
     for (auto* action : menu->actions()) {
         if (action->text() == "Copy picture") action->trigger();
     }
-    EXPECT_FALSE(QGuiApplication::clipboard()->image().isNull());
+    const auto copied = QGuiApplication::clipboard()->image();
+    EXPECT_FALSE(copied.isNull());
+    QGuiApplication::clipboard()->clear();
+    click(*find<QToolButton>(scope, "Copy picture"));
+    EXPECT_EQ(QGuiApplication::clipboard()->image().size(), copied.size()) << "by a tool of its own";
 }
 
 TEST_F(Scope, WhatIsSavedIsWhatWasShownWhenSaveWasChosenAndThatIsSaid) {

@@ -66,8 +66,12 @@ TEST_F(Layout, TheOscilloscopesScreenHasTheRoomWithTheDocksOpen) {
         QTest::qWait(100);
         ASSERT_TRUE(dock("driveDock").isVisible());
         EXPECT_GE(shareOf(*screen), share) << size.width() << ": the plot alone, without tools and caption";
-        EXPECT_LE(screen->axisRect()->left(), 80) << "and little of it is for numbers";
-        EXPECT_LE(screen->width() - screen->axisRect()->right(), 80);
+        EXPECT_LE(screen->axisRect()->left(), 66) << "and little of it is for numbers";
+        EXPECT_LE(screen->width() - screen->axisRect()->right(), 66);
+        const auto frame = screen->axisRect()->size();
+        const double framed = double(frame.width()) * frame.height() / (double(size.width()) * size.height());
+        EXPECT_GE(framed, size.width() < 1500 ? 0.425 : 0.6) << "within the axes";
+        RecordProperty(QString("axes %1").arg(size.width()).toStdString(), std::to_string(framed));
         EXPECT_EQ(window.findChild<QWidget*>("scopeStatus")->mapTo(&window, QPoint()).y() <
                       screen->mapTo(&window, QPoint()).y() - 20,
                   size.width() > 1500)
@@ -121,6 +125,8 @@ TEST_F(Layout, TheOscilloscopesToolsHaveTheKeysForAMarkAndForThePlotAlone) {
         window.resize(width, width * 9 / 16);
         QTest::qWait(50);
         EXPECT_LT(head.height(), 50) << "one row of tools at " << width;
+        for (const auto* name : {"Save", "Copy picture", "Controls", "Plot only"})
+            EXPECT_NE(find<QToolButton>(head, name), nullptr) << name << " is in sight at " << width;
     }
     auto* only = find<QToolButton>(head, "Plot only");
     ASSERT_NE(only, nullptr);
@@ -345,22 +351,22 @@ TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
     auto* more = window.findChild<QToolButton*>("moreTools");
     window.resize(1920, 1080);
     EXPECT_IN_TIME(comesTrue([&] { return !more->isVisible(); })) << "there is room for all of them";
-    auto* cursors = find<QToolButton>(window, "Level cursors");
-    ASSERT_NE(cursors, nullptr);
+    auto* spectrum = find<QToolButton>(window, "Spectrum tool");
+    ASSERT_NE(spectrum, nullptr);
     gui::applyTextSize(200);
     window.resize(1280, 720);
-    EXPECT_IN_TIME(comesTrue([&] { return more->isVisible() && !cursors->isVisible(); }));
+    EXPECT_IN_TIME(comesTrue([&] { return more->isVisible() && !spectrum->isVisible(); }));
     EXPECT_EQ(more->visibleRegion().boundingRect().size(), more->size());
     emit more->menu()->aboutToShow();
     QAction* action = nullptr;
     for (auto* each : more->menu()->actions())
-        if (each->text() == "Level cursors") action = each;
+        if (each->text() == "Spectrum tool") action = each;
     ASSERT_NE(action, nullptr);
     action->trigger();
-    EXPECT_TRUE(cursors->isChecked()) << "as a click on it";
+    EXPECT_TRUE(spectrum->isChecked()) << "as a click on it";
     gui::applyTextSize(100);
     window.resize(1920, 1080);
-    EXPECT_IN_TIME(comesTrue([&] { return cursors->isVisible() && !more->isVisible(); }));
+    EXPECT_IN_TIME(comesTrue([&] { return spectrum->isVisible() && !more->isVisible(); }));
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
 }
 

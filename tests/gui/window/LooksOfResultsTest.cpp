@@ -56,10 +56,11 @@ protected:
         return double(plot.height()) / (bottom - top);
     }
     template <class Plot>
-    void plotHas(double least, const char* name) {
+    void plotHas(double least, const char* name,
+                 const std::vector<QSize>& sizes = {QSize(1280, 720), QSize(1920, 1080)}) {
         for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
             gui::applyTheme(theme);
-            for (const auto size : {QSize(1280, 720), QSize(1920, 1080)}) {
+            for (const auto size : sizes) {
                 window.resize(size);
                 QTest::qWait(200);
                 Plot* plot = nullptr;
@@ -126,8 +127,19 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
     ASSERT_NO_FATAL_FAILURE(type("area", "4"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-safety");
-    // The tracing of the strongest output is a view of its own in the small window, and beside it in the large one.
-    plotHas<gui::LimitMatrixView>(0.8, "matrix");
+    // The tracing of the strongest output is a view of its own, and beside it in the large window.
+    plotHas<gui::LimitMatrixView>(0.8, "matrix", {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)});
+    const auto* matrix = window.findChild<gui::LimitMatrixView*>();
+    for (const auto size : {QSize(1280, 720), QSize(1300, 737), QSize(1440, 900), QSize(1920, 1080)}) {
+        window.resize(size);
+        QTest::qWait(100);
+        const int bottom = matrix->viewport()->height();
+        for (int row = 0; row < matrix->rowCount(); ++row) {
+            const int top = matrix->rowViewportPosition(row);
+            EXPECT_TRUE(top >= bottom || top + matrix->rowHeight(row) <= bottom)
+                << row << " is cut at " << size.height();
+        }
+    }
 }
 
 TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
