@@ -22,7 +22,7 @@ constexpr double kOnePrefix = 1e4;        // numbers further apart than this hav
 constexpr double kOnePrefixWithU = 1000;  // and those with all the decimals of an uncertainty
 constexpr int kHeaderPad = 10;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
-constexpr int kFewestText = 10;   // and where numbers need the room
+constexpr int kMinText = 10;      // and where numbers need the room
 constexpr int kRoom = 860;        // pixels beside a path in a window of 1280: a wider table is set small
 const QString kNone = QStringLiteral("–");
 
@@ -197,7 +197,7 @@ int fitColumns(QTableWidget& table) {
 /// Takes what is missing from the columns of words, the widest first: a number is never cut. The last one takes the
 /// rest by itself. Returns the table's width.
 int narrowWords(QTableWidget& table, int width) {
-    const int least = table.fontMetrics().averageCharWidth() * kFewestText;
+    const int least = table.fontMetrics().averageCharWidth() * kMinText;
     const int room = scaledPx(kRoom);
     while (width > room) {
         int widest = -1;
