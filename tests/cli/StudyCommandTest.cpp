@@ -69,7 +69,7 @@ TEST_F(StudyCli, IsMadeEnrolledInConsentedToShownLeftAndWithdrawnFrom) {
         0);
     const auto withdrawn = study({"withdraw", at(), code, "--confirm", code});
     ASSERT_EQ(withdrawn.code, 0) << withdrawn.err;
-    EXPECT_THAT(withdrawn.err, HasSubstr("deleted by hand:\n  " + desk.at("bids")));
+    EXPECT_THAT(withdrawn.err, HasSubstr("Delete them by hand:\n  " + desk.at("bids")));
     ASSERT_EQ(study({"leave", at(), "P-7K3D"}).code, 0);
     EXPECT_EQ(study({"leave", at(), "P-7K3D"}).code, 4);
     EXPECT_EQ(study({"leave", at(), code}).code, 3);
