@@ -126,7 +126,7 @@ QWidget* LiveWorkspace::buildBench() {
     split_->setStretchFactor(0, 1);
     split_->setStretchFactor(1, 0);
     layout->addWidget(split_, 1);
-    afterLookChange(*this, [this] { fit(); });
+    afterLookChange(*side_, [this] { fit(); });
     return bench;
 }
 

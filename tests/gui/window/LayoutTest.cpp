@@ -23,6 +23,7 @@
 #include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/scope/ScopeTools.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/DockColumn.h"
@@ -348,7 +349,7 @@ TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
     open();
     window.showWorkspace(0);
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
-    auto* more = window.findChild<QToolButton*>("moreTools");
+    auto* more = window.findChild<gui::ScopeTools*>()->findChild<QToolButton*>("moreTools");
     window.resize(1920, 1080);
     EXPECT_IN_TIME(comesTrue([&] { return !more->isVisible(); })) << "there is room for all of them";
     auto* spectrum = find<QToolButton>(window, "Spectrum tool");
