@@ -306,6 +306,7 @@ void LiveWorkspace::showSide(const Telemetry& telemetry) {
     if (health.stale) staleLine_->setText(health.text);
     command_->show(telemetry, health.stale, controller_.profile().encoding.conditions);
     showTaxels(health.stale);
+    fit();  // what is said may have become wider
 }
 
 void LiveWorkspace::showPlotOnly(bool only) {
