@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "app/gui/live/CommandPanel.h"
@@ -18,7 +19,6 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Theme.h"
@@ -52,8 +52,19 @@ bool isReplay(const OpenBench& bench) {
 /// like to have.
 class LeastColumn final : public QWidget {
 public:
-    using QWidget::QWidget;
+    /// `follow`: called when its parts need another room.
+    LeastColumn(std::function<void()> follow, QWidget* parent) : QWidget(parent), follow_(std::move(follow)) {}
     [[nodiscard]] int heightForWidth(int width) const override { return layout()->totalMinimumHeightForWidth(width); }
+
+protected:
+    bool event(QEvent* event) override {
+        const bool done = QWidget::event(event);
+        if (event->type() == QEvent::LayoutRequest) follow_();
+        return done;
+    }
+
+private:
+    std::function<void()> follow_;
 };
 
 }  // namespace
@@ -126,7 +137,6 @@ QWidget* LiveWorkspace::buildBench() {
     split_->setStretchFactor(0, 1);
     split_->setStretchFactor(1, 0);
     layout->addWidget(split_, 1);
-    afterLookChange(*side_, [this] { fit(); });
     return bench;
 }
 
@@ -136,7 +146,7 @@ void LiveWorkspace::fillSide() {
     side_->setFrameShape(QFrame::NoFrame);
     side_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     side_->setWhatsThis(tr("Where the fingertip is, and what it feels. The arrow keys scroll it."));
-    QWidget* side = new LeastColumn(side_);
+    QWidget* side = new LeastColumn([this] { fit(); }, side_);
     auto* layout = new QVBoxLayout(side);
     layout->setContentsMargins(8, 0, 8, 0);
     auto* where = new QLabel(tr("Where the fingertip is"), side);
@@ -306,7 +316,6 @@ void LiveWorkspace::showSide(const Telemetry& telemetry) {
     if (health.stale) staleLine_->setText(health.text);
     command_->show(telemetry, health.stale, controller_.profile().encoding.conditions);
     showTaxels(health.stale);
-    fit();  // what is said may have become wider
 }
 
 void LiveWorkspace::showPlotOnly(bool only) {

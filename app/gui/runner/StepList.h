@@ -1,7 +1,7 @@
 // StepList.h - a procedure is a path: its steps below each other, each to do, under way, done or ended early by its
 // shape, with a word on how it stands. A click goes to a step that was reached. Where there is little room they stand
-// in a row, numbered; in a narrow one only the step that is shown has its name, in the narrowest
-// none.
+// in a row, numbered; in a narrow one only the step that is shown has its name, in the
+// narrowest none.
 //
 // Thread-safety: the GUI thread.
 #pragma once

@@ -35,12 +35,18 @@ Result<void> validate(const PopulationModel& model) {
         if (field.accepted.contain(value)) continue;
         return invalid("the {} is {}; {} is expected", field.name, value, field.accepted.text());
     }
-    for (const auto* drawn :
-         {&model.series_ohm, &model.parallel_ohm, &model.capacitance_nf, &model.detection_ma, &model.attention_ma,
-          &model.intolerance_ma, &model.amplitudeWeber, &model.intervalWeber}) {
-        if (kAcceptedSpread.contain(drawn->spread)) continue;
-        return invalid("the spread around a median of {:g} is {}; {} is expected", drawn->median, drawn->spread,
-                       kAcceptedSpread.text());
+    const std::pair<std::string_view, const LogNormal&> drawn[] = {
+        {"series resistance", model.series_ohm},
+        {"parallel resistance", model.parallel_ohm},
+        {"capacitance", model.capacitance_nf},
+        {"perception threshold", model.detection_ma},
+        {"attention threshold", model.attention_ma},
+        {"intolerance threshold", model.intolerance_ma},
+        {"Weber fraction of amplitude", model.amplitudeWeber},
+        {"Weber fraction of interval", model.intervalWeber}};
+    for (const auto& [name, of] : drawn) {
+        if (kAcceptedSpread.contain(of.spread)) continue;
+        return invalid("the spread of the {} is {}; {} is expected", name, of.spread, kAcceptedSpread.text());
     }
     const double detection = model.detection_ma.median, attention = model.attention_ma.median;
     if (!(detection < attention && attention < model.intolerance_ma.median)) {

@@ -24,7 +24,10 @@ TEST(PopulationModel, RefusesEachFigureOutsideItsRangeByName) {
     }
     PopulationModel spread;
     spread.attention_ma.spread = 0.99;
-    EXPECT_FALSE(validate(spread));
+    const auto refused = validate(spread);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              "the spread of the attention threshold is 0.99; a number from 1 to 10 is expected");
 }
 
 TEST(VirtualParticipant, EachThresholdHasItsMedianAndSpread) {
