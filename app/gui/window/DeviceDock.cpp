@@ -16,7 +16,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kNamePad = 4;  // above and below
+constexpr int kNamePad = 4, kBesideName = 24;  // above and below; with its box
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kOpenRole = Qt::UserRole + 1;
 constexpr int kObstacleRole = Qt::UserRole + 2;
@@ -172,20 +172,9 @@ void DeviceDock::list() {
     describe();
 }
 
-/// What the style leaves a name beside its box.
-int DeviceDock::nameWidth() const {
-    QStyleOptionViewItem row;
-    row.initFrom(tree_);
-    row.rect = {0, 0, tree_->columnWidth(0), row.fontMetrics.height()};
-    row.text = QString(row.rect.width(), 'm');  // longer than any column
-    row.features = QStyleOptionViewItem::HasCheckIndicator | QStyleOptionViewItem::HasDisplay;
-    const auto& style = *tree_->style();
-    const int edge = style.pixelMetric(QStyle::PM_FocusFrameHMargin, &row, tree_) + 1;
-    return std::max(1, style.subElementRect(QStyle::SE_ItemViewItemText, &row, tree_).width() - 2 * edge);
-}
-
 void DeviceDock::fitNames() {
-    const int width = nameWidth();
+    const int beside = kBesideName + tree_->style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, tree_);
+    const int width = std::max(1, tree_->columnWidth(0) - beside);
     const QSignalBlocker quiet(tree_);  // a changed height ticks nothing
     for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
         auto* item = tree_->topLevelItem(i);

@@ -33,7 +33,6 @@ private:
     void choose(QTreeWidgetItem* item);
     /// Each name on as many lines as it needs: what tells two of a kind apart stands at its end.
     void fitNames();
-    [[nodiscard]] int nameWidth() const;
     void describe();
     /// The roles of the devices that are ticked, with their URIs.
     [[nodiscard]] std::map<Role, DeviceUri> chosen() const;
