@@ -57,14 +57,15 @@ TEST_F(HardwareWindow, ANameHasAsManyLinesAsItNeeds) {
     const QFontMetrics metrics(row(kStimulator).font(0));
     const auto high = [this] { return tree().visualItemRect(&row(kStimulator)).height(); };
     for (const QString name : {"Pad", "Vibrating pad of the second laboratory, number 2"}) {
-        // Its box and the edges take some of the width.
-        const int beside = 2 * tree().style()->pixelMetric(QStyle::PM_IndicatorWidth);
-        const auto lines = metrics.boundingRect({0, 0, tree().columnWidth(0) - beside, 1000}, Qt::TextWordWrap, name);
-        // As another width of the dock does.
+        // As another width of the dock does. The name may bring a scroll bar, and the column is narrower then.
+        QRect lines;
         EXPECT_IN_TIME(comesTrue([&] {
             row(kStimulator).setText(0, name);
             emit tree().header()->sectionResized(0, 0, tree().columnWidth(0));
             QCoreApplication::processEvents();
+            // Its box and the edges take some of the width.
+            const int beside = 2 * tree().style()->pixelMetric(QStyle::PM_IndicatorWidth);
+            lines = metrics.boundingRect({0, 0, tree().columnWidth(0) - beside, 1000}, Qt::TextWordWrap, name);
             return high() >= lines.height() && high() < lines.height() + metrics.height();
         })) << name.toStdString()
             << ": " << high() << " of " << lines.height();
