@@ -83,7 +83,7 @@ QWidget* formColumn(QWidget* part) {
 
 }  // namespace
 
-ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : QStackedWidget(parent) {
+ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : PageStack(parent) {
     form_ = new ParameterForm(this);
     addWidget(buildWiring());
     addWidget(buildReference());
@@ -137,6 +137,7 @@ QWidget* ProcedurePages::buildSettings(DayNotes& day) {
     auto* column = pageLayout(page, tr("Settings"), {});
     auto* row = turning();
     auto* parts = new QWidget;
+    boundWidth(*parts, kFormWidth * 3 / 2);
     auto* below = new QVBoxLayout(parts);
     below->setContentsMargins(0, 0, 0, 0);
     below->addWidget(form_);

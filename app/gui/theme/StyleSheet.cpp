@@ -121,6 +121,7 @@ QTabBar::tab { background: @window; color: @quiet; border: none; border-right: 1
     border-top: 3px solid transparent; padding: 0 ~16; min-height: ~37; }
 QTabBar::tab:selected { background: @base; color: @text; border-top-color: @primary; border-right-color: @line;
     font-weight: 600; }
+QWidget#tabRow QTabBar::tab:!selected { border-bottom: 1px solid @line; min-height: ~36; }
 QTabBar::tab:next-selected { border-right-color: @line; }
 QTabBar::tab:hover:!selected { background: @sunken; }
 QTabBar::tab:disabled { color: @edge; }
@@ -161,7 +162,7 @@ QLabel[tone="warning"] { color: @amberText; }
 *[textSize="large"] { font-size: ^15; font-weight: 600; }
 *[textSize="display"] { font-size: ^28; font-weight: 700; }
 *[textWeight="strong"] { font-weight: 600; }
-QWidget#path, QWidget#tabTools { background: @window; }
+QWidget#path { background: @window; }
 QWidget[role="actions"] { background: @window; border-top: 1px solid @line; }
 QFrame#safetyBar, QWidget#centre { background: @base; }
 QFrame#tour { background: @base; border: 2px solid @text; border-radius: 4px; }

@@ -185,7 +185,8 @@ QWidget* SafetyBar::buildButtons() {
 }
 
 /// The buttons' words change with the state: the widest of them sets the width, so that nothing moves. Where there is
-/// little room bars go first, then facts, and the state's word gets smaller last.
+/// little room bars go first, then facts, and the state's word gets smaller last; a word of more than 28 pt leaves the
+/// nearest limit its room.
 void SafetyBar::giveRoom() {
     const auto metrics = fontMetrics();
     int widest = 0;
@@ -196,10 +197,13 @@ void SafetyBar::giveRoom() {
     const int calibrated = QFontMetrics(textFont(TextSize::Small)).horizontalAdvance(tr(kFactsWidth));
     const int unmeasured = QFontMetrics(textFont(TextSize::Small, QFont::Bold)).horizontalAdvance(tr(kUnmeasured));
     const int facts = std::max(calibrated, unmeasured) + 2 * kBarGap;
-    block_->fit(width() - always);
-    const int left = width() - always - block_->width();
-    factsFit_ = left >= facts / 2;  // three ellipses say nothing
+    const int beside = width() - always, forBar = bars_->oneBarWidth() + kBarGap;
+    block_->fit(std::max(beside - forBar, std::min(beside, block_->legibleWidth())));
+    const int left = beside - block_->width();
+    const bool barFirst = block_->width() > block_->legibleWidth();
+    factsFit_ = left >= facts / 2 + (barFirst ? forBar : 0);  // three ellipses say nothing
     facts_->setFixedWidth(std::min(left, facts));
+    bars_->setContentsMargins(factsFit_ ? 0 : kBarGap, 0, 0, 0);
     facts_->setVisible(factsFit_ && state_ != InterlockState::Faulted);
 }
 

@@ -10,6 +10,7 @@
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/runner/LimitMatrixView.h"
+#include "app/gui/runner/StepButton.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/ScopeModel.h"
 #include "app/gui/scope/ScopeWorkspace.h"
@@ -115,11 +116,22 @@ TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-calibrate");
     // Below it stand the cards, one for each quantity: one line each in the small window.
-    plotHas<gui::CalibrationPlot>(0.8, "residuals");
+    plotHas<gui::CalibrationPlot>(0.8, "residuals", {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)});
     click(*find<QToolButton>(window, "Plot only"));
     EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") == nullptr; })) << "as F11";
     click(*find<QToolButton>(window, "Plot only"));
     EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") != nullptr; }));
+    fitsBesideTheDocks("calibrate-result");
+    click(*find<QPushButton>(window, "Log"));
+    fitsBesideTheDocks("calibrate-log");
+    for (const auto* step : {"Wiring", "Known reference", "Settings", "Run"}) {
+        click(*find<gui::StepButton>(window, step));
+        fitsBesideTheDocks(QString("calibrate-%1").arg(step));
+    }
+    for (const int tab : {1, 2}) {
+        window.findChild<gui::TabbedPage*>("calibratePages")->setCurrentIndex(tab);
+        fitsBesideTheDocks(QString("calibrate-tab-%1").arg(tab), "calibrationHistory");
+    }
 }
 
 TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
