@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/base/Result.h"
 #include "core/base/Units.h"
 #include "core/devices/Stimulator.h"
 #include "core/safety/FixedText.h"
@@ -35,7 +36,14 @@ struct TrainReport {
     double imbalance = NAN;
     double imbalanceUncertainty = NAN;
     Instant statusAt{0};
-    FixedText<160> error;  ///< when Failed
+    FixedText<160> error;                ///< when Failed
+    ErrorCode code = ErrorCode::Device;  ///< of `error`
+
+    void fail(const Error& why) noexcept {
+        outcome = TrainOutcome::Failed;
+        error = std::string_view(why.message);
+        code = why.code;
+    }
 };
 
 }  // namespace tacto
