@@ -29,7 +29,7 @@ struct TrainReport {
     double amplitude = 0;          ///< V or mA, as delivered
     double measured = NAN;         ///< the same, as the device read it back; NaN where it does not
     double interval_s = 0;         ///< that it was approved for
-    PulseTrain train{};            ///< all that was programmed, as approved; of no meaning for a massager
+    PulseTrain train{};            ///< all that was programmed, as approved; unused for a massager
     Instant approvedUntil{0};      ///< when the approval would have expired
     ElectrodeState electrode = ElectrodeState::NotMeasured;
     double impedance_ohm = NAN;
