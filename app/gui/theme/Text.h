@@ -10,6 +10,7 @@
 
 #include "core/base/QuantityText.h"
 #include "core/base/Result.h"
+#include "core/session/ResultKind.h"
 
 namespace tacto::gui {
 
@@ -29,11 +30,12 @@ namespace tacto::gui {
     return unit.isEmpty() ? number : number + QChar(0x202f) + unit;
 }
 
-/// A protocol's name for people: "Encoding comparison" of "encoding-comparison"; "Live" of none.
+/// A protocol's name for people: "Encoding comparison" of "encoding-comparison"; "Live" of none. Sessions store the
+/// name alone; a shipped protocol is named as the kind of its results.
 [[nodiscard]] inline QString procedureText(std::string_view protocol) {
     if (protocol.empty()) return QObject::tr("Live");
-    if (protocol == "load-safety") return QObject::tr("Safety check");  // as its workspace is called
-    return titled(qtext(protocol).replace('-', ' '));
+    const auto spoken = resultTraits(protocol).procedure;
+    return titled(qtext(spoken.empty() ? protocol : spoken).replace('-', ' '));
 }
 
 /// "the load of 2 kΩ" of "the load of 2 kohm".
