@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/QuantitySpin.h"
@@ -133,7 +134,14 @@ TEST_F(Scope, OpensACaptureFileAndSaysWhatIsWrongWithABadOne) {
     const QTemporaryDir folder;
     const auto good = folder.filePath("good.csv"), bad = folder.filePath("bad.csv");
     ASSERT_TRUE(writeCapture(good.toStdString(), twoPulses(0)));
+    const auto* problem = scope.findChild<QLabel*>("scopeProblem");
+    EXPECT_FALSE(problem->isVisible());
     EXPECT_FALSE(scope.openCaptureFile(folder.filePath("none.csv")));
+    EXPECT_TRUE(problem->isVisible()) << "where nothing is shown yet";
+    EXPECT_THAT(problem->text().toStdString(), HasSubstr("none.csv does not exist."));
+    ASSERT_EQ(::mkfifo(folder.filePath("pipe.csv").toUtf8(), 0600), 0);
+    EXPECT_FALSE(scope.openCaptureFile(folder.filePath("pipe.csv")));
+    EXPECT_THAT(problem->text().toStdString(), HasSubstr("pipe.csv is not a file that can be read."));
     EXPECT_TRUE(scope.openCaptureFile(good));
     ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     EXPECT_THAT(status(), HasSubstr("good.csv · 20000 samples at 2"));
