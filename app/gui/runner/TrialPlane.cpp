@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPoint = 8;  // pixels
 // With these, title and frame are as far apart as those of a CaptureStrip, the legend's empty line between them.
-constexpr int kBetweenRows = 2, kAboveFrame = 3, kAroundFrame = 15;
+constexpr int kBetweenRows = 1, kAboveFrame = 3, kAroundFrame = 15;
 
 }  // namespace
 

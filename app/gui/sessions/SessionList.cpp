@@ -152,10 +152,11 @@ void SessionList::buildTable() {
         grow();
         model_->recolour();
     });
+    // The widths may be others once the header has its text's size.
     connect(
         table_->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
         [this](int, int most) {
-            if (most > 0 && fitted_ != table_->viewport()->width()) fitColumns();
+            if (most > 0 && !table_->isColumnHidden(SessionModel::kSample)) fitColumns();
         },
         Qt::QueuedConnection);
     afterLookChange(*this, [this] { fitColumns(); });  // when the header has its text's size
@@ -211,18 +212,18 @@ void SessionList::take(std::vector<SessionEntry> entries) {
 }
 
 void SessionList::fitColumns() {
-    table_->setColumnHidden(SessionModel::kSample, false);
+    for (const int each : {SessionModel::kSample, SessionModel::kNote}) table_->setColumnHidden(each, false);
     for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
     const auto* header = table_->horizontalHeader();
     const int note = std::max(header->minimumSectionSize(), header->sectionSizeHint(SessionModel::kNote));
-    const int least = header->length() - header->sectionSize(SessionModel::kNote) + note;
-    // The table may have its own size later: fitted_ tells by then that this was another.
-    const int bar = table_->verticalScrollBar()->isVisible() ? 0 : table_->verticalScrollBar()->sizeHint().width();
-    fitted_ = table_->viewport()->width();
+    const auto least = [&] { return header->length() - header->sectionSize(SessionModel::kNote) + note; };
+    // The table may have its own size later.
+    const int bar = table_->verticalScrollBar()->sizeHint().width();
     const bool placed = table_->isVisible() && table_->width() == width();
-    const int room =
-        placed ? fitted_ - bar : width() - table_->verticalScrollBar()->sizeHint().width() - 2 * table_->frameWidth();
-    table_->setColumnHidden(SessionModel::kSample, least > room);
+    const int room = !placed ? width() - bar - 2 * table_->frameWidth()
+                             : table_->viewport()->width() - (table_->verticalScrollBar()->isVisible() ? 0 : bar);
+    table_->setColumnHidden(SessionModel::kSample, least() > room);
+    table_->setColumnHidden(SessionModel::kNote, least() > room);
 }
 
 /// What a display of the chosen ones depends on. Not the labels: they are changed there.

@@ -61,7 +61,6 @@ private:
     std::filesystem::path recording_;            ///< being written
     std::filesystem::path shownRecording_;       ///< as the rows show it
     bool arranging_ = false;                     ///< the selection changes with the rows, and not by a hand
-    int fitted_ = 0;                             ///< width of what is in sight to which the columns were fitted
     Background scan_, confirm_;
     QTimer seen_;
     QLineEdit* search_ = nullptr;

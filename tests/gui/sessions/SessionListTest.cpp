@@ -305,6 +305,19 @@ TEST_F(Sessions, ShapesAndTitlesBeginWhereTheSearchDoes) {
     EXPECT_NEAR(beginsAt(top(*table().viewport()) + 4, 20), search, 3);
 }
 
+TEST_F(Sessions, WhereALongNameLeavesNoRoomForTheNoteItsColumnGoes) {
+    (void)sessions.write({.name = "a", .protocol = "stimulator-calibration", .verdict = "indeterminate"});
+    gui::applyTextSize(200);
+    begin({748, 640});
+    listed(1);
+    for (const int width : {748, 730, 700, 680, 1200}) {
+        workspace.resize(width, 640);
+        EXPECT_IN_TIME(comesTrue([&] { return table().horizontalScrollBar()->maximum() == 0; })) << width;
+    }
+    EXPECT_FALSE(table().isColumnHidden(gui::SessionModel::kNote)) << "it has room";
+    gui::applyTextSize(100);
+}
+
 TEST_F(Sessions, NoLineOfWhatHappenedIsCut) {
     (void)sessions.write({.name = "d", .verdict = "indeterminate", .wallStart = "2026-11-22T09:31:00Z"});
     begin();
