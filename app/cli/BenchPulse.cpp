@@ -140,14 +140,16 @@ Result<PulseFinding> BenchPulse::send(Result<ApprovedTrain> approved, bool isChe
     }
     if (reported.outcome != TrainOutcome::Delivered) {
         const bool silent = reported.outcome == TrainOutcome::LoopSilent;
-        interlock_.fault(silent ? FaultCause::LoopSilent : FaultCause::DeviceFault, reported.error.view());
-        return fail(ErrorCode::Device, "{}", reported.error.view());
+        const auto code = silent ? ErrorCode::Timeout : reported.code;
+        interlock_.fault(silent ? FaultCause::LoopSilent : FaultCause::DeviceFault, reported.error.view(), code);
+        return fail(code, "{}", reported.error.view());
     }
     const auto judgement = judgeTrain(OutputMode::BenchLoad, readBackOf(reported), reported.end, reported.statusAt);
     const bool isElectrode = judgement.finding == TrainFinding::Open || judgement.finding == TrainFinding::Short;
     if (judgement.stops() && !isElectrode) {
-        interlock_.fault(causeOf(judgement.finding), judgement.reason.view());
-        return fail(ErrorCode::Device, "{}", judgement.reason.view());
+        const auto cause = causeOf(judgement.finding);
+        interlock_.fault(cause, judgement.reason.view());
+        return fail(codeOf(cause), "{}", judgement.reason.view());
     }
     auto reading = device_.lastReading();
     return PulseFinding{current, reported.electrode, reading.impedance, reading.samples};

@@ -17,6 +17,7 @@ void declareRoughness(QCommandLineParser& parser) {
     parser.addOption({"profile", "Profile to use instead of the shipped one.", "F"});
     parser.addOption({"out", "Writes one row per frame to this CSV file.", "frames.csv"});
     parser.addOption({"json", "Prints one JSON value."});
+    parser.addOption({"template", "Prints a recording.json to fill in."});
 }
 
 void addRow(TextTable& table, const char* name, const Statistics& s) {
@@ -46,6 +47,10 @@ double expandedR(const RoughnessSettings& settings, const RoughnessSummary& summ
 }
 
 int runRoughness(const QCommandLineParser& parser) {
+    if (parser.isSet("template")) {
+        say("{}", recordingTemplate());
+        return kDone;
+    }
     const auto path = onlyArgument(parser, "RECORDING");
     if (!path) return usage(fmt::format("roughness: {}", path.error().message));
     const auto profile = profileOption(parser);
@@ -105,7 +110,7 @@ int runRoughness(const QCommandLineParser& parser) {
 }  // namespace
 
 const Command kRoughness{"roughness",
-                         "RECORDING [--profile F] [--out frames.csv] [--json]",
+                         "{RECORDING [--profile F] [--out frames.csv] [--json] | --template}",
                          "Roughness R and pressure P of a fingertip recording",
                          false,
                          declareRoughness,

@@ -233,9 +233,9 @@ Result<Recording> Recording::open(const std::filesystem::path& path) {
         file = path / "recording.json";
         if (!fs::exists(file, error)) {
             return fail(ErrorCode::NotFound,
-                        "{} has no recording.json, which says what its files hold: write one like this and fill it "
-                        "in:\n{}",
-                        path.string(), recordingTemplate());
+                        "{} has no recording.json, which says what its files hold; \"tactoscope-cli roughness "
+                        "--template\" prints one to fill in",
+                        path.string());
         }
     }
     const auto content = readTextFile(file);

@@ -23,7 +23,7 @@ enum class ErrorCode {
     NotArmed,         ///< the interlock's state does not permit output
     Stopped,          ///< ended by a stop, a fault or the operator
     Device,           ///< the device is gone, answers wrongly, or reports a fault
-    Timeout,          ///< nothing came in the time allowed
+    Timeout,          ///< too late: no answer came in the time allowed, or what was to be done by then was not
     Unsupported,      ///< the device or build cannot do this
 };
 

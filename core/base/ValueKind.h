@@ -55,7 +55,7 @@ struct FieldInfo {
     std::vector<FieldInfo> members{};          ///< where it is a record
     bool required = false;                     ///< the key must be there
     bool mayBeNull = false;                    ///< null stands for none; true for a std::optional
-    bool leftOutIfEmpty = false;               ///< not written when there is none, instead of null
+    bool leftOutIfEmpty = false;               ///< left out when empty, instead of written as null
 
     /// The member of that key. Null when there is none.
     [[nodiscard]] const FieldInfo* find(std::string_view memberKey) const noexcept;

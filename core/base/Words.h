@@ -32,7 +32,7 @@ template <class Value>
     return otherwise;
 }
 
-/// Nothing for a text that is none of the words.
+/// Nothing for a text that is not among the words.
 template <class Value, std::size_t count>
 [[nodiscard]] constexpr std::optional<Value> valueFor(const Word<Value> (&words)[count],
                                                       std::string_view text) noexcept {

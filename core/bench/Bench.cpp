@@ -144,6 +144,7 @@ Result<void> Bench::resetFault() {
 }
 
 bool Bench::faultPersists(FaultCause cause) const noexcept { return state_->interlock.causePersists(cause); }
+ErrorCode Bench::faultCode() const noexcept { return state_->interlock.faultCode(); }
 
 Result<void> Bench::withholdHeartbeat(Seconds duration) {
     auto& s = *state_;

@@ -125,6 +125,8 @@ public:
 
     /// Whether `cause` is among those of the present fault.
     [[nodiscard]] bool faultPersists(FaultCause cause) const noexcept;
+    /// As Interlock::faultCode(). Any thread.
+    [[nodiscard]] ErrorCode faultCode() const noexcept;
 
     /// Lets `duration` pass in which the control loop does not run, as in a hang, on purpose: what the dead-man check
     /// of a bench load needs. The device threads go on, and end the output when they notice; the loop then finds a
@@ -190,8 +192,9 @@ public:
     /// What the gate receives when this load is armed: for previews.
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
 
-    /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault or when the sensor that drives
-    /// failed; LimitExceeded when a manually driven train was refused (driven by a sensor it is skipped and counted).
+    /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault, Timeout where lateness caused
+    /// it; Device when the sensor that drives failed; LimitExceeded when a manually driven train was refused (driven by
+    /// a sensor it is skipped and counted).
     [[nodiscard]] Result<void> wait(Seconds duration);
     /// Lets time pass as wait() does, but also after a stop or a fault: a display goes on when output does not. Never
     /// fails. For a bench whose virtual clock has no other mover.

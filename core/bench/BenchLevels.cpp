@@ -130,7 +130,7 @@ Result<StimulusLevel> BenchLevels::tell(const LevelRequest& request) {
     std::optional<Result<StimulusLevel>> answer;
     while (!(answer = desk.answer()) && time_.now() < until) time_.pass(until, kLevelPoll);
     if (answer) return *answer;
-    return fail(ErrorCode::Device, "the control loop does not run: it has not heard of a level within 0.5 s");
+    return fail(ErrorCode::Timeout, "the control loop does not run: it has not heard of a level within 0.5 s");
 }
 
 /// The reason against a level, accepted or not; empty when there is none.

@@ -157,7 +157,7 @@ void ControlLoop::noteState(Instant now) noexcept {
         journal_.interlock(now, state, reason.view());
     if (wasConnected && (state == InterlockState::Disarmed || state == InterlockState::Faulted)) {
         if (arming_.active()) {
-            arming_.finish(fail(state == InterlockState::Faulted ? ErrorCode::Device : ErrorCode::Stopped,
+            arming_.finish(fail(state == InterlockState::Faulted ? parts_.interlock.faultCode() : ErrorCode::Stopped,
                                 "arming ended: {}", reason.empty() ? nameOf(state) : reason.view()));
         }
         load_.impedance.reset();
@@ -210,7 +210,7 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
     }
     const bool failed = report.outcome == TrainOutcome::Failed;
     journal_.train(report, failed ? "failed" : report.isCheck ? "impedance check" : "delivered");
-    if (failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
+    if (failed) return trip(FaultCause::DeviceFault, report.error.view(), now, report.code);
     if (report.isCheck && arming_.active()) return judgeCheck(report);
 
     if (!report.isCheck) {
@@ -236,7 +236,7 @@ void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
     const bool delivered = report.outcome == TrainOutcome::Delivered;
     journal_.burst(report, delivered ? "delivered" : report.outcome == TrainOutcome::Failed ? "failed" : "voided");
     if (report.outcome == TrainOutcome::Failed) {
-        return trip(FaultCause::DeviceFault, report.error.view(), report.statusAt);
+        return trip(FaultCause::DeviceFault, report.error.view(), report.statusAt, report.code);
     }
     if (!delivered) return;
     ++shown_.trainsDelivered;
@@ -322,9 +322,13 @@ void ControlLoop::refused(Instant now, std::string_view why) noexcept {
 }
 
 void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now) noexcept {
+    trip(cause, reason, now, codeOf(cause));
+}
+
+void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now, ErrorCode code) noexcept {
     parts_.gate.latchStop();
     dispatch_.forceOff();
-    parts_.interlock.fault(cause, reason);  // keeps it in a file, whose disk may be slow
+    parts_.interlock.fault(cause, reason, code);  // keeps it in a file, whose disk may be slow
     faults_.fetch_add(1, std::memory_order_acq_rel);
     journal_.fault(now, reason);
     noteState(now);

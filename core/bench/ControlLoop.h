@@ -135,6 +135,8 @@ private:
     void renewReading(Instant now) noexcept;
     void refused(Instant now, std::string_view why) noexcept;
     void trip(FaultCause cause, std::string_view reason, Instant now) noexcept;
+    /// `code`: of the error that tells of the fault.
+    void trip(FaultCause cause, std::string_view reason, Instant now, ErrorCode code) noexcept;
     void trip(const std::optional<LoopFault>& fault, Instant now) noexcept {
         if (fault) trip(fault->cause, fault->reason.view(), now);
     }

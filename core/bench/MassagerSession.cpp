@@ -22,8 +22,8 @@ void MassagerSession::send(BurstOrder&& order, Instant now) noexcept {
     made.interval_s = order.interval.count();
     const auto sent = writeIfCurrent(order.burst, [&] { return device_.vibrate(std::move(order.burst)); });
     if (sent) {
-        made.outcome = *sent ? TrainOutcome::Delivered : TrainOutcome::Failed;
-        if (!*sent) made.error = std::string_view(sent->error().message);
+        made.outcome = TrainOutcome::Delivered;
+        if (!*sent) made.fail(sent->error());
         made.statusAt = std::max(now, clock_.now());
     }
     report(made);

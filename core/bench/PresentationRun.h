@@ -49,16 +49,16 @@ public:
     void expect();
     /// Nothing while it goes on. Taken once.
     [[nodiscard]] std::optional<Presented> result();
-    /// When the trains of the one that was asked for last begin to pass, be they empty; known a moment before. Nothing
-    /// while it waits.
+    /// When the trains of the last presentation asked for begin to pass, even if all are empty; known a moment before.
+    /// Nothing while it waits.
     [[nodiscard]] std::optional<Instant> beganAt();
 
     /// `presentation` has passed validate(). `planner` says how its times are kept, for now.
     void begin(Presentation presentation, const TrainPlanner& planner);
     [[nodiscard]] bool active() const noexcept { return what_.has_value(); }
-    /// What is to be done now. Begins and completes the presentation when it is time.
+    /// What is due now. Begins and completes the presentation when it is time.
     [[nodiscard]] Due next(const Sight& sight) noexcept;
-    /// Its trains have begun to pass, be they empty.
+    /// Whether its trains have begun to pass, even if all are empty.
     [[nodiscard]] bool begun() const noexcept { return began_.has_value(); }
     /// Has the train judged that is due: next() said Train. A refusal ends the presentation. Errors: as
     /// TrainPlanner::planLevel() and SafetyGate::approve().

@@ -70,8 +70,7 @@ void StimulatorSession::deliver(TrainOrder&& order, Instant now) noexcept {
     const auto delivered = writeIfCurrent(order.train, [&] { return device_.deliver(std::move(order.train)); });
     if (!delivered) return report(made);
     if (!*delivered) {
-        made.outcome = TrainOutcome::Failed;
-        made.error = std::string_view(delivered->error().message);
+        made.fail(delivered->error());
         return report(made);
     }
     // The device may have taken its time to be programmed: the train began when it had, not when it was ordered.
@@ -99,9 +98,8 @@ void StimulatorSession::readStatus(Instant now) noexcept {
     made.statusAt = std::max(now, clock_.now());
     if (!status || !isPlausible(*status)) {
         device_.forceOff();
-        made.outcome = TrainOutcome::Failed;
-        made.error = status ? std::string_view("the stimulator's status holds a value that no measurement gives")
-                            : std::string_view(status.error().message);
+        made.fail(status ? Error{ErrorCode::Device, "the stimulator's status holds a value that no measurement gives"}
+                         : status.error());
         return report(made);
     }
     made.outcome = TrainOutcome::Delivered;
@@ -146,9 +144,8 @@ void StimulatorSession::feedDeadMan(Instant now) noexcept {
     if (const auto kept = device_.keepAlive(); !kept) {
         device_.forceOff();
         TrainReport lost;
-        lost.outcome = TrainOutcome::Failed;
         lost.onset = lost.statusAt = now;
-        lost.error = std::string_view(kept.error().message);
+        lost.fail(kept.error());
         note(lost);
     }
 }

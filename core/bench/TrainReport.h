@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/base/Result.h"
 #include "core/base/Units.h"
 #include "core/devices/Stimulator.h"
 #include "core/safety/FixedText.h"
@@ -28,14 +29,21 @@ struct TrainReport {
     double amplitude = 0;          ///< V or mA, as delivered
     double measured = NAN;         ///< the same, as the device read it back; NaN where it does not
     double interval_s = 0;         ///< that it was approved for
-    PulseTrain train{};            ///< all that was programmed, as approved; of no meaning for a massager
+    PulseTrain train{};            ///< all that was programmed, as approved; unused for a massager
     Instant approvedUntil{0};      ///< when the approval would have expired
     ElectrodeState electrode = ElectrodeState::NotMeasured;
     double impedance_ohm = NAN;
     double imbalance = NAN;
     double imbalanceUncertainty = NAN;
     Instant statusAt{0};
-    FixedText<160> error;  ///< when Failed
+    FixedText<160> error;                ///< when Failed
+    ErrorCode code = ErrorCode::Device;  ///< of `error`
+
+    void fail(const Error& why) noexcept {
+        outcome = TrainOutcome::Failed;
+        error = std::string_view(why.message);
+        code = why.code;
+    }
 };
 
 }  // namespace tacto

@@ -81,8 +81,8 @@ public:
     /// The newest whose provenance is known, whatever its date: what the limits are judged by. One of a simulated bench
     /// serves a simulated device only.
     [[nodiscard]] const StoredCalibration* proven(std::string_view serial, std::string_view unit, bool simulated) const;
-    /// The one that counts on `day`. Errors: NotFound saying why there is none: never calibrated, expired when, without
-    /// its times or its provenance, or made on a simulated bench while the device is none.
+    /// The one that counts on `day`. Errors: NotFound saying why there is none: never calibrated, expired (and when),
+    /// without its times or its provenance, or made on a simulated bench for a real device.
     [[nodiscard]] Result<StoredCalibration> valid(std::string_view serial, std::string_view unit, CalibrationDate day,
                                                   bool simulated) const;
 

@@ -2,9 +2,9 @@
 //
 // Each line carries the SHA-256 of the line before it ("previous") and its own ("sha256"): a line that was changed,
 // taken out or put in is found when the file is read. FILE.end notes where the last line ended: lines that were taken
-// off the end are found, too, be it by an older copy of the file. Lines say that it is kept ("end_noted"), so that it
-// is missed where it is gone; a file without such lines was written before there was one. A program that can write
-// both files can still make them agree.
+// off the end are found too, also where an older copy of the file was put back. Lines say that it is kept
+// ("end_noted"), so that its loss is noticed; a file without such lines is older than this check. A program that can
+// write both files can still make them agree.
 //
 // The last line may be cut short by a crash while it was written: it is left out, lastLineCut() says so, and append()
 // writes over it.

@@ -19,9 +19,9 @@ struct ButtonDeviceInfo {
     std::string address;               ///< while it is plugged in: "/dev/hidraw3"
     std::string identity;              ///< the same after it was plugged in again: "046d:c216", "046d:c216 17"
     std::string name;                  ///< as the device says
-    std::vector<std::string> buttons;  ///< their numbers: "1", "2"; of a second pad in one device "2-1"
+    std::vector<std::string> buttons;  ///< their numbers: "1", "2"; "2-1" on a second pad in one device
     std::string obstacle;              ///< why it cannot be used, and what helps, a sentence; empty where it can
-    bool hasSerial = false;            ///< the identity is that of this one device; else each of its model has it
+    bool hasSerial = false;            ///< the identity is this device's alone; else all of its model share it
 
     bool operator==(const ButtonDeviceInfo&) const = default;
 };

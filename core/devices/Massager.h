@@ -11,7 +11,7 @@ namespace tacto {
 class Massager : public Device {
 public:
     /// Starts one vibration burst now; it ends by itself. Consumes the approval whatever happens.
-    /// Errors: Device, Timeout. On error the caller calls forceOff().
+    /// Errors: Device, Timeout (no answer in time, or the approval has expired). On error the caller calls forceOff().
     [[nodiscard]] virtual Result<void> vibrate(ApprovedBurst&& burst) = 0;
     /// The smallest difference of two intensities that the device can tell, to 1; 0: it takes any. Constant while open.
     [[nodiscard]] virtual double step() const noexcept = 0;

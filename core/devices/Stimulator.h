@@ -35,7 +35,8 @@ public:
 
     /// Starts one train now; it ends by itself. Returns when the device has accepted it, without waiting for its
     /// end. Consumes the approval whatever happens.
-    /// Errors: Device (gone, garbage, refused), Timeout (no answer in 50 ms). On error the caller calls forceOff().
+    /// Errors: Device (gone, garbage, refused), Timeout (no answer in 50 ms, or the approval has expired). On error the
+    /// caller calls forceOff().
     [[nodiscard]] virtual Result<void> deliver(ApprovedTrain&& train) = 0;
 
     /// Errors: Device, Timeout.

@@ -1,6 +1,6 @@
 // ForceTrack.h - normal force between its samples, and contact as its own samples judge it.
 //
-// Contact starts at F ≥ 0.1 N and ends below 0.05 N; where the newest sample is older than 100 ms there is none.
+// Contact starts at F ≥ 0.1 N and ends below 0.05 N; there is none while the newest sample is older than 100 ms.
 // Between samples F is interpolated linearly and at the ends held, but a silence of more than 1 s is not bridged:
 // F is held there, so that a live chain need not wait longer to give the same numbers as a file.
 //

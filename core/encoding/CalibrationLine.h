@@ -42,8 +42,8 @@ private:
 
 inline constexpr double kLargestMiscalibration = 0.2;
 
-/// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, a range that is none, a spread
-/// that is none, or an output below a hundredth of what is programmed at either end of it; `quantity` is named.
+/// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, an empty range, a negative
+/// spread, or an output below a hundredth of what is programmed at either end of the range; `quantity` is named.
 [[nodiscard]] Result<void> validateNumbers(const CalibrationLine& line, std::string_view quantity);
 /// Errors: as above, and for an output more than 20 % from what is programmed at either end of the range.
 [[nodiscard]] Result<void> validate(const CalibrationLine& line, std::string_view quantity);

@@ -6,8 +6,8 @@
 // does: 10 to 40 V are 14.5 differences and take 8 trains, 16 s at one train per 2 s; 2 s to 0.5 s are 9.3, and the
 // intervals in between alone last 3 s. These bounds tell such changes from those that an encoder makes too slowly.
 //
-// Every train is taken to lie between the two ends in amplitude and interval: a train that comes sooner than both
-// states have it would tell a pressure that is not there.
+// Every train is taken to lie between the two ends in amplitude and interval: a train that comes sooner than in
+// either state would signal a pressure that neither has.
 //
 // Thread-safety: pure functions.
 #pragma once

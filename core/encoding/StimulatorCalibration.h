@@ -17,9 +17,8 @@
 namespace tacto {
 
 struct StimulatorCalibration {
-    CalibrationLine amplitude;  ///< V or mA, as the source
-    std::optional<CalibrationLine>
-        interval{};  ///< s, onset to onset; where there is none, a time is as it is programmed
+    CalibrationLine amplitude;                    ///< V or mA, as the source
+    std::optional<CalibrationLine> interval{};    ///< s, onset to onset; without one, a time is as programmed
     std::optional<CalibrationLine> phaseWidth{};  ///< s, of the leading phase
     std::optional<CalibrationLine> gap{};         ///< s, between the phases
     /// What a person needs: all four.

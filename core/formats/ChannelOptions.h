@@ -17,7 +17,7 @@ struct SpelledUnit {
 /// The same for what a channel measures: no unit of time is one.
 [[nodiscard]] std::optional<SpelledUnit> channelUnit(std::string_view text);
 
-/// One channel as the file has it, and then as it will be read.
+/// One channel as it stands in the file, and then as it will be read.
 struct ChannelPlan {
     std::string name;
     std::size_t number = 0;   ///< by which options name it: of the column or the channel, from 1

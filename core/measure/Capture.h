@@ -24,7 +24,7 @@ struct CaptureChannel {
     double gainTolerance = kNaN;    ///< relative (0.01 = 1 %)
     double offsetTolerance = kNaN;  ///< in the channel's unit
     double linearityTolerance = 0;  ///< in the channel's unit, of a difference of two levels, beside the gain
-    double probeTolerance = kNaN;   ///< relative, of the probe or shunt before the input; 0: there is none
+    double probeTolerance = kNaN;   ///< relative, of the probe or shunt before the input; 0: no probe
     std::string statedBy{};         ///< who states the tolerances: "the data sheet of ..."; empty: not stated
 };
 

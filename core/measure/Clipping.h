@@ -7,7 +7,7 @@
 // rests, the noise was cut off: such a phase is flat-topped, is measured, and flagged for the reader.
 //
 // A top is flat when it keeps the extreme in 95 % of at least 10 samples that are at least half of the phase, and the
-// resting signal jitters over three codes or more: noise that does so leaves one code 95 % of the time nowhere. Noise
+// resting signal jitters over three codes or more: such noise never keeps one code 95 % of the time. Noise
 // of two codes is seen or not by where the level lies between them, so that the top must then keep the extreme in every
 // one of at least 50 samples. From 0.4 codes (s.d.) on every clipped record is so found, with less noise some; of clean
 // ones none from 0.3 codes on, with less noise about one in ten. Judged on the samples as recorded.

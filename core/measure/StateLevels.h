@@ -2,7 +2,7 @@
 //
 // Found for pulses that fill a hundred-thousandth of the record as well as for a square wave. Three states with the
 // baseline between them are biphasic pulses, told from ringing by the charge on either side: a biphasic pulse returns
-// at least a fifth of what it gave. A signal that is noise, a ramp or a sine rests nowhere and has no two states.
+// at least a fifth of what it gave. Noise, a ramp or a sine never rests, and so has no two states.
 //
 // Thread-safety: pure function.
 #pragma once

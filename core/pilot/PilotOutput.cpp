@@ -240,7 +240,8 @@ Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
     rest();
     if (stage_.ended() != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
     const bool atScreen = stops_.screenGone() || !stage_.participant().hasScreen();
-    if (why.code == ErrorCode::Device && !atScreen && !stops_.aborted()) return afterTheFault(during, why);
+    const bool late = why.code == ErrorCode::Timeout && stage_.bench().telemetry().state == InterlockState::Faulted;
+    if ((late || why.code == ErrorCode::Device) && !atScreen && !stops_.aborted()) return afterTheFault(during, why);
     const bool paused = stops_.paused();
     if (auto goesOn = interrupted(during, why); !goesOn) return goesOn;
     if (const auto hindrance = stage_.participant().hindrance(); paused && hindrance && hindrance->isBreak)

@@ -31,8 +31,8 @@ struct PilotSettings {
     int blocks = 5;
     int perCondition = 4;   ///< of a block
     int catchTrials = 2;    ///< of a block
-    std::string runSha256;  ///< of what it is run with (runHash()); in the plan, so that it goes on with the same
-    double adaptation = 0;  ///< noted only; the virtual participant has it
+    std::string runSha256;  ///< of what it is run with (runHash()); in the plan, so that it resumes with the same
+    double adaptation = 0;  ///< for the record; the virtual participant applies it
 
     /// What the participant feels it through, as the record says it.
     [[nodiscard]] std::string_view modality() const noexcept {

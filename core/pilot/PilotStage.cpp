@@ -211,7 +211,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
         case PresentationEnd::Refused:
             return fail(ErrorCode::LimitExceeded, "{}", presented->reason);
         case PresentationEnd::Faulted:
-            return fail(ErrorCode::Device, "{}", presented->reason);
+            return fail(bench_.faultCode(), "{}", presented->reason);
         case PresentationEnd::Stopped:
             return fail(ErrorCode::Stopped, "{}", presented->reason);
         case PresentationEnd::Paused:

@@ -22,7 +22,7 @@ public:
         std::chrono::nanoseconds took{0};
     };
 
-    /// `by` as PilotParticipant::stop has it; it is kept, not copied.
+    /// `by` as in PilotParticipant::stop; the pointer is kept, the text not copied.
     void note(const char* by) noexcept {
         if (std::string_view(by).starts_with(kScreenGone))
             screenGone_ = true;

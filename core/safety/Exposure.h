@@ -23,7 +23,7 @@ struct ExposureRow {
     JudgedAt judged = JudgedAt::LoadRange;
     bool strict = false;     ///< the limit is "<", not "≤"
     bool evaluated = false;  ///< false: reads "not evaluated", and is never a pass (H9)
-    bool within = false;     ///< evaluated and within the limit (true where there is none)
+    bool within = false;     ///< evaluated and within the limit (true without a limit)
     FixedText<95> reason;    ///< why it was not evaluated, else empty
 };
 

@@ -150,6 +150,12 @@ constexpr Rule<Reset> kResetRules[] = {
 std::string_view nameOf(InterlockState state) noexcept { return wordFor(kStates, state); }
 std::string_view nameOf(FaultCause cause) noexcept { return wordFor(kCauses, cause); }
 
+ErrorCode codeOf(FaultCause cause) noexcept {
+    const bool late =
+        cause == FaultCause::StatusMissing || cause == FaultCause::LoopSilent || cause == FaultCause::StaleSensor;
+    return late ? ErrorCode::Timeout : ErrorCode::Device;
+}
+
 FixedText<159> Interlock::reason() const noexcept {
     const std::lock_guard lock(mutex_);
     return reason_;
@@ -184,6 +190,7 @@ void Interlock::keepFaultsIn(UnitRecord& record) noexcept {
     std::array<char, 160> text{};
     const auto end = fmt::format_to_n(text.data(), text.size() - 1, "left by an earlier run: {}", left->reason.view());
     reason_ = std::string_view(text.data(), std::min(end.size, text.size() - 1));
+    faultCode_ = ErrorCode::Device;
 }
 
 Result<void> Interlock::connect(std::string_view note) {
@@ -251,7 +258,12 @@ void Interlock::disarm(const char* reason) noexcept {
     }
 }
 
-void Interlock::fault(FaultCause cause, std::string_view reason) noexcept {
+ErrorCode Interlock::faultCode() const noexcept {
+    const std::lock_guard lock(mutex_);
+    return faultCode_;
+}
+
+void Interlock::fault(FaultCause cause, std::string_view reason, ErrorCode code) noexcept {
     const std::lock_guard lock(mutex_);
     ticket_ = 0;
     causes_ |= bitOf(cause);
@@ -259,6 +271,7 @@ void Interlock::fault(FaultCause cause, std::string_view reason) noexcept {
     if (state_.load(std::memory_order_relaxed) != InterlockState::Faulted) {
         state_.store(InterlockState::Faulted, std::memory_order_release);
         reason_ = FixedText<159>(reason);
+        faultCode_ = code == ErrorCode::Timeout ? ErrorCode::Timeout : ErrorCode::Device;
     }
     if (record_ != nullptr) record_->keepFault(cause, reason);
 }

@@ -39,6 +39,8 @@ enum class FaultCause {
 };
 inline constexpr int kFaultCauseCount = 10;
 [[nodiscard]] std::string_view nameOf(FaultCause cause) noexcept;  // "open electrode", ...
+/// Timeout for a cause that is lateness alone (status missing, loop silent, stale sensor), else Device.
+[[nodiscard]] ErrorCode codeOf(FaultCause cause) noexcept;
 
 /// What arming needs. Everything false or empty: nothing is assumed.
 struct ArmingEvidence {
@@ -66,6 +68,8 @@ public:
     [[nodiscard]] FixedText<159> reason() const noexcept;
     /// The first cause that is still present, in the order of FaultCause; nothing unless Faulted.
     [[nodiscard]] std::optional<FaultCause> cause() const noexcept;
+    /// The code of an error that tells reason() while Faulted: Timeout where the first fault was lateness, else Device.
+    [[nodiscard]] ErrorCode faultCode() const noexcept;
 
     /// Faults are kept in `record`, which outlives the interlock, until they are reset; one in which the unit was left
     /// before makes it Faulted. Once, after connect().
@@ -91,8 +95,10 @@ public:
 
     /// Checking, Armed, Delivering, Paused → Disarmed. Other states stay. `reason` is copied.
     void disarm(const char* reason) noexcept;
-    /// → Faulted, latched. The first reason is kept; further causes add up.
-    void fault(FaultCause cause, std::string_view reason) noexcept;
+    /// → Faulted, latched. The first reason is kept, with its `code` (only Timeout and Device are told apart); further
+    /// causes add up.
+    void fault(FaultCause cause, std::string_view reason, ErrorCode code) noexcept;
+    void fault(FaultCause cause, std::string_view reason) noexcept { fault(cause, reason, codeOf(cause)); }
     /// The cause was looked at again and is no longer there. Does not leave Faulted.
     void causeGone(FaultCause cause) noexcept;
     [[nodiscard]] bool causePersists(FaultCause cause) const noexcept;
@@ -109,6 +115,7 @@ private:
     mutable std::mutex mutex_;  // Guards everything below against concurrent change
     std::atomic<InterlockState> state_{InterlockState::Disconnected};
     FixedText<159> reason_;
+    ErrorCode faultCode_ = ErrorCode::Device;
     std::uint32_t causes_ = 0;  // Bit per FaultCause still present
     bool deviceLost_ = false;
     std::uint64_t ticket_ = 0;  // The pending request's; 0 = none

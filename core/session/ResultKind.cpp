@@ -40,7 +40,8 @@ constexpr std::array kKinds{
             "between. Values that were not measured are not evaluated and prevent a pass.",
         .guardBanded = true,
         .view = ProtocolView::Loads,
-        .afterPass = AfterPass::Live},
+        .afterPass = AfterPass::Live,
+        .procedure = "safety check"},
     ResultTraits{
         .kind = ResultKind::StimulatorCalibration,
         .name = "stimulator-calibration",

@@ -43,7 +43,8 @@ struct ResultTraits {
     bool guardBanded = false;               ///< the uncertainty stands on the side of the limit
     std::optional<ProtocolView> view = {};  ///< of protocols that declare none; nothing: their devices say it
     AfterPass afterPass = AfterPass::Nothing;
-    bool ofStudy = false;  ///< a session of a study: with a participant, on their record
+    bool ofStudy = false;             ///< a session of a study: with a participant, on their record
+    std::string_view procedure = {};  ///< what people call it, where that is not its name: "safety check"
 };
 
 /// The traits of the kind with that name; those of Other where there is none.

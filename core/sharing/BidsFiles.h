@@ -37,7 +37,7 @@ struct BidsFile {
 [[nodiscard]] Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& with,
                                                       std::string_view version);
 
-/// Errors: InvalidArgument for a folder that holds something, or is none.
+/// Errors: InvalidArgument for a folder that is not empty, or a path that is not a folder.
 [[nodiscard]] Result<void> checkBidsFolder(const std::filesystem::path& folder);
 
 /// Writes them to `folder`, which is new or empty. Errors: as checkBidsFolder(); Io.

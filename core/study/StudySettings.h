@@ -116,7 +116,7 @@ struct StudySettings {
     DataOnRequest dataOnRequest = DataOnRequest::Destroy;
     std::string license;                      ///< under which exports may be used: "CC-BY-4.0"; empty: not decided
     std::vector<ScriptHash> scripts;          ///< approved; a session's script must be one of them
-    std::optional<StudyProcedure> procedure;  ///< approved; a study of before it was kept has none until its amendment
+    std::optional<StudyProcedure> procedure;  ///< approved; older studies have none until they are amended
     bool operator==(const StudySettings&) const = default;
 };
 

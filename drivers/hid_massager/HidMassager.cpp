@@ -223,8 +223,8 @@ void HidMassager::raise(Error fault) {
 void HidMassager::endBurstAfterStandstill() {
     const Instant silent = clock_.now() - lastBeat_;
     if (writing_ || !timer_.vibrating() || silent <= Watchdog::kSilence) return;
-    raise({ErrorCode::Device, fmt::format("{} was stopped by its watchdog: this program stood still for {:.0f} ms",
-                                          identity_.name, toSeconds(silent) * 1e3)});
+    raise({ErrorCode::Timeout, fmt::format("{} was stopped by its watchdog: this program stood still for {:.0f} ms",
+                                           identity_.name, toSeconds(silent) * 1e3)});
     timer_.askStop();
 }
 

@@ -174,7 +174,7 @@ Result<void> PulsePalStimulator::start(const ApprovedTrain& train, std::uint64_t
     if (stoppedSince(offs)) return {};
     const Instant now = clock_.now();
     if (!(now <= train.expires())) {
-        return fail(ErrorCode::Device, "Pulse Pal took {:.1f} ms longer to program than the train's approval lasted",
+        return fail(ErrorCode::Timeout, "Pulse Pal took {:.1f} ms longer to program than the train's approval lasted",
                     toSeconds(now - train.expires()) * 1e3);
     }
     silent_ = false;

@@ -127,6 +127,35 @@ TEST_F(BenchTest, AnElectrodeThatLiftsStopsOutputBeforeTheNextTrain) {
     }
 }
 
+TEST_F(BenchTest, AFaultSaysWhetherTheDeviceWasLateOrWrong) {
+    RecordProperty("hazard", "H2");
+    for (const auto& [fault, code] :
+         {std::pair{"late", ErrorCode::Timeout}, {"unplug", ErrorCode::Device}, {"garbage", ErrorCode::Device}}) {
+        open({fmt::format("sim:stimulator?fault={}@3.1s", fault)});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0.5));
+        const auto waited = bench_->wait(Seconds(20));
+        ASSERT_FALSE(waited) << fault;
+        EXPECT_EQ(waited.error().code, code) << waited.error().message;
+        EXPECT_EQ(bench_->faultCode(), code) << fault;
+        EXPECT_EQ(state(), InterlockState::Faulted);
+        EXPECT_EQ(bench_->telemetry().fault, FaultCause::DeviceFault) << "either way it is the device that is asked";
+    }
+}
+
+TEST_F(BenchTest, ASilentControlLoopIsLatenessAndNoFaultOfADevice) {
+    RecordProperty("hazard", "H2");
+    open({});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0.5));
+    ASSERT_TRUE(bench_->wait(Seconds(3)));
+    ASSERT_TRUE(bench_->withholdHeartbeat(Seconds(1)));
+    const auto waited = bench_->wait(Seconds(1));
+    ASSERT_FALSE(waited);
+    EXPECT_EQ(waited.error().code, ErrorCode::Timeout) << waited.error().message;
+    EXPECT_TRUE(bench_->faultPersists(FaultCause::LoopSilent));
+}
+
 TEST_F(BenchTest, AnOverLimitTrainIsRefusedWithItsLimitAndNeverDelivered) {
     RecordProperty("hazard", "H1");
     // 40 V every 0.5 s is 11.3 mA RMS into 100 ohm; the paper allows less than 10 mA.

@@ -81,6 +81,17 @@ Analysed roughness(const std::string& recording) {
     return {summary, contentOf(desk.at("frames.csv"))};
 }
 
+TEST(Roughness, PrintsADescriptionToFillIn) {
+    const Desk desk;
+    const auto ran = desk.run({"roughness", "--template"});
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.err, "");
+    desk.write("mine/recording.json", ran.out);
+    // As it stands only the files that it names are missing.
+    expectRefused(desk.run({"roughness", desk.at("mine")}), 3, {"acceleration.csv"});
+    expectRefused(desk.run({"roughness", desk.path().string()}), 3, {"no recording.json", "roughness --template"});
+}
+
 TEST(Roughness, RealSlidesHaveSpectralFeaturePressureAndR) {
     if (!sharedData("biotac")) GTEST_SKIP() << kNoSharedData;
     for (const auto* material : {"mat1_1", "mat6_1", "mat11_1", "mat16_1"}) {

@@ -13,13 +13,14 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxColumns = 120;
 
-/// Calls `see` with each source and header below `folders`, relative to the tree, and its text.
+/// Calls `see` with each source, header and list of sources below `folders`, relative to the tree, and its text.
 void forSources(std::initializer_list<const char*> folders,
                 const std::function<void(const fs::path&, const std::string&)>& see) {
     for (const char* folder : folders) {
         for (const auto& entry : fs::recursive_directory_iterator(test::sourceDir() / folder)) {
             const auto ending = entry.path().extension();
-            if (ending != ".cpp" && ending != ".h" && ending != ".c" && ending != ".js") continue;
+            const bool list = entry.path().filename() == "CMakeLists.txt";
+            if (ending != ".cpp" && ending != ".h" && ending != ".c" && ending != ".js" && !list) continue;
             std::ifstream in(entry.path(), std::ios::binary);
             see(fs::relative(entry.path(), test::sourceDir()), {std::istreambuf_iterator<char>(in), {}});
         }

@@ -301,6 +301,16 @@ TEST_F(PilotStageFaultTest, TheyHoldAgainAndTheLevelsAreReachedAgainStepByStep) 
         << "the operator, then the participant";
 }
 
+TEST_F(PilotStageFaultTest, AStimulatorThatAnswersTooLateIsOneToo) {
+    RecordProperty("hazard", "H2");
+    reachOne("late@20.2s..24s");
+    passUntil(19);
+    const auto answer = stage_->trial(rising(1.5));
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(record_->count(row::kFault), 1U);
+    EXPECT_EQ(measured_, 1);
+}
+
 TEST_F(PilotStageFaultTest, ASecondOneEndsTheSession) {
     RecordProperty("hazard", "H3");
     reachOne("open@20.2s..24s&fault=open@120s");

@@ -103,6 +103,30 @@ TEST(Interlock, DisarmWorksFromEverywhereAndLeavesAFaultLatched) {
     }
 }
 
+TEST(Interlock, TheCodeOfAFaultIsThatOfItsFirstReason) {
+    RecordProperty("hazard", "H2");
+    for (int i = 0; i < kFaultCauseCount; ++i) {
+        const auto cause = static_cast<FaultCause>(i);
+        const bool late =
+            cause == FaultCause::StatusMissing || cause == FaultCause::LoopSilent || cause == FaultCause::StaleSensor;
+        Interlock lock;
+        bringTo(lock, State::Delivering);
+        lock.fault(cause, "first");
+        EXPECT_EQ(lock.faultCode(), late ? ErrorCode::Timeout : ErrorCode::Device) << nameOf(cause);
+        lock.fault(FaultCause::LoopSilent, "then");
+        lock.fault(FaultCause::NetCharge, "and then");
+        EXPECT_EQ(lock.faultCode(), late ? ErrorCode::Timeout : ErrorCode::Device) << nameOf(cause);
+    }
+    Interlock lock;
+    bringTo(lock, State::Delivering);
+    lock.fault(FaultCause::DeviceFault, "it did not answer", ErrorCode::Timeout);
+    EXPECT_EQ(lock.faultCode(), ErrorCode::Timeout);
+    lock.causeGone(FaultCause::DeviceFault);
+    ASSERT_TRUE(lock.reset());
+    lock.fault(FaultCause::DeviceFault, "it was not written", ErrorCode::Io);
+    EXPECT_EQ(lock.faultCode(), ErrorCode::Device) << "no other code tells of a fault";
+}
+
 TEST(Interlock, FaultLatchesFromEverywhereAndNeedsItsCausesGone) {
     RecordProperty("hazard", "H2");
     for (const State from : kAll) {

@@ -2,6 +2,7 @@
 
 #include "app/scripting/engine/DeclarationReader.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
+#include "core/analysis/variation/PopulationField.h"
 #include "tests/scripting/RunBench.h"
 #include "tests/support/InTime.h"
 
@@ -140,6 +141,31 @@ TEST(ProtocolDeclaration, RefusesParametersThatContradictThemselves) {
     EXPECT_NE(parameterError("{ value: 'b', type: 'choice', choices: { b: 'B' } }"), "");
     EXPECT_NE(parameterError("{ value: 1, units: 'ohm' }"), "");
     EXPECT_NE(parameterError("7"), "");
+}
+
+TEST(ProtocolDeclaration, ANumberForAnOptionHasItsUnitAndRange) {
+    const auto read = readDeclaration(probe(R"js(protocol({ title: "x", parameters: {
+  felt: { option: "analysis.variation.detection_ma", value: 3.5 },
+  people: { type: "integer", option: "analysis.variation.participants", value: 5 },
+} });
+function run() {})js"));
+    ASSERT_TRUE(read) << read.error().message;
+    const auto fields = populationFields();
+    const auto felt = std::ranges::find(fields, "detection_ma", &PopulationField::key);
+    ASSERT_NE(felt, fields.end());
+    EXPECT_EQ(read->parameters[0].unit, "mA");
+    EXPECT_EQ(read->parameters[0].min, felt->accepted.low);
+    EXPECT_EQ(read->parameters[0].max, felt->accepted.high);
+    EXPECT_EQ(read->parameters[1].type, ParameterType::Integer);
+    EXPECT_EQ(parameterError("{ option: 'analysis.variation.detection_ma', value: 1e6 }"),
+              "/lab/probe.js:2: the default of load is 1000000, a number from 0.01 to 100 mA is expected");
+    EXPECT_EQ(parameterError("{ option: 'analysis.variation.detection_ma', max: 5, value: 1 }"),
+              "/lab/probe.js:2: parameter load: max is given, and the option analysis.variation.detection_ma has its "
+              "own");
+    for (const auto* none : {"analysis.variation.levels", "analysis.variation.participants",
+                             "analysis.variation.thirst", "analysis.detection_ma", "detection_ma"}) {
+        EXPECT_NE(parameterError(fmt::format("{{ option: '{}', value: 1 }}", none)), "") << none;
+    }
 }
 
 TEST(ProtocolDeclaration, KnowsDaysFilesTheReferenceAndWhatTheVerdictNeeds) {

@@ -7,8 +7,9 @@
 // ASSERT_IN_TIME also ends the test from within a function that the test calls.
 //
 // A Result missed a deadline only if its error is one that lateness causes: no answer in time (Timeout), the output off
-// by then (NotArmed), what went on ended (Stopped), or a device that reports a fault (Device: the control loop was
-// silent, an approval had expired, a watchdog had to stop the output). Every other error is wrong on any machine.
+// by then (NotArmed), or what went on was ended (Stopped). A silent control loop, an approval that expired and a
+// watchdog that had to stop the output are Timeout. Every other error, that of a device above all, is wrong on any
+// machine.
 //
 // Thread-safety: as gtest's assertions.
 #pragma once
@@ -28,8 +29,7 @@ template <class Happened>
     if constexpr (requires { happened.error().message; }) {
         const auto& error = happened.error();
         using Code = std::remove_cvref_t<decltype(error.code)>;
-        const bool late = error.code == Code::Timeout || error.code == Code::NotArmed || error.code == Code::Stopped ||
-                          error.code == Code::Device;
+        const bool late = error.code == Code::Timeout || error.code == Code::NotArmed || error.code == Code::Stopped;
         return testing::AssertionFailure() << (late ? kNotInTime : "") << what << ": " << error.message;
     } else {
         return testing::AssertionFailure() << kNotInTime << what;

@@ -17,32 +17,24 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/Loopback.h"
+
 namespace tacto::test {
 
 /// A port of 127.0.0.1 that no program has now; the socket holds it until it is closed.
 class HeldPort {
 public:
-    HeldPort() {
-        sockaddr_in at{};
-        at.sin_family = AF_INET;
-        at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        socklen_t size = sizeof at;
-        static_cast<void>(bind(socket_, reinterpret_cast<sockaddr*>(&at), size));
-        static_cast<void>(::listen(socket_, 1));
-        static_cast<void>(getsockname(socket_, reinterpret_cast<sockaddr*>(&at), &size));
-        port_ = ntohs(at.sin_port);
-    }
+    HeldPort() = default;
     ~HeldPort() { letGo(); }
     HeldPort(const HeldPort&) = delete;
     HeldPort& operator=(const HeldPort&) = delete;
-    [[nodiscard]] std::uint16_t port() const { return port_; }
+    [[nodiscard]] std::uint16_t port() const { return held_.port; }
     void letGo() {
-        if (const int had = std::exchange(socket_, -1); had >= 0) close(had);
+        if (const int had = std::exchange(held_.descriptor, -1); had >= 0) close(had);
     }
 
 private:
-    int socket_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    std::uint16_t port_ = 0;
+    LoopbackSocket held_ = listenOnLoopback(1).value();
 };
 
 [[nodiscard]] inline std::uint16_t freePort() { return HeldPort().port(); }

@@ -13,6 +13,7 @@
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/WholeRows.h"
 #include "app/report/TableContent.h"
 
 namespace tacto::gui {
@@ -33,6 +34,7 @@ WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTabl
     worst_->setToolTip(
         tr("The strongest command into 80 to 120 % of the declared load, from an ideal voltage source. "
            "Hatched: not evaluated, and never a pass."));
+    keepRowsWhole(*worst_);
     column->addWidget(worst_, 1);
     setTabOrder(findChild<QPushButton*>("readLimits"), worst_);
 }

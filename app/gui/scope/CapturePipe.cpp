@@ -102,7 +102,7 @@ void CapturePipe::open(const QString& path) {
         if (opened.shown) {
             emit prepared(opened.shown);
         } else {
-            emit failed(tr("The capture could not be opened: %1. The picture stays.").arg(opened.why));
+            emit failed(tr("The capture could not be opened: %1.").arg(opened.why));
         }
     });
 }

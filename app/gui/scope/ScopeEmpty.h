@@ -3,6 +3,8 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QLabel>
+
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -12,9 +14,14 @@ class ScopeEmpty final : public EmptyState {
     Q_OBJECT
 public:
     explicit ScopeEmpty(QWidget* parent = nullptr);
+    /// Why the last file was not opened; empty: nothing went wrong.
+    void setProblem(const QString& problem);
 
 signals:
     void openClicked();
+
+private:
+    QLabel* problem_;
 };
 
 }  // namespace tacto::gui

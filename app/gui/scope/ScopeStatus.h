@@ -26,6 +26,7 @@ public:
     void tell(const QString& done, const QString& problem);
     void tellProblem(const QString& problem) { tell(done_, problem); }
     void forgetProblem() { problem_.clear(); }
+    [[nodiscard]] const QString& problem() const { return problem_; }
     /// Does nothing in the first seconds.
     void forget();
     /// `percentRead`: of the file that is being read. `standing`: how the oscilloscope stands.

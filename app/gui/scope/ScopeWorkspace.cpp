@@ -48,7 +48,8 @@ ScopeWorkspace::ScopeWorkspace(BenchController& controller, QWidget* parent)
       controls_(new ScopeControls(model_, *screen_, this)),
       spectrum_(new SpectrumPanel(this)),
       table_(new MeasurementTable(readings_, this)),
-      stack_(new QStackedWidget(this)) {
+      stack_(new QStackedWidget(this)),
+      empty_(new ScopeEmpty(this)) {
     acquisition_ = std::make_unique<ScopeAcquisition>(controller_, controls_->acquisition());
     feed_ = std::make_unique<ScopeFeed>(model_, *acquisition_);
     setAcceptDrops(true);
@@ -72,10 +73,9 @@ ScopeWorkspace::~ScopeWorkspace() {
 }
 
 void ScopeWorkspace::layOut() {
-    auto* empty = new ScopeEmpty(this);
-    connect(empty, &ScopeEmpty::nextStep, this, &ScopeWorkspace::openBenchWanted);
-    connect(empty, &ScopeEmpty::openClicked, files_.get(), &ScopeFiles::askOpen);
-    stack_->addWidget(empty);
+    connect(empty_, &ScopeEmpty::nextStep, this, &ScopeWorkspace::openBenchWanted);
+    connect(empty_, &ScopeEmpty::openClicked, files_.get(), &ScopeFiles::askOpen);
+    stack_->addWidget(empty_);
     columns_ = new ScopeColumns({*tools_, *status_, *screen_, *spectrum_, *table_, *controls_}, this);
     stack_->addWidget(columns_);
     auto* layout = new QVBoxLayout(this);
@@ -318,7 +318,8 @@ void ScopeWorkspace::take(const ShownPtr& shown) {
 bool ScopeWorkspace::openCaptureFile(const QString& path) {
     const QFileInfo file(path);
     if (!file.isFile() || !file.isReadable()) {
-        status_->tellProblem(tr("%1 cannot be read. The picture stays.").arg(path));
+        const auto why = file.exists() ? tr("%1 is not a file that can be read.") : tr("%1 does not exist.");
+        status_->tellProblem(why.arg(path));
         showState();
         return false;
     }
@@ -349,6 +350,7 @@ void ScopeWorkspace::showState() {
     const bool empty = !model_.shown() && controller_.activity() == Activity::Closed && !pipe_.opening();
     stack_->setCurrentIndex(empty ? 0 : 1);
     status_->setVisible(!empty);
+    empty_->setProblem(status_->problem());
     say();
 }
 

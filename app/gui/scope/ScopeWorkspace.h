@@ -22,6 +22,7 @@ namespace tacto::gui {
 
 class MeasurementTable;
 class ScopeColumns;
+class ScopeEmpty;
 class ScopeControls;
 class ScopeFiles;
 class ScopeGestures;
@@ -129,6 +130,7 @@ private:
     SpectrumPanel* spectrum_;
     MeasurementTable* table_;
     QStackedWidget* stack_;
+    ScopeEmpty* empty_;
     ScopeColumns* columns_ = nullptr;
 };
 

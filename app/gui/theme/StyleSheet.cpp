@@ -45,6 +45,7 @@ QPushButton[role="quiet"] { background: transparent; border-color: transparent; 
 QPushButton[role="quiet"]:hover { background: @sunken; }
 QPushButton[role="quiet"]:focus { border-color: @text; }
 QPushButton[role="segment"] { border-radius: 0; padding: 0 ~6; margin-left: -1px; }
+QPushButton[role="segment"][first="true"] { margin-left: 0; }
 QPushButton[role="segment"]:checked { background: @primary; color: @primaryText; border-color: @primary; }
 QPushButton[role="segment"]:checked:disabled { background: @sunken; color: @edge; border-color: @line; }
 QPushButton::menu-indicator { image: url(:/icons/controls/down.svg); width: ~10; height: ~10; right: ~6;
@@ -133,6 +134,7 @@ QHeaderView::section { background: @window; color: @quiet; border: none; border-
 QTableView, QTreeView, QListView { border: 1px solid @line; outline: none; gridline-color: @line;
     alternate-background-color: @base; }
 QTableView#sessionsTable { border: none; border-top: 1px solid @line; }
+QTableView#sessionsTable QHeaderView::section:first { padding-left: 16px; }
 QTableView::item, QTreeView::item { border-bottom: 1px solid @grid; padding: 0 ~4; }
 QTableView::item:selected, QTreeView::item:selected, QListView::item:selected {
     background: @selection; color: @text; }
@@ -140,7 +142,7 @@ QTableView { qproperty-showGrid: 0; }
 QTableCornerButton::section { background: @window; border: none; }
 
 QGroupBox { border: none; margin-top: ~24; padding: 0; font-weight: 600; }
-QGroupBox::title { subcontrol-origin: margin; subcontrol-position: top left; padding: 0; }
+QGroupBox::title { subcontrol-origin: margin; subcontrol-position: top left; padding: 0; left: -2px; }
 
 QScrollArea { border: none; }
 QScrollBar { background: transparent; border: none; margin: 0; }

@@ -10,6 +10,7 @@
 
 #include "core/base/QuantityText.h"
 #include "core/base/Result.h"
+#include "core/session/ResultKind.h"
 
 namespace tacto::gui {
 
@@ -29,11 +30,12 @@ namespace tacto::gui {
     return unit.isEmpty() ? number : number + QChar(0x202f) + unit;
 }
 
-/// A protocol's name for people: "Encoding comparison" of "encoding-comparison"; "Live" of none.
+/// A protocol's name for people: "Encoding comparison" of "encoding-comparison"; "Live" of none. Sessions store the
+/// name alone; a shipped protocol is named as the kind of its results.
 [[nodiscard]] inline QString procedureText(std::string_view protocol) {
     if (protocol.empty()) return QObject::tr("Live");
-    if (protocol == "load-safety") return QObject::tr("Safety check");  // as its workspace is called
-    return titled(qtext(protocol).replace('-', ' '));
+    const auto spoken = resultTraits(protocol).procedure;
+    return titled(qtext(spoken.empty() ? protocol : spoken).replace('-', ' '));
 }
 
 /// "the load of 2 kΩ" of "the load of 2 kohm".
@@ -47,6 +49,17 @@ namespace tacto::gui {
     static const QRegularExpression between(
         R"((?<=\d) (?=(?:[kMmµnp]?(?:V|A|Ω|ohm|Hz|s|J|C|N|Pa|W)|%|min|cm²|m[AW]/cm²)(?![\w/])))");
     return words.replace(between, QStringLiteral("\u202f"));
+}
+
+/// "1 000 000" of "1000000": numbers of five digits and more before their decimals.
+[[nodiscard]] inline QString grouped(QString words) {
+    static const QRegularExpression number(R"((?<![\w.])\d{5,})");
+    for (auto at = number.match(words); at.hasMatch(); at = number.match(words, at.capturedEnd())) {
+        auto digits = at.captured();
+        for (auto i = digits.size() - 3; i > 0; i -= 3) digits.insert(i, QChar(0x202f));
+        words.replace(at.capturedStart(), at.capturedLength(), digits);
+    }
+    return words;
 }
 
 /// "The load is open." of "the load is open".

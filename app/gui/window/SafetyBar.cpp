@@ -25,7 +25,7 @@ namespace {
 constexpr int kFlashFrames = 4;
 constexpr int kBarGap = 16;
 constexpr const char* kFactsWidth = "calibrated until 2030-12-30";
-constexpr const char* kUnmeasured = QT_TRANSLATE_NOOP("SafetyBar", "impedance not measured");
+constexpr const char* kUnmeasured = QT_TRANSLATE_NOOP("SafetyBar", "Impedance not measured");
 constexpr const char* kActions[] = {QT_TRANSLATE_NOOP("SafetyBar", "&Arm…"), QT_TRANSLATE_NOOP("SafetyBar", "Dis&arm"),
                                     QT_TRANSLATE_NOOP("SafetyBar", "&Reset")};
 
@@ -240,15 +240,18 @@ void SafetyBar::showState(const Telemetry& telemetry) {
     if (telemetry.trainsDelivered > trainsSeen_ && !blind_) pulse_ = kFlashFrames;
     trainsSeen_ = telemetry.trainsDelivered;
     // An empty presentation delivers nothing: while blind it looks as any other.
-    const bool closed = state_ == InterlockState::Disconnected && controller_.activity() == Activity::Closed &&
-                        controller_.closedByRun();
+    const bool closed = state_ == InterlockState::Disconnected && controller_.activity() == Activity::Closed;
     const bool hidden = blind_ && (state_ == InterlockState::Delivering || state_ == InterlockState::Armed);
     if (hidden)
         block_->show(InterlockState::Armed, tr("The session presents and asks. Space stops."), false);
     else
-        block_->show(telemetry.state, closed ? tr("A run closed the open bench.") : stateWords(telemetry, protocol()),
-                     pulse_ > 0);
+        block_->show(telemetry.state, closed ? closedWords() : stateWords(telemetry, protocol()), pulse_ > 0);
     if (pulse_ > 0) --pulse_;
+}
+
+QString SafetyBar::closedWords() const {
+    return controller_.closedByRun() ? tr("A run closed the open bench.")
+                                     : tr("No bench is open. Ctrl+B opens a simulated one.");
 }
 
 /// The one that has the bench; empty while a person has it.
@@ -260,17 +263,19 @@ QString SafetyBar::protocol() const {
 void SafetyBar::showDevice(const Telemetry& telemetry) {
     const auto open = controller_.open();
     if (!open) {
-        device_->setText(controller_.activity() == Activity::Opening ? tr("opening…") : tr("no bench is open"));
+        device_->setText(controller_.activity() == Activity::Opening ? tr("Opening…") : QString());
         load_->clear();
         showCalibration();
         return;
     }
-    QString name = tr("no stimulator");
+    auto name = tr("No stimulator");
     for (const auto& device : open->about.devices) {
         if (device.is(Role::Stimulator) || (device.is(Role::Massager) && !open->source))
-            name = QString::fromStdString(device.name);
+            name = titled(qtext(device.name));
     }
-    const auto text = open->simulated() && !name.contains(tr("simulated")) ? tr("%1 · simulated").arg(name) : name;
+    const auto text = open->simulated() && !name.contains(tr("simulated"), Qt::CaseInsensitive)
+                          ? tr("%1 · simulated").arg(name)
+                          : name;
     device_->setText(text);
     device_->setToolTip(text);
     load_->setText(

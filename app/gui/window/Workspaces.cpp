@@ -158,7 +158,7 @@ void Workspaces::openFile(const QString& path) {
         if (opened) showPage(kSessions);
     } else if (captureFormats()->knowsSuffix(path.toStdString())) {
         opened = scope_->openCaptureFile(path);
-        if (opened) showLive(kScope);
+        showLive(kScope);  // which also says why not
     } else {
         emit complained(tr("%1 is not a recording (a folder or recording.json), session (*.tacto) or capture (%2)")
                             .arg(path, ScopeFiles::captureGlobs()));

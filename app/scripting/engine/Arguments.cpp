@@ -14,7 +14,6 @@ namespace {
 
 const nlohmann::json kLeftOut;
 constexpr std::string_view kOptions = "options";
-constexpr std::string_view kOptionPrefix = "options.";
 
 std::string_view rootOf(std::string_view name) { return name.substr(0, name.find('.')); }
 

@@ -34,16 +34,29 @@ const std::vector<HostFunction>& hostFunctions() {
     return all;
 }
 
+const HostParameter* hostOption(std::string_view path) {
+    const auto dot = path.rfind('.');
+    if (dot == std::string_view::npos) return nullptr;
+    const auto functionName = path.substr(0, dot), option = path.substr(dot + 1);
+    for (const auto& function : hostFunctions()) {
+        if (function.fullName() != functionName) continue;
+        for (const auto& parameter : function.parameters) {
+            const auto& name = parameter.name;
+            if (name.starts_with(kOptionPrefix) && name.substr(kOptionPrefix.size()) == option) return &parameter;
+        }
+    }
+    return nullptr;
+}
+
 namespace {
 
 /// "bench.capture({ trains, rate_hz })": members of other arguments than the options are not written out.
 std::string heading(const HostFunction& function) {
     if (function.kind == HostKind::Property) return function.fullName();
-    constexpr std::string_view kPrefix = "options.";
     std::vector<std::string_view> arguments, members;
     for (const auto& parameter : function.parameters) {
-        const bool option = parameter.name.starts_with(kPrefix);
-        const auto name = option ? parameter.name.substr(kPrefix.size()) : parameter.name;
+        const bool option = parameter.name.starts_with(kOptionPrefix);
+        const auto name = option ? parameter.name.substr(kOptionPrefix.size()) : parameter.name;
         if (name.find('.') == std::string_view::npos) (option ? members : arguments).push_back(name);
     }
     const std::string options = members.empty() ? "" : fmt::format("{{ {} }}", fmt::join(members, ", "));

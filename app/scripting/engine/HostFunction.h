@@ -51,6 +51,9 @@ struct HostFunction {
 /// All of them, grouped by object.
 [[nodiscard]] const std::vector<HostFunction>& hostFunctions();
 
+/// The option with that path, "analysis.variation.detection_ma". Null where there is none.
+[[nodiscard]] const HostParameter* hostOption(std::string_view path);
+
 // The table of each object.
 [[nodiscard]] std::vector<HostFunction> generalFunctions();
 [[nodiscard]] std::vector<HostFunction> benchFunctions();

@@ -24,6 +24,9 @@ enum class ValueType {
     Any,   ///< the function checks it itself
 };
 
+/// What the names of the members of the last argument begin with.
+inline constexpr std::string_view kOptionPrefix = "options.";
+
 struct HostParameter {
     /// "seconds"; "options.trains" for a member of the last argument, which may be left out and takes no other members
     /// than those that are listed; "from.roughness" for a member of another argument.

@@ -6,6 +6,7 @@
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/DeclaredText.h"
+#include "app/scripting/engine/HostFunction.h"
 #include "core/base/JsonText.h"
 #include "core/base/Text.h"
 #include "core/base/ValueKind.h"
@@ -138,6 +139,32 @@ Result<void> readChoices(const Json& given, const Json& order, ProtocolParameter
     return {};
 }
 
+/// A number for an option of a host function has that option's unit and range.
+Result<void> takeOption(const Json& given, const std::string& where, ProtocolParameter& out) {
+    auto path = declaredText(given, where, "option", false, kMaxDeclaredTitle);
+    if (!path) return failure(path);
+    if (path->empty()) return {};
+    for (const auto* own : {"unit", "min", "max"}) {
+        if (given.contains(own))
+            return fail(ErrorCode::InvalidArgument, "{}: {} is given, and the option {} has its own", where, own,
+                        *path);
+    }
+    const auto* option = hostOption(*path);
+    const auto type = option == nullptr ? ValueType::Any : option->type;
+    const bool fits = (type == ValueType::Number && out.type == ParameterType::Number) ||
+                      (type == ValueType::Whole && out.type == ParameterType::Integer);
+    if (!fits || option->numbers.openLow || option->numbers.openHigh) {
+        return fail(ErrorCode::InvalidArgument,
+                    "{}: option is {}; an option of a host function with the same type and a range is expected, such "
+                    "as analysis.variation.detection_ma",
+                    where, shown(*path));
+    }
+    out.unit = option->unit;
+    out.min = option->numbers.low;
+    out.max = option->numbers.high;
+    return {};
+}
+
 bool isName(std::string_view name) {
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
     return !name.empty() && letter(name.front()) &&
@@ -175,8 +202,8 @@ Result<ProtocolParameter> parseParameter(const std::string& name, const Json& gi
     }
     if (!given.is_object())
         return fail(ErrorCode::InvalidArgument, "{} is {}, an object is expected", where, shown(given));
-    const auto known =
-        onlyKeys(given, {"label", "type", "unit", "min", "max", "choices", "value", "step", "needed", "zero"}, where);
+    const auto known = onlyKeys(
+        given, {"label", "type", "unit", "min", "max", "option", "choices", "value", "step", "needed", "zero"}, where);
     if (!known) return failure(known.map_error(asInvalidArgument));
     ProtocolParameter out;
     out.name = name;
@@ -198,6 +225,7 @@ Result<ProtocolParameter> parseParameter(const std::string& name, const Json& gi
     if (out.min && out.max && !(*out.min <= *out.max)) {
         return fail(ErrorCode::InvalidArgument, "{}: min {} is above max {}", where, *out.min, *out.max);
     }
+    if (auto taken = takeOption(given, where, out); !taken) return failure(taken);
     if (auto choices = readChoices(given, choiceOrder, out); !choices) return failure(choices);
     if (const auto step = given.find("step"); step != given.end()) {
         if (*step != kReferenceStep) {

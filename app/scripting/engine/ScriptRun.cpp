@@ -253,8 +253,8 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
         if (!result.error && request.bench != nullptr &&
             request.bench->faults() > faultsBefore + session.expectedFaults()) {
             result.verdict = ScriptVerdict::Stopped;
-            result.error = Error{ErrorCode::Device, fmt::format("fault during the run: {}. Output is off.",
-                                                                request.bench->telemetry().reason.view())};
+            result.error = Error{request.bench->faultCode(), fmt::format("fault during the run: {}. Output is off.",
+                                                                         request.bench->telemetry().reason.view())};
         }
         if (!result.error && request.bench->recordsLost() > 0) {
             result.verdict = ScriptVerdict::None;

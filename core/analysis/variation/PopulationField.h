@@ -20,7 +20,7 @@ struct PopulationField {
     double& (*in)(PopulationModel&);
 };
 
-/// One for each figure that is set by itself. Geometric standard deviations are set for several at once.
+/// One for each figure that is set individually. Geometric standard deviations are set for several at once.
 [[nodiscard]] std::span<const PopulationField> populationFields() noexcept;
 
 /// Geometric standard deviations; 1: all people are alike.

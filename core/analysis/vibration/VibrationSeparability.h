@@ -46,7 +46,8 @@ struct VibrationSeparability {
     std::vector<std::string> reasons;
 };
 
-/// `conditions` in their order. Errors: InvalidArgument for fewer than two conditions or a trial of none of them.
+/// `conditions` in their order. Errors: InvalidArgument for fewer than two conditions, or a trial whose condition is
+/// not listed.
 [[nodiscard]] Result<VibrationSeparability> judgeVibration(std::span<const VibrationTrial> trials,
                                                            const std::vector<std::string>& conditions);
 

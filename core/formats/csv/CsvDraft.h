@@ -23,12 +23,12 @@ struct CsvDraft {
         layout.dataOffset = first.offset;
         layout.dataLine = first.number;
     }
-    /// Another column, behind those in layout.names: a channel. `spelled` is its unit as the file has it.
+    /// Another column, behind those in layout.names: a channel. `spelled` is its unit as written in the file.
     void addChannel(std::string name, std::string_view spelled);
     /// The same of a column that is not read.
     void addOther(std::string name) { layout.names.push_back(std::move(name)); }
     /// The rows are apart by `interval_s`, from `start_s` on. Errors: ParseError unless it is finite and above 0;
-    /// `stated` is how the file has it.
+    /// `stated` is how the file writes it.
     [[nodiscard]] Result<void> countRows(std::optional<double> interval_s, double start_s, std::string_view stated,
                                          std::string_view file);
 };

@@ -19,7 +19,7 @@ struct CsvMaker {
     Result<CsvDraft> (*draft)(const CsvHead& head, std::string_view file);
 };
 
-/// In the order in which they are asked. Plain is none of them.
+/// In the order in which they are tried. The plain dialect is not among them.
 [[nodiscard]] std::span<const CsvMaker> csvMakers() noexcept;
 
 extern const CsvMaker kRigolCsv;

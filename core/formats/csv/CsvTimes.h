@@ -24,7 +24,7 @@ public:
 
     /// The stamp with this index; indices rise.
     void add(std::size_t index, double stamp);
-    /// None is farther from the line that rises by `step`, but for rounding; infinite where that is not known.
+    /// The largest distance of a stamp from the line that rises by `step`, but for rounding; infinite where not known.
     [[nodiscard]] double farthestAtMost(double step) const noexcept;
 
     /// Ends a run, and says how many there are: what dropBehind() goes back to.

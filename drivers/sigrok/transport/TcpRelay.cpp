@@ -15,6 +15,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "core/base/Loopback.h"
+
 namespace tacto::sigrok_driver {
 
 namespace {
@@ -112,25 +114,20 @@ bool isOurOwn(int accepted) {
 Result<std::unique_ptr<TcpRelay>> TcpRelay::start(const std::string& host, const std::string& port, Seconds timeout) {
     const auto upstream = connectTo(host, port, timeout);
     if (!upstream) return failure(upstream);
-    sockaddr_in local{};
-    local.sin_family = AF_INET;
-    local.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof local;
-    const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    const auto refused = [&](const std::string& why) {
+        ::close(*upstream);
+        return fail(ErrorCode::Io, "no loopback connection for the instrument at {}:{}: {}", host, port, why);
+    };
+    const auto listener = listenOnLoopback(1);
+    if (!listener) return refused(listener.error().message);
     const int wake = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): how the system call takes every kind of address
-    auto* const address = reinterpret_cast<sockaddr*>(&local);
-    if (listener < 0 || wake < 0 || ::bind(listener, address, size) != 0 || ::listen(listener, 1) != 0 ||
-        ::getsockname(listener, address, &size) != 0) {
+    if (wake < 0) {
         const int error = errno;
-        for (const int one : {*upstream, listener, wake}) {
-            if (one >= 0) ::close(one);
-        }
-        return fail(ErrorCode::Io, "no loopback connection for the instrument at {}:{}: {}", host, port,
-                    std::strerror(error));
+        ::close(listener->descriptor);
+        return refused(std::strerror(error));
     }
     std::unique_ptr<TcpRelay> relay(
-        new TcpRelay(fmt::format("{}:{}", host, port), *upstream, listener, ntohs(local.sin_port), wake));
+        new TcpRelay(fmt::format("{}:{}", host, port), *upstream, listener->descriptor, listener->port, wake));
     relay->host_ = host;
     relay->service_ = port;
     relay->timeout_ = timeout;

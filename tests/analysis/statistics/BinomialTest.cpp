@@ -3,27 +3,17 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/statistics/Binomial.h"
+#include "tests/analysis/statistics/CountedOut.h"
 #include "tests/support/Figures.h"
 
 namespace tacto {
 namespace {
 
-/// P(X ≥ k), every outcome counted out.
-double countedOut(std::size_t k, std::size_t n, double p) {
-    const auto log = [](std::size_t x) { return std::lgamma(static_cast<double>(x) + 1); };
-    double sum = 0;
-    for (std::size_t i = k; i <= n; ++i) {
-        sum += std::exp(log(n) - log(i) - log(n - i) + static_cast<double>(i) * std::log(p) +
-                        static_cast<double>(n - i) * std::log1p(-p));
-    }
-    return sum;
-}
-
 TEST(Binomial, AboveChanceIsTheExactTest) {
     for (const std::size_t n : {4U, 20U, 80U, 100U}) {
         const auto from = aboveChanceFrom(n, 0.25);
-        EXPECT_LE(countedOut(from, n, 0.25), 0.05) << n;
-        EXPECT_GT(countedOut(from - 1, n, 0.25), 0.05) << n;
+        EXPECT_LE(test::countedOut(from, n, 0.25), 0.05) << n;
+        EXPECT_GT(test::countedOut(from - 1, n, 0.25), 0.05) << n;
     }
     // 27 of 80, as science.md section 11 says; 2 of 1: one answer is never enough.
     for (const auto& scipy : test::figuresOf("estimates").at("above_chance"))

@@ -55,7 +55,9 @@ TEST_P(MassagerConformance, RefusesAnExpiredApproval) {
     RecordProperty("hazard", "H1");
     auto old = approved(1, Seconds(0.5));
     rig_->wait(Seconds(0.2));
-    EXPECT_FALSE(device().vibrate(std::move(old)).has_value());
+    const auto refused = device().vibrate(std::move(old));
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::Timeout) << refused.error().message;
     rig_->wait(Seconds(0.2));
     expectVibration(false);
 }

@@ -107,7 +107,7 @@ TEST_P(StimulatorConformance, RefusesAnExpiredApproval) {
     const auto before = status().trainsDelivered;
     const auto refused = device().deliver(std::move(old));
     ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+    EXPECT_EQ(refused.error().code, ErrorCode::Timeout) << refused.error().message;
     rig_->wait(Seconds(0.06));
     EXPECT_EQ(status().trainsDelivered, before);
     expectOutput(false);

@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/QuantitySpin.h"
@@ -133,7 +134,14 @@ TEST_F(Scope, OpensACaptureFileAndSaysWhatIsWrongWithABadOne) {
     const QTemporaryDir folder;
     const auto good = folder.filePath("good.csv"), bad = folder.filePath("bad.csv");
     ASSERT_TRUE(writeCapture(good.toStdString(), twoPulses(0)));
+    const auto* problem = scope.findChild<QLabel*>("scopeProblem");
+    EXPECT_FALSE(problem->isVisible());
     EXPECT_FALSE(scope.openCaptureFile(folder.filePath("none.csv")));
+    EXPECT_TRUE(problem->isVisible()) << "where nothing is shown yet";
+    EXPECT_THAT(problem->text().toStdString(), HasSubstr("none.csv does not exist."));
+    ASSERT_EQ(::mkfifo(folder.filePath("pipe.csv").toUtf8(), 0600), 0);
+    EXPECT_FALSE(scope.openCaptureFile(folder.filePath("pipe.csv")));
+    EXPECT_THAT(problem->text().toStdString(), HasSubstr("pipe.csv is not a file that can be read."));
     EXPECT_TRUE(scope.openCaptureFile(good));
     ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     EXPECT_THAT(status(), HasSubstr("good.csv · 20000 samples at 2"));
@@ -242,6 +250,18 @@ TEST_F(Scope, TheListOfTimeBasesMarksThePresentOneAndEndsWhereSamplesHaveNoShape
     }
     EXPECT_EQ(marked, QStringList("500\u202fµs/div"));
     EXPECT_EQ(refused, QStringList("100\u202fns/div")) << "samples 500 ns apart";
+}
+
+TEST_F(Scope, ToolAndViewSayTheSameTimeBaseBetweenTwoStepsToo) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    scope.model().setTimePerDivision(150e-6);
+    EXPECT_EQ(find<QToolButton>(scope, "Time base tool")->text(), "200\u202fµs/div") << "as the grid has it";
+    const QComboBox* box = nullptr;
+    for (const auto* each : scope.findChildren<QComboBox*>())
+        if (each->accessibleName() == "Time base") box = each;
+    ASSERT_NE(box, nullptr);
+    EXPECT_EQ(box->currentText(), "200\u202fµs/div");
 }
 
 TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {

@@ -6,9 +6,12 @@
 #include <QLineEdit>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QStatusBar>
+#include <QToolButton>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/live/TactilePlane.h"
+#include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/runner/StepButton.h"
 #include "app/gui/runner/TrialPlane.h"
@@ -75,6 +78,20 @@ protected:
         }
         gui::applyTheme(gui::Theme::Light);
     }
+    [[nodiscard]] static QStringList texts(const QCustomPlot& plot) {
+        QStringList all;
+        for (const auto* element : plot.plotLayout()->elements(false))
+            if (const auto* text = dynamic_cast<const QCPTextElement*>(element)) all << text->text();
+        return all;
+    }
+    [[nodiscard]] QString lastMessage() {
+        const auto messages = window.statusBar()->findChildren<QToolButton*>();
+        return messages.isEmpty() ? QString() : messages.front()->toolTip().section('\n', 0, 0);
+    }
+    [[nodiscard]] QString recorded() {
+        QCoreApplication::processEvents();
+        return find<QLabel>(window, "recording")->text();
+    }
     void type(const char* field, const QString& text) {
         QLineEdit* line = nullptr;
         ASSERT_IN_TIME(comesTrue([&] { return (line = find<QLineEdit>(window, field)) != nullptr; })) << field;
@@ -138,6 +155,9 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
     window.showWorkspace(2);
     ASSERT_NO_FATAL_FAILURE(type("area", "4"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
+    // Not the last of the faults that the check provoked, nor the bench that it closed.
+    EXPECT_EQ(lastMessage(), "Safety check finished: pass. Output is off.");
+    EXPECT_TRUE(recorded().startsWith("Recorded to load-safety-")) << recorded().toStdString();
     looksRight("result-safety");
     // The tracing of the strongest output is a view of its own, and beside it in the large window.
     plotHas<gui::LimitMatrixView>(0.8, "matrix", {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)});
@@ -146,6 +166,12 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
         window.resize(size);
         QTest::qWait(100);
         const int bottom = matrix->viewport()->height();
+        for (int row = 0; row < matrix->rowCount(); ++row) {
+            const auto note = matrix->item(row, 0)->data(Qt::UserRole).toString();
+            EXPECT_LE(QFontMetrics(gui::textFont(gui::TextSize::Small)).horizontalAdvance(note),
+                      matrix->columnWidth(0) - 16)
+                << note.toStdString() << " is cut at " << size.height();
+        }
         for (int row = 0; row < matrix->rowCount(); ++row) {
             const int top = matrix->rowViewportPosition(row);
             EXPECT_TRUE(top >= bottom || top + matrix->rowHeight(row) <= bottom)
@@ -159,6 +185,18 @@ TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-separability");
     plotHas<gui::TrialPlane>(0.95, "plane");
+    window.resize(1440, 900);
+    QTest::qWait(100);
+    const auto frameTop = [&](const QCustomPlot* plot) {
+        return plot->mapTo(&window, QPoint()).y() + plot->axisRect()->rect().top();
+    };
+    const auto* plane = find<gui::TrialPlane>(window, "Trials");
+    const auto* train = find<gui::CaptureStrip>(window, "Last capture");
+    ASSERT_TRUE(plane != nullptr && train != nullptr);
+    EXPECT_NEAR(frameTop(plane), frameTop(train), 1);
+    EXPECT_TRUE(texts(*plane).contains("Trials in the plane, 100"));
+    for (const auto* axis : {plane->xAxis, plane->yAxis, train->xAxis, train->yAxis, train->yAxis2})
+        EXPECT_TRUE(axis->label().at(0).isUpper()) << axis->label().toStdString();
 }
 
 TEST_F(ResultsInTheWindow, AFaultLooksRight) {

@@ -304,6 +304,11 @@ TEST_F(Window, AFileThatIsNothingOfOursIsRefusedInOneSentence) {
     EXPECT_THAT(banner().toStdString(), HasSubstr("notes.txt"));
     window.openFile(QString::fromStdString(folder.path().string()));
     EXPECT_THAT(banner().toStdString(), HasSubstr("recording.json"));
+    EXPECT_FALSE(banner().contains('\n'));
+    window.openFile(QString::fromStdString(folder.write("words.csv", "hello\nworld\n").string()));
+    const auto* problem = window.findChild<QLabel*>("scopeProblem");
+    ASSERT_IN_TIME(comesTrue([&] { return problem->isVisible() && problem->text().contains("words.csv"); }));
+    shot(window, "capture-refused");
 }
 
 TEST_F(Window, TheExampleRecordingReplays) {

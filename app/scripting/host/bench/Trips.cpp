@@ -158,7 +158,7 @@ Result<Json> whileDelivering(ScriptSession& session, const Arguments& arguments)
         bench.disarm();
         return trial(name, true, false, after_s, fmt::format("output went on for {:.1f} s", after_s));
     }
-    if (waited.error().code != ErrorCode::Device || !bench.faultPersists(cause)) return failure(waited);
+    if (waited.error().code == ErrorCode::Stopped || !bench.faultPersists(cause)) return failure(waited);
     Json seenOpen = Json::array();
     if (watched) {
         auto shown = openCircuitSeen(session);
@@ -195,7 +195,7 @@ Result<Json> bySilence(ScriptSession& session, const Arguments& arguments) {
         bench.disarm();
         return trial("dead-man", true, false, std::nan(""), "output went on after the silence");
     }
-    if (waited.error().code != ErrorCode::Device || !bench.faultPersists(FaultCause::LoopSilent)) {
+    if (waited.error().code == ErrorCode::Stopped || !bench.faultPersists(FaultCause::LoopSilent)) {
         return failure(waited);
     }
     session.noteExpectedFault();

@@ -11,12 +11,14 @@ std::vector<HostFunction> generalFunctions() {
              "declaration",
              "{ title, purpose, kind, needs: [\"sensor\", \"stimulator\", \"oscilloscope\", \"massager\"], parameters: "
              "{ "
-             "NAME: { label, type: number | integer | choice | text | boolean | date | file, unit, min, max, choices, "
-             "value, step: \"reference\", needed, zero } } }")},
+             "NAME: { label, type: number | integer | choice | text | boolean | date | file, unit, min, max, option, "
+             "choices, value, step: \"reference\", needed, zero } } }")},
          .text =
              "Declares what the script is and what it takes. Once, at top level. `step`: the parameter is of the "
              "known reference that is read first. `needed`: what is not known without it; 0 or nothing is no "
-             "answer then, and the window asks for it before a run. `zero`: what 0 stands for, \"from the profile\".",
+             "answer then, and the window asks for it before a run. `zero`: what 0 stands for, \"from the profile\". "
+             "`option`: the option of a host function whose unit and range the number has, in place of unit, min and "
+             "max: \"analysis.variation.detection_ma\".",
          .errors = "Throws for a key, type, role or range that does not fit.",
          .call = host::general::protocol,
          .javascript =  // Objects keep the order they were written in; JSON does not.

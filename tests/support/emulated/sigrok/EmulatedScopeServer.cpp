@@ -10,26 +10,21 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "core/base/Loopback.h"
+
 namespace tacto::sigrok_driver {
 
 Result<std::unique_ptr<EmulatedScopeServer>> EmulatedScopeServer::start(std::unique_ptr<EmulatedRigol> scope) {
-    sockaddr_in local{};
-    local.sin_family = AF_INET;
-    local.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof local;
-    const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    const auto listener = listenOnLoopback(4);
+    if (!listener) return failure(listener);
     const int wake = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): how the system call takes every kind of address
-    auto* const address = reinterpret_cast<sockaddr*>(&local);
-    if (listener < 0 || wake < 0 || ::bind(listener, address, size) != 0 || ::listen(listener, 4) != 0 ||
-        ::getsockname(listener, address, &size) != 0) {
+    if (wake < 0) {
         const int error = errno;
-        if (listener >= 0) ::close(listener);
-        if (wake >= 0) ::close(wake);
-        return fail(ErrorCode::Io, "no port on loopback for an emulated oscilloscope: {}", std::strerror(error));
+        ::close(listener->descriptor);
+        return fail(ErrorCode::Io, "nothing wakes an emulated oscilloscope: {}", std::strerror(error));
     }
     std::unique_ptr<EmulatedScopeServer> server(
-        new EmulatedScopeServer(std::move(scope), listener, ntohs(local.sin_port), wake));
+        new EmulatedScopeServer(std::move(scope), listener->descriptor, listener->port, wake));
     server->thread_ = std::thread([&self = *server] { self.serve(); });
     return server;
 }
