@@ -145,6 +145,7 @@ QWidget* SafetyBar::buildBlindFacts() {
 void SafetyBar::setBlind(bool blind) {
     blind_ = blind;
     pulse_ = 0;
+    giveRoom();
 }
 
 void SafetyBar::setParticipantsStop(const QString& words) { participantsStop_->setText(words); }
@@ -197,7 +198,8 @@ void SafetyBar::giveRoom() {
     const int calibrated = QFontMetrics(textFont(TextSize::Small)).horizontalAdvance(tr(kFactsWidth));
     const int unmeasured = QFontMetrics(textFont(TextSize::Small, QFont::Bold)).horizontalAdvance(tr(kUnmeasured));
     const int facts = std::max(calibrated, unmeasured) + 2 * kBarGap;
-    const int beside = width() - always, forBar = bars_->oneBarWidth() + kBarGap;
+    // While blind no bar is shown, and its room would hold nothing but ellipses.
+    const int beside = width() - always, forBar = blind_ ? 0 : bars_->oneBarWidth() + kBarGap;
     block_->fit(std::max(beside - forBar, std::min(beside, block_->legibleWidth())));
     const int left = beside - block_->width();
     const bool barFirst = block_->width() > block_->legibleWidth();
