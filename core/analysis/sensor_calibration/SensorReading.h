@@ -34,7 +34,7 @@ struct SensorRest {
 [[nodiscard]] Result<SensorRest> readRest(const SensorSamples& samples, const RoughnessSettings& settings);
 
 /// One slide over one surface. Features are arithmetic means over its frames (h over sliding frames, v over contact
-/// frames, as bench.measureReference() takes them); NaN: the rig does not measure it, or contact was absent throughout.
+/// frames, as bench.measureReference() takes them); NaN: the rig does not measure it, or no frame has it.
 struct SlideReading {
     double h = std::numeric_limits<double>::quiet_NaN();
     double hAbs = std::numeric_limits<double>::quiet_NaN();  ///< (m/s2/N)2
