@@ -31,12 +31,12 @@ inline void clickOn(const QWidget& widget, const QString& button = "1") {
 /// Gives the server's focus to the window, as a window manager does after a click.
 inline void focus(const QWidget& window) {
     ASSERT_EQ(QProcess::execute("xdotool", {"windowfocus", QString::number(window.window()->winId())}), 0);
-    QTest::qWait(20);
+    letLive(20);
 }
 
 /// The whole screen, as a PNG in $TACTO_SHOTS.
 inline void picture(const QString& name) {
-    QTest::qWait(150);
+    letLive(150);
     const auto file = QString("%1/%2%3.png")
                           .arg(qEnvironmentVariable("TACTO_SHOTS"), name, qEnvironmentVariable("TACTO_SHOT_SUFFIX"));
     ASSERT_TRUE(QGuiApplication::primaryScreen()->grabWindow(0).save(file));

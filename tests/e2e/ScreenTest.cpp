@@ -25,7 +25,7 @@ protected:
     void expectAllOnScreen(gui::MainWindow& window, const char* when) {
         window.show();
         ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
-        QTest::qWait(100);  // docks take their sizes one turn later
+        letLive(100);  // docks take their sizes one turn later
         const auto screen = QGuiApplication::primaryScreen()->availableGeometry();
         const auto isOn = [&](const QWidget& widget) {
             const QRect place(widget.mapToGlobal(QPoint(0, 0)), widget.size());
@@ -43,7 +43,7 @@ protected:
         for (int page = 0; page < 8; ++page) {
             window.showWorkspace(std::max(0, page - 1));
             window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page == 0 ? 1 : 0);
-            QTest::qWait(30);
+            letLive(30);
             isOn(window);
             isOn(*bar);
             auto* stop = bar->findChild<QPushButton*>("stopButton");
@@ -68,7 +68,7 @@ TEST_F(Screen, DISABLED_LeftOnALargerScreen) {
         gui::MainWindow large(simulatedRegistry);
         large.show();
         large.setGeometry(400, 300, 2560, 1440);
-        QTest::qWait(50);
+        letLive(50);
         large.close();
     }
     gui::MainWindow window(simulatedRegistry);
@@ -82,7 +82,7 @@ TEST_F(Screen, DISABLED_ItGetsSmallerThanALaptopsScreen) {
     ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
     // 1920 x 1080 at 200 % is 960 x 540; the title bar and a panel take their part.
     window.resize(940, 480);
-    QTest::qWait(50);
+    letLive(50);
     EXPECT_LE(window.width(), 940);
     EXPECT_LE(window.height(), 480);
     window.close();

@@ -505,7 +505,7 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryMenuAndList) {
     ASSERT_NO_FATAL_FAILURE(tryAll());
     for (int shown = 0; shown < 8; ++shown) {
         page(std::max(0, shown - 1), shown == 0 ? 1 : 0);
-        QTest::qWait(60);
+        letLive(60);
         const auto reachable = [](const QWidget* widget) {
             return widget->isVisible() && widget->isEnabled() &&
                    widget->visibleRegion().contains(widget->rect().center());
@@ -549,14 +549,14 @@ TEST_F(StopEverywhere, DISABLED_WhileTextIsDragged) {
                                QString::number(int((from.y() + by) * scale))};
         };
         ASSERT_EQ(QProcess::execute("xdotool", at(0) + QStringList{"mousedown", "1"}), 0);
-        QTest::qWait(50);
+        letLive(50);
         expectStop(key, [&] {
             // In the drag's own event loop only the key is pressed: a wait there would delete the window that the key
             // closes, to which the drag is still to return.
             QTimer::singleShot(300, [key] { type(key); });
             for (const int by : {10, 20, 40}) {
                 QProcess::execute("xdotool", at(by));
-                QTest::qWait(50);
+                letLive(50);
             }
         });
         QProcess::execute("xdotool", {"mouseup", "1"});

@@ -91,7 +91,7 @@ TEST_F(TourByHand, DISABLED_LeadsToAMeasuredPulseAndAVerdictInFiveMinutes) {
     ASSERT_IN_TIME(comesTo("Put a surface under the finger"));
     ASSERT_TRUE(built.clickOn("Back"));
     ASSERT_IN_TIME(comesTo("Open the simulated bench"));
-    QTest::qWait(1500);
+    letLive(1500);
     EXPECT_EQ(built.text("tourTitle"), "Open the simulated bench") << "what is done already does not push on again";
     ASSERT_TRUE(built.clickOn("Next"));
     ASSERT_IN_TIME(comesTo("Put a surface under the finger"));
@@ -106,7 +106,7 @@ TEST_F(TourByHand, DISABLED_LeadsToAMeasuredPulseAndAVerdictInFiveMinutes) {
     ASSERT_IN_TIME(frames("armOutput")) << "the second step stands in a window of its own";
     EXPECT_EQ(state(), "DISARMED") << "the first step arms nothing";
     built.person.reads(built.text("Arm the output"));
-    QTest::qWait(1000);  // the second step is deaf at first, and a person reads meanwhile
+    letLive(1000);  // the second step is deaf at first, and a person reads meanwhile
     ASSERT_IN_TIME(clickOnTheFrame());
     ASSERT_IN_TIME(comesTrue([&] { return state() == "ARMED"; })) << built.text("Arm the output").toStdString();
 

@@ -34,7 +34,7 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     type("ctrl+b");
     ASSERT_IN_TIME(comesTrue([&] { return controller.activity() == gui::Activity::Live; }));
     controller.present("P120", 50, 1);
-    QTest::qWait(3000);
+    letLive(3000);
     picture("2-live");
 
     click(*window.findChild<QPushButton*>("armButton"));
@@ -43,7 +43,7 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     ASSERT_IN_TIME(comesTrue([&] { return arm->isVisible(); }));
     picture("3-arming");
     EXPECT_EQ(state(), InterlockState::Disarmed) << "the first step arms nothing";
-    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 100);
+    letLive(gui::ConfirmButton::kDebounce_ms + 100);
     click(*arm);
     ASSERT_IN_TIME(comesTrue([&] { return state() == InterlockState::Armed; }));
     controller.drive(DriveSource::Sensor);
@@ -53,7 +53,7 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     auto* tabs = window.findChild<gui::TabbedPage*>("livePage");
     ASSERT_NE(tabs, nullptr);
     tabs->setCurrentIndex(1);
-    QTest::qWait(4500);
+    letLive(4500);
     picture("4-oscilloscope");
     tabs->setCurrentIndex(0);
 

@@ -249,7 +249,7 @@ void looksRight(QWidget& widget, const QString& name, const LookedAtSizes& sizes
         for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
             gui::applyTheme(theme);
             if (sized.isValid()) pictured.resize(sized);
-            QTest::qWait(40);
+            letLive(40);
             // Texts grow before their places do.
             static_cast<void>(comesTrue([&] { return faultsOf(widget).empty(); }, 3000));
             EXPECT_EQ(faultsOf(widget), "") << name.toStdString() << " at " << percent << " %";

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QPixmap>
 #include <QTest>
+#include <algorithm>
 
 #include "app/gui/theme/ConfirmButton.h"
 #include "drivers/replay/ReplayDrivers.h"
@@ -13,6 +14,11 @@
 namespace tacto::test {
 
 bool comesTrue(const std::function<bool()>& isSo, int limit_ms) { return QTest::qWaitFor(isSo, limit_ms); }
+
+void letLive(int ms) {
+    constexpr int kTurn_ms = 10;
+    for (int left_ms = ms; left_ms > 0; left_ms -= kTurn_ms) QTest::qWait(std::min(left_ms, kTurn_ms));
+}
 
 bool answersTo(const QWidget& widget, const QString& text) {
     const auto plain = [](QString written) { return written.remove('&'); };
@@ -41,7 +47,7 @@ void shot(QWidget& widget, const QString& name) {
     const auto folder = qEnvironmentVariable("TACTO_SHOTS");
     if (folder.isEmpty()) return;
     QDir().mkpath(folder);
-    QTest::qWait(150);  // so that a viewer sees it laid out
+    letLive(150);  // so that a viewer sees it laid out
     widget.grab().save(folder + "/" + name + ".png");
 }
 

@@ -14,6 +14,10 @@ namespace tacto::test {
 /// Lets the window live until `isSo`; false after `limit_ms`.
 [[nodiscard]] bool comesTrue(const std::function<bool()>& isSo, int limit_ms = 10'000);
 
+/// Lets the window live for `ms`, and for as many turns of its event loop as an idle machine makes in that time: on a
+/// busy one a wait by the clock alone can end before anything is laid out.
+void letLive(int ms);
+
 /// The visible widget of a kind with this text (buttons, labels, tabs: without mnemonic), name or accessible name.
 template <class T>
 [[nodiscard]] T* find(const QWidget& in, const QString& text);

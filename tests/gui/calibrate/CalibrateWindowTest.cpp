@@ -53,7 +53,7 @@ TEST_F(CalibrateWindow, AnExpiredOneWarns) {
     EXPECT_TRUE(warns());
     window.resize(1024, 640);
     window.showWorkspace(1);
-    QTest::qWait(100);
+    letLive(100);
     shot(window, "calibrate_window_small");
     gui::applyTheme(gui::Theme::Dark);
     ASSERT_IN_TIME(comesTrue([this] { return warns(); }));
@@ -89,7 +89,7 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
     QObject::connect(&window.controller(), &gui::BenchController::finished, &window, [&] { over = true; });
     click(*calibrate);
     ASSERT_IN_TIME(comesTrue([&] { return over; }, 90'000));
-    QTest::qWait(100);
+    letLive(100);
     shot(window, "calibrate_window_done");
     window.resize(1280, 720);
     auto* errors = find<gui::CalibrationPlot>(window, "calibrationErrors");
@@ -104,14 +104,14 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
     };
     EXPECT_IN_TIME(comesTrue([&] { return inSight("Sign report…"); })) << "what comes next stands below the plot";
     EXPECT_IN_TIME(comesTrue([&] { return errors->height() >= 300; })) << errors->height() << ", with it in sight";
-    QTest::qWait(100);
+    letLive(100);
     shot(window, "calibrate_window_1280");
     gui::applyTheme(gui::Theme::Dark);
-    QTest::qWait(100);
+    letLive(100);
     shot(window, "calibrate_window_1280_dark");
     gui::applyTheme(gui::Theme::Light);
     window.resize(1920, 1080);
-    QTest::qWait(200);
+    letLive(200);
     shot(window, "calibrate_window_1920");
     click(*find<QPushButton>(window, "Open session"));
     EXPECT_EQ(window.workspace(), 5);
@@ -119,7 +119,7 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
     click(*find<QPushButton>(window, "Go to safety check"));
     EXPECT_EQ(window.workspace(), 2);
     window.resize(1280, 720);
-    QTest::qWait(200);
+    letLive(200);
     shot(window, "safety_window_1280");
     open();
     ASSERT_IN_TIME(comesTrue([this] { return says().rfind("calibrated until ", 0) == 0; })) << says();

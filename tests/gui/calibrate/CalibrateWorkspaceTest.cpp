@@ -101,7 +101,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_THAT(more, HasSubstr("Calibrated until 20"));
     EXPECT_THAT(more, Not(HasSubstr("(-"))) << "minus signs, as in the report";
     EXPECT_THAT(more, Not(HasSubstr("is not calibrated")));
-    QTest::qWait(20);  // drawn with the next event
+    letLive(20);  // drawn with the next event
     shot(workspace, "calibrate_done");
     // What chooses the plot stands in the row of tabs, with the plot alone.
     const auto* kind = workspace.findChild<QWidget*>("tabRow")->findChild<QComboBox*>();
@@ -113,7 +113,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     click(the<gui::StepButton>("Result"));
     EXPECT_TRUE(kind->isVisible());
     gui::applyTheme(gui::Theme::Dark);
-    QTest::qWait(20);
+    letLive(20);
     shot(workspace, "calibrate_done_dark");
 
     // Then the short run, which stores nothing.
@@ -124,7 +124,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_EQ(ended->result.verdict(), "pass");
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 1);
     EXPECT_EQ(errors->drawnUp() + errors->drawnDown(), 12);
-    QTest::qWait(20);
+    letLive(20);
     shot(workspace, "calibrate_checked_dark");
 }
 
@@ -134,7 +134,7 @@ TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
     auto* tabs = workspace.findChild<gui::TabbedPage*>("calibratePages");
     tabs->setCurrentIndex(1);
     ASSERT_IN_TIME(comesTrue([this] { return workspace.runners()[1]->ready(); }));
-    QTest::qWait(50);
+    letLive(50);
     shot(workspace, "calibrate_sensor");
     workspace.runners()[1]->runAsked();
     ASSERT_IN_TIME(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
@@ -181,7 +181,7 @@ TEST_F(Calibrate, AnExpiredOneWarnsAndCannotBeChecked) {
     ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today"));
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 2);
-    QTest::qWait(20);  // drawn with the next event
+    letLive(20);  // drawn with the next event
     EXPECT_LE(workspace.minimumSizeHint().width(), 760) << "the window would be widened with one of the next events";
     EXPECT_LE(workspace.width(), 760);
     shot(workspace, "calibrate_done_small");
@@ -212,7 +212,7 @@ class CalibrateInLargeText : private LargeText, public Calibrate {};
 TEST_F(CalibrateInLargeText, FitsALargeWindow) {
     store(calibration(12, 365));
     show({1600, 1000});
-    QTest::qWait(50);  // laid out anew
+    letLive(50);  // laid out anew
     EXPECT_LE(workspace.width(), 1600);
     shot(workspace, "calibrate_200");
 }

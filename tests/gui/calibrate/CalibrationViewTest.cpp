@@ -59,7 +59,7 @@ TEST_F(View, NoLegendCoversAReadingOrAMean) {
     sweep();
     for (const auto& size : {QSize(1000, 420), QSize(1400, 700), QSize(700, 420)}) {
         view.resize(size);
-        QTest::qWait(20);
+        letLive(20);
         for (auto* plot : {&errors(), &measured()}) {
             view.findChild<QComboBox*>("calibrationPlotKind")->setCurrentIndex(plot == &measured());
             plot->replot(QCustomPlot::rpImmediateRefresh);
@@ -123,7 +123,7 @@ TEST_F(View, WaysAreToldApartAndWhatStandsOutIsMarkedAndKept) {
     EXPECT_EQ(errors().bandReach(), errors().xAxis->range()) << "to the plot's edges";
     EXPECT_TRUE(measured().hasLine());
     EXPECT_THAT(says(), HasSubstr("marked and kept"));
-    QTest::qWait(20);  // drawn with the next event
+    letLive(20);  // drawn with the next event
     shot(view, "calibrate_view");
 }
 
@@ -150,7 +150,7 @@ TEST_F(View, FollowsTheRunUntilOneIsChosen) {
     view.add(reading("width up", 40, 40));
     view.draw();
     EXPECT_EQ(view.quantityShown(), "Phase width");
-    QTest::qWait(20);  // laid out
+    letLive(20);  // laid out
     auto* amplitude = find<gui::ToleranceCard>(view, "Amplitude");
     ASSERT_NE(amplitude, nullptr);
     click(*amplitude);
@@ -211,12 +211,12 @@ TEST_F(View, TheResultHasTheLastWord) {
     // (0.03 + 0.07) of 0.2 V at 10 V; less of it at the others.
     EXPECT_THAT(errors().nearestShown().toStdString(), HasSubstr("50\u202f% used"));
     EXPECT_THAT(errors().nearestShown().toStdString(), HasSubstr("10\u202fV:"));
-    QTest::qWait(20);  // laid out
+    letLive(20);  // laid out
     auto* card = find<gui::ToleranceCard>(view, "Amplitude");
     ASSERT_NE(card, nullptr);
     EXPECT_THAT(card->accessibleDescription().toStdString(), HasSubstr("50\u202f% of the tolerance used"));
     EXPECT_THAT(card->accessibleDescription().toStdString(), HasSubstr("pass"));
-    QTest::qWait(20);
+    letLive(20);
     shot(view, "calibrate_view_result");
 }
 

@@ -120,7 +120,7 @@ TEST_F(CertificateWindow, FitsASmallScreenWithLargeTextByScrolling) {
         showDialog();
         writeAll("K-2026-19", -1, 364);
         dialog->resize(QSize(1270, percent == 200 ? 500 : 580).boundedTo(dialog->size()));  // below the safety bar
-        QTest::qWait(50);
+        letLive(50);
         EXPECT_LE(dialog->width(), 1270) << percent;
         EXPECT_LE(dialog->height(), percent == 200 ? 500 : 580) << percent;
         auto* page = dialog->findChild<gui::ScrollingPage*>();
@@ -185,7 +185,7 @@ TEST_F(CertificateWindow, WithdrawsAfterASecondPress) {
     click(*withdraw);
     EXPECT_EQ(kept().state(0, daysFromNow(0)), CertificateState::Counts);
     EXPECT_THAT(withdraw->text().toStdString(), HasSubstr("4711"));
-    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 100);
+    letLive(gui::ConfirmButton::kDebounce_ms + 100);
     click(*withdraw);
     EXPECT_EQ(kept().state(0, daysFromNow(0)), CertificateState::Withdrawn);
     EXPECT_THAT(table().item(0, 0)->text().toStdString(), HasSubstr("withdrawn"));

@@ -124,7 +124,7 @@ TEST_F(Operator8b, ItsPixelsAreTheSameForEveryCondition) {
         auto screen = testScreen(ScreenState::Feel, 1);
         screen.operatorText = condition;
         page.show(screen);
-        QTest::qWait(30);
+        letLive(30);
         seen.push_back(page.grab().toImage());
     }
     EXPECT_EQ(seen[0], seen[1]);

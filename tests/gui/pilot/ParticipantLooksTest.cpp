@@ -25,7 +25,7 @@ protected:
     void answerBy(Qt::Key pressed) {
         key(pressed);
         EXPECT_TRUE(answered());
-        QTest::qWait(160);  // no key counts as held
+        letLive(160);  // no key counts as held
     }
 };
 

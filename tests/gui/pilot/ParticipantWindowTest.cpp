@@ -46,7 +46,7 @@ TEST_F(Seated, KeysStandWhereTheTargetsDo) {
 
 TEST_F(Seated, ThePressOfAMouseAnswersNotItsRelease) {
     ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
-    QTest::qWait(120);
+    letLive(120);
     QTest::mousePress(&target("none"), Qt::LeftButton);
     const auto said = answered();
     ASSERT_TRUE(said);
@@ -87,7 +87,7 @@ TEST_F(Seated, WhatComesBeforeTheTargetsIsEarlyAndNoAnswer) {
     QTest::mouseClick(const_cast<gui::ParticipantField*>(&window.field()), Qt::LeftButton);
     key(Qt::Key_F7);  // no answer's key
     ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
-    QTest::qWait(50);
+    letLive(50);
     EXPECT_FALSE(isAnswered());
     const auto early = desk.takeEarly();
     ASSERT_EQ(early.size(), 3U);
@@ -106,10 +106,10 @@ TEST_F(Seated, AKeyHeldFromBeforeIsNoAnswer) {
     QApplication::sendEvent(&window, &marked);
     QKeyEvent unmarked(QEvent::KeyPress, Qt::Key_2, Qt::NoModifier, "2", false);  // as X sends some
     QApplication::sendEvent(&window, &unmarked);
-    QTest::qWait(30);
+    letLive(30);
     EXPECT_FALSE(isAnswered());
     QTest::keyRelease(window.windowHandle(), Qt::Key_2);
-    QTest::qWait(200);
+    letLive(200);
     key(Qt::Key_2);
     ASSERT_TRUE(answered());
 }
@@ -239,7 +239,7 @@ TEST_F(Seated, AScaleAndSeveralAnswers) {
     prompt.kind = PromptKind::Several;
     ASSERT_NO_FATAL_FAILURE(ask(prompt));
     key(Qt::Key_1);
-    QTest::qWait(200);
+    letLive(200);
     key(Qt::Key_3);
     key(Qt::Key_Return);
     EXPECT_THAT(answered()->keys, ElementsAre("touch", "burning"));
@@ -251,7 +251,7 @@ TEST_F(Seated, TheStopTestIsAnsweredByStopAlone) {
     prompt.name = "stop-test";
     ASSERT_NO_FATAL_FAILURE(ask(prompt));
     key(Qt::Key_1);
-    QTest::qWait(30);
+    letLive(30);
     EXPECT_FALSE(isAnswered());
     key(Qt::Key_Escape);
     EXPECT_FALSE(answered());

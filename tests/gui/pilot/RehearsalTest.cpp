@@ -35,7 +35,7 @@ class RehearsalInTheWindow : public Window {
 protected:
     RehearsalInTheWindow() {
         window.showWorkspace(4);
-        QTest::qWait(50);
+        letLive(50);
     }
     void begin(bool person, const char* modality = "electrodes") {
         pilot = window.findChild<gui::PilotWorkspace*>();
@@ -74,7 +74,7 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     EXPECT_TRUE(pilot->blind());
     window.showWorkspace(0);
     EXPECT_EQ(window.workspace(), 4) << "other workspaces would show what is delivered";
-    QTest::qWait(500);
+    letLive(500);
     shot(window, "pilot-virtual-running");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 100'000));
     SCOPED_TRACE(headline());
@@ -191,15 +191,15 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     EXPECT_GE(red->height(), 100) << "seen, and hit by a hand";
     const auto at = red->mapTo(theirs, red->rect().center());
     EXPECT_EQ(theirs->childAt(at), red);
-    QTest::qWait(100);  // another press than the participant's
+    letLive(100);  // another press than the participant's
     ASSERT_IN_TIME(testsIt()) << asked();
     QTest::mousePress(theirs->windowHandle(), Qt::LeftButton, {}, at);
     ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000))
         << asked();
     ASSERT_TRUE(pilot->running()) << "a test of STOP ends no session: " << headline();
-    QTest::qWait(150);
+    letLive(150);
     window.controller().stop("operator (Esc, held)");  // the press of the test, which goes on
-    QTest::qWait(150);
+    letLive(150);
     ASSERT_TRUE(pilot->running()) << "a key that is held counts once: " << headline();
     // Here nothing is armed that the control loop has to look after while pictures are made.
     looksRight(*pilot, "pilot-running", {QSize(1280, 720), QSize(1280, 720)}, &window);
@@ -209,7 +209,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     ASSERT_IN_TIME(comesTrue(
         [&] { return !runs() || (strip->isVisible() && find<QPushButton>(*strip, "0") != nullptr); }, 20'000));
     ASSERT_IN_TIME(runs()) << headline();
-    QTest::qWait(150);  // another press than that of the test
+    letLive(150);  // another press than that of the test
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_EQ(pilot->participantWindow(), nullptr);
@@ -257,14 +257,14 @@ TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain)
     const auto goOn = [&] { return find<QPushButton>(*asks, "Go on"); };
     ASSERT_IN_TIME(comesTrue([&] { return asks->isVisible() && goOn() != nullptr; }, 20'000));
     EXPECT_TRUE(pilot->running()) << headline();
-    QTest::qWait(150);
+    letLive(150);
     click(*goOn());
     ASSERT_IN_TIME(comesTrue([&] { return theirs->isVisible() && theirs->asking(); }, 20'000));
     EXPECT_EQ(theirs->title().indexOf("being tested"), -1) << "their own go on comes first";
     QTest::keyClick(theirs->windowHandle(), Qt::Key_1);
     ASSERT_IN_TIME(
         comesTrue([&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; }, 20'000));
-    QTest::qWait(150);
+    letLive(150);
     window.controller().stop("operator (signal)");  // a press would be one of the wrong STOP
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
@@ -344,7 +344,7 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     plugged->press("pad", 1, false);
     ASSERT_IN_TIME(comesTrue(tests, 20'000));
 
-    QTest::qWait(150);
+    letLive(150);
     std::async(std::launch::async, [&] { plugged->press("pad", 6); }).get();  // and now it is tested
     const auto tested = [&] {
         const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
@@ -356,11 +356,11 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     EXPECT_IN_TIME(seen) << "a STOP waits for no window";
     const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
     ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
-    QTest::qWait(150);
+    letLive(150);
     plugged->press("pedal", 1);  // and the operator's
     ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000));
     ASSERT_TRUE(pilot->running()) << headline();
-    QTest::qWait(150);
+    letLive(150);
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_EQ(plugged->open("pad") + plugged->open("pedal"), 0U);

@@ -246,7 +246,7 @@ TEST_F(SeatedSession, TheParticipantsScreenIsTheSameInATrialWhateverIsPresented)
             return ready();
         }));
         look();
-        QTest::qWait(160);  // no key counts as held
+        letLive(160);  // no key counts as held
         const auto said = running.get();
         EXPECT_TRUE(said) << said.error().message;
         return shown;

@@ -56,7 +56,7 @@ protected:
     void click(const char* name, std::size_t button) {
         plugged->press(name, button, true);
         plugged->press(name, button, false);
-        QTest::qWait(20);
+        letLive(20);
     }
     /// As the session's window does it.
     [[nodiscard]] gui::InputsAtOnce atOnce() {
@@ -97,9 +97,9 @@ TEST_F(SeatedWithPad, BeforeTheTargetsItIsEarlyAndHeldFromBeforeItIsNoAnswer) {
     desk.show(testScreen(ScreenState::Feel));
     QCoreApplication::processEvents();
     plugged->press("theirs", 3);  // and stays down
-    QTest::qWait(20);
+    letLive(20);
     ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
-    QTest::qWait(300);
+    letLive(300);
     EXPECT_FALSE(isAnswered()) << "held: it counts once, and that was early";
     const auto early = desk.takeEarly();
     ASSERT_EQ(early.size(), 1U);
@@ -116,7 +116,7 @@ TEST_F(SeatedWithPad, AQuestionWithMoreTargetsThanButtonsIsNotAnsweredByThem) {
     ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant, 8)}));  // four answers
     ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
     click("theirs", 1);
-    QTest::qWait(50);
+    letLive(50);
     EXPECT_FALSE(isAnswered()) << "\"nothing\" and \"not sure\" would be chosen less";
     key(Qt::Key_1);
     ASSERT_TRUE(answered());
@@ -155,10 +155,10 @@ TEST_F(SeatedWithPad, EitherOfTwoButtonsStopsAndAHeldOneOnce) {
         QCoreApplication::processEvents();
         plugged->press("theirs", button);
         ASSERT_IN_TIME(comesTrue([this] { return !stops.empty(); }));
-        QTest::qWait(300);
+        letLive(300);
         EXPECT_THAT(stops, ElementsAre("participant (button)"));
         plugged->press("theirs", button, false);
-        QTest::qWait(20);
+        letLive(20);
         EXPECT_EQ(stops.size(), 1U);
     }
 }
@@ -177,13 +177,13 @@ TEST_F(SeatedWithPad, LettingGoOfTheButtonThatIsHeldIsAStop) {
     QWidget other;
     other.show();
     other.activateWindow();
-    QTest::qWait(50);
+    letLive(50);
     EXPECT_TRUE(desk.holding()) << "a button is theirs whichever window has the keys";
     EXPECT_THAT(stops, IsEmpty());
     plugged->press("theirs", 7, false);
     EXPECT_THAT(stops, ElementsAre("participant let go")) << "before any event of the window";
     EXPECT_FALSE(desk.holding());
-    QTest::qWait(50);
+    letLive(50);
     EXPECT_THAT(stops, ElementsAre("participant let go")) << "and once";
 }
 
@@ -194,7 +194,7 @@ TEST_F(SeatedWithPad, WhatWasHeldWhenAStopCameIsLetGoWithoutAnother) {
     ASSERT_TRUE(answered());
     plugged->press("theirs", 5);
     plugged->press("theirs", 7, false);
-    QTest::qWait(50);
+    letLive(50);
     EXPECT_THAT(stops, ElementsAre("participant (button)"));
 }
 
@@ -305,7 +305,7 @@ TEST_F(SeatedWithPad, AContactThatBouncesWhenItIsPressedLetsNothingGo) {
     ASSERT_NO_FATAL_FAILURE(begin({seated("theirs", PromptTo::Participant)}));
     ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
     for (const bool down : {true, false, true, false}) plugged->press("theirs", 7, down);
-    QTest::qWait(60);
+    letLive(60);
     EXPECT_FALSE(isAnswered()) << "it is not down";
     for (const bool down : {true, false, true}) plugged->press("theirs", 7, down);
     const auto said = answered();
@@ -364,7 +364,7 @@ TEST_F(SeatedWithPad, ButtonsOnTheTargetsLookRightAndAreTheSameForEveryCondition
             felt.level = level;
             desk.delivered(felt);
             ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
-            QTest::qWait(60);
+            letLive(60);
             seen.push_back(window.grab().toImage());
             shot(window, QString("buttons-%1").arg(theme == gui::Theme::Dark ? "dark" : "light"));
             EXPECT_EQ(faultsOf(window), "");
@@ -381,7 +381,7 @@ TEST_F(SeatedWithPad, ButtonsOnTheTargetsLookRightAndAreTheSameForEveryCondition
         window.resize(size);
         desk.show(testScreen(ScreenState::Feel));
         ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
-        QTest::qWait(60);
+        letLive(60);
         shot(window, QString("buttons-%1").arg(percent));
         EXPECT_EQ(faultsOf(window), "") << percent;
         click("theirs", 1);

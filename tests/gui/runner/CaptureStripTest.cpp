@@ -50,9 +50,9 @@ TEST(CaptureStrip, GrownItHasTheNumbersThatItHasRoomFor) {
     strip.resize(120, 120);
     static_cast<QWidget&>(strip).show();
     strip.show(captureOf(1e-3, 40));
-    QTest::qWait(20);
+    letLive(20);
     strip.resize(400, 560);
-    QTest::qWait(20);
+    letLive(20);
     for (auto* axis : {strip.xAxis, strip.yAxis, strip.yAxis2}) {
         const auto labels = axis->tickVectorLabels();
         EXPECT_GE(labels.size(), 3) << axis->label().toStdString();

@@ -230,7 +230,7 @@ TEST_F(Workspace, EveryShippedProtocolRunsAsItComes) {
     for (const char* name : {"encoding-comparison", "live", "separability", "stimulator-calibration", "transitions"}) {
         choose(name);
         EXPECT_IN_TIME(ready()) << name;
-        QTest::qWait(200);  // judged a moment after it is shown
+        letLive(200);  // judged a moment after it is shown
         EXPECT_TRUE(the<QPushButton>("runButton").isEnabled()) << name << says("runObstacle").toStdString();
     }
 }

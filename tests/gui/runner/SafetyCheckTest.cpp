@@ -86,7 +86,7 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     bool scrolled = false;
     for (int height = 520; height < 900; height += 25) {
         workspace->resize(1800, height);
-        QTest::qWait(20);
+        letLive(20);
         const auto& page = *disclosed.widget();
         if (page.mask().isEmpty() || !disclosed.isVisible()) continue;
         scrolled = true;
@@ -124,7 +124,7 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_IN_TIME(comesTrue([&] { return !says("strongestOutput").contains("100\u00a0kΩ:"); })) << "by arrow keys too";
     shot(*workspace, "safety_result_wide");
     gui::applyTheme(gui::Theme::Dark);
-    QTest::qWait(50);
+    letLive(50);
     shot(*workspace, "safety_result_dark");
     workspace->resize(1150, 420);
     EXPECT_IN_TIME(comesTrue([&] { return !strip->isVisible(); })) << "too low for both";

@@ -335,7 +335,7 @@ TEST_F(Sessions, NoLineOfWhatHappenedIsCut) {
     bool scrolls = false;
     for (int height = 560; height < 560 + 2 * line; height += 5) {
         workspace.resize(1180, height);
-        QTest::qWait(50);
+        letLive(50);
         scrolls = scrolls || happened.verticalScrollBar()->maximum() > 0;
         // Where a line is cut its words reach the end.
         const int below = happened.viewport()->height() - 1 - drawnTo();
@@ -376,7 +376,7 @@ TEST_F(Sessions, LooksRight) {
         gui::applyTheme(theme);
         for (const auto& size : {QSize(1180, 560), QSize(1800, 900)}) {
             workspace.resize(size);
-            QTest::qWait(200);
+            letLive(200);
             shot(workspace,
                  QString("sessions-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(size.width()));
             EXPECT_EQ(faultsOf(workspace), "") << size.width();
@@ -384,7 +384,7 @@ TEST_F(Sessions, LooksRight) {
     }
     gui::applyTheme(gui::Theme::Light);
     choose(1);
-    QTest::qWait(300);
+    letLive(300);
     shot(workspace, "sessions-live");
 }
 

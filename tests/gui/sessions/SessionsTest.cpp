@@ -246,7 +246,7 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
     auto* tabs = both->findChild<QTabWidget*>();
     for (int page = 0; page < tabs->count(); ++page) {
         tabs->setCurrentIndex(page);
-        QTest::qWait(200);
+        letLive(200);
         shot(*both, QString("compare-%1").arg(page));
     }
     const auto drawn = [&] {

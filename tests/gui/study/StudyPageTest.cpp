@@ -61,7 +61,7 @@ TEST_F(StudyPageTest, EnrolsConsentsAndSaysHowEachStands) {
     ASSERT_NE(asks, nullptr) << "without initials it is refused in place";
     EXPECT_THAT(asks->findChild<QLabel*>("consentTrouble")->text().toStdString(), HasSubstr("initials"));
     asks->close();
-    QTest::qWait(20);
+    letLive(20);
     consent("KL");
     EXPECT_THAT(cell("participants", 0, 5), HasSubstr("version 2, 20"));
     enrol(true, 7);
@@ -75,7 +75,7 @@ TEST_F(StudyPageTest, EnrolsConsentsAndSaysHowEachStands) {
 TEST_F(StudyPageTest, EnrollingLeadsToTheConsentOfThatParticipantAndEnrolsOnce) {
     RecordProperty("hazard", "H11");
     enrol(true);
-    QTest::qWait(20);
+    letLive(20);
     press("enrol");
     auto* asks = dialog("enrolDialog");
     ASSERT_NE(asks, nullptr);
@@ -225,7 +225,7 @@ TEST_F(StudyPageTest, AgeSexAndHandednessAreAskedOfPeopleAndMayBeLeftOut) {
     EXPECT_EQ(about->age, "34");
     EXPECT_EQ(about->sex, "");
     EXPECT_EQ(about->handedness, "left");
-    QTest::qWait(20);
+    letLive(20);
     press("enrol");
     asks = dialog("enrolDialog");
     asks->findChild<QComboBox*>("enrolWho")->setCurrentIndex(1);

@@ -65,7 +65,7 @@ TEST(FileChooser, OpensNoneOfTheFilesThatItLists) {
         ASSERT_IN_TIME(comesTrue([&] { return dialog->isVisible(); }));
         for (const auto view : {QFileDialog::Detail, QFileDialog::List}) {
             dialog->setViewMode(view);
-            QTest::qWait(500);  // the chooser looks at files on a thread of its own
+            letLive(500);  // the chooser looks at files on a thread of its own
         }
         EXPECT_TRUE(isLocked(path)) << shown.toStdString();
         dialog->selectFile(folder.filePath("capture.csv"));

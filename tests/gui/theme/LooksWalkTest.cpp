@@ -30,7 +30,7 @@ protected:
     void show() {
         window.show();
         ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
-        QTest::qWait(20);
+        letLive(20);
     }
     QWidget window;
     QVBoxLayout layout{&window};
@@ -122,13 +122,13 @@ TEST_F(WalkOfLooks, FindsPagesThatAreCutSideways) {
     show();
     EXPECT_EQ(cutSideways(window).join('\n').toStdString(), "");
     page->setMinimumHeight(2000);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_EQ(cutSideways(window).join('\n').toStdString(), "") << "it may scroll down";
     page->setMinimumWidth(900);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_EQ(cutSideways(window).size(), 1);
     area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_EQ(cutSideways(window).size(), 1) << "without a way to scroll there";
 }
 
@@ -160,7 +160,7 @@ TEST_F(WalkOfLooks, FindsCellsWithoutRoom) {
     EXPECT_EQ(cutCells(window).size(), 1) << "only the last one may elide";
     table->resizeColumnsToContents();
     window.resize(table->columnWidth(0) * 2 + 120, 200);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_EQ(cutCells(window).size(), 1) << "the last one says it nowhere";
     table->item(0, 2)->setToolTip(words);
     EXPECT_EQ(cutCells(window).join('\n').toStdString(), "");
@@ -176,7 +176,7 @@ TEST_F(WalkOfLooks, FindsFieldsWithoutRoom) {
     show();
     EXPECT_EQ(cutFields(window).join('\n').toStdString(), "");
     edit->setFixedWidth(80);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_EQ(cutFields(window).size(), 1);
     edit->setToolTip("It says: a text of several words.");
     EXPECT_EQ(cutFields(window).size(), 0);
@@ -185,7 +185,7 @@ TEST_F(WalkOfLooks, FindsFieldsWithoutRoom) {
     EXPECT_EQ(cutFields(window).size(), 1) << "a placeholder is read too";
     edit->setFixedWidth(300);
     spin->setFixedWidth(80);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_EQ(cutFields(window).size(), 1);
 }
 
@@ -195,7 +195,7 @@ TEST_F(WalkOfLooks, FindsElidedWordsThatNoToolTipTells) {
     show();
     EXPECT_EQ(untoldElisions(window).join('\n').toStdString(), "");
     label->setFixedWidth(120);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_EQ(untoldElisions(window).size(), 1);
     label->setToolTip(label->text());
     EXPECT_EQ(untoldElisions(window).size(), 0);

@@ -209,10 +209,10 @@ TEST(Looks, AreFoundWrongInBoxesTabsAndTitlesOfColumns) {
     EXPECT_EQ(cutTexts(window).join('\n').toStdString(), "");
     const auto cuts = [&](const char* text) { return cutTexts(window).join('\n').contains(text); };
     box->setFixedWidth(60);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_TRUE(cuts("a choice of several words"));
     tabs->setFixedWidth(160);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_TRUE(cuts("The second of them"));
     table->horizontalHeader()->resizeSection(1, 30);
     EXPECT_TRUE(cuts("Uncertainty"));

@@ -148,7 +148,7 @@ TEST_F(Closing, WhoGoesBackToTheTextKeepsTheWindow) {
     QTest::keyClick(&editor->code(), Qt::Key_S, Qt::ControlModifier);
     QTest::keyClick(editor->findChild<QLineEdit*>("protocolName"), Qt::Key_Return);
     EXPECT_TRUE(std::filesystem::exists(userProtocolsFolder() / "my-protocol.js"));
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_TRUE(window.isVisible());
     EXPECT_TRUE(editor->isVisible());
 }
@@ -160,7 +160,7 @@ TEST_F(Closing, WhatCannotBeSavedKeepsTheWindow) {
     window.close();
     answer(QMessageBox::Save);
     QTest::keyClick(editor->findChild<QLineEdit*>("protocolName"), Qt::Key_Return);
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_TRUE(window.isVisible());
     EXPECT_THAT(editor->findChild<QLabel*>("scriptMessage")->text().toStdString(), HasSubstr("Not saved"));
     EXPECT_THAT(editor->code().toPlainText().toStdString(), HasSubstr("//mine"));
@@ -180,7 +180,7 @@ TEST_F(Closing, EscThatStopsTheOutputLeavesTheSearchOfTheScriptOpen) {
     QTest::keyClick(words, Qt::Key_Escape);
     EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
     EXPECT_TRUE(words->isVisible());
-    QTest::qWait(300);  // the editor looks at the output
+    letLive(300);  // the editor looks at the output
     QTest::keyClick(words, Qt::Key_Escape);
     EXPECT_FALSE(words->isVisible()) << "there was nothing to stop";
     EXPECT_TRUE(editor->isVisible());

@@ -36,7 +36,7 @@ protected:
             window.showWorkspace(page % 7);
             window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page / 7);
             for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
-            QTest::qWait(60);
+            letLive(60);
             follow(page);
         }
         window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
@@ -134,11 +134,11 @@ TEST_F(DesignRules, RailAndToolsHaveIcons) {
 TEST_F(DesignRules, StackedPlotsHaveBothEdgesInLine) {
     open();
     window.showWorkspace(0);
-    QTest::qWait(300);
+    letLive(300);
     auto& strips = *window.findChild<gui::StripPlots*>();
     for (const int percent : {100, 200}) {
         gui::applyTextSize(percent);
-        QTest::qWait(300);
+        letLive(300);
         std::set<int> lefts, rights;
         for (const auto* axes : strips.axisRects()) {
             if (!axes->visible() || axes->height() < 2) continue;

@@ -122,7 +122,7 @@ TEST_F(Asking, ANewFolderIsMadeByItsNameWhereOneIsAskedFor) {
     EXPECT_TRUE(chosen.isEmpty());
     EXPECT_THAT(trouble().toStdString(), HasSubstr("shared is not there"));
     chooser()->close();
-    QTest::qWait(20);
+    letLive(20);
     ask(gui::FileQuestion::Wants::NewFolder);
     answer("shared");
     const auto made = folder.path() / "shared";
@@ -148,7 +148,7 @@ TEST_F(Asking, TwiceShowsTheQuestionThatIsOpen) {
     ask(gui::FileQuestion::Wants::ExistingFile);
     auto* first = chooser();
     ask(gui::FileQuestion::Wants::ExistingFile);
-    QTest::qWait(20);
+    letLive(20);
     EXPECT_EQ(window.findChildren<QFileDialog*>().size(), 1);
     EXPECT_EQ(chooser(), first);
 }

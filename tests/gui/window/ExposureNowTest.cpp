@@ -109,7 +109,7 @@ TEST_F(ExposureInTheWindow, NoBarIsCutInADockThatHasNoRoomForAll) {
             for (auto* each : window.findChildren<gui::FoldingDock*>()) each->fold(false);
         for (const int height : {720, 760, 900}) {
             window.resize(1280, height);
-            QTest::qWait(150);
+            letLive(150);
             for (int at = 0; at <= bar.maximum(); at += 7) {
                 bar.setValue(at);
                 EXPECT_GE(inSight(rows).first, 1) << height << ", " << at;

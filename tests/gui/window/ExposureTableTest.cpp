@@ -41,18 +41,18 @@ TEST(ExposureTable, ANewValueDrawsItsBarAgainAlsoWhereItStandsUnderTheQuantity) 
         ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&table));
         const std::vector<ExposureRow> before{peak(10)}, after{peak(30.7)};
         table.show(before, {});
-        QTest::qWait(50);
+        letLive(50);
         Painted painted;
         table.viewport()->installEventFilter(&painted);
         table.show(after, {});
-        QTest::qWait(50);
+        letLive(50);
         constexpr int kRow = 1;  // below the set's name
         const int barColumn = table.isColumnHidden(3) ? 0 : 3;
         const auto cell = table.visualRect(table.model()->index(kRow, barColumn));
         EXPECT_TRUE(painted.region.contains(cell.center())) << "the bar of 10 V stands beside 30.7 V, width " << width;
         painted.region = {};
         table.show(after, {});
-        QTest::qWait(50);
+        letLive(50);
         EXPECT_FALSE(painted.region.contains(cell.center())) << "nothing changed";
     }
 }

@@ -140,7 +140,7 @@ TEST_F(Habits, AThemeChangesEverythingAtOnce) {
     ASSERT_NE(charge, nullptr);
     ASSERT_IN_TIME(comesTrue([&] { return charge->text().contains("simulated"); })) << "a capture was measured";
     menuEntry("View", "Dark")->trigger();
-    QTest::qWait(100);
+    letLive(100);
     shot(window, "dark-while-measured");
     for (const auto* label : window.findChildren<QLabel*>()) {
         if (!label->isVisible() || label->text().isEmpty()) continue;
@@ -236,7 +236,7 @@ TEST_F(Habits, TextAtTwiceTheSizeFits) {
         EXPECT_LE(large.width(), 1920) << "a full HD screen holds it";
         for (int page = 0; page < 7; ++page) {
             large.showWorkspace(page);
-            QTest::qWait(60);
+            letLive(60);
             shot(large, QString("text200-%1").arg(page));
             for (const auto* area : large.findChildren<gui::ScrollingPage*>())
                 EXPECT_FALSE(page == 5 && area->isVisible() && area->horizontalScrollBar()->maximum() > 0)

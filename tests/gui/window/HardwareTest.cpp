@@ -78,7 +78,7 @@ TEST_F(HardwareWindow, OneThatMayNotBeOpenedSaysWhatHelpsAndCannotBeTicked) {
     ASSERT_IN_TIME(comesTrue([this] { return row(kStimulator).text(0).contains("⚠"); }));
     choose(row(kStimulator));
     EXPECT_THAT(facts(), Says("./dev install-rules"));
-    QTest::qWait(50);
+    letLive(50);
     const auto* text = window.findChild<QLabel*>("deviceFacts");
     EXPECT_GE(text->height(), text->heightForWidth(text->width())) << "the sentence that helps is cut";
     QTest::keyClick(&tree(), Qt::Key_Return);
@@ -152,7 +152,7 @@ TEST_F(HardwareWindow, APulledSensorBoardEndsTheOutputToo) {
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
     ASSERT_IN_TIME(comesTrue([this] { return banner().contains("fingertip sensor failed"); }));
     const auto pulses = stimulator->pulses();
-    QTest::qWait(700);
+    letLive(700);
     EXPECT_EQ(stimulator->pulses(), pulses);
     board->plug();
     ASSERT_IN_TIME(comesTrue([this] { return !row(kBoard).text(0).contains("⚠"); }));
@@ -171,7 +171,7 @@ TEST_F(HardwareWindow, LooksRightInEachThemeAndSmall) {
         gui::applyTheme(theme);
         for (const auto& [size, label] : {std::pair(QSize(1440, 900), ""), std::pair(QSize(1100, 700), "_small")}) {
             window.resize(size);
-            QTest::qWait(150);
+            letLive(150);
             EXPECT_TRUE(window.rect().contains(QRect(stop->mapTo(&window, QPoint(0, 0)), stop->size())));
             EXPECT_IN_TIME(window.findChild<QLabel*>("interlockState")->text() == "DELIVERING");
             EXPECT_EQ(faultsOf(window), "") << name << label;
@@ -182,11 +182,11 @@ TEST_F(HardwareWindow, LooksRightInEachThemeAndSmall) {
     unplugStimulator();
     ASSERT_IN_TIME(comesTrue([this] { return !banner().isEmpty() && row(kStimulator).text(0).contains("⚠"); }));
     choose(row(kStimulator));
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_EQ(faultsOf(window), "");
     shot(window, "hardware_faulted_dark_small");
     gui::applyTheme(gui::Theme::Light);
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_EQ(faultsOf(window), "");
     shot(window, "hardware_faulted_light_small");
 }
@@ -203,7 +203,7 @@ TEST_F(HardwareWindow, AMinimisedWindowDeliversNothing) {
     window.showMinimized();
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }, 1000));
     const auto pulses = stimulator->pulses();
-    QTest::qWait(700);
+    letLive(700);
     EXPECT_EQ(stimulator->pulses(), pulses);
     window.showNormal();
     EXPECT_EQ(state(), InterlockState::Disarmed) << "nothing comes back by itself";

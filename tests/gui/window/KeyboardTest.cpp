@@ -80,7 +80,7 @@ protected:
     }
     void show(int workspace) {
         window.showWorkspace(workspace);
-        QTest::qWait(100);  // laid out, and drawn once
+        letLive(100);  // laid out, and drawn once
     }
     [[nodiscard]] QPushButton& stopButton() { return *window.findChild<QPushButton*>("stopButton"); }
     [[nodiscard]] QDialog* visibleDialog() {
@@ -138,7 +138,7 @@ TEST_F(Keyboard, F5RunsWhatIsShownAndShiftF5CancelsIt) {
         }
         if (shown == nullptr) {
             key(Qt::Key_F5);
-            QTest::qWait(200);
+            letLive(200);
             EXPECT_EQ(window.controller().activity(), gui::Activity::Closed) << "nothing is shown that runs";
             continue;
         }
@@ -148,7 +148,7 @@ TEST_F(Keyboard, F5RunsWhatIsShownAndShiftF5CancelsIt) {
             QTest::keyClicks(area, "3");
         }
         ASSERT_IN_TIME(comesTrue([&] { return shown->ready(); }));
-        QTest::qWait(200);  // judged a moment after it is shown
+        letLive(200);  // judged a moment after it is shown
         key(Qt::Key_F5);
         ASSERT_IN_TIME(comesTrue([&] { return shown->running(); }));
         for (const auto* other : window.findChildren<gui::ProtocolWorkspace*>())

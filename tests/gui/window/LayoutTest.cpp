@@ -64,7 +64,7 @@ TEST_F(Layout, TheOscilloscopesScreenHasTheRoomWithTheDocksOpen) {
     ASSERT_IN_TIME(comesTrue([&] { return screen->isVisible(); }));
     for (const auto& [size, share] : {std::pair(QSize(1280, 720), 0.55), {QSize(1920, 1080), 0.70}}) {
         window.resize(size);
-        QTest::qWait(100);
+        letLive(100);
         ASSERT_TRUE(dock("driveDock").isVisible());
         EXPECT_GE(shareOf(*screen), share) << size.width() << ": the plot alone, without tools and caption";
         EXPECT_LE(screen->axisRect()->left(), 66) << "and little of it is for numbers";
@@ -124,7 +124,7 @@ TEST_F(Layout, TheOscilloscopesToolsHaveTheKeysForAMarkAndForThePlotAlone) {
     auto& head = *window.findChild<QWidget*>("livePage")->findChild<QWidget*>("tabRow");
     for (const int width : {1280, 1920}) {
         window.resize(width, width * 9 / 16);
-        QTest::qWait(50);
+        letLive(50);
         EXPECT_LT(head.height(), 50) << "one row of tools at " << width;
         for (const auto* name : {"Save", "Copy picture", "Controls", "Plot only"})
             EXPECT_NE(find<QToolButton>(head, name), nullptr) << name << " is in sight at " << width;
@@ -156,7 +156,7 @@ TEST_F(Layout, F11HidesTheTabsAndTheirKeysStay) {
     EXPECT_FALSE(calibrate.bar().isVisible());
     key(Qt::Key_N, Qt::AltModifier);
     EXPECT_EQ(calibrate.currentIndex(), 1);
-    QTest::qWait(50);
+    letLive(50);
     EXPECT_LE(calibrate.currentPage()->mapTo(&calibrate, QPoint(0, 0)).y(), 1)
         << "below the edge its page has the room";
     key(Qt::Key_G, Qt::AltModifier);
@@ -207,7 +207,7 @@ TEST_F(Layout, WithThePlotAloneASessionOfAPilotHasNoPath) {
     EXPECT_TRUE(window.findChild<QPushButton*>("stopButton")->isVisible());
     window.controller().stop("the test");
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }, 60'000));
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_FALSE(path->isVisible()) << "nor has its result";
     key(Qt::Key_F11);
     EXPECT_TRUE(path->isVisible());
@@ -396,9 +396,9 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
         window.showWorkspace(page);
         for (const bool opened : {false, true}) {
             window.findChild<gui::DockColumn*>()->setCollapsed(!opened);
-            QTest::qWait(100);
+            letLive(100);
             window.resize(1280, 720);
-            QTest::qWait(50);
+            letLive(50);
             EXPECT_LE(window.width(), 1280) << page << opened << "\n" << wide();
             EXPECT_LE(window.height(), 720) << page << opened;
         }
@@ -409,7 +409,7 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
         shot(window, QString("docks-open-200-%1").arg(page));
     }
     window.showWorkspace(0);
-    QTest::qWait(100);
+    letLive(100);
     ASSERT_TRUE(dock("measurementDock").folded());
     EXPECT_GE(dock("measurementDock").height(), dock("driveDock").titleBarWidget()->height()) << "a whole header";
     const auto* list = dock("deviceDock").findChild<QTreeWidget*>();
@@ -455,12 +455,12 @@ TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
     const auto before = place();
     shot(window, "nearest-limit-200");
     gui::applyTheme(gui::Theme::Dark);
-    QTest::qWait(100);
+    letLive(100);
     shot(window, "nearest-limit-200-dark");
     gui::applyTheme(gui::Theme::Light);
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_EQ(place(), before) << "nothing moves";
     gui::applyTextSize(100);
     window.showWorkspace(0);
@@ -572,12 +572,12 @@ TEST_F(Layout, NoTwoThatAreSeenHaveTheSameMnemonic) {
     };
     for (int page = 0; page < 7; ++page) {
         window.showWorkspace(page);
-        QTest::qWait(50);
+        letLive(50);
         check(fmt::format("workspace {}", page));
     }
     window.showWorkspace(0);
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
-    QTest::qWait(50);
+    letLive(50);
     check("oscilloscope");
 }
 
@@ -661,7 +661,7 @@ TEST_F(Layout, ResetPutsPanelsAndColumnsOfAWorkspaceBackToo) {
     auto* lanes = window.findChild<gui::LiveWorkspace*>()->findChild<QSplitter*>();
     ASSERT_IN_TIME(comesTrue([&] { return lanes->isVisible() && lanes->sizes().front() > 0; }));
     window.resetLayout();
-    QTest::qWait(100);
+    letLive(100);
     const auto first = lanes->sizes();
     lanes->setSizes({first[0] - 150, first[1] + 150});
     ASSERT_NE(lanes->sizes(), first);

@@ -66,7 +66,7 @@ protected:
             gui::applyTheme(theme);
             for (const auto size : sizes) {
                 window.resize(size);
-                QTest::qWait(200);
+                letLive(200);
                 Plot* plot = nullptr;
                 for (auto* one : window.findChildren<Plot*>())
                     if (one->isVisible()) plot = one;
@@ -164,7 +164,7 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
     const auto* matrix = window.findChild<gui::LimitMatrixView*>();
     for (const auto size : {QSize(1280, 720), QSize(1300, 737), QSize(1440, 900), QSize(1920, 1080)}) {
         window.resize(size);
-        QTest::qWait(100);
+        letLive(100);
         const int bottom = matrix->viewport()->height();
         for (int row = 0; row < matrix->rowCount(); ++row) {
             const auto note = matrix->item(row, 0)->data(Qt::UserRole).toString();
@@ -186,7 +186,7 @@ TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
     looksRight("result-separability");
     plotHas<gui::TrialPlane>(0.95, "plane");
     window.resize(1440, 900);
-    QTest::qWait(100);
+    letLive(100);
     const auto frameTop = [&](const QCustomPlot* plot) {
         return plot->mapTo(&window, QPoint()).y() + plot->axisRect()->rect().top();
     };
@@ -217,7 +217,7 @@ TEST_F(ResultsInTheWindow, WhatTheFingertipFeelsIsSeenWithoutScrolling) {
         const auto* side = find<QScrollArea>(window, "fingertipSide");
         ASSERT_NE(side, nullptr);
         EXPECT_IN_TIME(comesTrue([&] { return side->verticalScrollBar()->maximum() == 0; })) << size.height();
-        QTest::qWait(200);
+        letLive(200);
         const auto* plane = find<gui::TactilePlane>(window, "Tactile plane");
         ASSERT_NE(plane, nullptr);
         EXPECT_GE(plane->height(), 190) << size.height();
@@ -276,7 +276,7 @@ TEST_F(ResultsInTheWindow, InLargeTextTheDialogsOfTheBenchFitASmallScreen) {
     open();
     gui::applyTextSize(200);
     window.resize(1280, 720);
-    QTest::qWait(100);
+    letLive(100);
     const auto fits = [](QWidget& dialog) {
         static_cast<void>(comesTrue([&] { return dialog.isVisible() && faultsOf(dialog).empty(); }, 3000));
         EXPECT_EQ(faultsOf(dialog), "");
@@ -313,7 +313,7 @@ TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
             } else {
                 click(*find<QPushButton>(window, "driveFingertip"));
             }
-            QTest::qWait(300);  // the panel follows
+            letLive(300);  // the panel follows
             const auto file = QString("drive-%1-%2")
                                   .arg(theme == gui::Theme::Dark ? "dark" : "light", byHand ? "by-hand" : "fingertip");
             EXPECT_IN_TIME(comesTrue([&] { return faultsOf(*dock).empty(); })) << faultsOf(*dock);

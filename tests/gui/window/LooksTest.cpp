@@ -42,7 +42,7 @@ TEST_F(Window, LooksRightInBothThemesAndSizes) {
             window.resize(size);
             for (int page = 0; page < 7; ++page) {
                 window.showWorkspace(page);
-                QTest::qWait(120);
+                letLive(120);
                 const auto name = QString("window-%1-%2-%3")
                                       .arg(theme == gui::Theme::Dark ? "dark" : "light")
                                       .arg(size.width())
@@ -114,7 +114,7 @@ TEST_F(DocksOfTheWindow, KeepTheirHeadersInALowWindow) {
     for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
     for (const int page : {3, 0}) {
         window.showWorkspace(page);
-        QTest::qWait(100);
+        letLive(100);
     }
     shot(window, "four-docks");
     EXPECT_EQ(openDocks().size(), 4U);
@@ -171,7 +171,7 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
         gui::applyTheme(theme);
         for (const auto size : {QSize(1280, 720), QSize(1920, 1080)}) {
             window.resize(size);
-            QTest::qWait(200);
+            letLive(200);
             // Docks share the column anew in turns of the event loop, as many as their contents change.
             static_cast<void>(comesTrue([&] { return faultsOf(window).empty() && unfairDocks().empty(); }));
             shot(window, QString("scope-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(size.width()));
@@ -199,7 +199,7 @@ TEST_F(WindowWithoutSessions, NothingIsRedButStop) {
     auto* stop = window.findChild<QPushButton*>("stopButton");
     for (int page = 0; page < 7; ++page) {
         window.showWorkspace(page);
-        QTest::qWait(120);
+        letLive(120);
         const auto all = pixelsOf(window.grab().toImage(), red);
         EXPECT_GT(all, 1000) << "STOP is there";
         EXPECT_EQ(all, pixelsOf(stop->grab().toImage(), red)) << "on page " << page;
@@ -245,7 +245,7 @@ TEST_F(Window, EveryPlotOfSimulatedDataSaysSo) {
             ASSERT_IN_TIME(comesTrue([&] { return scope->model().shown() != nullptr; }));
             scope->findChild<gui::SpectrumPanel*>()->setVisible(true);
         }
-        QTest::qWait(200);
+        letLive(200);
         for (auto* plot : window.findChildren<QCustomPlot*>()) {
             if (!plot->isVisible()) continue;
             ++plots;

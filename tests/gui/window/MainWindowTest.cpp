@@ -75,7 +75,7 @@ TEST_F(Window, ArmingTakesTwoSteps) {
     auto* second = window.findChild<QPushButton*>("armOutput");
     ASSERT_NE(second, nullptr);
     key(Qt::Key_Return);  // the default of the dialog is not to arm
-    QTest::qWait(200);
+    letLive(200);
     EXPECT_EQ(state(), InterlockState::Disarmed);
     arm();
     EXPECT_IN_TIME(state() == InterlockState::Armed);
@@ -112,7 +112,7 @@ TEST_F(Window, AHeldReturnDoesNotArm) {
     second->setFocus();
     QKeyEvent repeat(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier, "\r", true);
     QCoreApplication::sendEvent(second, &repeat);
-    QTest::qWait(200);
+    letLive(200);
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
 
@@ -135,16 +135,16 @@ TEST_F(Window, AKeyHeldSinceTheFirstStepDoesNotTakeTheSecond) {
     auto* second = window.findChild<QPushButton*>("armOutput");
     ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     second->setFocus();
-    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 160);  // until a held key repeats
+    letLive(gui::ConfirmButton::kDebounce_ms + 160);  // until a held key repeats
     for (int i = 0; i < 10; ++i) {
         repeat(second);
-        QTest::qWait(30);
+        letLive(30);
     }
     EXPECT_EQ(state(), InterlockState::Disarmed);
     EXPECT_TRUE(second->isVisible());
     QKeyEvent up(QEvent::KeyRelease, Qt::Key_Return, Qt::NoModifier, "\r");
     QCoreApplication::sendEvent(second, &up);
-    QTest::qWait(300);
+    letLive(300);
     press(second);
     EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Armed; })) << "a press of its own does";
 }
@@ -157,10 +157,10 @@ TEST_F(Window, TheSecondHalfOfADoubleClickAndAHeldLetterDoNotTakeTheSecondStep) 
     ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     QTest::mouseClick(second, Qt::LeftButton);
     QTest::mouseDClick(second, Qt::LeftButton);
-    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 100);
+    letLive(gui::ConfirmButton::kDebounce_ms + 100);
     for (int i = 0; i < 5; ++i) {
         QTest::keyClick(second->window(), Qt::Key_A, Qt::AltModifier);
-        QTest::qWait(30);
+        letLive(30);
     }
     EXPECT_EQ(state(), InterlockState::Disarmed);
     EXPECT_FALSE(second->text().contains('&'));
@@ -175,7 +175,7 @@ TEST_F(Window, AStopBetweenTheTwoStepsVoidsTheFirst) {
         ASSERT_IN_TIME(comesTrue([&] { return second != nullptr && second->isVisible(); })) << name;
         key(Qt::Key_Pause);
         EXPECT_IN_TIME(comesTrue([&] { return second == nullptr || !second->isVisible(); })) << name;
-        QTest::qWait(200);
+        letLive(200);
     }
     EXPECT_EQ(state(), InterlockState::Disarmed);
     const auto asked = window.controller().mark();
@@ -183,7 +183,7 @@ TEST_F(Window, AStopBetweenTheTwoStepsVoidsTheFirst) {
     ArmRequest request;
     request.operatorConfirmed = true;
     window.controller().arm(request, asked);
-    QTest::qWait(300);
+    letLive(300);
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
 

@@ -62,7 +62,7 @@ TEST_F(Marks, AreOfTheMomentOfTheKeyAndStandEverywhere) {
     EXPECT_FALSE(word().isVisible());
     const auto& plots = window.findChild<gui::LiveWorkspace*>()->plots();
     EXPECT_IN_TIME(comesTrue([&] { return plots.marks().words() == QStringList{"table bumped"}; })) << "in the plots";
-    QTest::qWait(150);
+    letLive(150);
     shot(window, "mark-in-plots");
 
     const auto marks = marksOf(session);
@@ -239,7 +239,7 @@ TEST_F(ANewDay, IsAskedForBeforeABenchIsOpenedAndNotWhileOneIsOpen) {
     ASSERT_NO_FATAL_FAILURE(open());
     const auto first = window.controller().open()->session;
     passMidnight();
-    QTest::qWait(200);
+    letLive(200);
     EXPECT_EQ(question(), nullptr) << "the bench that is open goes on";
     window.controller().close();
     ASSERT_IN_TIME(comesTrue([this] { return activity() == gui::Activity::Closed; }));
@@ -247,7 +247,7 @@ TEST_F(ANewDay, IsAskedForBeforeABenchIsOpenedAndNotWhileOneIsOpen) {
 
     window.openSimulatedBench();
     ASSERT_NE(question(), nullptr) << "asked before the session begins";
-    QTest::qWait(200);
+    letLive(200);
     EXPECT_EQ(activity(), gui::Activity::Closed) << "and nothing is recorded without the answer";
     QTest::keyClicks(question()->findChild<QLineEdit*>("operator"), "B. Ott");
     click(*find<QPushButton>(*question(), "Done"));
@@ -262,7 +262,7 @@ TEST_F(ANewDay, IsAskedForBeforeAProtocolRunsAndNeverDuringTheRun) {
     passMidnight();
     click(run());
     ASSERT_NE(question(), nullptr);
-    QTest::qWait(200);
+    letLive(200);
     EXPECT_EQ(activity(), gui::Activity::Closed);
     question()->close();  // put off for today
     click(run());

@@ -59,7 +59,7 @@ protected:
                 window.showWorkspace(workspace);
                 for (int tab = 0; tab < (workspace == 0 ? 2 : 1); ++tab) {
                     if (workspace == 0) live.setCurrentIndex(tab);
-                    QTest::qWait(60);
+                    letLive(60);
                     look("workspace " + std::to_string(workspace) + "." + std::to_string(tab) + " at " +
                          std::to_string(size.width()));
                 }

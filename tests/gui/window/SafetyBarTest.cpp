@@ -293,7 +293,7 @@ TEST_F(Bar, StopGrowsWithTheText) {
     const auto written = [&] {
         QCoreApplication::processEvents();
         bar.resize(2400, bar.sizeHint().height());
-        QTest::qWait(50);
+        letLive(50);
         return pixelsOf(stop->grab().toImage(), gui::stateStyle(InterlockState::Faulted).ink);
     };
     const int before = written();
@@ -343,7 +343,7 @@ TEST_F(Bar, ArmingOnlyAsks) {
     QObject::connect(&bar, &gui::SafetyBar::armRequested, [&] { ++asked; });
     click(*bar.findChild<QPushButton*>("armButton"));
     EXPECT_EQ(asked, 1);
-    QTest::qWait(200);
+    letLive(200);
     EXPECT_EQ(controller.telemetry().state, InterlockState::Disarmed);
 }
 
@@ -367,7 +367,7 @@ TEST_F(Bar, ADoubleClickOnPauseLeavesItPaused) {
     QTest::mouseDClick(pause, Qt::LeftButton);
     QTest::mouseClick(pause, Qt::LeftButton);
     pause->click();
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_EQ(controller.telemetry().state, InterlockState::Paused);
     click(*pause);
     EXPECT_IN_TIME(is(InterlockState::Delivering)) << "a press of its own resumes";
@@ -391,9 +391,9 @@ TEST_F(Bar, PauseHoldsAProtocolBetweenItsTrainsToo) {
     EXPECT_TRUE(controller.paused());
     bar.refresh(controller.telemetry());
     EXPECT_EQ(pause->text().remove('&'), "Resume");
-    QTest::qWait(100);  // the step that was under way
+    letLive(100);  // the step that was under way
     (void)controller.takeRunFeed();
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_TRUE(controller.takeRunFeed().log.empty()) << "it went on while paused";
     click(*pause);
     EXPECT_FALSE(controller.paused());
@@ -415,15 +415,15 @@ TEST_F(Bar, APressMeantForDisarmDoesNotResetTheFaultThatCameFirst) {
     bar.refresh(in(InterlockState::Faulted, "unplugged"));
     QTest::mouseClick(action, Qt::LeftButton);
     action->click();
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_TRUE(refused.isEmpty()) << "it was Disarm a moment ago";
 
     bar.refresh(in(InterlockState::Delivering));
     QTest::mousePress(action, Qt::LeftButton);
     bar.refresh(in(InterlockState::Faulted, "unplugged"));
-    QTest::qWait(gui::ConfirmButton::kDebounce_ms + 100);
+    letLive(gui::ConfirmButton::kDebounce_ms + 100);
     QTest::mouseRelease(action, Qt::LeftButton);
-    QTest::qWait(100);
+    letLive(100);
     EXPECT_TRUE(refused.isEmpty()) << "it was Disarm when the press went down";
 
     click(*action);

@@ -79,7 +79,7 @@ TEST_F(Keys, SpaceStopsInATextFieldThatTakesNoText) {
 TEST_F(Keys, ReturnPressesTheFocusedButton) {
     press(Qt::Key_Return, button);
     EXPECT_EQ(clicks, 1);
-    QTest::qWait(250);  // a key that is released longer than a held one repeats
+    letLive(250);  // a key that is released longer than a held one repeats
     press(Qt::Key_Return, check);
     EXPECT_TRUE(check.isChecked());
     EXPECT_EQ(stops, 0);
@@ -89,7 +89,7 @@ TEST_F(Keys, AHeldReturnIsOnePress) {
     RecordProperty("hazard", "H12");
     for (int i = 0; i < 10; ++i) {
         press(Qt::Key_Return, button);  // not marked as repeated, as X sends most of them
-        QTest::qWait(30);
+        letLive(30);
     }
     EXPECT_EQ(clicks, 1);
 }

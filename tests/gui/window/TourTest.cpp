@@ -94,7 +94,7 @@ TEST_F(TourOfTheWindow, IsWalkedByDoingEachThing) {
     ASSERT_IN_TIME(frames(second)) << "the second step stands in a dialog";
     EXPECT_EQ(state(), InterlockState::Disarmed) << "the tour arms nothing by itself";
     shot(*second.window(), "tour-4b-second-step");
-    QTest::qWait(600);  // the second step is deaf at first
+    letLive(600);  // the second step is deaf at first
     click(second);
 
     ASSERT_IN_TIME(comesTo("Let the fingertip drive"));
@@ -107,7 +107,7 @@ TEST_F(TourOfTheWindow, IsWalkedByDoingEachThing) {
 
     ASSERT_IN_TIME(comesTo("See a measured pulse"));
     auto& live = named<gui::TabbedPage>("livePage");
-    QTest::qWait(200);
+    letLive(200);
     ASSERT_NE(frame(), nullptr);
     picture("6-scope");
     auto* tabs = live.findChild<QTabBar*>();
@@ -167,7 +167,7 @@ TEST_F(TourOfTheWindow, GoesBackAndStaysThere) {
     ASSERT_IN_TIME(comesTo("Put a surface under the finger"));
     press("Back");
     EXPECT_EQ(title(), "Open the simulated bench");
-    QTest::qWait(2000);
+    letLive(2000);
     EXPECT_EQ(title(), "Open the simulated bench") << "what is done already does not push forward again";
     press("Next");
     EXPECT_EQ(title(), "Put a surface under the finger");
@@ -230,7 +230,7 @@ TEST_F(TourOfTheWindow, LooksRightInEverySizeAndTheme) {
                 window.beginTour();
                 for (int step = 0; step < 9; ++step) {
                     SCOPED_TRACE(title().toStdString());
-                    QTest::qWait(80);
+                    letLive(80);
                     // The page that a step opens is laid out first; then the panel finds its place.
                     static_cast<void>(comesTrue(
                         [&] { return frame() != nullptr && !frame()->geometry().intersects(tour().geometry()); },

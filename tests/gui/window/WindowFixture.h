@@ -47,7 +47,7 @@ protected:
     void open() {
         key(Qt::Key_B, Qt::ControlModifier);
         ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
-        QTest::qWait(80);  // the next frame enables the buttons
+        letLive(80);  // the next frame enables the buttons
     }
     /// The simulated bench, whose stimulator is unplugged two seconds later.
     void openAndUnplugAfter2s() {
@@ -57,7 +57,7 @@ protected:
         order.profile = window.controller().profile();
         window.controller().openLive(order);
         ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
-        QTest::qWait(80);
+        letLive(80);
     }
     /// Both steps, as a person takes them.
     void arm() {
