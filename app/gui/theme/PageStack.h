@@ -23,9 +23,6 @@ public:
     [[nodiscard]] QWidget* widget(int index) const { return pages_->widget(index); }
     [[nodiscard]] int indexOf(const QWidget* page) const { return pages_->indexOf(page); }
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     QStackedLayout* pages_;
 };
