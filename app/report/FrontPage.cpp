@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/report/ShownText.h"
+
 namespace tacto {
 namespace {
 
@@ -19,7 +21,7 @@ TableBlock instrumentsTable(const ReportModel& model, const QString& caption) {
     table.caption = caption;
     table.columns = {{"Instrument"}, {"Channel"}, {"Accuracy"}, {"Stated by"}};
     for (const auto& each : model.basis.instruments)
-        table.rows.push_back({each.name, each.channel, each.states, each.statedBy});
+        table.rows.push_back({capitalised(each.name), each.channel, each.states, each.statedBy});
     return table;
 }
 
@@ -54,9 +56,8 @@ void addFrontPage(const ReportModel& model, Captions& captions, std::vector<Repo
     if (!model.basis.instruments.empty())
         blocks.emplace_back(instrumentsTable(model, captions.table("Instruments, and what their accuracy rests on")));
     const auto& basis = model.basis;
-    blocks.emplace_back(SignaturesBlock{{"Operator", "Reviewer"},
-                                        {"Name", "Date", "Signature"},
-                                        {orNotRecorded(basis.operatorName), orNotRecorded(basis.reviewer)}});
+    blocks.emplace_back(
+        SignaturesBlock{{"Operator", "Reviewer"}, {"Name", "Date", "Signature"}, {basis.operatorName, basis.reviewer}});
 }
 
 }  // namespace tacto

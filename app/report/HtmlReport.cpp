@@ -156,8 +156,9 @@ public:
         for (const auto& column : block.columns) out_ += "<th scope=\"col\">" + escaped(column) + "</th>";
         out_ += "</tr></thead>\n<tbody>\n";
         for (qsizetype r = 0; r < block.roles.size(); ++r) {
-            out_ += "<tr><th scope=\"row\">" + escaped(block.roles[r]) + "</th><td>" + escaped(block.given.value(r)) +
-                    "</td>" + QString("<td></td>").repeated(block.columns.size() - 1) + "</tr>\n";
+            out_ += "<tr><th scope=\"row\">" + escaped(block.roles[r]) + "</th><td>" +
+                    escaped(block.given.value(r).isEmpty() ? QString("not recorded") : block.given.value(r)) + "</td>" +
+                    QString("<td></td>").repeated(block.columns.size() - 1) + "</tr>\n";
         }
         out_ += "</tbody></table>\n";
     }

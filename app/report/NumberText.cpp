@@ -75,6 +75,15 @@ QString toleranceText(double value, const QString& unit) {
     return settingText(std::isfinite(value) ? QString::number(value, 'g', 2).toDouble() : value, unit);
 }
 
+QString durationText(double seconds) {
+    constexpr qint64 kMinute = 60, kHour = 3600, kMinutesFrom = 90;
+    if (!std::isfinite(seconds)) return kMissing;
+    const qint64 whole = std::llround(seconds);
+    if (whole < kMinutesFrom) return QString("%1%2s").arg(whole).arg(kSpace);
+    if (whole < kHour) return QString("%1%3min %2%3s").arg(whole / kMinute).arg(whole % kMinute).arg(kSpace);
+    return QString("%1%3h %2%3min").arg(whole / kHour).arg(whole % kHour / kMinute).arg(kSpace);
+}
+
 QString proportionText(const Estimate& estimate) {
     const auto percent = [](double v) { return fixed(100 * v, 1); };
     if (!std::isfinite(estimate.value)) return kMissing;

@@ -32,6 +32,9 @@ namespace tacto {
 /// known better: "0.5 %", "80 µA".
 [[nodiscard]] QString toleranceText(double value, const QString& unit);
 
+/// How long something took: "45 s", "5 min 43 s", "2 h 5 min".
+[[nodiscard]] QString durationText(double seconds);
+
 /// "99.0 % (94.6 to 99.8 %)" of an estimate of a proportion.
 [[nodiscard]] QString proportionText(const Estimate& estimate);
 

@@ -49,7 +49,7 @@ bool isAllSimulated(const ReportModel& model) {
 VerdictBlock verdictOf(const ReportModel& model) {
     VerdictBlock block;
     block.verdict = model.verdict;
-    for (const auto& reason : model.reasons) block.reasons << withSigns(reason);
+    for (const auto& reason : model.reasons) block.reasons << capitalised(withSigns(reason));
     // H9: nothing passes on evidence that was altered.
     const bool unproven = !model.damage.isEmpty() && model.verdict == ReportVerdict::Pass;
     if (unproven) block.verdict = ReportVerdict::Indeterminate;
@@ -94,12 +94,8 @@ QString subtitleOf(const ReportModel& model) {
     when.replace('T', ' ').replace('Z', " UTC");
     if (!when.isEmpty()) parts << when;
     if (std::isfinite(model.duration_s)) {
-        const auto seconds = static_cast<qint64>(std::llround(model.duration_s));
-        parts << (seconds < 120 ? settingText(std::round(model.duration_s * 10) / 10, "s")
-                                : QString("%1:%2:%3 h")
-                                      .arg(seconds / 3600)
-                                      .arg(seconds / 60 % 60, 2, 10, QChar('0'))
-                                      .arg(seconds % 60, 2, 10, QChar('0')));
+        parts << (model.duration_s < 60 ? settingText(std::round(model.duration_s * 10) / 10, "s")
+                                        : durationText(model.duration_s));
     }
     const QString line = parts.join("  ·  ");
     return model.purpose.isEmpty() ? line : line.isEmpty() ? model.purpose : model.purpose + '\n' + line;
@@ -111,8 +107,8 @@ TableBlock devicesTable(const ReportModel& model) {
     table.columns = {{"Role"}, {"Device"}, {"Address"}, {"Serial"}, {"Firmware"}, {"Origin"}};
     const auto orDash = [](const QString& text) { return text.isEmpty() ? QString("–") : text; };
     for (const auto& device : model.devices) {
-        table.rows.push_back({orDash(device.role), orDash(device.name), orDash(device.uri), orDash(device.serial),
-                              orDash(device.firmware), originOf(device)});
+        table.rows.push_back({capitalised(orDash(device.role)), orDash(device.name), orDash(device.uri),
+                              orDash(device.serial), orDash(device.firmware), originOf(device)});
     }
     return table;
 }

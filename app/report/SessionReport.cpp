@@ -8,6 +8,7 @@
 #include "app/report/NumberText.h"
 #include "app/report/Report.h"
 #include "app/report/ReportBasis.h"
+#include "app/report/TableContent.h"
 #include "core/base/JsonText.h"
 #include "core/dsp/RoughnessFlags.h"
 #include "core/session/Marks.h"
@@ -90,7 +91,7 @@ void fillAbout(const SessionReader& reader, const std::filesystem::path& file, R
     }
     hash("Script " + model.protocol, about.protocolSha256);
     hash("Encoding profile", about.profileSha256);
-    for (const auto& set : about.limitSets) hash("Limits " + text(set.id), set.sha256);
+    for (const auto& set : about.limitSets) hash("Limits, " + limitSetTitle(text(set.id)), set.sha256);
 }
 
 bool judgeTheSame(const ExposureFigure::Row& a, const ExposureFigure::Row& b) {

@@ -56,4 +56,9 @@ ReportModel shownModel(ReportModel model) {
     return model;
 }
 
+QString capitalised(QString text) {
+    if (!text.isEmpty()) text[0] = text[0].toUpper();
+    return text;
+}
+
 }  // namespace tacto

@@ -17,6 +17,9 @@ inline constexpr qsizetype kShownHead = 80;    ///< on every page
 /// The text, or its first `most` characters and how many more the session holds.
 [[nodiscard]] QString shownText(const QString& text, qsizetype most = kShownText);
 
+/// With its first letter as a sentence has it: "Peak voltage".
+[[nodiscard]] QString capitalised(QString text);
+
 /// The model with its texts as they are shown, but for the cells of scripts' tables: those are shortened when worded.
 [[nodiscard]] ReportModel shownModel(ReportModel model);
 

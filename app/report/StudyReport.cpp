@@ -126,8 +126,7 @@ ReportContent committeeReport(const StudyRecord& study) {
     } else {
         blocks.emplace_back(eventsTable(study, captions.table("Adverse events")));
     }
-    blocks.emplace_back(
-        SignaturesBlock{{"Principal investigator"}, {"Name", "Date", "Signature"}, {QString("not recorded")}});
+    blocks.emplace_back(SignaturesBlock{{"Principal investigator"}, {"Name", "Date", "Signature"}, {QString()}});
     return content;
 }
 

@@ -78,6 +78,9 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
                   : key == "load"              ? shownText(loadText(cellText(value, {})), kShownCell)
                                                : wordsOf(value, name.unit));
     }
+    // What a row is about begins as a sentence does; a condition's or a material's name stays as it is given.
+    static const QStringList about{"requirement", "output", "trip"};
+    if (about.contains(key)) std::ranges::transform(cells, cells.begin(), capitalised);
     // A column of which no row says anything is not there.
     if (std::all_of(cells.begin(), cells.end(), [](const QString& cell) { return cell.isEmpty(); })) return;
     QString title = shownText(name.title, kShownCell);
@@ -178,7 +181,7 @@ MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
     for (const auto& column : source.columns) matrix.columns << shownText(loadText(column), kShownCell);
     for (const auto& element : source.rows) {
         const auto object = element.toObject();
-        MatrixBlock::Row row{shownText(object.value("title").toString(), kShownCell), noteOf(object), {}};
+        MatrixBlock::Row row{capitalised(shownText(object.value("title").toString(), kShownCell)), noteOf(object), {}};
         for (const auto& cell : object.value("cells").toArray()) {
             judged = judged || cell.toObject().contains("margin_pct");
             row.cells.push_back(cellOf(cell, object.value("unit").toString()));

@@ -5,6 +5,7 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
 #include "app/report/TableContent.h"
 
 namespace tacto {
@@ -165,7 +166,7 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
     QStringList labels;
     for (const auto& row : rows) {
         const QString label =
-            loadText(row.name) + (row.source.isEmpty() ? QString() : " · " + limitSetTitle(row.source));
+            capitalised(loadText(row.name)) + (row.source.isEmpty() ? QString() : " · " + limitSetTitle(row.source));
         labels << shortened(label, textFont(10), 290);
     }
     names->setTicker(labelTicker(labels));

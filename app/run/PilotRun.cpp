@@ -283,7 +283,7 @@ RunResult PilotRun::finish() {
     const auto state = ended == PilotEnd::Complete ? StudySessionState::Complete : StudySessionState::Stopped;
     if (auto noted = study_.endSession(begun_->session.id, state, head); !noted) {
         result.troubles.push_back(noted.error());
-        if (!result.outcome.error) result.outcome.error = noted.error();
+        result.weighTroubles();
     }
     return result;
 }

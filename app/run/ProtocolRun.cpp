@@ -113,6 +113,17 @@ void ProtocolRun::endCheck(RunResult& result) {
     check_.reset();
 }
 
+void RunResult::weighTroubles() {
+    if (!troubles.empty() && !outcome.error) {
+        outcome.verdict = ScriptVerdict::None;
+        outcome.error = troubles.front();
+        outcome.reasons = {troubles.front().message};
+    }
+    std::erase_if(troubles, [this](const Error& trouble) {
+        return outcome.error->message.find(trouble.message) != std::string::npos;
+    });
+}
+
 RunResult ProtocolRun::finish() {
     RunResult result;
     const auto& about = opened_->about;
@@ -148,12 +159,7 @@ RunResult ProtocolRun::finish() {
                                             kept->problems.empty() ? "" : kept->problems.front())});
     }
     endCheck(result);
-    if (!result.troubles.empty() && !result.outcome.error) {
-        result.outcome.verdict = ScriptVerdict::None;
-        result.outcome.error = result.troubles.front();
-        result.outcome.reasons = {result.troubles.front().message};
-        result.troubles.erase(result.troubles.begin());
-    }
+    result.weighTroubles();
     // Read from disk, as everything else (hazard H8). A script that was given up still holds its bench; the marks of
     // that bench are then missing.
     const auto reader = SessionReader::open(result.session, opened_->seal);

@@ -38,10 +38,13 @@ struct RunResult {
     std::vector<std::string> marks;  ///< of sessionMarks(): origin, calibration, the flags of R
     std::vector<SessionDevice> devices;
     std::filesystem::path session;
-    std::vector<Error> troubles;         ///< beside the outcome: closing the session
+    std::vector<Error> troubles;         ///< beside the outcome's error, which does not say them: closing the session
     std::optional<MarkerTally> markers;  ///< of a pilot session with markers
     /// pass, fail, indeterminate, stopped; empty for a protocol that judges nothing or ended by an error.
     [[nodiscard]] std::string verdict() const;
+    /// Without an error the first trouble becomes it, and there is no verdict; troubles that the error says are left
+    /// out.
+    void weighTroubles();
 };
 
 class ProtocolRun {

@@ -324,7 +324,7 @@ protected:
             {"Profilometer's file",
              [this] {
                  page(1);
-                 window.findChild<QTabWidget*>("calibratePages")->setCurrentIndex(1);
+                 window.findChild<gui::TabbedPage*>("calibratePages")->setCurrentIndex(1);
                  press(window, "Known reference");
                  press(window, "Choose the file");
              },

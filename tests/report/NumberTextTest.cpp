@@ -69,6 +69,12 @@ TEST(NumberText, SaysUnknownAsADash) {
     EXPECT_EQ(proportionText({}), QString("–"));
 }
 
+TEST(NumberText, SaysHowLongSomethingTook) {
+    EXPECT_EQ(plain(durationText(45.4)), "45 s");
+    EXPECT_EQ(plain(durationText(98.6)), "1 min 39 s");
+    EXPECT_EQ(plain(durationText(7500)), "2 h 5 min");
+}
+
 TEST(NumberText, UsesATrueMinus) { EXPECT_EQ(plain(quantityText(-0.5, "V", 3)), "−500 mV"); }
 
 TEST(NumberText, WritesWhatRoundsToZeroWithoutAMinus) {

@@ -1,6 +1,6 @@
 #include <QJsonArray>
 #include <QXmlStreamReader>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <regex>
 
 #include "app/report/Report.h"
@@ -11,6 +11,8 @@ namespace tacto::test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 QString asQString(const fs::path& path) { return QString::fromStdString(path.string()); }
 
@@ -295,6 +297,38 @@ TEST_F(Report, ATableHasItsUnitInTheHeaderAndItsVerdictAsShapeAndWord) {
     EXPECT_TRUE(html.contains("<td>✔\u00a0pass</td>"));
     EXPECT_TRUE(html.contains("<td>?\u00a0indeterminate</td>"));
     EXPECT_FALSE(html.contains("Remark")) << "a column that says nothing";
+}
+
+TEST_F(Report, WhatARowIsAboutBeginsAsASentenceDoesAndAConditionKeepsItsName) {
+    ReportModel model;
+    model.reasons = {"current density was not evaluated"};
+    model.verdict = ReportVerdict::Indeterminate;
+    const QJsonObject judged{{"requirement", "peak voltage"}, {"condition", "smooth-low"}};
+    model.items.emplace_back(ReportTable{"Closest", {"requirement", "condition"}, QJsonArray{judged}});
+    const QJsonObject row{{"title", "energy per pulse"}, {"cells", QJsonArray{}}};
+    model.items.emplace_back(ReportMatrix{"Limits", {"1 kohm"}, QJsonArray{row}});
+    const auto html = QString::fromUtf8(contentOfFile(write(model, "t.html")));
+    EXPECT_TRUE(html.contains("<td>Peak voltage</td>"));
+    EXPECT_TRUE(html.contains("<td>smooth-low</td>"));
+    EXPECT_TRUE(html.contains("Energy per pulse"));
+    EXPECT_TRUE(html.contains("<li>Current density was not evaluated</li>"));
+}
+
+TEST_F(Report, ANameThatWasNotGivenIsALineToSignOnPaper) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    auto model = separabilityModel(true);
+    model.basis.sample = "S-014";
+    model.basis.ambient = "22.5 °C";
+    EXPECT_THAT(pdfText(write(model, "r.pdf")), Not(HasSubstr("not recorded")));
+    EXPECT_THAT(contentOfFile(write(model, "r.html")).toStdString(), HasSubstr(">Reviewer</th><td>not recorded</td>"));
+    model.basis.operatorName = "A. Weber";
+    EXPECT_THAT(pdfText(write(model, "r.pdf")), HasSubstr("A. Weber"));
+}
+
+TEST_F(Report, SaysHowLongItTookInMinutesAndSeconds) {
+    auto model = separabilityModel(true);
+    const auto html = QString::fromUtf8(contentOfFile(write(model, "r.html"))).replace(QChar(0x202f), ' ');
+    EXPECT_TRUE(html.contains("2026-11-20 14:03:05 UTC  ·  4 min 21 s"));
 }
 
 TEST_F(Report, ALongTablesLastRowIsNotAloneOnItsPage) {

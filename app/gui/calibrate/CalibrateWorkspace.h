@@ -4,18 +4,17 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QTabWidget>
 #include <QWidget>
 #include <array>
 
 #include "app/gui/calibrate/CalibrationBook.h"
-#include "app/gui/theme/TabKeys.h"
 
 namespace tacto::gui {
 
 class CalibrationCard;
 class CalibrationHistory;
 class ProtocolWorkspace;
+class TabbedPage;
 
 class CalibrateWorkspace final : public QWidget {
     Q_OBJECT
@@ -28,17 +27,18 @@ public:
     void showPlotOnly(bool only);
 
 private:
+    enum Tab { kGuided, kFingertip, kOverTime };
+    /// How the stored calibration stands, and those before it.
+    [[nodiscard]] QWidget* buildStored(QWidget* in);
     void prepare(const QString& mode);
     void showReady();
     BenchController& controller_;
     CalibrationBook& book_;
     CalibrationCard* card_;
-    QTabWidget* tabs_;
+    TabbedPage* tabs_;
     ProtocolWorkspace* runner_;
     ProtocolWorkspace* sensor_;
     CalibrationHistory* history_;
-    TabKeys tabKeys_{*this, [this](int page) { tabs_->setCurrentIndex(page); }};
-    QWidget* stored_;  ///< its page, with the card above
 };
 
 }  // namespace tacto::gui

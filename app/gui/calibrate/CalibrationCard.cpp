@@ -1,18 +1,20 @@
 #include "app/gui/calibrate/CalibrationCard.h"
 
 #include <QEvent>
-#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TurningRow.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr int kNameChars = 18;
+constexpr int kNameChars = 27;   // "simulated stimulator · SIM-1"
+constexpr int kStateChars = 44;  // "✔ calibrated 12 d ago, until 2027-11-27", which may wrap
+constexpr int kApart = 8;
 
 QString nameOf(const StimulatorId& one) {
     const auto name = QString::fromStdString(one.name);
@@ -40,7 +42,7 @@ QString factsOf(const StoredCalibration& c) {
                                              : QObject::tr(" plus %1").arg(quantityText(c.amplitude.offset, unit, 2)),
                       within(c.amplitude), settingText(c.amplitude.lowest, unit),
                       settingText(c.amplitude.highest, unit));
-    QStringList times;  // their lines are under Stored calibrations
+    QStringList times;  // their lines are in the table
     for (const auto& time : kStoredTimes) {
         const auto title = QString::fromUtf8(time.words.data(), qsizetype(time.words.size()));
         if (const auto& line = c.*time.line) times << QString("%1 ± %2").arg(title, within(*line));
@@ -63,12 +65,10 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(8, 8, 8, 8);
     column->setSpacing(4);
-    auto* row = new QHBoxLayout;
     word_ = new QLabel(this);
     word_->setObjectName("calibrationState");
     setTextSize(*word_, TextSize::Large);
     word_->setWordWrap(true);
-    row->addWidget(word_, 1);
     chooser_ = new QComboBox(this);
     chooser_->setObjectName("stimulatorChooser");
     chooser_->setAccessibleName(tr("Stimulator"));
@@ -81,7 +81,6 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
         if (index >= 0 && index < int(listed_.size())) tell(listed_[std::size_t(index)]);
         emit stimulatorChosen();
     });
-    row->addWidget(chooser_);
     calibrate_ = new QPushButton(tr("Calibrate"), this);
     calibrate_->setObjectName("calibrateButton");
     calibrate_->setToolTip(
@@ -91,10 +90,19 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
     check_ = new QPushButton(tr("Check"), this);
     check_->setObjectName("checkButton");
     connect(check_, &QPushButton::clicked, this, &CalibrationCard::checkWanted);
+    auto* buttons = new QHBoxLayout;
     for (auto* button : {calibrate_, check_}) {
         button->setAutoDefault(false);
-        row->addWidget(button);
+        buttons->addWidget(button);
     }
+    auto* act = new TurningRow;
+    act->addWidget(chooser_, 1);
+    act->addLayout(buttons);
+    auto* row = new TurningRow(
+        [this, act] { return fontMetrics().averageCharWidth() * kStateChars + act->sizeHint().width(); });
+    row->addWidget(word_, 1);
+    row->addLayout(act);
+    for (auto* each : {act, row}) each->setSpacing(kApart);
     column->addLayout(row);
     facts_ = new QLabel(this);
     facts_->setObjectName("calibrationFacts");

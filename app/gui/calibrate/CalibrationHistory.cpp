@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/gui/calibrate/CalibrationTrendView.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -67,6 +68,7 @@ CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     column->addWidget(table_, 2);
+    afterLookChange(*this, [this] { fitColumns(); });
 }
 
 void CalibrationHistory::list(const CalibrationBook& book, const std::optional<StimulatorId>& stimulator) {
@@ -110,6 +112,12 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
             table_->setItem(row, column, item);
         }
     }
+    fitColumns();
+}
+
+void CalibrationHistory::fitColumns() {
+    setTextSize(*table_, TextSize::Small);  // eight columns in a small window
+    setTextSize(*table_->horizontalHeader(), TextSize::Small);
     for (int column = 0; column < kInstruments; ++column) table_->resizeColumnToContents(column);
 }
 

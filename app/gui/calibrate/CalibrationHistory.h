@@ -22,6 +22,7 @@ public:
     void list(const CalibrationBook& book, const std::optional<StimulatorId>& stimulator);
 
 private:
+    void fitColumns();
     QLabel* empty_;
     CalibrationTrendView* trend_;
     QTableWidget* table_;

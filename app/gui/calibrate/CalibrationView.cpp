@@ -8,6 +8,7 @@
 #include "app/gui/calibrate/ToleranceCard.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/PageStack.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -16,7 +17,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLowLines = 26;  // below this height the cards are one line, so that the plot keeps its own
+constexpr double kPlotShare = 0.82;  // of its height the plot has: with the page's edges 80 % of their column
+constexpr int kCardFrom = 104;       // the width from which a card has room beside others
 constexpr int kCardsApart = 8, kCardsBelow = 0;
 
 }  // namespace
@@ -26,8 +28,9 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(kCardsBelow);
-    column->addWidget(buildHead());
-    plots_ = new QStackedWidget(this);
+    head_ = buildHead();
+    column->addWidget(head_);
+    plots_ = new PageStack(this);
     errors_ = new CalibrationPlot(CalibrationPlot::Kind::Errors, plots_);
     errors_->setObjectName("calibrationErrors");
     measured_ = new CalibrationPlot(CalibrationPlot::Kind::Measured, plots_);
@@ -39,9 +42,9 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
         if (shown_ >= 0) say();
     });
     column->addWidget(plots_, 1);
-    row_ = new QHBoxLayout;
-    row_->setSpacing(kCardsApart);
-    column->addLayout(row_);
+    places_ = new QGridLayout;
+    places_->setSpacing(kCardsApart);
+    column->addLayout(places_);
     begin({});
 }
 
@@ -49,7 +52,7 @@ QWidget* CalibrationView::buildHead() {
     auto* head = new QWidget(this);
     auto* row = new QHBoxLayout(head);
     row->setContentsMargins(0, 0, 0, 0);
-    title_ = new QLabel(head);
+    title_ = new ElidedLabel(head);
     title_->setObjectName("calibrationShown");
     setTextSize(*title_, TextSize::Body, true);
     row->addWidget(title_);
@@ -100,6 +103,7 @@ void CalibrationView::begin(const nlohmann::json& parameters) {
     shown_ = -1;
     follow_ = true;
     title_->setText(tr("Residuals in their tolerance"));
+    title_->setToolTip(title_->text());
     says_->setText({});
     measured_->clear();
     errors_->clear();
@@ -114,7 +118,6 @@ CalibrationReadings& CalibrationView::of(const std::string& quantity) {
     made.tolerance_pct = toleranceOf(quantity, parameters_);
     all_.push_back(made);
     auto* card = new ToleranceCard(quantityTitle(quantity), this);
-    row_->addWidget(card, 1);
     cards_.push_back(card);
     const int index = int(cards_.size()) - 1;
     connect(card, &ToleranceCard::clicked, this, [this, index] {
@@ -172,6 +175,7 @@ void CalibrationView::say() {
     const bool residuals = kind_->currentIndex() == 0;
     title_->setText((residuals ? tr("%1: residuals in their tolerance") : tr("%1: measured against commanded"))
                         .arg(quantityTitle(shown.quantity)));
+    title_->setToolTip(title_->text());
     const auto marked = std::count_if(shown.readings.begin(), shown.readings.end(),
                                       [](const CalibrationReading& reading) { return reading.outlier; });
     QStringList said;
@@ -205,8 +209,27 @@ QString CalibrationView::quantityShown() const {
     return shown_ < 0 ? QString() : quantityTitle(all_[std::size_t(shown_)].quantity);
 }
 
+/// The cards stand in rows where one has no room for them, and are as low as the plot's share wants it.
 void CalibrationView::arrange() {
-    for (auto* card : cards_) card->setLow(height() < fontMetrics().height() * kLowLines);
+    using Shape = ToleranceCard::Shape;
+    if (cards_.empty()) return;
+    const int count = int(cards_.size());
+    const int columns = std::clamp((width() + kCardsApart) / (scaledPx(kCardFrom) + kCardsApart), 1, count);
+    const int rows = (count + columns - 1) / columns;
+    const bool placed = places_->count() == count && columns_ == columns;
+    columns_ = columns;
+    for (int i = 0; i < count && !placed; ++i) {
+        places_->addWidget(cards_[std::size_t(i)], i / columns, i % columns);
+        places_->setColumnStretch(i, i < columns ? 1 : 0);
+    }
+    for (auto* card : cards_) {
+        const auto leaves = [&](Shape shape) {
+            return height() - head_->sizeHint().height() - rows * card->heightOf(shape) >= kPlotShare * height();
+        };
+        card->setShape(leaves(Shape::Large)      ? Shape::Large
+                       : leaves(Shape::TwoLines) ? Shape::TwoLines
+                                                 : Shape::OneLine);
+    }
 }
 
 void CalibrationView::showEvent(QShowEvent* event) {

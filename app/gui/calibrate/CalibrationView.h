@@ -5,9 +5,8 @@
 #pragma once
 
 #include <QComboBox>
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QLabel>
-#include <QStackedWidget>
 #include <QWidget>
 #include <vector>
 
@@ -16,6 +15,7 @@
 namespace tacto::gui {
 
 class CalibrationPlot;
+class PageStack;
 class ToleranceCard;
 
 class CalibrationView final : public QWidget {
@@ -58,11 +58,13 @@ private:
     int shown_ = -1;
     bool dirty_ = false;
     bool follow_ = true;  // the plot goes with the run until the operator chooses a card
+    QWidget* head_ = nullptr;
     QLabel* title_ = nullptr;
     QLabel* says_ = nullptr;
     QComboBox* kind_ = nullptr;
-    QStackedWidget* plots_;
-    QHBoxLayout* row_;
+    PageStack* plots_;
+    QGridLayout* places_;
+    int columns_ = 0;
     CalibrationPlot* measured_;
     CalibrationPlot* errors_;
 };

@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kCardWidth = 176, kNarrowCard = 104, kCardPad = 12, kCardTop = 9, kCardBar = 7, kCardIcon = 14;
+constexpr int kCardWidth = 176, kNarrowCard = 64, kCardPad = 12, kCardTop = 9, kCardBar = 7, kCardIcon = 14;
 constexpr int kLowPad = 4, kLowBar = 4;
 constexpr int kOneLineFrom = 320;  // where and tolerance stand beside each other from this width on
 constexpr double kNearTolerance = 0.8;
@@ -29,8 +29,10 @@ ToleranceCard::ToleranceCard(const QString& title, QWidget* parent) : QAbstractB
     onFontChange(*this, [this] { updateGeometry(); });
 }
 
-void ToleranceCard::setLow(bool low) {
-    if (std::exchange(low_, low) != low) updateGeometry();
+void ToleranceCard::setShape(Shape shape) {
+    if (std::exchange(shape_, shape) == shape) return;
+    updateGeometry();
+    update();
 }
 
 void ToleranceCard::show(const CalibrationReadings& of) {
@@ -44,20 +46,29 @@ void ToleranceCard::show(const CalibrationReadings& of) {
                        .arg(settingText(use->commanded, of.unit), uncertainText(use->error, use->expanded, of.unit))
                  : QString();
     tolerance_ = use != nullptr ? tr("tolerance ± %1").arg(settingText(use->tolerance, of.unit)) : QString();
+    whereOf_ = use != nullptr ? tr("%1 of ± %2").arg(where_, settingText(use->tolerance, of.unit)) : QString();
     const auto said = QStringList{verdict_, large_ + ' ' + beside_, where_, tolerance_}.join("; ");
     setToolTip(tr("%1: %2. Shows it in the plot.").arg(text(), said));
     setAccessibleDescription(said);
     update();
 }
 
-QSize ToleranceCard::sizeHint() const {
+int ToleranceCard::heightOf(Shape shape) const {
     const int body = QFontMetrics(textFont(TextSize::Body)).height();
-    if (low_) return {scaledPx(kCardWidth), body + scaledPx(kLowBar) + 3 * kLowPad};
     const int small = QFontMetrics(textFont(TextSize::Small)).height();
-    const int height = body + QFontMetrics(textFont(TextSize::Large)).height() + scaledPx(kCardBar) +
-                       (oneLine() ? 1 : 2) * small + 2 * kCardTop + 4;
-    return {scaledPx(kCardWidth), height};
+    switch (shape) {
+        case Shape::OneLine:
+            return body + scaledPx(kLowBar) + 3 * kLowPad;
+        case Shape::TwoLines:
+            return body + scaledPx(kLowBar) + small + 4 * kLowPad;
+        case Shape::Large:
+            break;
+    }
+    return body + QFontMetrics(textFont(TextSize::Large)).height() + scaledPx(kCardBar) + (oneLine() ? 1 : 2) * small +
+           2 * kCardTop + 4;
 }
+
+QSize ToleranceCard::sizeHint() const { return {scaledPx(kCardWidth), heightOf(shape_)}; }
 
 QSize ToleranceCard::minimumSizeHint() const { return {scaledPx(kNarrowCard), sizeHint().height()}; }
 
@@ -78,11 +89,11 @@ void ToleranceCard::paintEvent(QPaintEvent* /*event*/) {
     painter.setBrush(underMouse() && !chosen ? c.sunken : c.base);
     painter.drawRoundedRect(QRectF(rect()).adjusted(pen / 2, pen / 2, -pen / 2, -pen / 2), 4, 4);
     painter.setRenderHint(QPainter::Antialiasing, false);
-    low_ ? paintLow(painter) : paintWhole(painter);
+    shape_ == Shape::Large ? paintLarge(painter) : paintLines(painter);
 }
 
-/// Title, share and verdict beside each other, the bar below them.
-void ToleranceCard::paintLow(QPainter& painter) const {
+/// Title, share and verdict beside each other, the bar below them, then where it is.
+void ToleranceCard::paintLines(QPainter& painter) const {
     auto line = rect().adjusted(kCardPad, kLowPad, -kCardPad, -kLowPad);
     const QFontMetrics body(textFont(TextSize::Body, QFont::DemiBold));
     QRect head(line.left(), line.top(), line.width(), body.height());
@@ -93,10 +104,19 @@ void ToleranceCard::paintLow(QPainter& painter) const {
     head.setRight(head.right() - body.horizontalAdvance(large_) - kCardPad);
     painter.drawText(head, Qt::AlignLeft | Qt::AlignVCenter, body.elidedText(text(), Qt::ElideRight, head.width()));
     const int high = scaledPx(kLowBar);
-    paintBar(painter, {line.left(), line.bottom() + 1 - high, line.width(), high});
+    const QRect bar(line.left(), head.bottom() + 1 + kLowPad, line.width(), high);
+    paintBar(painter, bar);
+    if (shape_ == Shape::OneLine) return;
+    const auto font = textFont(TextSize::Small);
+    const QFontMetrics small(font);
+    const QRect below(line.left(), bar.bottom() + 1 + kLowPad, line.width(), small.height());
+    painter.setFont(font);
+    painter.setPen(colours().text);
+    painter.drawText(below, Qt::AlignLeft | Qt::AlignVCenter,
+                     small.elidedText(whereOf_, Qt::ElideRight, below.width()));
 }
 
-void ToleranceCard::paintWhole(QPainter& painter) const {
+void ToleranceCard::paintLarge(QPainter& painter) const {
     const auto& c = colours();
     auto line = rect().adjusted(kCardPad, kCardTop, -kCardPad, -kCardTop);
     const auto write = [&](const QFont& font, const QColor& ink, const QString& text, int from = 0) {

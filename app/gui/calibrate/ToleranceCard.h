@@ -15,8 +15,11 @@ class ToleranceCard final : public QAbstractButton {
 public:
     explicit ToleranceCard(const QString& title, QWidget* parent = nullptr);
     void show(const CalibrationReadings& of);
-    /// One line and the bar, where there is little room: the reasons of the verdict and the tool tip say the rest.
-    void setLow(bool low);
+    /// What it says as there is room for it: all of it large; the same in two lines; one line, while the reasons of the
+    /// verdict and the tool tip say the rest.
+    enum class Shape { Large, TwoLines, OneLine };
+    void setShape(Shape shape);
+    [[nodiscard]] int heightOf(Shape shape) const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
 
@@ -26,8 +29,8 @@ protected:
 
 private:
     [[nodiscard]] bool oneLine() const;
-    void paintWhole(QPainter& painter) const;
-    void paintLow(QPainter& painter) const;
+    void paintLarge(QPainter& painter) const;
+    void paintLines(QPainter& painter) const;
     int paintVerdict(QPainter& painter, const QRect& head, int wanted) const;
     void paintBar(QPainter& painter, const QRect& bar) const;
     QString verdict_;
@@ -35,8 +38,9 @@ private:
     QString beside_;
     QString where_;      // "at 10 V: +0.01 ± 0.08 V"
     QString tolerance_;  // "tolerance ± 200 mV"
+    QString whereOf_;    // "at 10 V: +0.01 ± 0.08 V of ± 200 mV"
     double share_ = 0;
-    bool low_ = false;
+    Shape shape_ = Shape::Large;
 };
 
 }  // namespace tacto::gui

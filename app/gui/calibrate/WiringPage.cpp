@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QSvgRenderer>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "app/scripting/engine/ProtocolLibrary.h"
 
@@ -11,18 +12,38 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDrawingChars = 60;
+constexpr int kDrawingChars = 60, kMinDrawingChars = 42;  // its width, and the least at which its words are read
 
-/// On white in both themes: it is a drawing on paper.
-QPixmap drawn(const QString& file, double scale) {
-    QSvgRenderer renderer(file);
-    QImage image((QSizeF(renderer.defaultSize()) * scale).toSize(), QImage::Format_RGB32);
-    image.fill(Qt::white);
-    QPainter painter(&image);
-    renderer.render(&painter);
-    painter.end();
-    return QPixmap::fromImage(image);
-}
+/// As wide as its place lets it be. On white in both themes: it is a drawing on paper.
+class WiringDrawing final : public QLabel {
+public:
+    WiringDrawing(const QString& file, QWidget* parent) : QLabel(parent), renderer_(file) {
+        auto policy = QSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+        policy.setHeightForWidth(true);
+        setSizePolicy(policy);
+    }
+    [[nodiscard]] bool hasHeightForWidth() const override { return true; }
+    [[nodiscard]] int heightForWidth(int width) const override {
+        const auto size = renderer_.defaultSize();
+        return std::min(width, chars(kDrawingChars)) * size.height() / std::max(1, size.width());
+    }
+    [[nodiscard]] QSize sizeHint() const override { return sizeAt(kDrawingChars); }
+    [[nodiscard]] QSize minimumSizeHint() const override { return sizeAt(kMinDrawingChars); }
+
+protected:
+    void paintEvent(QPaintEvent* /*event*/) override {
+        QPainter painter(this);
+        const QRectF paper(0, 0, std::min(width(), chars(kDrawingChars)), heightForWidth(width()));
+        painter.fillRect(paper, Qt::white);
+        painter.setRenderHint(QPainter::Antialiasing);
+        renderer_.render(&painter, paper);
+    }
+
+private:
+    [[nodiscard]] int chars(int count) const { return fontMetrics().averageCharWidth() * count; }
+    [[nodiscard]] QSize sizeAt(int count) const { return {chars(count), heightForWidth(chars(count))}; }
+    QSvgRenderer renderer_;
+};
 
 }  // namespace
 
@@ -42,18 +63,11 @@ WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
     column->addWidget(says);
     const auto file = drawingFile("wiring");
     if (file) {
-        auto* drawing = new QLabel(page);
+        auto* drawing = new WiringDrawing(QString::fromStdString(file->string()), page);
         drawing->setObjectName("wiringDrawing");
         drawing->setAccessibleName(
             tr("Drawing: the stimulator's output goes through the load and then the shunt back to it; channel 1 across "
                "both, channel 2 across the shunt, both grounds at the stimulator's return"));
-        const auto path = QString::fromStdString(file->string());
-        const auto size = QSvgRenderer(path).defaultSize();
-        const double scale =
-            devicePixelRatioF() * fontMetrics().averageCharWidth() * kDrawingChars / std::max(1, size.width());
-        auto picture = drawn(path, scale);
-        picture.setDevicePixelRatio(devicePixelRatioF());
-        drawing->setPixmap(picture);
         column->addWidget(drawing);
     } else {
         column->addWidget(new QLabel("⚠ " + QString::fromStdString(file.error().message), page));

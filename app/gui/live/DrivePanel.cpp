@@ -45,6 +45,7 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
         button->installEventFilter(this);
         connect(button, &QPushButton::clicked, this, &DrivePanel::choose);
     }
+    off_->setProperty("first", true);
     off_->setChecked(true);
     layout->addLayout(row);
     auto* grid = new QGridLayout;

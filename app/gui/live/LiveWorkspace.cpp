@@ -149,9 +149,10 @@ void LiveWorkspace::fillSide() {
     QWidget* side = new LeastColumn([this] { fit(); }, side_);
     auto* layout = new QVBoxLayout(side);
     layout->setContentsMargins(8, 0, 8, 0);
-    auto* where = new QLabel(tr("Where the fingertip is"), side);
-    setTextSize(*where, TextSize::Small, true);
-    layout->addWidget(where);
+    where_ = new QLabel(side);
+    where_->setObjectName("whereTitle");
+    setTextSize(*where_, TextSize::Small, true);
+    layout->addWidget(where_);
     plane_ = new TactilePlane(side);
     layout->addWidget(plane_, 1);
     command_ = new CommandPanel(side);
@@ -297,6 +298,7 @@ void LiveWorkspace::showPlane(const Telemetry& telemetry) {
     const bool stale = healthWords(telemetry, !history_.streams().empty(), 0).stale;
     const bool byHand = telemetry.driving == DriveSource::Manual;
     const double absent = std::nan("");
+    where_->setText(byHand ? tr("Set by hand") : tr("Where the fingertip is"));
     plane_->show(history_.frames(), history_.now_s(), stale && !byHand ? absent : telemetry.roughness,
                  stale && !byHand ? absent : telemetry.pressure, byHand);
 }

@@ -78,6 +78,7 @@ private:
     StripPlots* strips_ = nullptr;
     TaxelMap* taxels_ = nullptr;
     TactilePlane* plane_ = nullptr;
+    QLabel* where_ = nullptr;
     CommandPanel* command_ = nullptr;
     RigPanel* rig_ = nullptr;
     QPushButton* freeze_ = nullptr;

@@ -136,11 +136,12 @@ void ProfileEditor::judge() {
     if (filling_) return;
     const auto now = read();
     trouble_ = now.refusal;
-    tabs_->mark(now.where, now.refusal);
+    const auto words = inFormWords(now.refusal);
+    tabs_->mark(now.where, words);
     save_->setEnabled(now.profile.has_value());
     if (!now.profile) {
         apply_->setEnabled(false);
-        return say(tr("Not to be applied: %1").arg(now.refusal), true);
+        return say(tr("Cannot be applied: %1").arg(words), true);
     }
     const bool same = toJson(*now.profile) == toJson(controller_.profile());
     apply_->setEnabled(!same);

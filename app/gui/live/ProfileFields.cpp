@@ -169,7 +169,8 @@ QString ProfileField::range() const {
     if (isChoice()) return {};
     if (form.accepts != nullptr) return profileWords(form.accepts);
     const auto& numbers = *stored->numbers;
-    const QString from = QString::number(numbers.low, 'g', 10), to = QString::number(numbers.high, 'g', 10);
+    const auto from = grouped(QString::number(numbers.low, 'g', 10));
+    const auto to = grouped(QString::number(numbers.high, 'g', 10));
     QString text;
     if (numbers.high >= 1e6)
         text = numbers.openLow ? QObject::tr("above %1").arg(from) : QObject::tr("%1 or more").arg(from);
@@ -196,6 +197,16 @@ const ProfileField* fieldIn(const QString& refusal) {
         }
     }
     return found;
+}
+
+QString inFormWords(QString refusal) {
+    for (const auto& field : profileForm()) {
+        const auto section = QString(field.section()) + ": ";
+        if (refusal.startsWith(section)) refusal.remove(0, section.size());
+        const QRegularExpression key(QString(R"("?\b%1\b"?)").arg(field.key));
+        refusal.replace(key, QString("“%1”").arg(profileWords(field.label)));
+    }
+    return sentence(grouped(refusal));
 }
 
 }  // namespace tacto::gui

@@ -40,6 +40,8 @@ struct ProfileField {
 [[nodiscard]] const std::vector<ProfileField>& profileForm();
 /// The field that a refusal is about: the one that it names first. Null when it names none.
 [[nodiscard]] const ProfileField* fieldIn(const QString& refusal);
+/// A refusal of the core with the form's names in place of the file's keys: "“Smallest amplitude” 45 V is not below …".
+[[nodiscard]] QString inFormWords(QString refusal);
 /// Translated.
 [[nodiscard]] QString profileWords(const char* text);
 

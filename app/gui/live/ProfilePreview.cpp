@@ -38,10 +38,10 @@ ProfilePreview::ProfilePreview(QWidget* parent)
            "amplitude."));
     addPlotMenu(*this, "encoding");
     auto* unused = axisRect();
-    amplitude_ = cell(*this, 0, tr("amplitude (V)"));
-    interval_ = cell(*this, 1, tr("interval (s)"));
+    amplitude_ = cell(*this, 0, tr("Amplitude (V)"));
+    interval_ = cell(*this, 1, tr("Interval (s)"));
     pulse_ = cell(*this, 2, tr("pulse (V)"));
-    pulse_->axis(QCPAxis::atBottom)->setLabel(tr("time (µs)"));
+    pulse_->axis(QCPAxis::atBottom)->setLabel(tr("Time (µs)"));
     plotLayout()->remove(unused);
     plotLayout()->simplify();
     auto* group = new QCPMarginGroup(this);
@@ -73,8 +73,8 @@ void ProfilePreview::show(const EncodingProfile& profile, Ohms smallestLoad) {
 void ProfilePreview::showCurves() {
     const Encoder encoder(*profile_);
     const bool swapped = profile_->assignment == Assignment::Swapped;
-    amplitude_->axis(QCPAxis::atBottom)->setLabel(swapped ? tr("pressure P") : tr("roughness R"));
-    interval_->axis(QCPAxis::atBottom)->setLabel(swapped ? tr("roughness R") : tr("pressure P"));
+    amplitude_->axis(QCPAxis::atBottom)->setLabel(swapped ? tr("Pressure P") : tr("Roughness R"));
+    interval_->axis(QCPAxis::atBottom)->setLabel(swapped ? tr("Roughness R") : tr("Pressure P"));
     QVector<double> x(kPoints), a(kPoints), t(kPoints);
     for (int i = 0; i < kPoints; ++i) {
         x[i] = double(i) / (kPoints - 1);

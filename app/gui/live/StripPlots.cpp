@@ -75,7 +75,7 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
         connect(&strips_[i].time(), qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &StripPlots::shareTime);
     }
     strips_.back().time().setTickLabels(true);
-    strips_.back().time().setLabel(tr("seconds before now"));
+    strips_.back().time().setLabel(tr("Seconds before now"));
     ticker_ = QSharedPointer<AgoTicker>::create();
     ticker_->setTickCount(8);
     for (auto& strip : strips_) strip.time().setTicker(ticker_);
@@ -191,7 +191,7 @@ void StripPlots::setFrozen(bool frozen) {
     frozen_ = frozen ? std::make_unique<LiveHistory>(history_) : nullptr;
     setInteraction(QCP::iRangeDrag, frozen);
     setInteraction(QCP::iRangeZoom, frozen);
-    strips_.back().time().setLabel(frozen ? tr("seconds before the picture was frozen") : tr("seconds before now"));
+    strips_.back().time().setLabel(frozen ? tr("Seconds before the picture was frozen") : tr("Seconds before now"));
     whole_ = shownTime();
     views_.clear();
     attach();

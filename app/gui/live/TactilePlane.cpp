@@ -33,7 +33,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
     addPlotMenu(*this, "tactile-plane");
     connect(this, &QCustomPlot::afterLayout, this, &TactilePlane::makeRoomForNames);
-    yAxis->setLabel(tr("pressure P"));
+    yAxis->setLabel(tr("Pressure P"));
     for (auto* axis : {xAxis, yAxis}) {
         axis->ticker()->setTickCount(3);
         axis->setNumberFormat("f");
@@ -101,7 +101,7 @@ void TactilePlane::setConditions(const std::vector<Condition>& conditions) {
 
 void TactilePlane::setOrigin(bool simulated, bool calibrated) {
     watermark_->setVisible(simulated);
-    xAxis->setLabel(calibrated ? tr("roughness R") : tr("roughness R, uncalibrated"));
+    xAxis->setLabel(calibrated ? tr("Roughness R") : tr("Roughness R, uncalibrated"));
 }
 
 std::optional<QPointF> TactilePlane::point() const {

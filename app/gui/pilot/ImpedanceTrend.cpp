@@ -1,5 +1,6 @@
 #include "app/gui/pilot/ImpedanceTrend.h"
 
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 #include <cmath>
@@ -47,6 +48,10 @@ ImpedanceTrend::ImpedanceTrend(QWidget* parent)
     bandWord_ = new QCPItemText(plot_);
     bandWord_->position->setTypeX(QCPItemPosition::ptAxisRectRatio);
     bandWord_->setPositionAlignment(Qt::AlignRight | Qt::AlignTop);
+    empty_ = new QCPItemText(plot_);
+    empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
+    empty_->position->setCoords(0.5, 0.5);
+    empty_->setText(tr("Each trial of the test adds its reading."));
     watermark_ = addWatermark(*plot_->axisRect());
     addPlotMenu(*plot_, "impedance-of-the-session");
     setPlan(90, 5);
@@ -112,6 +117,11 @@ void ImpedanceTrend::draw() {
     for (const auto& [trial, ohm] : ohms_) points_->addData(trial, ohm / 1000);
     points_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, QPen(c.voltage), QBrush(c.voltage), kPoint_px));
     const bool known = start_ohm_ > 0;
+    empty_->setVisible(!known);
+    empty_->setColor(c.quiet);
+    empty_->setFont(QApplication::font());
+    plot_->yAxis->setTickLabels(known);  // before, its numbers stand for nothing
+    plot_->yAxis->setTicks(known);
     const double low = start_ohm_ / 1000 * (1 - kMayMove), high = start_ohm_ / 1000 * (1 + kMayMove);
     band_->setVisible(known);
     bandWord_->setVisible(known);

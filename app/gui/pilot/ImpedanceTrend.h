@@ -31,6 +31,7 @@ private:
     QCPGraph* points_;
     QCPItemRect* band_;
     std::vector<QCPItemLine*> edges_;
+    QCPItemText* empty_ = nullptr;
     QCPItemText* bandWord_;
     QCPItemText* watermark_;
     std::vector<QCPItemLine*> blockLines_;

@@ -4,11 +4,13 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QRegularExpression>
+#include <QScrollBar>
 #include <cmath>
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/analysis/identification/IdentificationText.h"
@@ -121,7 +123,7 @@ PilotResult::PilotResult(QWidget* parent)
     column->addWidget(matrixTitle_);
     matrix_->setObjectName("confusion");
     matrix_->setAccessibleName(tr("Confusion matrix"));
-    onFontChange(*matrix_, [this] { layOutRecordTable(*matrix_); });
+    onFontChange(*matrix_, [this] { layOutMatrix(); });
     column->addWidget(matrix_);
     column->addWidget(blocks_);
     column->addWidget(note_);
@@ -248,7 +250,23 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
             matrix_->item(r, i + 1)->setFont(font);
         }
     }
-    layOutRecordTable(*matrix_);
+    layOutMatrix();
+}
+
+void PilotResult::layOutMatrix() {
+    if (matrix_->columnCount() == 0) return;
+    const int room = std::max(1, widthInSight(*this) - 2 * (kResultPad + 1));
+    layOutRecordTable(*matrix_, room);
+    if (matrix_->horizontalHeader()->length() <= room) return;
+    // Six answers have no room in large text beside open docks: the matrix scrolls, not the page.
+    matrix_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
+    matrix_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    matrix_->setFixedHeight(matrix_->minimumHeight() + matrix_->horizontalScrollBar()->sizeHint().height());
+}
+
+void PilotResult::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    if (event->size().width() != event->oldSize().width()) layOutMatrix();
 }
 
 }  // namespace tacto::gui

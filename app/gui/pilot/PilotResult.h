@@ -36,7 +36,11 @@ signals:
     void goOnWanted();  ///< the unfinished session
     void folderWanted(const QString& folder);
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
+    void layOutMatrix();
     void showMatrix(const nlohmann::json& results);
     QString folder_;
     QLabel* head_;

@@ -12,6 +12,7 @@
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/PageStack.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 
@@ -33,7 +34,7 @@ QString kindOf(const PilotStart& start, bool ofStudy) {
 PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
     : QWidget(parent),
       path_(new SessionPath(this)),
-      pages_(new QStackedWidget(this)),
+      pages_(new PageStack(this)),
       start_(new SessionStartPage(controller.watch(), pages_)),
       page_(new OperatorPage(pages_)),
       result_(new PilotResult(pages_)),

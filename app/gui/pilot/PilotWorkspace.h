@@ -5,7 +5,6 @@
 #pragma once
 
 #include <QFrame>
-#include <QStackedWidget>
 #include <QWidget>
 
 #include "app/gui/controller/BenchController.h"
@@ -15,6 +14,7 @@
 namespace tacto::gui {
 
 class OperatorPage;
+class PageStack;
 class PilotResult;
 class RehearsalPage;
 class SessionPath;
@@ -71,7 +71,7 @@ private:
     bool ofStudy_ = false;   ///< the session that runs, or whose result is shown
     bool reopened_ = false;  ///< the result that is shown was read from its record
     SessionPath* path_;
-    QStackedWidget* pages_;
+    PageStack* pages_;
     TabbedPage* home_ = nullptr;
     RehearsalPage* rehearsal_ = nullptr;
     StudyPage* studies_ = nullptr;

@@ -68,8 +68,8 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     auto* page = new ScrollingPage(this);
     auto* inside = new QWidget(page->viewport());
     auto* column = new QVBoxLayout(inside);
-    column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad);
-    column->setSpacing(12);
+    column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad / 2);
+    column->setSpacing(8);
     title_->setObjectName("rehearsalTitle");
     setTextSize(*title_, TextSize::Large);
     column->addWidget(title_);
@@ -80,8 +80,9 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     auto* holder = new QWidget(inside);
     boundWidth(*holder, kFormWide);
     auto* form = rows_ = new QFormLayout(holder);
-    form->setContentsMargins(0, 8, 0, 0);
-    form->setVerticalSpacing(12);
+    form->setContentsMargins(0, 4, 0, 0);
+    form->setVerticalSpacing(8);
+    form->setRowWrapPolicy(QFormLayout::WrapLongRows);
 
     auto* place = new QWidget(holder);
     auto* row = new QHBoxLayout(place);
@@ -150,6 +151,10 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     column->addStretch();
     page->hold(inside);
     whole->addWidget(page, 1);
+    auto* edge = new QFrame(this);
+    edge->setFrameShape(QFrame::HLine);
+    edge->setForegroundRole(QPalette::Mid);
+    whole->addWidget(edge);
     auto* foot = new QVBoxLayout;
     foot->setContentsMargins(kPagePad, 12, kPagePad, 12);
     foot->setSpacing(8);

@@ -52,6 +52,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     column->addWidget(offer_);
     auto* form = new QFormLayout;
     form->setVerticalSpacing(8);
+    form->setRowWrapPolicy(QFormLayout::WrapLongRows);
     protocol_->setObjectName("sessionProtocol");
     protocol_->addItem(tr("the whole session"), "pilot-identification");
     protocol_->addItem(tr("thresholds alone"), "pilot-thresholds");

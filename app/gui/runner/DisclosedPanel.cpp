@@ -1,7 +1,6 @@
 #include "app/gui/runner/DisclosedPanel.h"
 
 #include <QHBoxLayout>
-#include <QScrollArea>
 #include <QScrollBar>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -13,6 +12,7 @@
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/WholeRows.h"
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
 #include "core/base/JsonFields.h"
@@ -49,13 +49,22 @@ OutputsByLoad byLoad(const nlohmann::json& disclosed) {
     return all;
 }
 
+QWidget* makePage(QTableWidget& table) {
+    auto* page = new QWidget;
+    auto* column = new QVBoxLayout(page);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(&table);
+    return page;
+}
+
 }  // namespace
 
 DisclosedPanel::DisclosedPanel(QWidget* parent)
     : QWidget(parent),
       layout_(new QBoxLayout(QBoxLayout::LeftToRight, this)),
       outputs_(new QWidget(this)),
-      area_(new QScrollArea(outputs_)),
+      table_(new QTableWidget),
+      area_(new WholeRows(makePage(*table_), outputs_)),
       none_(new QLabel(tr("No limit set asks for outputs to be disclosed."), outputs_)),
       peak_(new QLabel(this)),
       wave_(new CaptureStrip(this)) {
@@ -80,10 +89,10 @@ DisclosedPanel::DisclosedPanel(QWidget* parent)
     setTone(*none_, Tone::Quiet);
     column->addWidget(none_);
     area_->setObjectName("disclosedOutputs");
-    area_->setFrameShape(QFrame::NoFrame);
-    area_->setWidgetResizable(true);
-    area_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     area_->viewport()->setAutoFillBackground(false);
+    area_->widget()->setAutoFillBackground(false);
+    setTextSize(*table_, TextSize::Small);
+    table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);  // all of it in sight where there is room
     column->addWidget(area_, 1);
     column->addStretch();
     layout_->addWidget(outputs_);
@@ -132,7 +141,6 @@ void DisclosedPanel::showTracing(const std::shared_ptr<const Capture>& capture, 
 
 void DisclosedPanel::show(const nlohmann::json& disclosed) {
     const bool any = disclosed.is_array() && !disclosed.empty();
-    delete area_->takeWidget();
     if (any) {
         using As = RecordColumn::As;
         const auto all = byLoad(disclosed);
@@ -142,14 +150,10 @@ void DisclosedPanel::show(const nlohmann::json& disclosed) {
             columns.push_back(
                 {tr("at %1").arg(loadText(qtext(all.loads[i]))), "value" + of, As::Number, "@unit", "u" + of});
         }
-        auto* table = new QTableWidget(area_);
-        setTextSize(*table, TextSize::Small);
-        fillRecordTable(*table, columns, all.rows);
-        layOutRecordTable(*table);
-        table->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);  // all of it in sight where there is room
-        area_->setWidget(table);
-        area_->setMinimumWidth(table->maximumWidth() + area_->verticalScrollBar()->sizeHint().width());
-        area_->setMaximumHeight(table->maximumHeight());
+        fillRecordTable(*table_, columns, all.rows);
+        layOutRecordTable(*table_);
+        area_->setMinimumWidth(table_->maximumWidth() + area_->verticalScrollBar()->sizeHint().width());
+        area_->setMaximumHeight(table_->maximumHeight());
     }
     area_->setVisible(any);
     none_->setVisible(!any);

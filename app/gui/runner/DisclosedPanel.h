@@ -12,11 +12,12 @@
 
 #include "core/measure/Capture.h"
 
-class QScrollArea;
+class QTableWidget;
 
 namespace tacto::gui {
 
 class CaptureStrip;
+class WholeRows;
 
 class DisclosedPanel final : public QWidget {
     Q_OBJECT
@@ -40,7 +41,8 @@ public:
 private:
     QBoxLayout* layout_;
     QWidget* outputs_;
-    QScrollArea* area_;
+    QTableWidget* table_;
+    WholeRows* area_;
     QLabel* none_;
     QLabel* peak_;
     CaptureStrip* wave_;

@@ -216,15 +216,17 @@ void LimitMatrixView::addLine(int row, const json& line) {
     const auto unit = wordsOf(memberAt(line, "unit"));
     const auto title = titled(wordsOf(memberAt(line, "title")));
     const double most = numberOr(memberAt(line, "limit"));
+    const bool hasLimit = std::isfinite(most);  // without one the words are the rule, and whose it is says the tool tip
     const auto limit =
-        std::isfinite(most)
-            ? (wordsOf(memberAt(line, "compare")) == "<" ? QString("< ") : QString("≤ ")) + settingText(most, unit)
-            : tr("before the next train");
+        hasLimit ? (wordsOf(memberAt(line, "compare")) == "<" ? QString("< ") : QString("≤ ")) + settingText(most, unit)
+                 : tr("before the next train");
     const auto set = limitSetTitle(wordsOf(memberAt(line, "set")));
     const auto verdict = wordsOf(memberAt(line, "verdict"));
     auto* head = new QTableWidgetItem(title);
     head->setData(kLineUnit, unit);
-    head->setData(kLineNote, QStringList{verdictText(verdict), limit, set}.join(" · "));
+    head->setData(
+        kLineNote,
+        (QStringList{verdictText(verdict), limit} + (hasLimit ? QStringList{set} : QStringList{})).join(" · "));
     head->setToolTip(QStringList{title, limit, set, wordsOf(memberAt(line, "source")), verdict}.join(" · "));
     setItem(row, 0, head);
     const auto& cells = memberAt(line, "cells");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/ResultKind.h"
@@ -72,58 +73,83 @@ std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
     return steps;
 }
 
-NextStepBar::NextStepBar(QWidget* parent) : QWidget(parent), row_(new QHBoxLayout(this)) {
+NextStepBar::NextStepBar(QWidget* parent) : QWidget(parent) {
     setObjectName("nextSteps");
     setAccessibleName(tr("What comes next"));
-    row_->setContentsMargins(0, 0, 0, 0);
-    row_->setSpacing(kApart);
+    afterLookChange(*this, [this] { measure(); });
 }
 
 void NextStepBar::show(const std::vector<NextStep>& steps) {
+    // Later: one of them may be what was clicked.
+    for (const auto& each : buttons_) each.button->hide(), each.button->deleteLater();
     buttons_.clear();
-    while (auto* item = row_->takeAt(0)) {
-        // Later: one of them may be what was clicked.
-        if (item->widget() != nullptr) item->widget()->hide(), item->widget()->deleteLater();
-        delete item;
-    }
     for (const auto step : steps) {
         const auto words = wordsOf(step);
         auto* button = new QPushButton(words.text, this);
-        const bool first = row_->count() == 0;
+        const bool first = buttons_.empty();
         button->setToolTip(words.tip);
         button->setAutoDefault(false);
         makePrimary(*button, first);
         if (step == NextStep::Session) makeQuiet(*button);
         connect(button, &QPushButton::clicked, this, [this, step] { emit chosen(step); });
-        row_->addWidget(button);
         button->show();
-        Button made{button, icon(words.icon, first ? Ink::Primary : Ink::Text), button->sizeHint().width(), 0};
-        button->setIcon(made.icon);
-        made.whole = button->sizeHint().width();
-        buttons_.push_back(std::move(made));
+        buttons_.push_back({button, icon(words.icon, first ? Ink::Primary : Ink::Text), 0, 0});
+    }
+    measure();
+}
+
+/// Their widths follow the style and the size of text.
+void NextStepBar::measure() {
+    for (auto& each : buttons_) {
+        each.button->setIcon({});
+        each.bare = each.button->sizeHint().width();
+        each.button->setIcon(each.icon);
+        each.whole = each.button->sizeHint().width();
     }
     fit();
 }
 
-QSize NextStepBar::room(int Button::*width, int apart) const {
+int NextStepBar::across(int Button::*width, int apart) const {
     int all = apart * std::max(0, int(buttons_.size()) - 1);
     for (const auto& each : buttons_) all += each.*width;
-    return {all, QWidget::minimumSizeHint().height()};
+    return all;
 }
 
-QSize NextStepBar::sizeHint() const { return room(&Button::whole, kApart); }
+QSize NextStepBar::sizeHint() const { return {across(&Button::whole, kApart), flow()}; }
 
-QSize NextStepBar::minimumSizeHint() const { return room(&Button::bare, kApartWithoutIcons); }
+QSize NextStepBar::minimumSizeHint() const {
+    int widest = 0;
+    for (const auto& each : buttons_) widest = std::max(widest, each.bare);
+    return {widest, flow()};
+}
 
 void NextStepBar::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     fit();
 }
 
+int NextStepBar::flow(const std::function<void(const Button&, const QRect&)>& place) const {
+    const bool icons = width() >= across(&Button::whole, kApart);
+    const int apart = icons ? kApart : kApartWithoutIcons;
+    const int high = buttons_.empty() ? 0 : buttons_.front().button->sizeHint().height();
+    int left = 0, top = 0;
+    for (const auto& each : buttons_) {
+        const int wide = icons ? each.whole : each.bare;
+        if (left > 0 && left + wide > width()) {
+            left = 0;
+            top += high + apart;
+        }
+        if (place) place(each, {left, top, wide, high});
+        left += wide + apart;
+    }
+    return top + high;
+}
+
 void NextStepBar::fit() {
-    const bool icons = width() >= sizeHint().width();
-    row_->setSpacing(icons ? kApart : kApartWithoutIcons);
+    const bool icons = width() >= across(&Button::whole, kApart);
     for (const auto& each : buttons_) each.button->setIcon(icons ? each.icon : QIcon());
+    const int above = std::max(0, (height() - flow()) / 2);
+    flow([above](const Button& each, const QRect& at) { each.button->setGeometry(at.translated(0, above)); });
     updateGeometry();
 }
 

@@ -3,9 +3,9 @@
 // Thread-safety: the GUI thread; nextStepsAfter() is pure.
 #pragma once
 
-#include <QHBoxLayout>
 #include <QPushButton>
 #include <QWidget>
+#include <functional>
 #include <vector>
 
 #include "app/gui/controller/BenchController.h"
@@ -27,7 +27,7 @@ enum class NextStep {
 [[nodiscard]] std::vector<NextStep> nextStepsAfter(const FinishedRun& run);
 
 /// As buttons in a row, the first one filled. Where the row is too narrow for their icons they have none, and stand
-/// closer.
+/// closer; where it is too narrow for that they stand in several rows.
 class NextStepBar final : public QWidget {
     Q_OBJECT
 public:
@@ -48,9 +48,12 @@ private:
         QIcon icon;
         int bare, whole;  ///< widths without and with it
     };
-    [[nodiscard]] QSize room(int Button::*width, int apart) const;
+    void measure();
+    /// All in one row.
+    [[nodiscard]] int across(int Button::*width, int apart) const;
     void fit();
-    QHBoxLayout* row_;
+    /// Each button's place in rows of the present width. Returns their height.
+    int flow(const std::function<void(const Button&, const QRect&)>& place = {}) const;
     std::vector<Button> buttons_;
 };
 

@@ -6,6 +6,7 @@ namespace tacto::gui {
 
 NotesPanel::NotesPanel(DayNotes& day, QWidget* parent) : QGroupBox(tr("For the report"), parent), day_(day) {
     auto* form = new QFormLayout(this);
+    form->setContentsMargins(0, 0, 0, 0);
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     const auto add = [&](const QString& label, const char* name, std::string RunNotes::*text,
                          const QString& placeholder, const QString& tip) {

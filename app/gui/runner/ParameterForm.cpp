@@ -10,6 +10,7 @@
 #include "app/gui/theme/DayField.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/JsonText.h"
 
@@ -25,11 +26,19 @@ QString shownUnit(const ProtocolParameter& parameter) {
 
 /// In the unit that stands behind the label, as what is typed is: "0.5 to 10", never "500 ms to 10 s".
 QString rangeText(const ProtocolParameter& parameter) {
-    const auto text = [](double value) { return settingText(value, {}); };
+    const auto text = [](double value) { return grouped(settingText(value, {})); };
     if (parameter.min && parameter.max) return QObject::tr("%1 to %2").arg(text(*parameter.min), text(*parameter.max));
     if (parameter.min) return QObject::tr("at least %1").arg(text(*parameter.min));
     if (parameter.max) return QObject::tr("at most %1").arg(text(*parameter.max));
     return {};
+}
+
+/// What a script calls "load" has a label on the screen.
+QString refusalText(const ProtocolParameter& parameter, const Error& refused) {
+    auto words = qtext(refused.message);
+    const auto name = qtext(parameter.name) + ' ';
+    if (words.startsWith(name)) words.replace(0, name.size() - 1, QObject::tr("This"));
+    return grouped(sentence(words));
 }
 
 QString plain(const nlohmann::json& value) {
@@ -259,8 +268,7 @@ bool ParameterForm::lacks(const Field& field) const {
 QString ParameterForm::unanswered() const {
     for (const auto& field : fields_) {
         if (!lacks(field)) continue;
-        return tr("Enter \"%1\" first: without it %2.")
-            .arg(QString::fromStdString(field.parameter.label), QString::fromStdString(field.parameter.needed));
+        return tr("Enter “%1” first.").arg(qtext(field.parameter.label));
     }
     return {};
 }
@@ -302,7 +310,7 @@ void ParameterForm::judge() {
     for (auto& field : fields_) {
         const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
         const bool lacking = lacks(field);
-        field.why = !value    ? QString::fromStdString(value.error().message)
+        field.why = !value    ? refusalText(field.parameter, value.error())
                     : lacking ? tr("Without it %1.").arg(QString::fromStdString(field.parameter.needed))
                               : QString();
         if (auto* line = qobject_cast<QLineEdit*>(field.editor); line != nullptr && !field.parameter.zero.empty())

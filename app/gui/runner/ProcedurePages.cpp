@@ -12,6 +12,7 @@
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/TurningRow.h"
+#include "app/gui/theme/WholeRows.h"
 
 namespace tacto::gui {
 
@@ -41,18 +42,22 @@ int pageOf(Step step) {
     return kSettingsPage;
 }
 
+QScrollArea* dressed(QScrollArea* area) {
+    area->setFocusPolicy(Qt::NoFocus);
+    area->setMinimumHeight(scaledPx(kMinScrolledHeight));
+    onFontChange(*area, [area] { area->setMinimumHeight(scaledPx(kMinScrolledHeight)); });
+    for (auto* ground : {area->widget(), area->viewport()}) ground->setAutoFillBackground(false);
+    return area;
+}
+
 /// Scrolls up and down only.
 QScrollArea* scrolling(QWidget* part, QWidget* parent) {
     auto* area = new QScrollArea(parent);
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
     area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    area->setFocusPolicy(Qt::NoFocus);
-    area->setMinimumHeight(scaledPx(kMinScrolledHeight));
-    onFontChange(*area, [area] { area->setMinimumHeight(scaledPx(kMinScrolledHeight)); });
     area->setWidget(part);
-    for (auto* ground : {part, area->viewport()}) ground->setAutoFillBackground(false);
-    return area;
+    return dressed(area);
 }
 
 QVBoxLayout* pageLayout(QWidget* page, const QString& title, const QString& about) {
@@ -83,7 +88,7 @@ QWidget* formColumn(QWidget* part) {
 
 }  // namespace
 
-ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : QStackedWidget(parent) {
+ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : PageStack(parent) {
     form_ = new ParameterForm(this);
     addWidget(buildWiring());
     addWidget(buildReference());
@@ -137,12 +142,13 @@ QWidget* ProcedurePages::buildSettings(DayNotes& day) {
     auto* column = pageLayout(page, tr("Settings"), {});
     auto* row = turning();
     auto* parts = new QWidget;
+    boundWidth(*parts, kFormWidth * 3 / 2);
     auto* below = new QVBoxLayout(parts);
     below->setContentsMargins(0, 0, 0, 0);
     below->addWidget(form_);
     notes_ = new NotesPanel(day, parts);
     below->addWidget(notes_);
-    auto* fields = scrolling(formColumn(parts), page);
+    auto* fields = dressed(new WholeRows(formColumn(parts), page));
     worst_ = new WorstPage(page);
     row->addWidget(fields, 2);
     row->addWidget(worst_, 3);

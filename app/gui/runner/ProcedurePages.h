@@ -4,8 +4,8 @@
 #pragma once
 
 #include <QBoxLayout>
-#include <QStackedWidget>
 
+#include "app/gui/theme/PageStack.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
 namespace tacto::gui {
@@ -22,7 +22,7 @@ class WorstPage;
 /// In their order. Run and result are one page, without and with the verdict.
 enum Step { kWiring, kReference, kSettings, kRun, kResult, kSign };
 
-class ProcedurePages final : public QStackedWidget {
+class ProcedurePages final : public PageStack {
     Q_OBJECT
 public:
     explicit ProcedurePages(DayNotes& day, QWidget* parent = nullptr);

@@ -9,6 +9,7 @@
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TurningRow.h"
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
 
@@ -52,7 +53,8 @@ void ProcedurePath::layDown() {
     addPadded(panel_);
 }
 
-/// Head, steps and controls in a line; a head with a chooser has a line of its own. Below them what is in the way.
+/// Head, steps and controls in a line, or in two where that is too long; a head with a chooser has a line of its own.
+/// Below them what is in the way.
 void ProcedurePath::layAcross() {
     setMinimumWidth(0);
     setMaximumWidth(QWIDGETSIZE_MAX);
@@ -60,8 +62,14 @@ void ProcedurePath::layAcross() {
     auto* rows = new QVBoxLayout(this);
     rows->setContentsMargins(0, 0, kPathPad, 0);
     rows->setSpacing(0);
-    auto* line = new QHBoxLayout;
-    line->setSpacing(kPathPad);
+    auto* controls = new QHBoxLayout;
+    controls->setSpacing(kPathPad);
+    auto* line = new TurningRow(
+        [this, controls] { return steps_->minimumSizeHint().width() + kPathPad + controls->minimumSize().width(); });
+    line->setSpacing(0);
+    connect(line, &TurningRow::turned, this,
+            [controls](bool beside) { controls->setContentsMargins(kPathPad, 0, 0, beside ? 0 : kPathPad / 2); });
+    controls->setContentsMargins(kPathPad, 0, 0, 0);
     const auto padded = [&](QWidget* part) {
         auto* inset = new QHBoxLayout;
         inset->setContentsMargins(kPathPad, 0, 0, 0);
@@ -71,11 +79,12 @@ void ProcedurePath::layAcross() {
     line->addWidget(steps_);
     if (head_->chooses()) {
         padded(head_);
-        line->addStretch(1);
+        controls->addStretch(1);
     } else {
-        line->addWidget(head_, 1);
+        controls->addWidget(head_, 1);
     }
-    line->addWidget(panel_);
+    controls->addWidget(panel_);
+    line->addLayout(controls, 1);
     rows->addLayout(line);
     padded(&panel_->words());
 }

@@ -25,6 +25,7 @@ QString whyAndWhere(const QString& error, const QString& meaning) {
 
 constexpr int kBesideBlock = 16;
 constexpr int kMaxBlocks = 3;  // height of the reasons: more scroll
+constexpr int kReadable = 36;  // characters in a line of reasons; with less room they stand below the verdict
 
 /// A script's words: one line each, as plain text.
 QLabel* wordsLabel(const char* name, QWidget* parent) {
@@ -39,7 +40,7 @@ QLabel* wordsLabel(const char* name, QWidget* parent) {
 }  // namespace
 
 ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
-    auto* row = new QHBoxLayout(this);
+    auto* row = new QBoxLayout(QBoxLayout::LeftToRight, this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(kBesideBlock);
     verdict_ = new VerdictBlock(this);
@@ -129,12 +130,15 @@ void ResultHead::resizeEvent(QResizeEvent* event) {
 
 void ResultHead::giveRoom() {
     const int block = verdict_->sizeHint().height();
-    const auto* page = area_->widget();
-    const int besideFarBlock = area_->viewport()->width() + layout()->spacing() - kBesideBlock;
-    const bool narrow = besideFarBlock < page->minimumSizeHint().width();
-    layout()->setSpacing(narrow ? kBesideBlock / 2 : kBesideBlock);
-    const int needed = page->layout()->totalHeightForWidth(area_->width());
-    area_->setFixedHeight(std::clamp(needed, block, kMaxBlocks * block));
+    const int beside = width() - verdict_->sizeHint().width() - kBesideBlock -
+                       (toScript_->isHidden() ? 0 : toScript_->sizeHint().width() + kBesideBlock);
+    const bool below = beside < kReadable * fontMetrics().averageCharWidth();
+    auto& row = *static_cast<QBoxLayout*>(layout());
+    row.setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+    row.setSpacing(below ? kBesideBlock / 2 : kBesideBlock);
+    row.setAlignment(area_, below ? Qt::Alignment() : Qt::AlignTop);
+    const int needed = area_->widget()->layout()->totalHeightForWidth(below ? width() : beside);
+    area_->setFixedHeight(std::clamp(needed, below ? 1 : block, (below ? kMaxBlocks - 1 : kMaxBlocks) * block));
 }
 
 }  // namespace tacto::gui

@@ -6,6 +6,7 @@
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/NumberText.h"
 
 namespace tacto::gui {
 
@@ -13,13 +14,6 @@ namespace {
 
 constexpr double kMinute_s = 60;
 constexpr double kMinutesFrom_s = 90;
-
-/// "5 min 43 s".
-QString exactTimeText(double seconds) {
-    const auto whole = std::llround(seconds);
-    if (double(whole) < kMinutesFrom_s) return QObject::tr("%1 s").arg(whole);
-    return QObject::tr("%1 min %2 s").arg(whole / int(kMinute_s)).arg(whole % int(kMinute_s));
-}
 
 QString timeText(double seconds) {
     if (seconds < kMinutesFrom_s) return QObject::tr("%1 s").arg(std::max(1, int(std::ceil(seconds))));
@@ -263,8 +257,8 @@ void RunPanel::end(bool early, std::optional<Seconds> benchTime) {
     bar_->setVisible(early);
     const auto took = timeText(double(since_.elapsed()) / 1000);
     sayHowFar(early ? tr("ended early%1").arg(steps) : tr("done"),
-              benchTime ? tr("took %1; %2 of the bench’s time").arg(took, exactTimeText(benchTime->count()))
-                        : tr("took %1").arg(took));
+              benchTime ? tr("Took %1; %2 of the bench’s time").arg(took, durationText(benchTime->count()))
+                        : tr("Took %1").arg(took));
     showButtons();
 }
 

@@ -78,6 +78,7 @@ QWidget* RunViews::buildPlots() {
     plots_ = new QHBoxLayout(holder);
     plots_->setContentsMargins(0, 0, 0, 0);
     plane_ = new TrialPlane(holder);
+    plane_->addTitle();
     loads_ = new LoadRows(holder);
     judged_ = new QSplitter(Qt::Vertical, holder);
     judged_->setObjectName("judgedLimits");
@@ -131,6 +132,7 @@ QWidget* RunViews::buildBar() {
         button->setCheckable(true);
         button->setAutoDefault(false);
         button->setProperty("role", "segment");
+        button->setProperty("first", choices_->buttons().empty());
         button->setToolTip(tip);
         choices_->addButton(button, int(choices_->buttons().size()));
         row->addWidget(button);

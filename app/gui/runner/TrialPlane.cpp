@@ -10,6 +10,8 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kPoint = 8;  // pixels
+// With these, title and frame are as far apart as those of a CaptureStrip, the legend's empty line between them.
+constexpr int kBetweenRows = 1, kAboveFrame = 3, kAroundFrame = 15;
 
 }  // namespace
 
@@ -31,13 +33,30 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     });
 }
 
+void TrialPlane::addTitle() {
+    plotLayout()->insertRow(0);
+    title_ = new QCPTextElement(this);
+    title_->setTextFlags(Qt::AlignLeft | Qt::AlignVCenter);
+    plotLayout()->addElement(0, 0, title_);
+    plotLayout()->setRowSpacing(kBetweenRows);
+    axisRect()->setMinimumMargins(QMargins(kAroundFrame, kAboveFrame, kAroundFrame, kAroundFrame));
+    colour();
+    sayTitle();
+}
+
+void TrialPlane::sayTitle() {
+    if (title_ == nullptr) return;
+    const auto what = features_ == Features::Trains ? tr("Trials in the plane") : tr("Slides over the surfaces");
+    title_->setText(drawn_ == 0 ? what : QString("%1, %2").arg(what).arg(drawn_));
+}
+
 void TrialPlane::begin(bool simulated, Features features) {
     features_ = features;
     const bool trains = features == Features::Trains;
     setToolTip(trains ? tr("One point per trial: amplitude and interval as measured by the oscilloscope.")
                       : tr("One point per slide: what the fingertip felt of the surface. R is made of both."));
-    xAxis->setLabel(trains ? tr("interval (s)") : tr("taxel feature v"));
-    yAxis->setLabel(trains ? tr("amplitude (V)") : tr("vibration feature h"));
+    xAxis->setLabel(trains ? tr("Interval (s)") : tr("Taxel feature v"));
+    yAxis->setLabel(trains ? tr("Amplitude (V)") : tr("Vibration feature h"));
     empty_->setText(trains ? tr("Trials appear here\nwhile the protocol runs.")
                            : tr("Slides over the surfaces\nappear here."));
     for (const auto& [name, graph] : conditions_) removePlottable(graph);
@@ -45,6 +64,7 @@ void TrialPlane::begin(bool simulated, Features features) {
     for (auto* name : names_) removeItem(name);
     names_.clear();
     trials_ = drawn_ = 0;
+    sayTitle();
     watermark_->setVisible(simulated);
     empty_->setVisible(true);
     legend->setVisible(false);
@@ -64,9 +84,10 @@ void TrialPlane::add(const nlohmann::json& trial) {
     double x = number(trains ? "interval_s" : "v_static");
     if (!std::isfinite(y) || (trains && !std::isfinite(x))) return;
     ++drawn_;
+    sayTitle();
     if (!std::isfinite(x)) {
         x = drawn_;
-        xAxis->setLabel(tr("slide"));
+        xAxis->setLabel(tr("Slide"));
     }
     const auto name = QString::fromStdString(trial.value("condition", std::string()));
     auto found = std::find_if(conditions_.begin(), conditions_.end(), [&](const auto& c) { return c.first == name; });
@@ -110,6 +131,10 @@ void TrialPlane::colour() {
     stylePlot(*this);
     const auto& c = colours();
     empty_->setColor(c.quiet);
+    if (title_ != nullptr) {
+        title_->setFont(textFont(TextSize::Small, QFont::DemiBold));
+        title_->setTextColor(c.text);
+    }
     fitLegend(*this);
     int index = 0;
     for (const auto& [name, graph] : conditions_) {

@@ -20,6 +20,8 @@ public:
 
     explicit TrialPlane(QWidget* parent = nullptr);
     void begin(bool simulated, Features features = Features::Trains);
+    /// A title above it, as high as that of a CaptureStrip beside it: their frames begin on one line.
+    void addTitle();
     void setSimulated(bool simulated) { showWatermark(*watermark_, simulated); }
     /// A trial as record.trial() was given it; one without both features is counted and not drawn. A slide of a
     /// fingertip without taxels is drawn over its number.
@@ -35,6 +37,7 @@ protected:
 
 private:
     void colour();
+    void sayTitle();
     void fit();
     void wrapLegend();
     void nameClusters();
@@ -47,6 +50,7 @@ private:
     std::vector<QCPItemText*> names_;  ///< of the conditions, at their points; owned by the plot
     QCPItemText* watermark_ = nullptr;
     QCPItemText* empty_ = nullptr;
+    QCPTextElement* title_ = nullptr;  ///< null without one
     int trials_ = 0;
     int drawn_ = 0;
 };

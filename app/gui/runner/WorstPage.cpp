@@ -10,11 +10,17 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/LimitSetView.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/WholeRows.h"
 #include "app/report/TableContent.h"
 
 namespace tacto::gui {
+
+namespace {
+constexpr int kMinChooser = 120;
+}  // namespace
 
 WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTable(this)), says_(new QLabel(this)) {
     auto* column = new QVBoxLayout(this);
@@ -28,6 +34,7 @@ WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTabl
     worst_->setToolTip(
         tr("The strongest command into 80 to 120 % of the declared load, from an ideal voltage source. "
            "Hatched: not evaluated, and never a pass."));
+    keepRowsWhole(*worst_);
     column->addWidget(worst_, 1);
     setTabOrder(findChild<QPushButton*>("readLimits"), worst_);
 }
@@ -49,6 +56,9 @@ QWidget* WorstPage::buildChooser() {
     chooser_->setAccessibleName(tr("Limit set"));
     chooser_->setToolTip(tr("Selects the limit set to show. All limit sets always apply."));
     chooser_->addItem(tr("All limits"));
+    const auto least = [this] { chooser_->setMinimumWidth(scaledPx(kMinChooser)); };  // not its longest title's
+    least();
+    onFontChange(*chooser_, least);
     connect(chooser_, &QComboBox::currentIndexChanged, this, &WorstPage::filter);
     auto* read = new QPushButton(tr("Read the limits…"), holder);
     read->setObjectName("readLimits");

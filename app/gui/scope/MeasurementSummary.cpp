@@ -20,7 +20,17 @@ namespace {
 constexpr std::size_t kBesideTheName = 2;  ///< channels; more stand below it
 constexpr std::size_t kMaxInLine = 3;      ///< of those below; more stand in lines of two
 constexpr int kRowHeight = 24;
-constexpr int kIndent = 2;  ///< of the names that are buttons
+constexpr int kEdge = 1;  ///< of the names that are buttons
+
+/// Begins where the other lines of the column do: a tool button of its own keeps a blank on each side.
+class NameButton final : public QToolButton {
+public:
+    using QToolButton::QToolButton;
+    [[nodiscard]] QSize sizeHint() const override {
+        return {fontMetrics().horizontalAdvance(text()) + 2 * kEdge, QToolButton::sizeHint().height()};
+    }
+    [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
+};
 
 /// The value at the end of the leading phase: the plateau is the mean around 60 % of the width, and the droop is the
 /// slope over the whole of it.
@@ -66,10 +76,10 @@ MeasurementSummary::MeasurementSummary(QWidget* parent)
     note_->setObjectName("summaryNote");
     note_->setWordWrap(true);
     for (auto* label : {head_, note_, impedanceName_, impedance_}) setTextSize(*label, TextSize::Small);
-    impedanceName_->setIndent(scaledPx(kIndent));
+    impedanceName_->setIndent(kEdge);
     impedanceName_->setToolTip(
         tr("Impedance of the load: voltage over current at the end of the leading phase, at this pulse's width."));
-    impedance_->setAlignment(Qt::AlignRight);
+    impedance_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     impedance_->setAccessibleName(tr("Impedance"));
     choose_->setToolTip(tr("Chooses what is shown, here and below the oscilloscope's screen."));
     choose_->setMenu(makeReadingsMenu(*chosen_, choose_));
@@ -151,7 +161,7 @@ void MeasurementSummary::lay() {
     rows_ = new QWidget(this);
     grid_ = new QGridLayout(rows_);
     grid_->setContentsMargins(0, 0, 0, 0);
-    grid_->setHorizontalSpacing(scaledPx(4));
+    grid_->setHorizontalSpacing(scaledPx(8));
     grid_->setVerticalSpacing(0);
     grid_->setColumnStretch(0, 1);
     column_->insertWidget(1, rows_);
@@ -176,7 +186,7 @@ void MeasurementSummary::lay() {
 
 void MeasurementSummary::layRow(Reading reading) {
     const auto name = nameOf(reading);
-    auto* button = new QToolButton(rows_);
+    auto* button = new NameButton(rows_);
     button->setText(name.title);
     button->setToolTip(tr("%1 A click unfolds its statistics.").arg(name.explained));
     button->setAutoRaise(true);
@@ -301,6 +311,7 @@ void MeasurementSummary::restyle() {
     for (auto* label : {head_, note_, impedanceName_}) setTone(*label, Tone::Quiet);
     for (auto* label : quiet_) setTone(*label, Tone::Quiet);
     const auto numbers = digits(textFont(TextSize::Small));
+    impedanceName_->setMinimumHeight(scaledPx(kRowHeight));
     // As wide as what may come: figures that jump cannot be read. Three and more share the width that there is.
     const int wide = QFontMetrics(numbers).horizontalAdvance(QString("00.00\u202fmA"));
     for (const auto& figure : figures_) figure.label->setMinimumWidth(below() ? 0 : wide);

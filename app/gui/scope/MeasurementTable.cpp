@@ -15,6 +15,7 @@
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/WholeRows.h"
 
 namespace tacto::gui {
 
@@ -46,6 +47,7 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setHighlightSections(false);
     setTextSize(*table_, TextSize::Small);
+    keepRowsWhole(*table_);
     choose_->setToolTip(tr("Chooses the rows, here and in the dock."));
     choose_->setMenu(makeReadingsMenu(chosen_, choose_));
     reset_->setToolTip(tr("Forgets the captures seen so far, and what is averaged; the next one is the first."));

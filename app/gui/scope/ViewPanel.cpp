@@ -36,7 +36,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
       difference_(new QComboBox(this)),
       spectrum_(new QCheckBox(tr("Spectrum"), this)) {
     base_->setAccessibleName(tr("Time base"));
-    base_->setToolTip(tr("How much time one of the ten divisions is. The wheel over the screen does the same."));
+    base_->setToolTip(tr("How much time lies between two lines of the grid. The wheel over the screen does the same."));
     for (const double s : stepsBetween(10e-9, 100)) addStep(*base_, s, "s");
     centre_->setAccessibleName(tr("Time position"));
     centre_->setToolTip(tr("The time in the middle of the screen. Dragging the screen does the same."));
@@ -94,7 +94,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
 
 void ViewPanel::follow() {
     const auto& v = model_.viewport();
-    showStep(*base_, v.perDivision_s, "s");
+    showStep(*base_, stepNotBelow(v.perDivision_s), "s");  // as the grid and the tool have it
     const QSignalBlocker quiet(centre_);
     centre_->setValue(v.left_s + v.width_s() / 2);
 }

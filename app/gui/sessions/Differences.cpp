@@ -91,8 +91,8 @@ private:
             add(first_.closed ? tr("The second was not ended in order, as the first was.")
                               : tr("The second was ended in order, which the first was not."));
         if (std::abs(toSeconds(first_.length - second_.length)) >= 1)
-            texts(tr("The second lasted %1 where the first lasted %2."), lengthText(toSeconds(first_.length)),
-                  lengthText(toSeconds(second_.length)));
+            texts(tr("The second lasted %1 where the first lasted %2."), durationText(toSeconds(first_.length)),
+                  durationText(toSeconds(second_.length)));
     }
 
     void delivered() {

@@ -12,6 +12,7 @@
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/WholeRows.h"
 #include "app/run/RunFiles.h"
 
 namespace tacto::gui {
@@ -27,6 +28,7 @@ constexpr int kRoomyChars = 88;    // from this width on all columns are shown
 constexpr int kWordyChars = 84;    // and from this one the search says where it searches
 constexpr int kGap = 8, kSide = 16;
 constexpr int kChosenBar = 4;
+constexpr int kLead = 9;  // with the shape's own edges: where search and titles begin
 
 /// The chosen row has a bar at its left edge.
 class VerdictDelegate final : public QStyledItemDelegate {
@@ -36,12 +38,16 @@ public:
         const bool chosen = (option.state & QStyle::State_Selected) != 0;
         const QRect bar(option.rect.left(), option.rect.top(), kChosenBar, option.rect.height());
         auto within = option;
-        within.rect.setLeft(option.rect.left() + kChosenBar);
+        within.rect.setLeft(option.rect.left() + kLead);
         QStyledItemDelegate::paint(painter, within, index);
+        QRect lead(option.rect.topLeft(), QSize(kLead, option.rect.height()));
+        if (chosen) painter->fillRect(lead, colours().selection);
+        lead.setTop(lead.bottom());
+        painter->fillRect(lead, colours().grid);  // the row's line
         if (chosen) painter->fillRect(bar, colours().primary);
     }
     [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
-        return QStyledItemDelegate::sizeHint(option, index) + QSize(kChosenBar, 0);
+        return QStyledItemDelegate::sizeHint(option, index) + QSize(kLead, 0);
     }
 };
 
@@ -121,6 +127,7 @@ void SessionList::buildTable() {
     setTextSize(*table_->horizontalHeader(), TextSize::Small);
     table_->verticalHeader()->hide();
     table_->setWordWrap(false);
+    keepRowsWhole(*table_);
     table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // the last column takes the rest and elides
     table_->setTabKeyNavigation(false);                            // Tab leaves the table
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -145,6 +152,13 @@ void SessionList::buildTable() {
         grow();
         model_->recolour();
     });
+    // The widths may be others once the header has its text's size.
+    connect(
+        table_->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
+        [this](int, int most) {
+            if (most > 0 && !table_->isColumnHidden(SessionModel::kSample)) fitColumns();
+        },
+        Qt::QueuedConnection);
     afterLookChange(*this, [this] { fitColumns(); });  // when the header has its text's size
 }
 
@@ -198,14 +212,18 @@ void SessionList::take(std::vector<SessionEntry> entries) {
 }
 
 void SessionList::fitColumns() {
-    table_->setColumnHidden(SessionModel::kSample, false);
+    for (const int each : {SessionModel::kSample, SessionModel::kNote}) table_->setColumnHidden(each, false);
     for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
     const auto* header = table_->horizontalHeader();
     const int note = std::max(header->minimumSectionSize(), header->sectionSizeHint(SessionModel::kNote));
-    const int least = header->length() - header->sectionSize(SessionModel::kNote) + note;
-    // The table has its own size later.
-    const int room = width() - table_->verticalScrollBar()->sizeHint().width() - 2 * table_->frameWidth();
-    table_->setColumnHidden(SessionModel::kSample, least > room);
+    const auto least = [&] { return header->length() - header->sectionSize(SessionModel::kNote) + note; };
+    // The table may have its own size later.
+    const int bar = table_->verticalScrollBar()->sizeHint().width();
+    const bool placed = table_->isVisible() && table_->width() == width();
+    const int room = !placed ? width() - bar - 2 * table_->frameWidth()
+                             : table_->viewport()->width() - (table_->verticalScrollBar()->isVisible() ? 0 : bar);
+    table_->setColumnHidden(SessionModel::kSample, least() > room);
+    table_->setColumnHidden(SessionModel::kNote, least() > room);
 }
 
 /// What a display of the chosen ones depends on. Not the labels: they are changed there.

@@ -7,6 +7,7 @@
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/NumberText.h"
 
 namespace tacto::gui {
 
@@ -95,7 +96,7 @@ QString SessionModel::text(const SessionEntry& entry, int column) const {
         case kOperator:
             return qtext(labels.operatorName);
         case kLength:
-            return readable ? lengthText(entry.summary.duration_s) : QString("–");
+            return readable ? durationText(entry.summary.duration_s) : QString("–");
         default: {
             QStringList said;
             if (!labels.note.empty()) said << qtext(labels.note);

@@ -6,11 +6,13 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include "app/gui/sessions/MomentsBrowser.h"
 #include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/NumberText.h"
 #include "core/session/SessionLabels.h"
 
 namespace tacto::gui {
@@ -20,7 +22,7 @@ namespace {
 constexpr int kGrid = 8;
 constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
-constexpr int kMinMoments = 2;  // lines
+constexpr int kMinMoments = 3;  // lines
 constexpr int kWhyLines = 2;
 constexpr double kWrapped = 0.85;  // of a line's width is used where words wrap
 
@@ -93,7 +95,7 @@ QWidget* SessionOverview::buildHappened() {
     auto* heading = new QLabel(tr("What happened"), holder);
     setTextSize(*heading, TextSize::Body, true);
     column->addWidget(heading);
-    happened_ = new QTextBrowser(holder);
+    happened_ = new MomentsBrowser(holder);
     happened_->setObjectName("whatHappened");
     happened_->setAccessibleName(tr("What happened"));
     happened_->setTabChangesFocus(true);
@@ -168,7 +170,7 @@ void SessionOverview::showHead() {
     if (!session_->verdicts.empty())
         for (const auto& reason : session_->verdicts.back().reasons) why << sentence(qtext(reason));
     whole_ = why.isEmpty() ? tr("%1, %2%3.")
-                                 .arg(beganText(entryOf(*session_).began), lengthText(toSeconds(session_->length)),
+                                 .arg(beganText(entryOf(*session_).began), durationText(toSeconds(session_->length)),
                                       session_->about.simulated ? tr(", simulated") : QString())
                            : why.first();
     fitWhy();

@@ -9,7 +9,6 @@
 
 #include <QLabel>
 #include <QLineEdit>
-#include <QTextBrowser>
 #include <memory>
 
 #include "app/gui/sessions/LabelSaves.h"
@@ -17,6 +16,7 @@
 
 namespace tacto::gui {
 
+class MomentsBrowser;
 class SessionPreview;
 
 class SessionOverview final : public QWidget {
@@ -68,7 +68,7 @@ private:
     QLineEdit* note_ = nullptr;
     QLabel* saved_ = nullptr;
     SessionPreview* preview_ = nullptr;
-    QTextBrowser* happened_ = nullptr;
+    MomentsBrowser* happened_ = nullptr;
 };
 
 }  // namespace tacto::gui

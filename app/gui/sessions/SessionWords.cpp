@@ -140,13 +140,6 @@ QString ending(const ReadSession& session) {
 
 }  // namespace
 
-QString lengthText(double seconds) {
-    const int s = int(seconds);
-    if (s < 60) return QObject::tr("%1 s").arg(s);
-    if (s < 3600) return QObject::tr("%1 min").arg(s / 60);
-    return QObject::tr("%1 h %2 min").arg(s / 3600).arg(s / 60 % 60);
-}
-
 QString trialsText(std::size_t count) {
     return count == 1 ? QObject::tr("1 trial") : QObject::tr("%1 trials").arg(count);
 }

@@ -13,8 +13,6 @@
 
 namespace tacto::gui {
 
-/// "28 s", "7 min", "1 h 12 min".
-[[nodiscard]] QString lengthText(double seconds);
 /// "Today 11:02", "Yesterday 16:20", "20 Nov 14:05"; of another year the date alone.
 [[nodiscard]] QString beganText(const QDateTime& began);
 /// "1 trial", "25 trials".

@@ -11,7 +11,6 @@
 #include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/ScrollingPage.h"
@@ -26,6 +25,19 @@ namespace {
 
 constexpr int kPanesFrom = 820;  // pixels for both of them beside each other
 constexpr int kListMargin = 16, kAroundActions = 12;
+
+/// Its keys stand in the buttons' tool tips, too: in part it is worth nothing.
+class HintLabel final : public QLabel {
+public:
+    HintLabel(const QString& text, QWidget* parent) : QLabel(text, parent) {
+        setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    }
+
+protected:
+    void paintEvent(QPaintEvent* event) override {
+        if (width() >= sizeHint().width()) QLabel::paintEvent(event);
+    }
+};
 
 bool holdsTouch(const ReadSession& session) {
     return std::ranges::any_of(session.streams, [](const auto& info) {
@@ -120,7 +132,7 @@ QWidget* SessionsWorkspace::buildListActions() {
                  tr("A file per stream, trials, events with their marks, commands and captures."),
                  [this] { askExport(); });
     row->addStretch();
-    auto* hint = new ElidedLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);
+    auto* hint = new HintLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);
     hint->setToolTip(hint->text());
     hint->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setTone(*hint, Tone::Quiet);
@@ -139,12 +151,12 @@ QWidget* SessionsWorkspace::buildSessionActions() {
     makePrimary(*report);
     replay_ = actions_.add(*row, "run", tr("&Replay"), tr("Its fingertip, replayed into the simulated stimulator."),
                            [this] { replay(); });
-    capture_ = actions_.add(*row, "open", tr("Open &capture"),
+    capture_ = actions_.add(*row, "single", tr("Open &capture"),
                             tr("The capture chosen under Captures, in the oscilloscope."), [this] {
                                 if (const auto seq = details_->chosenCapture()) openCapture(*seq);
                             });
     row->addStretch();
-    makeQuiet(*actions_.add(*row, "more", tr("Show in folder"), tr("Opens the folder that holds it."),
+    makeQuiet(*actions_.add(*row, "open", tr("Show in folder"), tr("Opens the folder that holds it."),
                             [this] { showInFolder(); }));
     return holder;
 }

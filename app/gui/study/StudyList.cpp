@@ -17,8 +17,10 @@
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TurningRow.h"
 #include "core/study/StudyFiles.h"
 
 namespace tacto::gui {
@@ -203,9 +205,10 @@ QWidget* StudyList::buildOfOne() {
 
 QWidget* StudyList::buildFoot() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
+    auto* about = new QHBoxLayout;
+    auto* row = new TurningRow({}, holder);
     row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(8);
+    for (QBoxLayout* each : {static_cast<QBoxLayout*>(about), static_cast<QBoxLayout*>(row)}) each->setSpacing(8);
     auto* reports = button(tr("Report"), tr("As PDF or HTML, outside the study’s folder."), "reports", holder);
     auto* menu = new QMenu(reports);
     const auto addReport = [&](const QString& text, const char* name, const QString& file, const QStringList& more) {
@@ -247,8 +250,9 @@ QWidget* StudyList::buildFoot() {
     auto* close = button(tr("Close the study"), tr("Forgets its passphrase. Another program can change it then."),
                          "closeStudy", holder);
     connect(close, &QPushButton::clicked, this, [this] { study_.close(); });
-    for (auto* each : {note, reports, out}) row->addWidget(each);
-    row->addStretch();
+    for (auto* each : {note, reports, out}) about->addWidget(each);
+    about->addStretch();
+    row->addLayout(about, 1);
     row->addWidget(close);
     for (auto* each : {note, reports, out, close}) all_.push_back(each);
     return holder;
@@ -320,12 +324,18 @@ void StudyList::showTables(const Study& study) {
 
 /// In the style and size of text that they have where they stand.
 void StudyList::layOut() {
-    sessions_->layOut();
+    const int room = std::max(1, widthInSight(*this) - 2 * (kListPad + 1));
+    sessions_->layOut(room);
     if (participants_ == nullptr) return;
     participants_->ensurePolished();
     participants_->horizontalHeader()->ensurePolished();
-    layOutRecordTable(*participants_);
+    layOutRecordTable(*participants_, room);
     participants_->setSelectionMode(QAbstractItemView::SingleSelection);
+}
+
+void StudyList::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    if (event->size().width() != event->oldSize().width()) layOut();
 }
 
 void StudyList::judge() {

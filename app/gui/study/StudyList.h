@@ -32,6 +32,9 @@ public:
 signals:
     void sessionWanted(const QString& code);
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     void layOut();
     [[nodiscard]] QWidget* buildParticipants();

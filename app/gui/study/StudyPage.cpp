@@ -7,6 +7,7 @@
 #include "app/gui/study/PassphraseDialog.h"
 #include "app/gui/study/StudyList.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/PageStack.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -18,7 +19,7 @@ constexpr int kNonePad = 16;
 }
 
 StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
-    : QWidget(parent), study_(study), pages_(new QStackedWidget(this)), new_(new NewStudyPage(study, pages_)) {
+    : QWidget(parent), study_(study), pages_(new PageStack(this)), new_(new NewStudyPage(study, pages_)) {
     setObjectName("studyPage");
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -51,7 +52,8 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
 }
 
 QWidget* StudyPage::buildNone() {
-    auto* page = new QWidget(this);
+    auto* around = new ScrollingPage(pages_);
+    auto* page = new QWidget(around->viewport());
     auto* column = new QVBoxLayout(page);
     column->setContentsMargins(kNonePad, kNonePad, kNonePad, kNonePad);
     column->setSpacing(12);
@@ -85,7 +87,8 @@ QWidget* StudyPage::buildNone() {
         new_->clear();
         pages_->setCurrentIndex(kNew);
     });
-    return page;
+    around->hold(page);
+    return around;
 }
 
 void StudyPage::chooseFolder() {

@@ -6,7 +6,6 @@
 #include <QLabel>
 #include <QPointer>
 #include <QPushButton>
-#include <QStackedWidget>
 #include <QWidget>
 
 #include "app/gui/study/OpenStudy.h"
@@ -15,6 +14,7 @@
 namespace tacto::gui {
 
 class NewStudyPage;
+class PageStack;
 class PassphraseDialog;
 class StudyList;
 
@@ -36,7 +36,7 @@ private:
     void chooseFolder();
     void say(const QString& what);
     OpenStudy& study_;
-    QStackedWidget* pages_;
+    PageStack* pages_;
     NewStudyPage* new_;
     StudyList* list_ = nullptr;
     TroubleLine* trouble_ = nullptr;

@@ -98,7 +98,7 @@ void StudySessions::show(const Study& study) {
     column_->insertWidget(1, table_);
     setTabOrder(table_, result_);
     connect(table_, &QTableWidget::cellActivated, result_, [this] { result_->click(); });
-    layOut();
+    layOut(room_);
     const auto known = std::ranges::find(sessions_, id_, &StudySession::id);
     connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
         const auto rows = table_->selectionModel()->selectedRows();
@@ -116,11 +116,12 @@ void StudySessions::setReadable(bool readable) {
     judge();
 }
 
-void StudySessions::layOut() {
+void StudySessions::layOut(int room_px) {
+    room_ = room_px;
     if (table_ == nullptr) return;
     table_->ensurePolished();
     table_->horizontalHeader()->ensurePolished();
-    layOutRecordTable(*table_);
+    layOutRecordTable(*table_, room_px);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
 }
 

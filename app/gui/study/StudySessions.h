@@ -24,8 +24,8 @@ public:
     void show(const Study& study);
     /// False while the study is not there to be read.
     void setReadable(bool readable);
-    /// In the style and size of text that it has where it stands.
-    void layOut();
+    /// In the style and size of text that it has where it stands, no wider than that.
+    void layOut(int room_px);
     using QWidget::show;
 
 signals:
@@ -38,6 +38,7 @@ private:
     std::vector<StudySession> sessions_;  ///< in the order of the rows
     std::string id_;                      ///< of the one that is chosen
     bool readable_ = false;
+    int room_ = QWIDGETSIZE_MAX;
     QVBoxLayout* column_;
     QTableWidget* table_ = nullptr;
     QWidget* foot_;

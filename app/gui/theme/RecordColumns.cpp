@@ -23,6 +23,7 @@ constexpr double kOnePrefixWithU = 1000;  // and those with all the decimals of 
 constexpr int kHeaderPad = 10;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
 constexpr int kMinText = 10;      // and where numbers need the room
+constexpr int kMinTextTight = 6;  // and where the table stands in less than that of a small window
 constexpr int kRoom = 860;        // pixels beside a path in a window of 1280: a wider table is set small
 const QString kNone = QStringLiteral("–");
 
@@ -196,9 +197,9 @@ int fitColumns(QTableWidget& table) {
 
 /// Takes what is missing from the columns of words, the widest first: a number is never cut. The last one takes the
 /// rest by itself. Returns the table's width.
-int narrowWords(QTableWidget& table, int width) {
-    const int least = table.fontMetrics().averageCharWidth() * kMinText;
-    const int room = scaledPx(kRoom);
+int narrowWords(QTableWidget& table, int width, int room) {
+    const bool tight = room < scaledPx(kRoom);
+    const int least = table.fontMetrics().averageCharWidth() * (tight ? kMinTextTight : kMinText);
     while (width > room) {
         int widest = -1;
         for (int c = 0; c < table.columnCount(); ++c) {
@@ -269,7 +270,7 @@ void putText(QTableWidget& table, int row, int column, const QString& text, bool
     table.setItem(row, column, item);
 }
 
-void layOutRecordTable(QTableWidget& table) {
+void layOutRecordTable(QTableWidget& table, int room_px) {
     table.verticalHeader()->hide();
     table.setEditTriggers(QAbstractItemView::NoEditTriggers);
     table.setSelectionMode(QAbstractItemView::NoSelection);
@@ -285,9 +286,9 @@ void layOutRecordTable(QTableWidget& table) {
     fitHeader(table);
     header->setStretchLastSection(false);  // else it is as wide as what is in it when the table is laid out again
     int width = fitColumns(table);
-    if (width > kRoom) {
+    if (width > std::min(kRoom, room_px)) {
         setTextSize(table, TextSize::Small);
-        width = narrowWords(table, fitColumns(table));
+        width = narrowWords(table, fitColumns(table), std::min(scaledPx(kRoom), room_px));
     }
     // A last column of words takes the rest; one of numbers stands beside the others.
     const bool words = !isOfNumbers(table, table.columnCount() - 1);

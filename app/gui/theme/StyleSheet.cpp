@@ -45,6 +45,7 @@ QPushButton[role="quiet"] { background: transparent; border-color: transparent; 
 QPushButton[role="quiet"]:hover { background: @sunken; }
 QPushButton[role="quiet"]:focus { border-color: @text; }
 QPushButton[role="segment"] { border-radius: 0; padding: 0 ~6; margin-left: -1px; }
+QPushButton[role="segment"][first="true"] { margin-left: 0; }
 QPushButton[role="segment"]:checked { background: @primary; color: @primaryText; border-color: @primary; }
 QPushButton[role="segment"]:checked:disabled { background: @sunken; color: @edge; border-color: @line; }
 QPushButton::menu-indicator { image: url(:/icons/controls/down.svg); width: ~10; height: ~10; right: ~6;
@@ -121,6 +122,7 @@ QTabBar::tab { background: @window; color: @quiet; border: none; border-right: 1
     border-top: 3px solid transparent; padding: 0 ~16; min-height: ~37; }
 QTabBar::tab:selected { background: @base; color: @text; border-top-color: @primary; border-right-color: @line;
     font-weight: 600; }
+QWidget#tabRow QTabBar::tab:!selected { border-bottom: 1px solid @line; min-height: ~36; }
 QTabBar::tab:next-selected { border-right-color: @line; }
 QTabBar::tab:hover:!selected { background: @sunken; }
 QTabBar::tab:disabled { color: @edge; }
@@ -132,6 +134,7 @@ QHeaderView::section { background: @window; color: @quiet; border: none; border-
 QTableView, QTreeView, QListView { border: 1px solid @line; outline: none; gridline-color: @line;
     alternate-background-color: @base; }
 QTableView#sessionsTable { border: none; border-top: 1px solid @line; }
+QTableView#sessionsTable QHeaderView::section:first { padding-left: 16px; }
 QTableView::item, QTreeView::item { border-bottom: 1px solid @grid; padding: 0 ~4; }
 QTableView::item:selected, QTreeView::item:selected, QListView::item:selected {
     background: @selection; color: @text; }
@@ -139,7 +142,7 @@ QTableView { qproperty-showGrid: 0; }
 QTableCornerButton::section { background: @window; border: none; }
 
 QGroupBox { border: none; margin-top: ~24; padding: 0; font-weight: 600; }
-QGroupBox::title { subcontrol-origin: margin; subcontrol-position: top left; padding: 0; }
+QGroupBox::title { subcontrol-origin: margin; subcontrol-position: top left; padding: 0; left: -2px; }
 
 QScrollArea { border: none; }
 QScrollBar { background: transparent; border: none; margin: 0; }
@@ -161,7 +164,7 @@ QLabel[tone="warning"] { color: @amberText; }
 *[textSize="large"] { font-size: ^15; font-weight: 600; }
 *[textSize="display"] { font-size: ^28; font-weight: 700; }
 *[textWeight="strong"] { font-weight: 600; }
-QWidget#path, QWidget#tabTools { background: @window; }
+QWidget#path { background: @window; }
 QWidget[role="actions"] { background: @window; border-top: 1px solid @line; }
 QFrame#safetyBar, QWidget#centre { background: @base; }
 QFrame#tour { background: @base; border: 2px solid @text; border-radius: 4px; }

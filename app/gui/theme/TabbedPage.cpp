@@ -1,11 +1,14 @@
 #include "app/gui/theme/TabbedPage.h"
 
-#include <QHBoxLayout>
 #include <QVBoxLayout>
+
+#include "app/gui/theme/TurningRow.h"
 
 namespace tacto::gui {
 
 namespace {
+
+constexpr int kToolsApart = 8;  // from the tabs, and from the right edge
 
 /// All tabs whole, whatever room the tools want: those have a menu for what does not fit.
 class WholeTabBar final : public QTabBar {
@@ -20,16 +23,18 @@ TabbedPage::TabbedPage(QWidget* parent)
     : QWidget(parent),
       head_(new QWidget(this)),
       bar_(new WholeTabBar(this)),
-      tools_(new QStackedWidget(this)),
-      pages_(new QStackedWidget(this)) {
+      tools_(new PageStack(this)),
+      pages_(new PageStack(this)) {
     bar_->setExpanding(false);
     bar_->setDrawBase(false);
     bar_->setWhatsThis(tr("The pages of this workspace. The left and right arrow keys change the page."));
     bar_->setUsesScrollButtons(false);
     head_->setObjectName("tabRow");
     head_->setAttribute(Qt::WA_StyledBackground);
-    auto* row = new QHBoxLayout(head_);
-    row->setContentsMargins(0, 0, 8, 0);
+    const auto both = [this] { return bar_->sizeHint().width() + tools_->minimumSizeHint().width() + 2 * kToolsApart; };
+    auto* row = new TurningRow(both, head_);
+    row->setSpacing(kToolsApart);
+    row->setContentsMargins(0, 0, kToolsApart, 0);
     row->addWidget(bar_, 0, Qt::AlignBottom);
     row->addWidget(tools_, 1);
     auto* column = new QVBoxLayout(this);

@@ -1,12 +1,12 @@
-// TabbedPage.h - pages behind tabs, each with its own tools in the row of the tabs.
+// TabbedPage.h - pages behind tabs, each with its own tools in the row of the tabs, or below it where there is no room.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QStackedWidget>
 #include <QTabBar>
 #include <QWidget>
 
+#include "app/gui/theme/PageStack.h"
 #include "app/gui/theme/TabKeys.h"
 
 namespace tacto::gui {
@@ -21,8 +21,13 @@ public:
     void addTab(QWidget* page, const QString& title, QWidget* tools = nullptr);
     /// The row of tabs and tools. The tabs' keys work without it.
     void setHeadVisible(bool visible);
+    /// As high as the window leaves it: a page whose words wrap would ask for all that its plot likes to have.
+    [[nodiscard]] bool hasHeightForWidth() const override { return false; }
     void setCurrentIndex(int index) { bar_->setCurrentIndex(index); }
     [[nodiscard]] int currentIndex() const { return bar_->currentIndex(); }
+    [[nodiscard]] QTabBar& bar() const { return *bar_; }
+    /// Null without pages.
+    [[nodiscard]] QWidget* currentPage() const { return pages_->currentWidget(); }
 
 signals:
     void currentChanged(int index);
@@ -30,8 +35,8 @@ signals:
 private:
     QWidget* head_;
     QTabBar* bar_;
-    QStackedWidget* tools_;
-    QStackedWidget* pages_;
+    PageStack* tools_;
+    PageStack* pages_;
     TabKeys keys_{*this, [this](int index) { setCurrentIndex(index); }};
 };
 

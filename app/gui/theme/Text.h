@@ -51,6 +51,17 @@ namespace tacto::gui {
     return words.replace(between, QStringLiteral("\u202f"));
 }
 
+/// "1 000 000" of "1000000": numbers of five digits and more before their decimals.
+[[nodiscard]] inline QString grouped(QString words) {
+    static const QRegularExpression number(R"((?<![\w.])\d{5,})");
+    for (auto at = number.match(words); at.hasMatch(); at = number.match(words, at.capturedEnd())) {
+        auto digits = at.captured();
+        for (auto i = digits.size() - 3; i > 0; i -= 3) digits.insert(i, QChar(0x202f));
+        words.replace(at.capturedStart(), at.capturedLength(), digits);
+    }
+    return words;
+}
+
 /// "The load is open." of "the load is open".
 [[nodiscard]] inline QString sentence(const QString& words) {
     const auto whole = titled(withOhmSigns(words));

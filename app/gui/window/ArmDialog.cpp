@@ -49,6 +49,7 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
                          "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
         this));
     auto* form = new QFormLayout;
+    form->setHorizontalSpacing(12);
     load_ = new QLineEdit(withOhmSigns(load), this);
     load_->setPlaceholderText(tr("what is connected, such as 1 kΩ"));
     load_->setToolTip(tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”."));

@@ -2,12 +2,12 @@
 
 #include <QGridLayout>
 #include <QHeaderView>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/WholeRows.h"
 #include "app/gui/window/DeviceText.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/run/ScopeStatement.h"
@@ -30,10 +30,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     : FoldingDock(tr("Devices"), "devices", "deviceDock", parent),
       controller_(controller),
       calibrations_(calibrations) {
-    auto* area = new QScrollArea(this);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setWidgetResizable(true);
-    auto* body = new QWidget(area);
+    auto* body = new QWidget;
     auto* layout = new QVBoxLayout(body);
     layout->setContentsMargins(0, 0, scaledPx(12), 0);
     tree_ = new QTreeWidget(body);
@@ -49,6 +46,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     tree_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     tree_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
     tree_->setUniformRowHeights(false);
+    tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // names wrap, and it is as high as its rows
     layout->addWidget(tree_);
     facts_ = new QLabel(body);
     facts_->setObjectName("deviceFacts");
@@ -76,8 +74,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     buttons->addWidget(close_, 2, 1);
     layout->addLayout(buttons);
     layout->addStretch(1);
-    area->setWidget(body);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto* area = new WholeRows(body, this);
     area->setMinimumWidth(body->minimumSizeHint().width());
     setContent(area);
 

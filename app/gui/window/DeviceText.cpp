@@ -50,11 +50,9 @@ QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
     if (device.is(Role::Sensor)) {
         for (const auto& stream : open.streams) {
             const auto kind = nameOf(stream.kind);
-            const auto unit = symbolOf(stream.unit);
-            lines << tr("%1: %2 × %3 at %4")
-                         .arg(QString::fromUtf8(kind.data(), qsizetype(kind.size())))
-                         .arg(stream.channels)
-                         .arg(QString::fromUtf8(unit.data(), qsizetype(unit.size())).replace("s2", "s²"),
+            lines << tr("%1: %2, %3")
+                         .arg(titled(qtext(kind)),
+                              stream.channels == 1 ? tr("1 channel") : tr("%1 channels").arg(stream.channels),
                               settingText(stream.rate_hz, "Hz"));
         }
     }
@@ -72,7 +70,7 @@ QStringList rowsOf(const DeviceReport& report) {
         const auto value = count                               ? decimalText(row.value, 0)
                            : std::string_view(row.unit) == "s" ? settingText(row.value, "s")
                                                                : decimalText(row.value, 1, row.unit);
-        lines << QString("%1: %2").arg(QString(row.name), value);
+        lines << QString("%1: %2").arg(titled(QString(row.name)), value);
     }
     lines << (report.losses > 0 ? tr("⚠ Something was lost between it and this program.") : tr("Nothing was lost."));
     return lines;

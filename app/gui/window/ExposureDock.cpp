@@ -8,8 +8,8 @@
 #include "app/gui/theme/ExposureText.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/WholeRows.h"
 #include "app/gui/window/ExposureNow.h"
-#include "app/gui/window/WholeRows.h"
 
 namespace tacto::gui {
 

@@ -11,7 +11,7 @@
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/window/WholeRows.h"
+#include "app/gui/theme/WholeRows.h"
 
 namespace tacto::gui {
 

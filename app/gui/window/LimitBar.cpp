@@ -88,6 +88,12 @@ bool LimitBar::fits() const {
     return shape_ == Shape::Line ? title + scaledPx(kBarWidth / 8) + said <= width() : std::max(title, said) <= width();
 }
 
+QString LimitBar::shownText() const {
+    if (shape_ == Shape::Line || std::isnan(share_)) return text_;
+    const QFontMetrics metrics(textFont(TextSize::Small));
+    return metrics.horizontalAdvance(text_) <= width() ? text_ : tr("%1 used").arg(quantityText(100 * share_, "%", 2));
+}
+
 QSize LimitBar::sizeHint() const {
     const QFontMetrics metrics(textFont(TextSize::Small));
     return {std::max(scaledPx(kBarWidth), metrics.horizontalAdvance("0.82 of 250 mW/cm²")),
@@ -95,7 +101,9 @@ QSize LimitBar::sizeHint() const {
 }
 
 QSize LimitBar::minimumSizeHint() const {
-    return {QFontMetrics(textFont(TextSize::Small)).horizontalAdvance("RMS over 5 s "), sizeHint().height()};
+    const QFontMetrics metrics(textFont(TextSize::Small));
+    return {std::max(metrics.horizontalAdvance("RMS over 5 s "), metrics.horizontalAdvance(tr("not evaluated"))),
+            sizeHint().height()};
 }
 
 void LimitBar::paintEvent(QPaintEvent*) {
@@ -113,7 +121,7 @@ void LimitBar::paintEvent(QPaintEvent*) {
                      metrics.elidedText(title_, Qt::ElideRight, width() - taken));
     painter.setPen(share_ >= 0.8 && oneLine ? c.amberText : c.text);
     painter.drawText(oneLine ? top : bottom, (oneLine ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter,
-                     metrics.elidedText(text_, Qt::ElideRight, width()));
+                     metrics.elidedText(shownText(), Qt::ElideRight, width()));
     if (known_ && !limited_ && evaluated_) return;
     const int room = height() - (oneLine ? 1 : 2) * line - 2 * kBarLineGap;
     const QRectF frame(0.5, line + kBarLineGap + 0.5, width() - 1.0, std::max(4, room) - 1.0);

@@ -30,6 +30,8 @@ public:
     [[nodiscard]] QSize minimumSizeHint() const override;
     /// "0.82 of 10 mA", "not evaluated", "–": what is painted, and for screen readers.
     [[nodiscard]] QString text() const { return text_; }
+    /// What is painted of it: the share in per cent where value and limit have no room.
+    [[nodiscard]] QString shownText() const;
     /// Whether title and numbers have room beside each other; stacked, one above the other.
     [[nodiscard]] bool fits() const;
     /// Share of the limit, 0 to 1 and above; NaN without a limit or a value.

@@ -21,9 +21,13 @@ QSize LimitBarRow::sizeHint() const {
 
 void LimitBarRow::resizeEvent(QResizeEvent*) { arrange(); }
 
+int LimitBarRow::oneBarWidth() const { return bars_.front()->minimumSizeHint().width(); }
+
 void LimitBarRow::arrange() {
     const auto one = bars_.front()->sizeHint();
-    const auto fit = std::min(bars_.size(), std::size_t((width() + kGap) / (one.width() + kGap)));
+    const auto room = contentsRect();
+    auto fit = std::min(bars_.size(), std::size_t((room.width() + kGap) / (one.width() + kGap)));
+    if (fit == 0 && room.width() >= oneBarWidth()) fit = 1;
     std::vector<LimitBar*> nearest = bars_;
     // A share that is not a number (no value yet, no limit) comes last; among equals the order of the row holds.
     std::stable_sort(nearest.begin(), nearest.end(), [this](const auto* a, const auto* b) {
@@ -35,8 +39,8 @@ void LimitBarRow::arrange() {
     });
     nearest.resize(fit);
     seen_ = nearest;
-    const int wide = fit > 0 ? (width() + kGap) / int(fit) - kGap : 0;
-    int left = 0;
+    const int wide = fit > 0 ? (room.width() + kGap) / int(fit) - kGap : 0;
+    int left = room.left();
     for (auto* bar : bars_) {
         const bool seen = std::find(nearest.begin(), nearest.end(), bar) != nearest.end();
         bar->setVisible(seen);

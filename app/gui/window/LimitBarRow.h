@@ -1,5 +1,5 @@
 // LimitBarRow.h - limit bars beside each other, as many as fit: those that are nearest to their limits. One that is
-// seen stays until another is clearly nearer.
+// seen stays until another is clearly nearer. Where there is room for one alone it is narrow, and says its share.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -20,6 +20,8 @@ public:
     void setTitle(std::size_t index, const QString& title) { bars_[index]->setTitle(title); }
     /// After the last show(): chooses which bars are seen.
     void arrange();
+    /// In pixels: the least in which the nearest limit is shown.
+    [[nodiscard]] int oneBarWidth() const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return {0, sizeHint().height()}; }
 

@@ -324,7 +324,16 @@ void MainWindow::restore() {
 void MainWindow::showEvent(QShowEvent* event) {
     QMainWindow::showEvent(event);
     if (event->spontaneous()) return;
-    QTimer::singleShot(0, this, [this] { keepOnScreen(*this); });  // once the window system has put its frame around it
+    awaitsFrame_ = true;
+    QTimer::singleShot(0, this, [this] { keepOnScreen(*this); });
+}
+
+/// A window system may put its frame around the window long after it is shown: the frame has to fit, too.
+void MainWindow::moveEvent(QMoveEvent* event) {
+    QMainWindow::moveEvent(event);
+    if (!awaitsFrame_ || frameGeometry() == geometry()) return;
+    awaitsFrame_ = false;
+    QTimer::singleShot(0, this, [this] { keepOnScreen(*this); });
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {

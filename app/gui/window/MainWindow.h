@@ -75,6 +75,7 @@ public:
 protected:
     bool event(QEvent* event) override;
     void showEvent(QShowEvent* event) override;
+    void moveEvent(QMoveEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
     void changeEvent(QEvent* event) override;
@@ -110,6 +111,7 @@ private:
     ArmQuestion* arming_ = nullptr;
     WorkspaceRail* rail_ = nullptr;
     bool hasRoomForDocks_ = true;
+    bool awaitsFrame_ = false;
     QTimer frame_;
 };
 

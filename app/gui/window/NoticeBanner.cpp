@@ -8,6 +8,7 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/window/RecordingLine.h"
+#include "app/gui/window/StateWords.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -43,10 +44,23 @@ NoticeBanner::NoticeBanner(BenchController& controller, RecordingLine& line, QWi
         saidArmed_ = true;
         line_.say(tr("Armed."));
     });
+    connect(&controller_, &BenchController::finished, this, &NoticeBanner::sayEnd);
     connect(&controller_, &BenchController::checked, this, [this](double ohms) {
         line_.say(std::isnan(ohms) ? tr("This stimulator does not measure the impedance. Disarmed.")
                                    : tr("Impedance %1. Disarmed.").arg(quantityText(ohms, "ohm", 4)));
     });
+}
+
+/// A safety check provokes faults: the last of them is not what came of it.
+void NoticeBanner::sayEnd(const std::shared_ptr<const FinishedRun>& run) {
+    saidArmed_ = false;
+    const auto name = procedureText(run->order.script.name);
+    const auto verdict = qtext(run->result.verdict());
+    if (const auto& error = run->result.outcome.error; error && verdict.isEmpty())
+        line_.say(tr("%1 ended by an error: %2 Output is off.").arg(name, sentence(*error)), true);
+    else
+        line_.say(verdict.isEmpty() ? tr("%1 finished. Output is off.").arg(name)
+                                    : tr("%1 finished: %2. Output is off.").arg(name, verdict));
 }
 
 void NoticeBanner::refresh(const Telemetry& telemetry) {
@@ -64,7 +78,7 @@ void NoticeBanner::sayState(const Telemetry& telemetry) {
         framesWithoutReason_ = 0;
         return;
     }
-    const auto reason = QString::fromUtf8(telemetry.reason.c_str());
+    const auto reason = reasonWords(QString::fromUtf8(telemetry.reason.c_str()));
     if (state == InterlockState::Disarmed && reason.isEmpty() && ++framesWithoutReason_ < kFramesForReason) return;
     saidArmed_ = false;
     framesWithoutReason_ = 0;

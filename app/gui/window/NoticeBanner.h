@@ -26,6 +26,7 @@ public:
 private:
     void sayState(const Telemetry& telemetry);
     void sayFault(const Telemetry& telemetry);
+    void sayEnd(const std::shared_ptr<const FinishedRun>& run);
 
     BenchController& controller_;
     RecordingLine& line_;

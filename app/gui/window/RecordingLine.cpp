@@ -6,6 +6,7 @@
 #include <QFileInfo>
 #include <QPlainTextEdit>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Theme.h"
@@ -19,6 +20,7 @@ constexpr int kLogLines = 2000;
 RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
     : QObject(&bar), controller_(controller), bar_(bar) {
     recording_ = new QLabel(&bar);
+    recording_->setObjectName("recording");
     recording_->setToolTip(
         tr("Every open bench records to a session file. Samples are on disk within a second, events "
            "and trials at once."));
@@ -29,14 +31,14 @@ RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
     message_->setText(tr("No messages"));
     connect(message_, &QToolButton::clicked, this, &RecordingLine::showLog);
     bar.addPermanentWidget(message_);
+    recording_->setText(tr("Nothing is being recorded"));
     refresh();
 }
 
 void RecordingLine::refresh() {
     const auto open = controller_.open();
     if (!open) {
-        session_.clear();
-        recording_->setText(tr("Nothing is being recorded"));
+        if (!session_.empty()) sayRecorded(std::exchange(session_, {}));
         return;
     }
     if (open->session != session_) {
@@ -58,6 +60,14 @@ void RecordingLine::refresh() {
                             .arg(double(file.size() + wal.size()) / 1e6, 0, 'f', 1)
                             .arg(std::max(0.0, age), 0, 'f', 1));
     recording_->setAccessibleDescription(QString::fromStdString(session_.string()));
+}
+
+/// A session that was moved or thrown away is not worth its name.
+void RecordingLine::sayRecorded(const std::filesystem::path& session) {
+    const QFileInfo file(QString::fromStdString(session.string()));
+    recording_->setText(
+        file.exists() ? tr("Recorded to %1 · %2 MB").arg(file.fileName()).arg(double(file.size()) / 1e6, 0, 'f', 1)
+                      : tr("Nothing is being recorded"));
 }
 
 void RecordingLine::say(const QString& text, bool isError) {

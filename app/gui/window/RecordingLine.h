@@ -24,6 +24,8 @@ public:
     [[nodiscard]] const QStringList& log() const { return log_; }
 
 private:
+    void sayRecorded(const std::filesystem::path& session);
+
     BenchController& controller_;
     QStatusBar& bar_;
     QLabel* recording_;

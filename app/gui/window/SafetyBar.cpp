@@ -25,7 +25,7 @@ namespace {
 constexpr int kFlashFrames = 4;
 constexpr int kBarGap = 16;
 constexpr const char* kFactsWidth = "calibrated until 2030-12-30";
-constexpr const char* kUnmeasured = QT_TRANSLATE_NOOP("SafetyBar", "impedance not measured");
+constexpr const char* kUnmeasured = QT_TRANSLATE_NOOP("SafetyBar", "Impedance not measured");
 constexpr const char* kActions[] = {QT_TRANSLATE_NOOP("SafetyBar", "&Arm…"), QT_TRANSLATE_NOOP("SafetyBar", "Dis&arm"),
                                     QT_TRANSLATE_NOOP("SafetyBar", "&Reset")};
 
@@ -145,6 +145,7 @@ QWidget* SafetyBar::buildBlindFacts() {
 void SafetyBar::setBlind(bool blind) {
     blind_ = blind;
     pulse_ = 0;
+    giveRoom();
 }
 
 void SafetyBar::setParticipantsStop(const QString& words) { participantsStop_->setText(words); }
@@ -185,7 +186,8 @@ QWidget* SafetyBar::buildButtons() {
 }
 
 /// The buttons' words change with the state: the widest of them sets the width, so that nothing moves. Where there is
-/// little room bars go first, then facts, and the state's word gets smaller last.
+/// little room bars go first, then facts, and the state's word gets smaller last; a word of more than 28 pt leaves the
+/// nearest limit its room.
 void SafetyBar::giveRoom() {
     const auto metrics = fontMetrics();
     int widest = 0;
@@ -196,10 +198,14 @@ void SafetyBar::giveRoom() {
     const int calibrated = QFontMetrics(textFont(TextSize::Small)).horizontalAdvance(tr(kFactsWidth));
     const int unmeasured = QFontMetrics(textFont(TextSize::Small, QFont::Bold)).horizontalAdvance(tr(kUnmeasured));
     const int facts = std::max(calibrated, unmeasured) + 2 * kBarGap;
-    block_->fit(width() - always);
-    const int left = width() - always - block_->width();
-    factsFit_ = left >= facts / 2;  // three ellipses say nothing
+    // While blind no bar is shown, and its room would hold nothing but ellipses.
+    const int beside = width() - always, forBar = blind_ ? 0 : bars_->oneBarWidth() + kBarGap;
+    block_->fit(std::max(beside - forBar, std::min(beside, block_->legibleWidth())));
+    const int left = beside - block_->width();
+    const bool barFirst = block_->width() > block_->legibleWidth();
+    factsFit_ = left >= facts / 2 + (barFirst ? forBar : 0);  // three ellipses say nothing
     facts_->setFixedWidth(std::min(left, facts));
+    bars_->setContentsMargins(factsFit_ ? 0 : kBarGap, 0, 0, 0);
     facts_->setVisible(factsFit_ && state_ != InterlockState::Faulted);
 }
 
@@ -236,15 +242,18 @@ void SafetyBar::showState(const Telemetry& telemetry) {
     if (telemetry.trainsDelivered > trainsSeen_ && !blind_) pulse_ = kFlashFrames;
     trainsSeen_ = telemetry.trainsDelivered;
     // An empty presentation delivers nothing: while blind it looks as any other.
-    const bool closed = state_ == InterlockState::Disconnected && controller_.activity() == Activity::Closed &&
-                        controller_.closedByRun();
+    const bool closed = state_ == InterlockState::Disconnected && controller_.activity() == Activity::Closed;
     const bool hidden = blind_ && (state_ == InterlockState::Delivering || state_ == InterlockState::Armed);
     if (hidden)
         block_->show(InterlockState::Armed, tr("The session presents and asks. Space stops."), false);
     else
-        block_->show(telemetry.state, closed ? tr("A run closed the open bench.") : stateWords(telemetry, protocol()),
-                     pulse_ > 0);
+        block_->show(telemetry.state, closed ? closedWords() : stateWords(telemetry, protocol()), pulse_ > 0);
     if (pulse_ > 0) --pulse_;
+}
+
+QString SafetyBar::closedWords() const {
+    return controller_.closedByRun() ? tr("A run closed the open bench.")
+                                     : tr("No bench is open. Ctrl+B opens a simulated one.");
 }
 
 /// The one that has the bench; empty while a person has it.
@@ -256,17 +265,19 @@ QString SafetyBar::protocol() const {
 void SafetyBar::showDevice(const Telemetry& telemetry) {
     const auto open = controller_.open();
     if (!open) {
-        device_->setText(controller_.activity() == Activity::Opening ? tr("opening…") : tr("no bench is open"));
+        device_->setText(controller_.activity() == Activity::Opening ? tr("Opening…") : QString());
         load_->clear();
         showCalibration();
         return;
     }
-    QString name = tr("no stimulator");
+    auto name = tr("No stimulator");
     for (const auto& device : open->about.devices) {
         if (device.is(Role::Stimulator) || (device.is(Role::Massager) && !open->source))
-            name = QString::fromStdString(device.name);
+            name = titled(qtext(device.name));
     }
-    const auto text = open->simulated() && !name.contains(tr("simulated")) ? tr("%1 · simulated").arg(name) : name;
+    const auto text = open->simulated() && !name.contains(tr("simulated"), Qt::CaseInsensitive)
+                          ? tr("%1 · simulated").arg(name)
+                          : name;
     device_->setText(text);
     device_->setToolTip(text);
     load_->setText(

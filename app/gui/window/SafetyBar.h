@@ -62,6 +62,7 @@ private:
     void giveRoom();
     void showState(const Telemetry& telemetry);
     [[nodiscard]] QString protocol() const;
+    [[nodiscard]] QString closedWords() const;
     void showDevice(const Telemetry& telemetry);
     void showCalibration();
     void showExposure(const Telemetry& telemetry);

@@ -47,6 +47,7 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
                                      "see what a fault looks like before hardware shows it."),
                                   this));
     auto* form = new QFormLayout;
+    form->setHorizontalSpacing(12);
     mode_ = new QComboBox(this);
     mode_->addItem(tr("voltage source"), "voltage");
     mode_->addItem(tr("current source"), "current");

@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QEvent>
 #include <QGridLayout>
+#include <algorithm>
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double kSmallest = 1.5;
 constexpr double kStep = 0.1;
-constexpr int kBeforeWord = 56;  // the shape in it
+constexpr double kLegible_pt = 28;  // from two metres
+constexpr int kBeforeWord = 56;     // the shape in it
 constexpr int kBehindWord = 24;
 constexpr int kStateShape = 28;
 
@@ -59,6 +61,10 @@ QFont StateBlock::wordFont(double scale) const {
 int StateBlock::widthAt(double scale) const {
     const QFontMetrics metrics(wordFont(scale));
     return metrics.horizontalAdvance(longestWord(metrics)) + scaledPx(kBeforeWord + kBehindWord);
+}
+
+int StateBlock::legibleWidth() const {
+    return widthAt(std::clamp(kLegible_pt / QApplication::font().pointSizeF(), kSmallest, kDisplayText));
 }
 
 int StateBlock::smallestWidth() const { return widthAt(kSmallest); }

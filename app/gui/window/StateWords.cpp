@@ -1,5 +1,6 @@
 #include "app/gui/window/StateWords.h"
 
+#include <QRegularExpression>
 #include <cmath>
 
 #include "app/gui/theme/Text.h"
@@ -38,8 +39,14 @@ QString armedWords(DriveSource driving) {
 
 }  // namespace
 
+QString reasonWords(const QString& reason) {
+    static const QRegularExpression byOperator(R"(^operator \((.+)\)$)");
+    const auto found = byOperator.match(reason);
+    return found.hasMatch() ? QObject::tr("stopped with %1").arg(found.captured(1)) : reason;
+}
+
 QString stateWords(const Telemetry& telemetry, const QString& protocol) {
-    const auto reason = qtext(telemetry.reason.view());
+    const auto reason = reasonWords(qtext(telemetry.reason.view()));
     switch (telemetry.state) {
         case InterlockState::Disconnected:
             return QObject::tr("No stimulator is open.");

@@ -13,4 +13,7 @@ namespace tacto::gui {
 /// person has it. What was commanded decides, not what was asked last.
 [[nodiscard]] QString stateWords(const Telemetry& telemetry, const QString& protocol);
 
+/// "stopped with Esc" of "operator (Esc)", as the bench keeps it; any other reason as it is.
+[[nodiscard]] QString reasonWords(const QString& reason);
+
 }  // namespace tacto::gui

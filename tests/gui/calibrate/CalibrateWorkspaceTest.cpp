@@ -11,6 +11,7 @@
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/runner/StepButton.h"
 #include "app/gui/runner/TrialPlane.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 #include "tests/support/InTime.h"
@@ -103,7 +104,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     QTest::qWait(20);  // drawn with the next event
     shot(workspace, "calibrate_done");
     // What chooses the plot stands in the row of tabs, with the plot alone.
-    const auto* kind = workspace.findChild<QWidget*>("tabTools")->findChild<QComboBox*>();
+    const auto* kind = workspace.findChild<QWidget*>("tabRow")->findChild<QComboBox*>();
     EXPECT_TRUE(kind->isVisible());
     EXPECT_LT(kind->mapTo(&workspace, QPoint(0, kind->height())).y(), errors->mapTo(&workspace, QPoint()).y() - 60);
     EXPECT_EQ(errors->xAxis->label(), "commanded amplitude (V)");
@@ -130,8 +131,8 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
 TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
     RecordProperty("hazard", "H7");
     show({1300, 820});
-    auto* tabs = workspace.findChild<QTabWidget*>("calibratePages");
-    tabs->setCurrentWidget(workspace.runners()[1]);
+    auto* tabs = workspace.findChild<gui::TabbedPage*>("calibratePages");
+    tabs->setCurrentIndex(1);
     ASSERT_IN_TIME(comesTrue([this] { return workspace.runners()[1]->ready(); }));
     QTest::qWait(50);
     shot(workspace, "calibrate_sensor");
@@ -139,7 +140,7 @@ TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
     ASSERT_IN_TIME(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
     EXPECT_EQ(ended->order.script.name, "sensor-calibration");
     EXPECT_EQ(ended->result.verdict(), "pass");
-    EXPECT_EQ(tabs->currentWidget(), workspace.runners()[1]);
+    EXPECT_EQ(tabs->currentIndex(), 1);
     auto* plane = workspace.runners()[1]->findChild<gui::TrialPlane*>();
     EXPECT_TRUE(plane->isVisible());
     EXPECT_GE(plane->drawn(), 10) << "a point per slide";
@@ -157,7 +158,7 @@ TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
 TEST_F(Calibrate, TheCardLeadsToTheSettingsAndStartsNothing) {
     RecordProperty("hazard", "H12");
     show({1300, 820});
-    workspace.findChild<QTabWidget*>("calibratePages")->setCurrentIndex(2);
+    workspace.findChild<gui::TabbedPage*>("calibratePages")->setCurrentIndex(2);
     click(the<QPushButton>("calibrateButton"));
     EXPECT_TRUE(the<gui::StepButton>("Settings").isChecked());
     EXPECT_FALSE(workspace.runner().running());
@@ -168,7 +169,7 @@ TEST_F(Calibrate, AnExpiredOneWarnsAndCannotBeChecked) {
     RecordProperty("hazard", "H1");
     store(calibration(400, 365));
     show({760, 500});
-    auto* pages = workspace.findChild<QTabWidget*>("calibratePages");
+    auto* pages = workspace.findChild<gui::TabbedPage*>("calibratePages");
     pages->setCurrentIndex(2);
     EXPECT_THAT(says("calibrationState"), HasSubstr("⚠ calibration expired 35 d ago"));
     EXPECT_FALSE(button("checkButton")->isEnabled());
@@ -222,7 +223,8 @@ TEST_F(Calibrate, TheWiringIsDrawnBeforeTheRun) {
     const auto* drawing = workspace.runner().findChild<QLabel*>("wiringDrawing");
     ASSERT_NE(drawing, nullptr);
     EXPECT_TRUE(drawing->isVisible());
-    QTest::qWait(50);  // laid out anew
+    EXPECT_IN_TIME(comesTrue([&] { return drawing->visibleRegion().boundingRect().size() == drawing->size(); }))
+        << "the whole of it is in sight";
     shot(workspace, "calibrate_wiring");
 }
 

@@ -166,6 +166,10 @@ TEST_F(View, LowItsCardsAreOneLineSoThatThePlotHasTheRoom) {
     ASSERT_NE(card, nullptr);
     view.resize(1000, 900);
     EXPECT_IN_TIME(comesTrue([&] { return card->height() >= 80; })) << card->height();
+    view.resize(1000, 560);
+    EXPECT_IN_TIME(comesTrue([&] { return card->height() > 40 && card->height() < 70; }))
+        << card->height() << ": two lines say the same";
+    shot(view, "calibrate-view-two-lines");
     view.resize(1000, 420);
     EXPECT_IN_TIME(comesTrue([&] { return card->height() <= 40; })) << card->height();
     EXPECT_GE(errors().height(), 340);

@@ -2,6 +2,7 @@
 #include <QPushButton>
 #include <cmath>
 
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/live/LiveBench.h"
 #include "tests/support/InTime.h"
 
@@ -21,6 +22,20 @@ protected:
         return comesTrue([this] { return drive.chosen() == DriveSource::Off && drive.headline() == "Off"; });
     }
 };
+
+TEST_F(LiveBench, TheFirstOfTheDrivesChoicesHasItsLeftEdge) {
+    ASSERT_IN_TIME(openSimulated());
+    auto* hand = drive.findChild<QPushButton*>("driveByHand");
+    hand->click();
+    auto* off = find<QPushButton>(drive, "Off");
+    ASSERT_IN_TIME(comesTrue([&] { return hand->isChecked() && drive.isEnabled(); }));
+    const auto picture = drive.grab().toImage();
+    const auto at = off->mapTo(&drive, QPoint());
+    int edges = 0;
+    for (int x = std::max(0, at.x() - 1); x < at.x() + 2; ++x)
+        edges += picture.pixelColor(x, at.y() + off->height() / 2) == gui::colours().edge;
+    EXPECT_EQ(edges, 1);
+}
 
 TEST_F(DriveThatWas, IsNamedAfterAStopAndStartsNothing) {
     ASSERT_IN_TIME(openSimulated());

@@ -69,6 +69,8 @@ TEST_F(LiveBench, TheSlidersDriveAfterArmingAndTheTrainsHaveTheirAmplitude) {
     ASSERT_IN_TIME(comesTrue([this] { return textOf(drive, "driveSays").contains("until the output is armed"); }))
         << textOf(drive, "driveSays").toStdString();
     EXPECT_EQ(controller.telemetry().trainsDelivered, 0U);
+    EXPECT_IN_TIME(comesTrue([this] { return textOf(live, "whereTitle") == "Set by hand"; }))
+        << "the point is the hand's, not the fingertip's";
 
     ASSERT_IN_TIME(armed());
     pressure->setFocus();

@@ -45,13 +45,15 @@ protected:
     ProfileEditor editor{controller};
 };
 
-TEST_F(Editor, RefusesAWrongValueInTheSentenceOfTheCore) {
+TEST_F(Editor, RefusesAWrongValueInTheSentenceOfTheCoreWithTheNamesOfItsFields) {
     type("amplitude_min_v", "45");
     auto wrong = controller.profile().encoding;
     wrong.amplitudeMin = Volts(45);
     const auto sentence = validate(wrong).error().message;
     EXPECT_THAT(editor.trouble().toStdString(), HasSubstr(sentence));
-    EXPECT_THAT(refusal("amplitude_min_v").toStdString(), HasSubstr(sentence)) << "beside the field";
+    const auto* words = "“Smallest amplitude” 45 V is not below “Largest amplitude” 40 V.";
+    EXPECT_EQ(refusal("amplitude_min_v").toStdString(), std::string("⚠ ") + words) << "beside the field";
+    EXPECT_EQ(says().toStdString(), std::string("⚠ Cannot be applied: ") + words) << "on every tab";
     EXPECT_TRUE(editor.findChild<QLabel*>("amplitude_min_v.refusal")->isVisible());
     EXPECT_FALSE(button("Apply").isEnabled());
     EXPECT_FALSE(button("Save…").isEnabled());

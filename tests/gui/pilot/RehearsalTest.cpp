@@ -86,6 +86,7 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "study" / "study.json"));
     EXPECT_EQ(faultsOf(window), "");
     shot(window, "pilot-virtual-result");
+    fitsBesideTheDocks("pilot-result", "confusion");
     window.showWorkspace(0);
     EXPECT_EQ(window.workspace(), 0) << "the session has ended";
     window.showWorkspace(4);
@@ -202,6 +203,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     ASSERT_TRUE(pilot->running()) << "a key that is held counts once: " << headline();
     // Here nothing is armed that the control loop has to look after while pictures are made.
     looksRight(*pilot, "pilot-running", {QSize(1280, 720), QSize(1280, 720)}, &window);
+    fitsBesideTheDocks("pilot-running");
     looksRight(*strip, "pilot-strip", {}, theirs);
     click(*find<QPushButton>(*strip, "0"));
     ASSERT_IN_TIME(comesTrue(

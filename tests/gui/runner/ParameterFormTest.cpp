@@ -84,6 +84,30 @@ TEST(ParameterForm, FieldsWithARangeEndInOneLine) {
     EXPECT_LT(*ends.begin(), 400) << "the ranges have no room";
 }
 
+TEST(ParameterForm, ALargeRangeIsReadInGroupsAndARefusalNamesNoParameterOfTheScript) {
+    ProtocolDeclaration declaration;
+    auto load = areaFromTheProfile();
+    load.name = "load";
+    load.label = "Load";
+    load.unit = "ohm";
+    load.min = 1;
+    load.max = 1'000'000;
+    load.value = 1000;
+    load.zero.clear();
+    declaration.parameters = {load};
+    gui::ParameterForm form;
+    form.show(declaration);
+    const auto shown = [&](const char* words) {
+        for (const auto* label : form.findChildren<QLabel*>())
+            if (label->text().contains(words)) return true;
+        return false;
+    };
+    EXPECT_TRUE(shown("1 to 1\u202f000\u202f000"));
+    form.findChild<QLineEdit*>("load")->setText("0");
+    EXPECT_TRUE(shown("This is 0, a number from 1 to 1\u202f000\u202f000 Ω is expected."))
+        << form.findChild<QLabel*>("trouble-load")->text().toStdString();
+}
+
 TEST(ParameterForm, WhatZeroStandsForIsSaidInAnEmptyField) {
     ProtocolDeclaration declaration;
     declaration.parameters = {areaFromTheProfile()};

@@ -1,13 +1,16 @@
 // Results as tables: every shipped protocol is run, and nothing that is shown of its result is a key.
 #include <QFormLayout>
 #include <QHeaderView>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QTableWidget>
 #include <QTreeWidget>
 #include <gmock/gmock.h>
+#include <set>
 
 #include "app/gui/runner/NextSteps.h"
 #include "app/gui/runner/ResultTables.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/runner/Lab.h"
 #include "tests/support/InTime.h"
 
@@ -111,6 +114,26 @@ TEST(NextSteps, FollowFromWhatWasFound) {
                 ElementsAre(NextStep::ChangeSettings, NextStep::Sign, NextStep::Session));
     EXPECT_THAT(gui::nextStepsAfter(finished({{"kind", "live"}}, ScriptVerdict::None)),
                 ElementsAre(NextStep::Sign, NextStep::Session));
+}
+
+TEST(NextSteps, StandInRowsWhereOneHasNoRoom) {
+    gui::NextStepBar bar;
+    bar.show({NextStep::Sign, NextStep::SafetyCheck, NextStep::Check, NextStep::Session});
+    static_cast<QWidget&>(bar).show();
+    bar.resize(bar.sizeHint().width(), 60);
+    const auto rows = [&] {
+        std::set<int> tops;
+        for (const auto* button : bar.findChildren<QPushButton*>()) {
+            EXPECT_TRUE(bar.rect().contains(button->geometry())) << button->text().toStdString();
+            tops.insert(button->y());
+        }
+        return tops.size();
+    };
+    EXPECT_EQ(rows(), 1U);
+    EXPECT_LT(bar.minimumSizeHint().width(), bar.width() / 2);
+    bar.resize(bar.sizeHint().width() / 2, 120);
+    EXPECT_GE(rows(), 2U);
+    EXPECT_EQ(cutTexts(bar).join('\n').toStdString(), "");
 }
 
 TEST(NextSteps, AProfileOfAResultThatDidNotPassIsNotOffered) {

@@ -81,8 +81,23 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_NE(find<QWidget>(*workspace, "How to read a cell"), nullptr);
     auto& disclosed = the<QScrollArea>("disclosedOutputs");
     ASSERT_NE(disclosed.widget(), nullptr);
-    const auto* outputs = qobject_cast<QTableWidget*>(disclosed.widget());
+    const auto* outputs = disclosed.widget()->findChild<QTableWidget*>();
     EXPECT_GE(outputs->rowCount(), 6);
+    bool scrolled = false;
+    for (int height = 520; height < 900; height += 25) {
+        workspace->resize(1800, height);
+        QTest::qWait(20);
+        const auto& page = *disclosed.widget();
+        if (page.mask().isEmpty() || !disclosed.isVisible()) continue;
+        scrolled = true;
+        const int drawn = page.mask().boundingRect().bottom() + 1;
+        for (int row = 0; row < outputs->rowCount(); ++row) {
+            const int top = outputs->viewport()->mapTo(&page, QPoint(0, outputs->rowViewportPosition(row))).y();
+            EXPECT_TRUE(top >= drawn || top + outputs->rowHeight(row) <= drawn) << row << " is cut at " << height;
+        }
+    }
+    EXPECT_TRUE(scrolled);
+    workspace->resize(1800, 900);
     EXPECT_EQ(outputs->columnCount(), 4) << "an output in a row, with a column for each load";
     EXPECT_EQ(outputs->horizontalHeaderItem(1)->text(), "at 500\u00a0Ω");
     EXPECT_EQ(outputs->item(0, 0)->text(), "Maximum output voltage");

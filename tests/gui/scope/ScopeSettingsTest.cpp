@@ -51,6 +51,7 @@ TEST_F(Scope, WhatWasChosenIsThereAgainAtTheNextStart) {
     scope.readings().choose(gui::Reading::Rms, true);
     chooseItem(scope, "Captures that stay", "and 8 before");
     ASSERT_IN_TIME(comes([&] { return find<QDoubleSpinBox>(scope, "Offset of Power") != nullptr; }));
+    chooseItem(scope, "Time base", "100\u202fµs/div");  // what fits shows the step above it: another one first
     chooseItem(scope, "Time base", "200\u202fµs/div");
     auto* offset = find<QDoubleSpinBox>(scope, "Offset of Current");
     offset->setFocus();

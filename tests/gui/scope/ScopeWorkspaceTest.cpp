@@ -252,6 +252,18 @@ TEST_F(Scope, TheListOfTimeBasesMarksThePresentOneAndEndsWhereSamplesHaveNoShape
     EXPECT_EQ(refused, QStringList("100\u202fns/div")) << "samples 500 ns apart";
 }
 
+TEST_F(Scope, ToolAndViewSayTheSameTimeBaseBetweenTwoStepsToo) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    scope.model().setTimePerDivision(150e-6);
+    EXPECT_EQ(find<QToolButton>(scope, "Time base tool")->text(), "200\u202fµs/div") << "as the grid has it";
+    const QComboBox* box = nullptr;
+    for (const auto* each : scope.findChildren<QComboBox*>())
+        if (each->accessibleName() == "Time base") box = each;
+    ASSERT_NE(box, nullptr);
+    EXPECT_EQ(box->currentText(), "200\u202fµs/div");
+}
+
 TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
     ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/PageStack.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/TurningRow.h"
 #include "app/gui/theme/Verdict.h"
@@ -112,6 +113,54 @@ TEST(TurningRow, PutsItsPartsBelowEachOtherWhereThereIsNoRoom) {
         EXPECT_IN_TIME(comesTrue([&] { return (first->x() == second->x()) == !beside; })) << width;
         EXPECT_EQ(row->direction() == QBoxLayout::LeftToRight, beside) << width;
     }
+}
+
+TEST(TurningRow, AsksForTheWidthOfItsWidestPartAndCanAlwaysTurn) {
+    QWidget page;
+    auto* row = new gui::TurningRow({}, &page);
+    for (const int width : {300, 200}) {
+        auto* part = new QWidget(&page);
+        part->setMinimumSize(width, 20);
+        row->addWidget(part);
+    }
+    row->setContentsMargins(4, 0, 4, 0);
+    row->setSpacing(8);
+    EXPECT_EQ(row->minimumSize().width(), 308);
+    EXPECT_GE(row->sizeHint().width(), 508);
+    page.show();
+    page.resize(600, 100);
+    EXPECT_IN_TIME(comesTrue([&] { return row->direction() == QBoxLayout::LeftToRight; }));
+    page.resize(400, 100);
+    EXPECT_IN_TIME(comesTrue([&] { return row->direction() == QBoxLayout::TopToBottom; }));
+    EXPECT_EQ(page.width(), 400);
+    EXPECT_GE(row->sizeHint().width(), 508) << "beside each other again where there is room";
+}
+
+TEST(PageStack, AsksForTheRoomOfThePageThatIsShown) {
+    gui::PageStack stack;
+    auto* narrow = new QLabel(QString("words that wrap ").repeated(20), &stack);
+    narrow->setWordWrap(true);
+    narrow->setMinimumWidth(100);
+    auto* wide = new QWidget(&stack);
+    wide->setMinimumSize(900, 700);
+    stack.addWidget(narrow);
+    stack.addWidget(wide);
+    EXPECT_EQ(stack.minimumSizeHint().width(), 100);
+    EXPECT_LT(stack.minimumSizeHint().height(), 700);
+    EXPECT_TRUE(stack.hasHeightForWidth());
+    stack.setCurrentIndex(1);
+    EXPECT_EQ(stack.currentWidget(), wide);
+    EXPECT_EQ(stack.minimumSizeHint(), QSize(900, 700));
+    EXPECT_FALSE(stack.hasHeightForWidth());
+    QWidget around;
+    auto* column = new QVBoxLayout(&around);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(&stack);
+    EXPECT_EQ(column->minimumSize(), QSize(900, 700));
+    around.show();
+    stack.setCurrentIndex(0);
+    EXPECT_IN_TIME(comesTrue([&] { return column->minimumSize().width() == 100; })) << "what is around it follows";
+    stack.setParent(nullptr);
 }
 
 TEST(Conditions, HaveTheColoursOfTheSetAndADashEach) {

@@ -5,10 +5,10 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
+#include <QRegularExpression>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
-#include <QTabWidget>
 #include <QTableView>
 #include <QToolBar>
 #include <QToolButton>
@@ -152,18 +152,18 @@ TEST_F(Layout, F11HidesTheTabsAndTheirKeysStay) {
     EXPECT_EQ(live.currentIndex(), 0);
     EXPECT_FALSE(window.findChild<QWidget*>("commandWords")->isVisible()) << "the strips alone";
     window.showWorkspace(1);
-    auto& calibrate = *window.findChild<QTabWidget*>("calibratePages");
-    EXPECT_FALSE(calibrate.tabBar()->isVisible());
+    auto& calibrate = *window.findChild<gui::TabbedPage*>("calibratePages");
+    EXPECT_FALSE(calibrate.bar().isVisible());
     key(Qt::Key_N, Qt::AltModifier);
     EXPECT_EQ(calibrate.currentIndex(), 1);
     QTest::qWait(50);
-    EXPECT_LE(calibrate.currentWidget()->mapTo(&calibrate, QPoint(0, 0)).y(), 1)
+    EXPECT_LE(calibrate.currentPage()->mapTo(&calibrate, QPoint(0, 0)).y(), 1)
         << "below the edge its page has the room";
     key(Qt::Key_G, Qt::AltModifier);
     EXPECT_EQ(calibrate.currentIndex(), 0);
     shot(window, "plot-only-calibrate");
     key(Qt::Key_F11);
-    EXPECT_TRUE(calibrate.tabBar()->isVisible());
+    EXPECT_TRUE(calibrate.bar().isVisible());
     key(Qt::Key_T, Qt::AltModifier);
     EXPECT_EQ(calibrate.currentIndex(), 2) << "by the tab bar's own keys again";
     key(Qt::Key_G, Qt::AltModifier);
@@ -392,13 +392,6 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
     open();
     gui::applyTextSize(200);
     window.resize(1280, 720);
-    const auto wide = [this] {
-        std::string all;
-        for (const auto* each : window.findChildren<QWidget*>())
-            if (each->isVisible() && each->minimumSizeHint().width() > 300)
-                all += fmt::format("{} {} {}\n", widgetName(*each), each->minimumSizeHint().width(), each->width());
-        return all;
-    };
     for (int page = 0; page < 7; ++page) {
         window.showWorkspace(page);
         for (const bool opened : {false, true}) {
@@ -409,8 +402,7 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
             EXPECT_LE(window.width(), 1280) << page << opened << "\n" << wide();
             EXPECT_LE(window.height(), 720) << page << opened;
         }
-        // Calibrate and Pilot are as wide as their widest page, the stored calibration's card and the result.
-        EXPECT_IN_TIME(comesTrue([&] { return page == 1 || page == 4 || cutSideways(window).isEmpty(); }))
+        EXPECT_IN_TIME(comesTrue([&] { return cutSideways(window).isEmpty(); }))
             << page << "\n"
             << cutSideways(window).join('\n').toStdString() << "\n"
             << wide();
@@ -427,6 +419,51 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
     EXPECT_IN_TIME(comesTrue([this] { return plotWordFaults(window).isEmpty(); }))
         << plotWordFaults(window).join('\n').toStdString();
     gui::applyTextSize(100);
+}
+
+TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
+    RecordProperty("hazard", "H9");
+    open();
+    arm();
+    deliver();
+    gui::applyTextSize(200);
+    window.resize(1280, 720);
+    window.showWorkspace(5);  // the docks are folded
+    const auto& bar = *window.findChild<QWidget*>("safetyBar");
+    const auto seen = [&] {
+        std::vector<const gui::LimitBar*> all;
+        for (const auto* one : bar.findChildren<gui::LimitBar*>())
+            if (one->isVisible()) all.push_back(one);
+        return all;
+    };
+    ASSERT_IN_TIME(comesTrue([&] { return seen().size() == 1 && seen().front()->share() > 0; }));
+    const auto& nearest = *seen().front();
+    for (const auto* other : bar.findChildren<gui::LimitBar*>())
+        EXPECT_FALSE(other->share() > nearest.share() + 0.2) << other->accessibleName().toStdString();
+    EXPECT_EQ(nearest.visibleRegion().boundingRect().size(), nearest.size());
+    const QFontMetrics metrics(gui::textFont(gui::TextSize::Small));
+    EXPECT_LE(metrics.horizontalAdvance(nearest.shownText()), nearest.width());
+    EXPECT_TRUE(nearest.shownText().contains(QRegularExpression("[0-9]"))) << nearest.shownText().toStdString();
+    const auto* word = window.findChild<QLabel*>("interlockState");
+    EXPECT_GE(word->font().pointSizeF(), 28) << "from two metres";
+    const auto* stop = window.findChild<QPushButton*>("stopButton");
+    EXPECT_EQ(stop->visibleRegion().boundingRect().size(), stop->size());
+    EXPECT_LE(nearest.mapTo(&window, QPoint(nearest.width(), 0)).x(),
+              window.findChild<QPushButton*>("armButton")->mapTo(&window, QPoint()).x());
+    EXPECT_EQ(cutTexts(bar).join('\n').toStdString(), "");
+    const auto place = [&] { return word->parentWidget()->geometry(); };
+    const auto before = place();
+    shot(window, "nearest-limit-200");
+    gui::applyTheme(gui::Theme::Dark);
+    QTest::qWait(100);
+    shot(window, "nearest-limit-200-dark");
+    gui::applyTheme(gui::Theme::Light);
+    window.controller().stop("operator (STOP)");
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
+    QTest::qWait(100);
+    EXPECT_EQ(place(), before) << "nothing moves";
+    gui::applyTextSize(100);
+    window.showWorkspace(0);
 }
 
 TEST_F(Layout, ADockFoldsToItsHeader) {

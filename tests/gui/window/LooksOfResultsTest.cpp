@@ -6,10 +6,14 @@
 #include <QLineEdit>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QStatusBar>
+#include <QToolButton>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/live/TactilePlane.h"
+#include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/LimitMatrixView.h"
+#include "app/gui/runner/StepButton.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/ScopeModel.h"
 #include "app/gui/scope/ScopeWorkspace.h"
@@ -74,6 +78,20 @@ protected:
         }
         gui::applyTheme(gui::Theme::Light);
     }
+    [[nodiscard]] static QStringList texts(const QCustomPlot& plot) {
+        QStringList all;
+        for (const auto* element : plot.plotLayout()->elements(false))
+            if (const auto* text = dynamic_cast<const QCPTextElement*>(element)) all << text->text();
+        return all;
+    }
+    [[nodiscard]] QString lastMessage() {
+        const auto messages = window.statusBar()->findChildren<QToolButton*>();
+        return messages.isEmpty() ? QString() : messages.front()->toolTip().section('\n', 0, 0);
+    }
+    [[nodiscard]] QString recorded() {
+        QCoreApplication::processEvents();
+        return find<QLabel>(window, "recording")->text();
+    }
     void type(const char* field, const QString& text) {
         QLineEdit* line = nullptr;
         ASSERT_IN_TIME(comesTrue([&] { return (line = find<QLineEdit>(window, field)) != nullptr; })) << field;
@@ -115,17 +133,31 @@ TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-calibrate");
     // Below it stand the cards, one for each quantity: one line each in the small window.
-    plotHas<gui::CalibrationPlot>(0.8, "residuals");
+    plotHas<gui::CalibrationPlot>(0.8, "residuals", {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)});
     click(*find<QToolButton>(window, "Plot only"));
     EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") == nullptr; })) << "as F11";
     click(*find<QToolButton>(window, "Plot only"));
     EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") != nullptr; }));
+    fitsBesideTheDocks("calibrate-result");
+    click(*find<QPushButton>(window, "Log"));
+    fitsBesideTheDocks("calibrate-log");
+    for (const auto* step : {"Wiring", "Known reference", "Settings", "Run"}) {
+        click(*find<gui::StepButton>(window, step));
+        fitsBesideTheDocks(QString("calibrate-%1").arg(step));
+    }
+    for (const int tab : {1, 2}) {
+        window.findChild<gui::TabbedPage*>("calibratePages")->setCurrentIndex(tab);
+        fitsBesideTheDocks(QString("calibrate-tab-%1").arg(tab), "calibrationHistory");
+    }
 }
 
 TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
     window.showWorkspace(2);
     ASSERT_NO_FATAL_FAILURE(type("area", "4"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
+    // Not the last of the faults that the check provoked, nor the bench that it closed.
+    EXPECT_EQ(lastMessage(), "Safety check finished: pass. Output is off.");
+    EXPECT_TRUE(recorded().startsWith("Recorded to load-safety-")) << recorded().toStdString();
     looksRight("result-safety");
     // The tracing of the strongest output is a view of its own, and beside it in the large window.
     plotHas<gui::LimitMatrixView>(0.8, "matrix", {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)});
@@ -134,6 +166,12 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
         window.resize(size);
         QTest::qWait(100);
         const int bottom = matrix->viewport()->height();
+        for (int row = 0; row < matrix->rowCount(); ++row) {
+            const auto note = matrix->item(row, 0)->data(Qt::UserRole).toString();
+            EXPECT_LE(QFontMetrics(gui::textFont(gui::TextSize::Small)).horizontalAdvance(note),
+                      matrix->columnWidth(0) - 16)
+                << note.toStdString() << " is cut at " << size.height();
+        }
         for (int row = 0; row < matrix->rowCount(); ++row) {
             const int top = matrix->rowViewportPosition(row);
             EXPECT_TRUE(top >= bottom || top + matrix->rowHeight(row) <= bottom)
@@ -147,6 +185,18 @@ TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-separability");
     plotHas<gui::TrialPlane>(0.95, "plane");
+    window.resize(1440, 900);
+    QTest::qWait(100);
+    const auto frameTop = [&](const QCustomPlot* plot) {
+        return plot->mapTo(&window, QPoint()).y() + plot->axisRect()->rect().top();
+    };
+    const auto* plane = find<gui::TrialPlane>(window, "Trials");
+    const auto* train = find<gui::CaptureStrip>(window, "Last capture");
+    ASSERT_TRUE(plane != nullptr && train != nullptr);
+    EXPECT_NEAR(frameTop(plane), frameTop(train), 1);
+    EXPECT_TRUE(texts(*plane).contains("Trials in the plane, 100"));
+    for (const auto* axis : {plane->xAxis, plane->yAxis, train->xAxis, train->yAxis, train->yAxis2})
+        EXPECT_TRUE(axis->label().at(0).isUpper()) << axis->label().toStdString();
 }
 
 TEST_F(ResultsInTheWindow, AFaultLooksRight) {

@@ -6,6 +6,7 @@
 #include <QSettings>
 #include <QTabWidget>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <gmock/gmock.h>
 
 #include "app/gui/scope/MeasurementTable.h"
@@ -124,6 +125,31 @@ TEST_F(DocksOfTheWindow, KeepTheirHeadersInALowWindow) {
     }
 }
 
+TEST_F(DocksOfTheWindow, CutNoRowOfTheDevices) {
+    open();
+    window.showWorkspace(0);
+    for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
+    const auto* list = window.findChild<QDockWidget*>("deviceDock")->findChild<QTreeWidget*>();
+    const auto* body = list->parentWidget();
+    for (const int height : {720, 750, 780, 810, 840, 900}) {
+        window.resize(1280, height);
+        const auto rowsAreWhole = [&] {
+            const int seen = body->parentWidget()->height() - body->y();
+            const int drawn = body->mask().isEmpty() ? seen : body->mask().boundingRect().bottom() + 1;
+            for (int i = 0; i < list->topLevelItemCount(); ++i) {
+                const auto row = list->visualItemRect(list->topLevelItem(i));
+                const int top = list->viewport()->mapTo(body, row.topLeft()).y();
+                if (top < drawn && top + row.height() > drawn) return false;
+            }
+            return true;
+        };
+        EXPECT_IN_TIME(comesTrue(rowsAreWhole)) << height;
+        const auto* last = list->topLevelItem(list->topLevelItemCount() - 1);
+        EXPECT_LE(list->viewport()->height() - list->visualItemRect(last).bottom(), 2) << "as high as its rows";
+        shot(window, QString("devices-%1").arg(height));
+    }
+}
+
 TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
     open();
     arm();
@@ -237,8 +263,8 @@ TEST_F(Window, TheLastMessageOpensTheLogOfAllOfThem) {
     arm();
     window.controller().disarm();
     ASSERT_IN_TIME(
-        comesTrue([this] { return find<QToolButton>(window, "Disarmed: operator (Disarm). Output is off."); }));
-    click(*find<QToolButton>(window, "Disarmed: operator (Disarm). Output is off."));
+        comesTrue([this] { return find<QToolButton>(window, "Disarmed: stopped with Disarm. Output is off."); }));
+    click(*find<QToolButton>(window, "Disarmed: stopped with Disarm. Output is off."));
     QDialog* log = nullptr;
     ASSERT_IN_TIME(comesTrue([&] {
         for (auto* dialog : window.findChildren<QDialog*>()) {
@@ -247,7 +273,7 @@ TEST_F(Window, TheLastMessageOpensTheLogOfAllOfThem) {
         return log != nullptr;
     }));
     const auto text = log->findChild<QPlainTextEdit*>()->toPlainText().toStdString();
-    for (const auto* said : {"Open. Recording to", "Armed.", "Disarmed: operator (Disarm). Output is off."})
+    for (const auto* said : {"Open. Recording to", "Armed.", "Disarmed: stopped with Disarm. Output is off."})
         EXPECT_THAT(text, HasSubstr(said));
     log->close();
 }

@@ -65,7 +65,7 @@ TEST(StateWords, SayInEveryStateWhatToDo) {
         << "a person has no drive to choose while a protocol has the bench";
     auto stopped = inState(InterlockState::Disarmed);
     stopped.reason = "operator (STOP)";
-    EXPECT_EQ(wordsOf(stopped), "Output is off: operator (STOP). “Arm…” goes on.");
+    EXPECT_EQ(wordsOf(stopped), "Output is off: stopped with STOP. “Arm…” goes on.");
 }
 
 class StateOnTheBar : public testing::Test {

@@ -6,11 +6,17 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QTest>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "app/gui/theme/Theme.h"
+#include "app/gui/window/DockColumn.h"
 #include "app/gui/window/MainWindow.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/RoomLooks.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -69,6 +75,37 @@ protected:
     void deliver() {
         window.controller().drive(DriveSource::Manual, 0.5, 1);
         ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
+    }
+    /// What is visible and asks for much of a small window's width, a line each.
+    [[nodiscard]] std::string wide() const {
+        std::string all;
+        for (const auto* each : window.findChildren<QWidget*>())
+            if (each->isVisible() && each->minimumSizeHint().width() > 300)
+                all += fmt::format("{} {} {}\n", widgetName(*each), each->minimumSizeHint().width(), each->width());
+        return all;
+    }
+    /// With text at 200 %, 1280 x 720 and the docks opened by hand, nothing of what is shown is cut sideways.
+    /// `scrolls`: the one table that has a scroll bar of its own there.
+    void fitsBesideTheDocks(const QString& name, const char* scrolls = nullptr) {
+        const auto faults = [&] {
+            auto all = cutSideways(window);
+            if (scrolls != nullptr) all = all.filter(QRegularExpression(QString("^(?!.*%1)").arg(scrolls)));
+            return all;
+        };
+        const auto before = window.size();
+        gui::applyTextSize(200);
+        window.resize(1280, 720);
+        auto* docks = window.findChild<gui::DockColumn*>();
+        const bool collapsed = docks->collapsed();
+        docks->setCollapsed(false);
+        EXPECT_IN_TIME(comesTrue([&] { return faults().isEmpty(); })) << name.toStdString() << '\n'
+                                                                      << faults().join('\n').toStdString() << '\n'
+                                                                      << wide();
+        EXPECT_EQ(window.size(), QSize(1280, 720)) << name.toStdString();
+        shot(window, "beside-docks-" + name);
+        docks->setCollapsed(collapsed);
+        gui::applyTextSize(100);
+        window.resize(before);
     }
     gui::MainWindow window;
 };
