@@ -182,7 +182,7 @@ void LiveWorkspace::fit() {
     const int room = widthInSight(*this) - edges.left() - edges.right();
     const bool beside = room >= strips_->minimumWidth() + split_->handleWidth() + narrowest;
     split_->setOrientation(beside ? Qt::Horizontal : Qt::Vertical);
-    side_->setMinimumHeight(beside ? 0 : side->heightForWidth(room));
+    side_->setMinimumHeight(beside ? 0 : std::max(0, side->heightForWidth(room)));
     freeze_->setText(beside ? tr("Free&ze") : QString());  // its icon and its tip say it where a word has no room
     rig_->setLow(height() < fontMetrics().height() * kRigLines);
 }

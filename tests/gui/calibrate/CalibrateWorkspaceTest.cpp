@@ -13,6 +13,7 @@
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
+#include "tests/gui/Person.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 #include "tests/support/InTime.h"
 

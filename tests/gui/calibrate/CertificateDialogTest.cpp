@@ -15,6 +15,7 @@
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/Person.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 #include "tests/support/InTime.h"
 

@@ -5,6 +5,7 @@
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/Person.h"
 #include "tests/gui/pilot/SeatedPeople.h"
 
 namespace tacto::test {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/pilot/ParticipantStop.h"
+#include "tests/gui/Person.h"
 #include "tests/gui/pilot/SeatedPeople.h"
 #include "tests/support/InTime.h"
 

@@ -12,6 +12,7 @@
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "app/scripting/engine/ScriptRun.h"
 #include "core/pilot/PilotSession.h"
+#include "tests/gui/Person.h"
 #include "tests/gui/pilot/BenchBehind.h"
 #include "tests/gui/pilot/SeatedPeople.h"
 

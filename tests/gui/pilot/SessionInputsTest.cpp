@@ -15,6 +15,7 @@
 #include "drivers/hid_input/HidInput.h"
 #include "tests/drivers/hid_input/PadDescriptors.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/Person.h"
 #include "tests/gui/pilot/PluggedButtons.h"
 #include "tests/gui/pilot/SeatedPeople.h"
 

@@ -4,6 +4,7 @@
 
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/theme/Theme.h"
+#include "tests/gui/Person.h"
 
 namespace tacto::test {
 namespace {

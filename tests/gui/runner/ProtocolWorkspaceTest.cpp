@@ -14,6 +14,7 @@
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/Person.h"
 #include "tests/gui/runner/Lab.h"
 #include "tests/support/InTime.h"
 

@@ -8,6 +8,7 @@
 #include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/theme/Theme.h"
+#include "tests/gui/Person.h"
 #include "tests/gui/runner/Lab.h"
 #include "tests/support/InTime.h"
 

@@ -4,6 +4,7 @@
 #include <QSpinBox>
 
 #include "app/gui/theme/ConfirmButton.h"
+#include "tests/gui/Person.h"
 #include "tests/gui/study/OpenedStudy.h"
 #include "tests/study/StudySupport.h"
 

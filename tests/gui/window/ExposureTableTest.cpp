@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/ExposureTable.h"
+#include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
