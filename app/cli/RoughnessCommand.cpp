@@ -48,7 +48,7 @@ double expandedR(const RoughnessSettings& settings, const RoughnessSummary& summ
 
 int runRoughness(const QCommandLineParser& parser) {
     if (parser.isSet("template")) {
-        say("{}", recordingTemplate());
+        say("{}", lines(recordingTemplate()));
         return kDone;
     }
     const auto path = onlyArgument(parser, "RECORDING");

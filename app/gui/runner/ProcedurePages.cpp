@@ -81,7 +81,10 @@ QWidget* formColumn(QWidget* part) {
     auto* body = new QWidget;
     auto* column = new QVBoxLayout(body);
     column->setContentsMargins(0, 0, 12, 0);
-    column->addWidget(part);
+    auto* bounded = new QHBoxLayout;  // alone in a column it would be as high as its words at a width that it has not
+    bounded->addWidget(part, 1);
+    bounded->addStretch();
+    column->addLayout(bounded);
     column->addStretch();
     return body;
 }
