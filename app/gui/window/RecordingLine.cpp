@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -19,11 +20,8 @@ constexpr int kLogLines = 2000;
 
 RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
     : QObject(&bar), controller_(controller), bar_(bar) {
-    recording_ = new QLabel(&bar);
+    recording_ = new ElidedLabel(&bar);
     recording_->setObjectName("recording");
-    recording_->setToolTip(
-        tr("Every open bench records to a session file. Samples are on disk within a second, events "
-           "and trials at once."));
     bar.addWidget(recording_, 1);
     message_ = new QToolButton(&bar);
     message_->setAutoRaise(true);
@@ -31,7 +29,7 @@ RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
     message_->setText(tr("No messages"));
     connect(message_, &QToolButton::clicked, this, &RecordingLine::showLog);
     bar.addPermanentWidget(message_);
-    recording_->setText(tr("Nothing is being recorded"));
+    sayRecording(tr("Nothing is being recorded"));
     refresh();
 }
 
@@ -53,21 +51,28 @@ void RecordingLine::refresh() {
     const auto seconds = since_.elapsed() / 1000;
     const auto savedAt = wal.exists() ? std::max(wal.lastModified(), file.lastModified()) : file.lastModified();
     const double age = double(savedAt.msecsTo(QDateTime::currentDateTime())) / 1000;
-    recording_->setText(tr("● recording %1:%2:%3 · %4 MB · saved %5 s ago")
-                            .arg(seconds / 3600, 2, 10, QChar('0'))
-                            .arg(seconds / 60 % 60, 2, 10, QChar('0'))
-                            .arg(seconds % 60, 2, 10, QChar('0'))
-                            .arg(double(file.size() + wal.size()) / 1e6, 0, 'f', 1)
-                            .arg(std::max(0.0, age), 0, 'f', 1));
+    sayRecording(tr("● recording %1:%2:%3 · %4 MB · saved %5 s ago")
+                     .arg(seconds / 3600, 2, 10, QChar('0'))
+                     .arg(seconds / 60 % 60, 2, 10, QChar('0'))
+                     .arg(seconds % 60, 2, 10, QChar('0'))
+                     .arg(double(file.size() + wal.size()) / 1e6, 0, 'f', 1)
+                     .arg(std::max(0.0, age), 0, 'f', 1));
     recording_->setAccessibleDescription(QString::fromStdString(session_.string()));
+}
+
+void RecordingLine::sayRecording(const QString& text) {
+    recording_->setText(text);
+    recording_->setToolTip(text + '\n' +
+                           tr("Every open bench records to a session file. Samples are on disk within a second, "
+                              "events and trials at once."));
 }
 
 /// A session that was moved or thrown away is not worth its name.
 void RecordingLine::sayRecorded(const std::filesystem::path& session) {
     const QFileInfo file(QString::fromStdString(session.string()));
-    recording_->setText(
-        file.exists() ? tr("Recorded to %1 · %2 MB").arg(file.fileName()).arg(double(file.size()) / 1e6, 0, 'f', 1)
-                      : tr("Nothing is being recorded"));
+    sayRecording(file.exists()
+                     ? tr("Recorded to %1 · %2 MB").arg(file.fileName()).arg(double(file.size()) / 1e6, 0, 'f', 1)
+                     : tr("Nothing is being recorded"));
 }
 
 void RecordingLine::say(const QString& text, bool isError) {

@@ -24,6 +24,7 @@ public:
     [[nodiscard]] const QStringList& log() const { return log_; }
 
 private:
+    void sayRecording(const QString& text);
     void sayRecorded(const std::filesystem::path& session);
 
     BenchController& controller_;

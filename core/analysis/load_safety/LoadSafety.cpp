@@ -98,6 +98,7 @@ void decide(const LoadSafetyInput& input, LoadSafety& out) {
                         count(RowVerdict::Pass), out.loads.size(),
                         refused == 0   ? ""
                         : refused == 1 ? "; the one command that must be refused was refused"
+                        : refused == 2 ? "; both commands that must be refused were refused"
                                        : fmt::format("; all {} commands that must be refused were refused", refused)));
     }
     // Without a known load that reads as what it is, nothing else was asked.
