@@ -155,8 +155,12 @@ void SessionList::buildTable() {
     // The widths may be others once the header has its text's size.
     connect(
         table_->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
-        [this](int, int most) {
-            if (most > 0 && !table_->isColumnHidden(SessionModel::kSample)) fitColumns();
+        [this] {
+            if (table_->horizontalScrollBar()->maximum() == 0) return;
+            if (!table_->isColumnHidden(SessionModel::kSample))
+                fitColumns();
+            else
+                table_->setColumnHidden(SessionModel::kNote, true);
         },
         Qt::QueuedConnection);
     afterLookChange(*this, [this] { fitColumns(); });  // when the header has its text's size
@@ -224,6 +228,9 @@ void SessionList::fitColumns() {
                              : table_->viewport()->width() - (table_->verticalScrollBar()->isVisible() ? 0 : bar);
     table_->setColumnHidden(SessionModel::kSample, least() > room);
     table_->setColumnHidden(SessionModel::kNote, least() > room);
+    // The last that is left gives way, as it does where it stretches: Qt stretches it, but makes it no smaller.
+    if (const int over = header->length() - room; over > 0 && table_->isColumnHidden(SessionModel::kNote))
+        table_->setColumnWidth(SessionModel::kProcedure, header->sectionSize(SessionModel::kProcedure) - over);
 }
 
 /// What a display of the chosen ones depends on. Not the labels: they are changed there.
