@@ -84,6 +84,7 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     EXPECT_TRUE(matrix->isVisible());
     EXPECT_EQ(matrix->rowCount(), 4);
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "study" / "study.json"));
+    static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 2'000));  // what it says now is laid out
     EXPECT_EQ(faultsOf(window), "");
     shot(window, "pilot-virtual-result");
     fitsBesideTheDocks("pilot-result", "confusion");
