@@ -3,10 +3,9 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QLabel>
-
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
 
@@ -21,7 +20,7 @@ signals:
     void openClicked();
 
 private:
-    QLabel* problem_;
+    TroubleLine* problem_;
 };
 
 }  // namespace tacto::gui

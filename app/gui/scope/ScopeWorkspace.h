@@ -22,8 +22,8 @@ namespace tacto::gui {
 
 class MeasurementTable;
 class ScopeColumns;
-class ScopeEmpty;
 class ScopeControls;
+class ScopeEmpty;
 class ScopeFiles;
 class ScopeGestures;
 class ScopeScreen;

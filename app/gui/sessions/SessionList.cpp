@@ -156,11 +156,8 @@ void SessionList::buildTable() {
     connect(
         table_->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
         [this] {
-            if (table_->horizontalScrollBar()->maximum() == 0) return;
-            if (!table_->isColumnHidden(SessionModel::kSample))
-                fitColumns();
-            else
-                table_->setColumnHidden(SessionModel::kNote, true);
+            const bool scrolls = table_->horizontalScrollBar()->maximum() > 0;
+            if (scrolls && !table_->isColumnHidden(SessionModel::kSample)) fitColumns();
         },
         Qt::QueuedConnection);
     afterLookChange(*this, [this] { fitColumns(); });  // when the header has its text's size
