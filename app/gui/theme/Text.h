@@ -8,6 +8,7 @@
 #include <QString>
 #include <string_view>
 
+#include "app/report/ShownText.h"
 #include "core/base/QuantityText.h"
 #include "core/base/Result.h"
 #include "core/session/ResultKind.h"
@@ -18,11 +19,8 @@ namespace tacto::gui {
     return QString::fromUtf8(utf8.data(), qsizetype(utf8.size()));
 }
 
-/// "Voltage" of "voltage".
-[[nodiscard]] inline QString titled(QString name) {
-    if (!name.isEmpty()) name[0] = name[0].toUpper();
-    return name;
-}
+/// "Voltage" of "voltage", as a report has it.
+[[nodiscard]] inline QString titled(QString name) { return capitalised(std::move(name)); }
 
 /// As decimalText() of the core, with a true minus and a narrow space before `unit`: "−0.98 %".
 [[nodiscard]] inline QString decimalText(double value, int decimals, const QString& unit = {}) {
