@@ -40,7 +40,7 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
             if (event.name == row::kSessionEnd) rows.ended = pilotEndFrom(textOr(event.body, "state"));
             if (event.name != row::kAnswer && event.name != row::kNoAnswer && event.name != row::kTrialBegin) continue;
             auto at = wallTimeFrom(about.wallStart);
-            if (!about.virtualClock) at += std::chrono::floor<std::chrono::seconds>(event.at);
+            if (!about.virtualClock) at += std::chrono::floor<std::chrono::seconds>(event.at - about.wallStartAt);
             rows.answeredAt = std::max(rows.answeredAt, at);
         }
         std::ranges::move(*events, std::back_inserter(rows.events));
