@@ -110,14 +110,6 @@ function movementsOf() {
   return out;
 }
 
-// Before anything is believed: the wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
-function checkReference(p) {
-  operator.wired(p.load);
-  bench.arm({ load: p.load });
-  bench.drive("manual", { roughness: 1, pressure: 1 });
-  return record.reference(measure.pulse(bench.capture({ trains: 1 })), p.load, p.load_tolerance_pct);
-}
-
 function largestRows(found) {
   const rows = [];
   for (const movement of ["gradual", "abrupt"]) {
@@ -255,7 +247,10 @@ function run(p) {
   const results = { transitions: sweep, changes: null, latency: null, steps: [], jumps: [], movements: [] };
   record.partial(results, [computed]);
   report.text(limitsText(sweep));
-  results.reference = checkReference(p);
+
+  // The wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
+  operator.wired(p.load);
+  results.reference = bench.readKnownLoad(p.load, p.load_tolerance_pct);
 
   const plan = stepsOf(p);
   const jumps = smallSteps().concat(p.jumps ? jumpsOf() : []), movements = movementsOf();

@@ -3,6 +3,7 @@
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/record/RecordObject.h"
+#include "app/scripting/host/record/ReferenceCheck.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
 #include "core/session/SessionWriter.h"
@@ -36,12 +37,14 @@ std::string whyNot(Verdict verdict, const Json& check, double load, double toler
 
 }  // namespace
 
-/// One rule everywhere: |reading - reference| + U ≤ tolerance (science.md section 12).
 Result<Json> reference(ScriptSession& session, const Arguments& arguments) {
-    const Json& reading = arguments.object("reading");
-    const auto load = arguments.number("load");
-    const auto tolerance_pct = arguments.number("tolerance");
-    const auto load_pct = arguments.number("of the load");
+    return judgeReference(session, arguments.object("reading"),
+                          {arguments.number("load"), arguments.number("tolerance"), arguments.number("of the load")});
+}
+
+/// One rule everywhere: |reading - reference| + U ≤ tolerance (science.md section 12).
+Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known) {
+    const auto [load, tolerance_pct, load_pct] = known;
     const auto at = [&](const char* key) {
         const Json value = reading.value(key, Json());
         return value.is_number() ? value.get<double>() : std::nan("");
