@@ -303,7 +303,9 @@ void layOutRecordTable(QTableWidget& table, int room_px) {
     int width = fitColumns(table);
     if (width > std::min(kRoom, room_px)) {
         setTextSize(table, TextSize::Small);
-        width = narrowWords(table, fitColumns(table), std::min(scaledPx(kRoom), room_px));
+        const int room = std::min(scaledPx(kRoom), room_px);
+        width = narrowWords(table, fitColumns(table), room);
+        if (width > room) width = fitColumns(table);  // it scrolls: no word gives way for nothing
     }
     // A last column of words takes the rest; one of numbers stands beside the others.
     const bool words = !isOfNumbers(table, table.columnCount() - 1);

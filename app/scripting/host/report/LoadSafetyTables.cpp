@@ -93,7 +93,7 @@ Json closest(const Json& limits) {
         copy(row, "value", *cell, "value");
         copy(row, "expanded_uncertainty", *cell, "expanded_uncertainty");
         copy(row, "limit", line, "limit");
-        row["used_pct"] = 100 - numberIn(line, "margin_pct");
+        row["used_pct"] = 100 - numberOr(line, "margin_pct");
         copy(row, "unit", line, "unit");
         copy(row, "verdict", *cell, "verdict");
         rows.push_back(std::move(row));
