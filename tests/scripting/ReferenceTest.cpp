@@ -43,7 +43,11 @@ TEST(KnownReference, OfTheLoadThatIsConnectedPassesAndIsRecorded) {
     const auto tables = reported(rig, "table");
     ASSERT_EQ(tables.size(), 1U);
     EXPECT_EQ(tables[0]["caption"], "Known-reference check");
-    EXPECT_EQ(tables[0]["rows"][0]["passed"], true);
+    const auto& row = tables[0]["rows"][0];
+    EXPECT_EQ(row["verdict"], "pass");
+    EXPECT_EQ(row["measured ± U"]["unit"], "ohm") << "one column with its uncertainty, not one for each key";
+    EXPECT_GT(row["measured ± U"]["expanded"].get<double>(), 1);
+    EXPECT_EQ(tables[0]["columns"].back(), "verdict");
 }
 
 TEST(KnownReference, OfAnotherLoadOrOfNoneFailsWithItsReason) {

@@ -64,12 +64,19 @@ Result<Json> judgeReference(ScriptSession& session, const Json& reading, const K
     if (session.writer() != nullptr) {
         auto& writer = *session.writer();
         if (auto kept = writer.measurement(session.now(), "known-reference check", check); !kept) return failure(kept);
-        auto shown = writer.reportItem(session.now(), {{"kind", "table"},
-                                                       {"caption", "Known-reference check"},
-                                                       {"rows", Json::array({check})},
-                                                       {"columns",
-                                                        {"load_ohm", "measured_ohm", "expanded_ohm", "deviation_pct",
-                                                         "expanded_uncertainty_pct", "allowed_pct", "passed"}}});
+        const auto withU = [](const Json& value, const Json& u, const char* unit) -> Json {
+            return {{"value", value}, {"expanded", u}, {"unit", unit}};
+        };
+        const Json row = {{"load_ohm", load},
+                          {"measured ± U", withU(check["measured_ohm"], check["expanded_ohm"], "ohm")},
+                          {"off ± U", withU(check["deviation_pct"], check["expanded_uncertainty_pct"], "%")},
+                          {"allowed_pct", tolerance_pct},
+                          {"verdict", nameOf(verdict)}};
+        auto shown = writer.reportItem(
+            session.now(), {{"kind", "table"},
+                            {"caption", "Known-reference check"},
+                            {"rows", Json::array({row})},
+                            {"columns", {"load_ohm", "measured ± U", "off ± U", "allowed_pct", "verdict"}}});
         if (!shown) return failure(shown);
     }
     Json out = check;

@@ -93,7 +93,7 @@ Json closest(const Json& limits) {
         copy(row, "value", *cell, "value");
         copy(row, "expanded_uncertainty", *cell, "expanded_uncertainty");
         copy(row, "limit", line, "limit");
-        copy(row, "margin_pct", line, "margin_pct");
+        row["used_pct"] = 100 - numberIn(line, "margin_pct");
         copy(row, "unit", line, "unit");
         copy(row, "verdict", *cell, "verdict");
         rows.push_back(std::move(row));
@@ -222,28 +222,28 @@ Json trips(const Json& found) {
 
 Json loadSafetyTables(const Json& found) {
     const Json limits = limitRows(found);
-    return Json::array({{{"caption", "Closest to their limits"},
-                         {"rows", closest(limits)},
-                         {"columns",
-                          {"requirement", "load", "value", "expanded_uncertainty", "limit", "margin_pct", "unit",
-                           "verdict", "remark"}}},
-                        {{"kind", "matrix"},
-                         {"caption", "Limits against loads, closest to a limit first"},
-                         {"columns", ofMatrix(found, "loads")},
-                         {"rows", limits}},
-                        loadsMatrix(found),
-                        {{"caption", "Output, as the FDA guidance asks"},
-                         {"rows", outputs(found)},
-                         {"columns", {"output", "commanded", "measured"}}},
-                        {{"caption", "Asked for and refused"},
-                         {"rows", refusals(found)},
-                         {"columns", {"load", "asked", "would_be", "verdict", "reason"}}},
-                        {{"caption", "What must end output by itself"},
-                         {"rows", trips(found)},
-                         {"columns", {"trip", "ended_after_s", "verdict", "reason"}}},
-                        {{"caption", "Where each limit comes from, and our confidence in it"},
-                         {"rows", sources(found)},
-                         {"columns", {"requirement", "source", "confidence"}}}});
+    return Json::array(
+        {{{"caption", "Closest to their limits"},
+          {"rows", closest(limits)},
+          {"columns",
+           {"requirement", "load", "value", "expanded_uncertainty", "limit", "used_pct", "unit", "verdict", "remark"}}},
+         {{"kind", "matrix"},
+          {"caption", "Limits against loads, closest to a limit first"},
+          {"columns", ofMatrix(found, "loads")},
+          {"rows", limits}},
+         loadsMatrix(found),
+         {{"caption", "Output, as the FDA guidance asks"},
+          {"rows", outputs(found)},
+          {"columns", {"output", "commanded", "measured"}}},
+         {{"caption", "Asked for and refused"},
+          {"rows", refusals(found)},
+          {"columns", {"load", "asked", "would_be", "verdict", "reason"}}},
+         {{"caption", "What must end output by itself"},
+          {"rows", trips(found)},
+          {"columns", {"trip", "ended_after_s", "verdict", "reason"}}},
+         {{"caption", "Where each limit comes from, and our confidence in it"},
+          {"rows", sources(found)},
+          {"columns", {"requirement", "source", "confidence"}}}});
 }
 
 }  // namespace tacto::host::report
