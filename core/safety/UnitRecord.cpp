@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <random>
+#include <span>
 #include <unistd.h>
 
 #include "core/safety/UnitClaim.h"

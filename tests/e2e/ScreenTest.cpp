@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SafetyBar.h"
 #include "tests/e2e/Hand.h"
@@ -60,6 +61,46 @@ TEST_F(Screen, DISABLED_FirstStart) {
     gui::MainWindow window(simulatedRegistry);
     expectAllOnScreen(window, "first");
     window.close();
+}
+
+TEST_F(Screen, DISABLED_InLargeTextItsDialogsAreOnItAndLeaveStopFree) {
+    QSettings().setValue("textSize", 200);
+    gui::MainWindow window(simulatedRegistry);
+    const auto screen = QGuiApplication::primaryScreen()->availableGeometry();
+    window.setGeometry(screen);
+    window.show();
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
+    window.openSimulatedBench();
+    ASSERT_IN_TIME(comesTrue([&] { return window.controller().activity() == gui::Activity::Live; }));
+    const std::pair<const char*, std::function<void()>> all[] = {
+        {"day", [&] { window.askForDay(false); }},
+        {"arm", [&] { window.askToArm(); }},
+        {"bench", [&] { window.askForSimulatedBench(); }},
+    };
+    const auto* stop = window.findChild<QPushButton*>("stopButton");
+    const auto placeOf = [](const QWidget& widget) { return QRect(widget.mapToGlobal(QPoint()), widget.size()); };
+    for (const auto& [name, ask] : all) {
+        ask();
+        QDialog* dialog = nullptr;
+        ASSERT_IN_TIME(comesTrue([&] {
+            for (auto* each : window.findChildren<QDialog*>())
+                if (each->isVisible()) dialog = each;
+            return dialog != nullptr;
+        })) << name;
+        EXPECT_IN_TIME(comesTrue([&] { return screen.contains(placeOf(*dialog)); }))
+            << name << " ends at " << placeOf(*dialog).bottom() << " of " << screen.bottom();
+        for (const auto* button : dialog->findChildren<QPushButton*>()) {
+            EXPECT_TRUE(!button->isVisible() || button->visibleRegion().boundingRect() == button->rect())
+                << button->text().toStdString();
+        }
+        EXPECT_TRUE(!placeOf(*dialog).contains(placeOf(*stop).center())) << name << " lies on STOP";
+        picture(QString("dialog-200-%1").arg(name));
+        dialog->close();
+        ASSERT_IN_TIME(comesTrue([&] { return !dialog->isVisible(); }));
+        letLive(50);
+    }
+    window.close();
+    gui::applyTextSize(100);
 }
 
 TEST_F(Screen, DISABLED_LeftOnALargerScreen) {

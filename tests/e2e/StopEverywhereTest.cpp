@@ -41,6 +41,7 @@
 namespace tacto::test {
 namespace {
 
+constexpr int kTries = 4;            // where the machine was late while a dialog opened
 constexpr int kStopLimit_ms = 2000;  // for a loaded machine; the time taken is recorded
 constexpr const char* kPassphrase = "correct horse 4711";
 
@@ -101,7 +102,14 @@ protected:
             return window.controller().activity() == gui::Activity::Live && window.controller().open() != before;
         }));
     }
+    /// The output is off because this machine was late for the control loop, the window or the disk, as it should be.
+    [[nodiscard]] bool wasLate() {
+        const std::string_view why = window.controller().telemetry().reason.view();
+        return why.find("was silent for more than") != why.npos || why.find("did not look after it") != why.npos ||
+               why.find("the disk stood still") != why.npos;
+    }
     void deliver() {
+        if (state() == InterlockState::Faulted && wasLate()) window.controller().resetFault();
         ASSERT_IN_TIME(comesTrue([&] { return state() == InterlockState::Disarmed; }))
             << nameOf(state()) << ": " << window.controller().telemetry().reason.c_str();
         ArmRequest request;
@@ -459,9 +467,12 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryDialog) {
     for (const auto& opening : openings) {
         SCOPED_TRACE(opening.name);
         for (const auto& [how, hand] : hands) {
-            ASSERT_NO_FATAL_FAILURE(deliver());
-            ASSERT_NO_FATAL_FAILURE(opening.open());
-            ASSERT_IN_TIME(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
+            for (int tries = 0; tries == 0 || (tries < kTries && !isLive() && wasLate()); ++tries) {
+                ASSERT_NO_FATAL_FAILURE(closeAll());
+                ASSERT_NO_FATAL_FAILURE(deliver());
+                ASSERT_NO_FATAL_FAILURE(opening.open());
+                ASSERT_IN_TIME(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
+            }
             if (tried == 0) picture("stop-behind-a-dialog");
             expectStop(how, hand);
             ASSERT_NO_FATAL_FAILURE(closeAll());

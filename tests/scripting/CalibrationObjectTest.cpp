@@ -184,6 +184,10 @@ TEST(GivenReadings, AreRefusedAlikeByEachFunctionThatTakesThem) {
         EXPECT_THAT(refusal("{ commanded: '2', measured: 4 }"),
                     testing::HasSubstr("an object with commanded, measured and direction is expected"));
     }
+    const auto weighed = rig.run(withRun(
+        "analysis.fingertipScales([{ reading: { reference_n: 1, force: 1, taxels: [] }, direction: 'left' }], {});"));
+    ASSERT_TRUE(weighed.error);
+    EXPECT_THAT(weighed.error->message, testing::HasSubstr("analysis.fingertipScales: direction is \"left\""));
     const auto outcome = rig.run(withRun(R"(
         const rows = [1, 2, 3].map((commanded) => ({ commanded, measured: 2 * commanded + 1, direction: "up" }));
         return verdict({ verdict: null, scale: analysis.sensorScale(rows) });)"));

@@ -25,8 +25,8 @@ public:
     void setTitle(const QString& text);
     /// Digits have equal widths, so that the value does not jump. A value that describes the picture is drawn fainter.
     void setValue(const QString& text, bool describes = false);
-    /// An empty key takes no room.
-    void setKey(std::size_t index, const QString& text);
+    /// An empty key takes no room. `brief` stands for it where there is no room for all keys.
+    void setKey(std::size_t index, const QString& text, const QString& brief = {});
     /// What is drawn beside the key: a piece of the line, and the mark in its middle.
     void setSample(std::size_t index, const QPen& line, const QCPScatterStyle& mark = QCPScatterStyle::ssNone);
 
@@ -41,10 +41,18 @@ private:
         double width = 0;
     };
     struct Key {
-        Words words;
+        Words words, brief;
         QPen line{Qt::NoPen};
         QCPScatterStyle mark{QCPScatterStyle::ssNone};
     };
+    /// How the keys are set: from where, with how much of each.
+    struct Setting {
+        double from, sample, between;
+        bool brief;
+    };
+    [[nodiscard]] static const Words& wordsOf(const Key& key, bool brief);
+    [[nodiscard]] double endOf(const Setting& setting) const;
+    [[nodiscard]] Setting settingFor(double title, double until) const;
     [[nodiscard]] Key& key(std::size_t index);
     static void set(Words& words, const QString& text, const QFont& font);
     static void layOut(Words& words, const QFont& font);

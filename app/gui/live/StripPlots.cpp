@@ -304,8 +304,8 @@ void StripPlots::write() {
     strips_[kSpectrum].caption().setValue(spectrogram_->scaleText(), true);
     const auto& frames = shown().frames();
     auto& indices = strips_[kIndices].caption();
-    indices.setKey(0, tr("roughness R"));
-    indices.setKey(1, tr("pressure P"));
+    indices.setKey(0, tr("roughness R"), tr("R"));
+    indices.setKey(1, tr("pressure P"), tr("P"));
     indices.setValue(tr("R %1 · P %2")
                          .arg(indexText(newest(&frames, LiveHistory::kRoughness)),
                               indexText(newest(&frames, LiveHistory::kPressure))));

@@ -175,7 +175,7 @@ void TrainGraphs::caption() const {
     keys.setKey(0, QObject::tr("commanded"));
     keys.setKey(1, QObject::tr("delivered"));
     keys.setKey(2, measuredAt_.isEmpty() ? QString() : QObject::tr("read back"));
-    keys.setKey(3, scoped_->data()->isEmpty() ? QString() : QObject::tr("oscilloscope"));
+    keys.setKey(3, scoped_->data()->isEmpty() ? QString() : QObject::tr("oscilloscope"), QObject::tr("scope"));
     keys.setKey(4, failedAt_.isEmpty() ? QString() : QObject::tr("not delivered"));
 }
 

@@ -8,8 +8,11 @@
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QTableWidget>
+#include <QTimer>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/theme/LookChange.h"
@@ -22,6 +25,14 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPerChannel = static_cast<int>(kStatistics.size());
+constexpr int kLeastRows = 2;
+/// What gives way where there is no room, together and one after the other.
+const std::vector<std::vector<Statistic>> kGiveWay{
+    {Statistic::Count}, {Statistic::Min, Statistic::Max}, {Statistic::Sd}, {Statistic::Mean}};
+
+std::size_t indexOf(Statistic statistic) {
+    return static_cast<std::size_t>(std::ranges::find(kStatistics, statistic) - kStatistics.begin());
+}
 
 int columnOf(std::size_t channel, std::size_t statistic) {
     return 1 + static_cast<int>(channel) * kPerChannel + static_cast<int>(statistic);
@@ -46,7 +57,8 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     table_->setFrameShape(QFrame::NoFrame);
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setHighlightSections(false);
-    setTextSize(*table_, TextSize::Small);
+    for (QWidget* small : {static_cast<QWidget*>(table_), static_cast<QWidget*>(table_->horizontalHeader())})
+        setTextSize(*small, TextSize::Small);
     keepRowsWhole(*table_);
     choose_->setToolTip(tr("Chooses the rows, here and in the dock."));
     choose_->setMenu(makeReadingsMenu(chosen_, choose_));
@@ -147,8 +159,8 @@ void MeasurementTable::refill() {
             for (std::size_t s = 0; s < kStatistics.size(); ++s) {
                 auto* item = table_->item(row, columnOf(c, s));
                 item->setText(statisticText(reading, kStatistics[s], its, channels[c].unit));
-                const bool bound = kStatistics[s] == Statistic::Last && its.upperBound();
-                item->setToolTip(item->text() != "–" && !bound ? QString()
+                const bool last = kStatistics[s] == Statistic::Last, bound = last && its.upperBound();
+                item->setToolTip(item->text() != "–" && !bound ? (last ? hiddenText(c, reading) : QString())
                                  : its.n() == 1                ? tr("One reading has no standard deviation.")
                                  : newest_ == nullptr          ? QString()
                                                                : whyMissing(reading, *newest_, c));
@@ -169,6 +181,39 @@ void MeasurementTable::refill() {
     seen_->setText(said);
     reset_->setEnabled(n > 0);
     table_->setVisible(n > 0);
+}
+
+/// Hides the statistics that have no room, the same of every channel.
+void MeasurementTable::fitColumns() {
+    const auto hide = [this](const std::vector<Statistic>& group, bool hidden) {
+        for (const auto statistic : group)
+            for (std::size_t c = 0; c < statistics_.channels().size(); ++c)
+                table_->setColumnHidden(columnOf(c, indexOf(statistic)), hidden);
+    };
+    for (const auto& group : kGiveWay) hide(group, false);
+    const auto margins = layout()->contentsMargins();
+    // With its edge, and with the bar of more rows than are in sight.
+    const int room = width() - margins.left() - margins.right() - 2 -
+                     style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, table_->verticalScrollBar());
+    for (const auto& group : kGiveWay) {
+        if (table_->horizontalHeader()->length() <= room) break;
+        hide(group, true);
+    }
+    // It may be squeezed to these: the screen goes first.
+    const auto& header = *table_->horizontalHeader();
+    table_->setMinimumHeight(std::max(header.height(), header.sizeHint().height()) +
+                             kLeastRows * table_->verticalHeader()->defaultSectionSize() + 4);
+    refill();
+}
+
+/// "mean 12.99 V · s.d. 520 µV"; empty where all of it is in sight.
+QString MeasurementTable::hiddenText(std::size_t channel, Reading reading) const {
+    const auto& its = statistics_.channels()[channel];
+    QStringList parts;
+    for (std::size_t s = 1; s < kStatistics.size(); ++s)
+        if (table_->isColumnHidden(columnOf(channel, s)))
+            parts << nameOf(kStatistics[s]) + " " + statisticText(reading, kStatistics[s], its.of(reading), its.unit);
+    return parts.join(" · ");
 }
 
 QString MeasurementTable::asText() const {
@@ -207,6 +252,11 @@ void MeasurementTable::keyPressEvent(QKeyEvent* event) {
     QWidget::keyPressEvent(event);
 }
 
+void MeasurementTable::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    QTimer::singleShot(0, this, &MeasurementTable::fitColumns);  // once the table has its width
+}
+
 void MeasurementTable::restyle() {
     const auto plain = digits(textFont(TextSize::Small)), strong = digits(textFont(TextSize::Small, QFont::DemiBold));
     table_->verticalHeader()->setDefaultSectionSize(QFontMetrics(plain).height() + scaledPx(6));
@@ -228,7 +278,7 @@ void MeasurementTable::restyle() {
         if (c > 0) table_->setColumnWidth(c, isCount ? QFontMetrics(plain).horizontalAdvance("000000") : number);
     }
     table_->resizeColumnToContents(0);
-    setMinimumHeight(fontMetrics().height() * 3);  // it may be squeezed: the screen goes first
+    fitColumns();
 }
 
 }  // namespace tacto::gui

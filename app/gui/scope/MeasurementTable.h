@@ -1,6 +1,8 @@
 // MeasurementTable.h - the chosen readings as rows, and for each channel its last value with the statistics over the
 // captures seen; a button that starts over, one that chooses, and in words what could not be measured and why.
 //
+// Statistics that have no room stand in the tool tip of the last value: the table never scrolls sideways.
+//
 // Thread-safety: the GUI thread.
 #pragma once
 
@@ -39,11 +41,14 @@ signals:
 
 protected:
     void keyPressEvent(QKeyEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
     void lay();
     void restyle();
     void refill();
+    void fitColumns();
+    [[nodiscard]] QString hiddenText(std::size_t channel, Reading reading) const;
 
     ChosenReadings& chosen_;
     CaptureStatistics statistics_;

@@ -113,6 +113,9 @@ void fillCursors(const ScopeModel& model, OverlayState& o) {
             (o.levelTexts.empty() ? QObject::tr("y₁ %1") : QObject::tr("y₂ %1")).arg(levelText(level, active->unit)));
     }
     o.levelSpan = QObject::tr("Δ %1").arg(levelText(read.dy(), active->unit));
+    // What is read between the time cursors stands clear of these lines too.
+    const auto& view = model.viewport();
+    for (const double height : o.levelCursors) o.drawn.push_back({view.left_s, view.right_s(), height, height});
 }
 
 void fillTrigger(const ScopeModel& model, OverlayState& o) {

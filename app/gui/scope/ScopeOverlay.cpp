@@ -95,8 +95,8 @@ void ScopeOverlay::draw(QCPPainter* painter) {
         const auto& its = state.lanes[static_cast<std::size_t>(lane)];
         plane_.drawPennant(*painter, lanePennant(lane), its.letter, its.colour, its.active);
     }
-    TimeFlags(plane_, state).draw(*painter);
     drawLevelCursors(*painter);
+    TimeFlags(plane_, state).draw(*painter);
     drawHover(*painter);
     drawNotes(*painter);
     drawAlarm(*painter);

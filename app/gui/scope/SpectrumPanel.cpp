@@ -16,6 +16,7 @@
 #include "app/gui/scope/Remembered.h"
 #include "app/gui/scope/ScopeLanes.h"
 #include "app/gui/scope/ScopeModel.h"
+#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -63,7 +64,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
       channel_(new QComboBox(this)),
       window_(new QComboBox(this)),
       log_(new QCheckBox(tr("Log frequency"), this)),
-      note_(new QLabel(this)),
+      note_(new ElidedLabel(this)),
       plot_(new QCustomPlot(this)),
       graph_(plot_->addGraph()),
       peaks_(plot_->addGraph()) {
@@ -89,7 +90,6 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     line->addWidget(new QLabel(tr("Spectrum of"), this));
     for (QWidget* each : std::initializer_list<QWidget*>{channel_, window_, log_}) line->addWidget(each);
     line->addWidget(note_, 1);
-    note_->setMinimumWidth(1);  // a narrow window cuts the note, not the plot
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(4);
@@ -110,7 +110,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
     ticker->setSubTickCount(0);
     plot_->yAxis->setTicker(ticker);
-    plot_->yAxis->setNumberFormat("gb");
+    plot_->yAxis->setNumberFormat("eb");  // a power of ten each, whatever it is
     plot_->yAxis->setNumberPrecision(0);
     peaks_->setLineStyle(QCPGraph::lsNone);
     for (std::size_t i = 0; i < kMaxPeaks; ++i) {
@@ -122,6 +122,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
         names_.push_back(name);
     }
     connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SpectrumPanel::namePeaks);
+    connect(plot_, &QCustomPlot::afterLayout, this, &SpectrumPanel::fitLevels);
     setFrequencyAxis();
     restyle();
 }
@@ -200,11 +201,14 @@ void SpectrumPanel::findPeaks(const QString& unit) {
     for (const auto& peak : spectralPeaks(spectrum_.rms, 2 * mainLobe(window()), kPeakOverMedian, kMaxPeaks)) {
         spectrum_.peaks.push_back({(peak.bin + 1) * width, peak.level});  // the first line is bin 1
     }
-    const auto top = std::max_element(spectrum_.rms.begin(), spectrum_.rms.end()) - spectrum_.rms.begin();
+    // As its mark names it; without a peak it is the highest line.
+    const auto line = std::max_element(spectrum_.rms.begin(), spectrum_.rms.end()) - spectrum_.rms.begin();
+    const auto at = static_cast<std::size_t>(line);
+    const auto top =
+        spectrum_.peaks.empty() ? Spectrum::Peak{spectrum_.hz[at], spectrum_.rms[at]} : spectrum_.peaks.front();
     spectrum_.note =
         tr("Highest %1 at %2 · %3 samples, a line every %4, %5 wide (%6 lines)")
-            .arg(quantityText(spectrum_.rms[static_cast<std::size_t>(top)], unit),
-                 quantityText(spectrum_.hz[static_cast<std::size_t>(top)], "Hz"))
+            .arg(quantityText(top.rms, unit, 3), quantityText(top.hz, "Hz"))
             .arg(spectrum_.samples)
             .arg(quantityText(width, "Hz", 3), quantityText(spectrum_.bandwidth_hz, "Hz", 3), decimalText(bins_, 2));
 }
@@ -216,7 +220,7 @@ void SpectrumPanel::setFrequencyAxis() {
         auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
         ticker->setSubTickCount(8);
         axis->setTicker(ticker);
-        axis->setNumberFormat("gb");
+        axis->setNumberFormat("eb");
         axis->setNumberPrecision(0);
     } else {
         axis->setTicker(QSharedPointer<QCPAxisTicker>::create());
@@ -266,15 +270,20 @@ void SpectrumPanel::draw() {
             shownTop_hz_ = top_hz;
             plot_->xAxis->setRange(logarithmic() ? spectrum_.hz.front() * unit.factor : 0, top_hz * unit.factor);
         }
-        const double top = highest * levelFactor_;
-        // Room for the peaks' names above the highest.
-        const double name = QFontMetrics(textFont(TextSize::Small)).height() + 8;
-        const double height = std::max<double>(plot_->axisRect()->height(), 2 * name);
-        if (top > 0) plot_->yAxis->setRange(top * 1e-5, top * std::pow(10, 5 * name / (height - name)));
+        highest_ = highest * levelFactor_;
+        fitLevels();
     }
     restyle();
     namePeaks();
     plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+/// With room for the peaks' names above the highest.
+void SpectrumPanel::fitLevels() {
+    if (!(highest_ > 0)) return;
+    const double name = QFontMetrics(textFont(TextSize::Small)).height() + 8;
+    const double height = std::max<double>(plot_->axisRect()->height(), 2 * name);
+    plot_->yAxis->setRange(highest_ * 1e-5, highest_ * std::pow(10, 5 * name / (height - name)));
 }
 
 /// The highest first; one that would lie on another is left out.
@@ -293,18 +302,20 @@ void SpectrumPanel::namePeaks() {
         const auto text = tr("%1 · %2").arg(quantityText(peak.hz, "Hz"), quantityText(peak.rms, unit_, 3));
         const double half = 0.5 * metrics.size(0, text).width() + 4;
         const double at = plot_->xAxis->coordToPixel(key);
-        const bool free = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
-            return at + half > other.first && at - half < other.second;
-        });
-        if (!free) continue;
-        taken.emplace_back(at - half, at + half);
-        name->setText(text);
-        name->position->setCoords(key, peak.rms * levelFactor_);
         // Half of a name may not leave the plot at its sides.
         const QRect area = plot_->axisRect()->rect();
-        name->setPositionAlignment(Qt::AlignBottom | (at - half < area.left()    ? Qt::AlignLeft
-                                                      : at + half > area.right() ? Qt::AlignRight
-                                                                                 : Qt::AlignHCenter));
+        const auto side = at - half < area.left()    ? Qt::AlignLeft
+                          : at + half > area.right() ? Qt::AlignRight
+                                                     : Qt::AlignHCenter;
+        const double left = side == Qt::AlignLeft ? at : side == Qt::AlignRight ? at - 2 * half : at - half;
+        const double right = left + 2 * half;
+        const bool free = std::none_of(taken.begin(), taken.end(),
+                                       [&](const auto& other) { return right > other.first && left < other.second; });
+        if (!free) continue;
+        taken.emplace_back(left, right);
+        name->setText(text);
+        name->position->setCoords(key, peak.rms * levelFactor_);
+        name->setPositionAlignment(Qt::AlignBottom | side);
         name->setVisible(true);
     }
 }

@@ -81,6 +81,7 @@ private:
     void findPeaks(const QString& unit);
     void draw();
     void setFrequencyAxis();
+    void fitLevels();
     void namePeaks();
     void restyle();
 
@@ -102,6 +103,7 @@ private:
     SpectralWindow transformWindow_ = SpectralWindow::Hann;
     double shownTop_hz_ = 0;
     double levelFactor_ = 1;  ///< from unit_ to that of the level axis
+    double highest_ = 0;      ///< level on that axis
     QColor colour_;
 };
 

@@ -69,8 +69,8 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     plane_->setAccessibleName(tr("Trials of both"));
     addPlotMenu(*plane_, "trials");
     putLegendAbove(*plane_);
-    plane_->xAxis->setLabel(tr("interval (s)"));
-    plane_->yAxis->setLabel(tr("amplitude (V)"));
+    plane_->xAxis->setLabel(tr("Interval (s)"));
+    plane_->yAxis->setLabel(tr("Amplitude (V)"));
     tabs->addTab(plane_, tr("&Trials"));
     auto* page = new QWidget(tabs);
     auto* column = new QVBoxLayout(page);
@@ -222,7 +222,7 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Dr
     stylePlot(*streams_);
     streams_->legend->setVisible(true);
     fitLegend(*streams_);
-    streams_->xAxis->setLabel(tr("time from the first sample (s)"));
+    streams_->xAxis->setLabel(tr("Time from the first sample (s)"));
     streams_->yAxis->setLabel(drawn.label);
     begins_s_ = {a.t_s.front(), b.t_s.front()};
     streams_->rescaleAxes();

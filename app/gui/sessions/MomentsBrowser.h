@@ -11,6 +11,8 @@ class MomentsBrowser final : public QTextBrowser {
     Q_OBJECT
 public:
     explicit MomentsBrowser(QWidget* parent);
+    /// No more than it must have: the plot above it takes the room.
+    [[nodiscard]] QSize sizeHint() const override { return {QTextBrowser::sizeHint().width(), minimumHeight()}; }
     /// What is drawn, in the viewport: it begins at the top of a line and ends at the bottom of one.
     [[nodiscard]] QRect whole() const;
 

@@ -68,7 +68,7 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
     plot_->axisRect()->setRangeZoom(Qt::Horizontal);
     plot_->axisRect()->setRangeDrag(Qt::Horizontal);
-    plot_->xAxis->setLabel(tr("time (s)"));
+    plot_->xAxis->setLabel(tr("Time (s)"));
     addPlotMenu(*plot_, "stream");
     putLegendAbove(*plot_);
     watermark_ = addWatermark(*plot_->axisRect(), WatermarkPlace::InFront);

@@ -9,6 +9,7 @@
 #include "app/gui/sessions/MomentsBrowser.h"
 #include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -22,8 +23,9 @@ namespace {
 constexpr int kGrid = 8;
 constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
-constexpr int kMinMoments = 3;  // lines
+constexpr int kMinMoments = 2;  // lines
 constexpr int kWhyLines = 2;
+constexpr int kLowPage = 560;      // there the reason is one line
 constexpr double kWrapped = 0.85;  // of a line's width is used where words wrap
 
 SessionEntry entryOf(const ReadSession& session) {
@@ -121,7 +123,7 @@ QWidget* SessionOverview::buildFields() {
         edit->setPlaceholderText(placeholder);
         edit->setMaxLength(int(limit));
         connect(edit, &QLineEdit::editingFinished, this, &SessionOverview::save);
-        grid->addWidget(label, row, column, 1, columns);
+        grid->addWidget(label, row, column);
         grid->addWidget(edit, row + 1, column, 1, columns);
         return edit;
     };
@@ -129,11 +131,12 @@ QWidget* SessionOverview::buildFields() {
     sample_ = add(tr("Sample"), "labelSample", tr("not recorded"), kLabelLimit, 0, 1, 1);
     tags_ = add(tr("Tags"), "labelTags", tr("P60, P120"), kMaxTags * (kTagLimit + 2), 0, 2, 1);
     note_ = add(tr("Note"), "labelNote", tr("what the next reader should know"), kSessionNoteLimit, 2, 0, 3);
-    saved_ = new QLabel(fields);
+    // Beside a title: what it says takes no room from the plot.
+    saved_ = new ElidedLabel(fields);
     saved_->setObjectName("labelsSaved");
-    saved_->setWordWrap(true);
+    saved_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setTextSize(*saved_, TextSize::Small);
-    grid->addWidget(saved_, 4, 0, 1, 3);
+    grid->addWidget(saved_, 2, 1, 1, 2);
     for (int column = 0; column < 3; ++column) grid->setColumnStretch(column, column == 2 ? 3 : 2);
     return fields;
 }
@@ -179,7 +182,8 @@ void SessionOverview::showHead() {
 
 /// The plot below keeps its room, however long the reason is; the tool tip has all of it.
 void SessionOverview::fitWhy() {
-    const int room = int(kWhyLines * kWrapped * why_->width());
+    const bool low = height() < scaledPx(kLowPage);
+    const int room = low ? why_->width() : int(kWhyLines * kWrapped * why_->width());
     why_->setText(why_->fontMetrics().elidedText(whole_, Qt::ElideRight, std::max(room, why_->fontMetrics().height())));
 }
 
@@ -267,7 +271,7 @@ void SessionOverview::saved(const SessionLabels& before, const SessionLabels& ed
 
 void SessionOverview::saySaved(const QString& text, bool refused) {
     saved_->setText(text);
-    saved_->setVisible(!text.isEmpty());
+    saved_->setToolTip(text);
     setTone(*saved_, refused ? Tone::Warning : Tone::Quiet);
 }
 

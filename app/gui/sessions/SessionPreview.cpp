@@ -17,7 +17,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kCoursePoints = 3000;
-constexpr int kMinLines = 12;  // of text: the height of a plot that can be read
+constexpr int kMinLines = 10;  // of text: the height of a plot that can be read
 
 bool inThePlane(const SessionTrial& trial) {
     return std::isfinite(numberOr(trial.measured, "amplitude_v")) &&
@@ -131,7 +131,7 @@ void SessionPreview::drawCourse(const ReadSession& session) {
     const auto& course = session.course;
     course_->clearGraphs();
     watermark_->setVisible(session.about.simulated);
-    course_->xAxis->setLabel(tr("time (s)"));
+    course_->xAxis->setLabel(tr("Time (s)"));
     const bool felt = !course.frame_s.empty();
     const bool delivered = !course.train_s.empty();
     auto* amplitudes = felt ? course_->yAxis2 : course_->yAxis;
@@ -143,7 +143,7 @@ void SessionPreview::drawCourse(const ReadSession& session) {
     if (delivered) {
         addCurve(*course_, amplitudes, course.train_s, course.amplitude, tr("amplitude"));
         course_->graph(course_->graphCount() - 1)->setLineStyle(QCPGraph::lsImpulse);
-        amplitudes->setLabel(tr("amplitude (%1)").arg(course.unit));
+        amplitudes->setLabel(tr("Amplitude (%1)").arg(course.unit));
     }
     course_->yAxis2->setVisible(felt && delivered);
     course_->legend->setVisible(course_->graphCount() > 1);

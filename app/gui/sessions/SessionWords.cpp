@@ -43,11 +43,26 @@ const std::map<std::string, const char*>& titles() {
     return all;
 }
 
-/// "Encoding, A max" of "encoding.A_max_v".
-QString fieldName(const QString& place) {
-    QStringList parts;
-    for (const auto& part : place.split('.')) parts << columnName(part).title;
-    return parts.join(", ");
+/// "Encoding: A max, interval ratio per train; roughness: surfaces" of "encoding.A_max_v" and so on.
+QString fieldNames(const std::vector<std::string>& places) {
+    std::vector<std::pair<QString, QStringList>> sections;
+    const auto within = [](const QString& title) {
+        return title.size() > 1 && title[1].isLower() ? title[0].toLower() + title.mid(1) : title;
+    };
+    for (const auto& place : places) {
+        const auto parts = qtext(place).split('.');
+        const auto section = parts.size() > 1 ? columnName(parts.front()).title : QString();
+        if (sections.empty() || sections.back().first != section) sections.push_back({section, {}});
+        QStringList names;
+        for (qsizetype i = parts.size() > 1 ? 1 : 0; i < parts.size(); ++i) names << columnName(parts[i]).title;
+        sections.back().second << within(names.join(", "));
+    }
+    QStringList all;
+    for (const auto& [section, names] : sections) {
+        const auto said = section.isEmpty() ? names.join(", ") : section + ": " + names.join(", ");
+        all << (all.isEmpty() ? said : within(said));
+    }
+    return all.join("; ");
 }
 
 QString scalarText(const nlohmann::json& value, const QString& unit) {
@@ -177,11 +192,8 @@ QString eventSentence(const SessionRow& event) {
     if (event.name == "interlock") return sentence(own);
     if (event.name == "arming") return armingSentence(body);
     if (event.name == kMarksEvent) return marksSentence(body);
-    if (event.name == "settings") {
-        QStringList changed;
-        for (const auto& key : textsOr(body, "changed")) changed << fieldName(qtext(key));
-        return QObject::tr("The encoding profile was changed: %1.").arg(changed.join(", "));
-    }
+    if (event.name == "settings")
+        return QObject::tr("The encoding profile was changed. %1.").arg(fieldNames(textsOr(body, "changed")));
     auto kind = qtext(event.name);
     if (kind.startsWith("script: ")) kind = kind.mid(8);
     const auto known = titles().find(event.name);

@@ -6,10 +6,13 @@
 #include <QFileDialog>
 #include <QFileIconProvider>
 #include <QGridLayout>
+#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListView>
 #include <QScreen>
 #include <QShortcut>
+#include <QTreeView>
 #include <QUrl>
 
 namespace tacto::gui {
@@ -52,6 +55,21 @@ public:
         if (!question.name.isEmpty()) selectFile(question.name);
         // It chooses. Deleting files is not its work, and would ask in a box of its own.
         for (auto* view : findChildren<QAbstractItemView*>()) view->setContextMenuPolicy(Qt::NoContextMenu);
+        if (auto* list = findChild<QTreeView*>("treeView"); list != nullptr) {
+            // Names have the room; what kind a file is says its name.
+            constexpr int kType = 2, kSampled = 50;
+            auto& header = *list->header();
+            header.setSectionHidden(kType, true);
+            header.setStretchLastSection(false);
+            header.setResizeContentsPrecision(kSampled);
+            for (int column = 0; column < header.count(); ++column)
+                header.setSectionResizeMode(column, column == 0 ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
+        }
+        if (auto* places = findChild<QListView*>("sidebar"); places != nullptr) {
+            constexpr int kMargin = 24, kMost = 240;
+            places->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+            places->setMinimumWidth(std::min(places->sizeHintForColumn(0) + kMargin, kMost));
+        }
         for (auto* shortcut : findChildren<QShortcut*>()) {
             if (shortcut->key() == QKeySequence(QKeySequence::Delete)) shortcut->setEnabled(false);
         }
@@ -111,18 +129,36 @@ QDialog* openTwin(const QDialog& dialog) {
 /// Room for the frame that a window manager puts above a window.
 constexpr int kTitleBar = 30;
 
+/// With all that is in it in sight.
+int neededHeight(const QWidget& dialog) {
+    const auto* layout = dialog.layout();
+    if (layout == nullptr) return dialog.minimumHeight();
+    return layout->hasHeightForWidth() ? layout->totalHeightForWidth(dialog.width())
+                                       : layout->totalMinimumSize().height();
+}
+
 }  // namespace
 
 void place(QWidget& dialog) {
     if (dialog.parentWidget() == nullptr) return;
     const auto* window = dialog.parentWidget()->window();
-    auto room = window->screen()->availableGeometry();
+    const auto screen = window->screen()->availableGeometry();
+    auto room = screen;
     dialog.ensurePolished();
     if (!dialog.testAttribute(Qt::WA_Resized)) dialog.adjustSize();
     if (const auto* bar = window->findChild<const QWidget*>("safetyBar"); bar != nullptr) {
         const int below = bar->mapToGlobal(QPoint(0, bar->height())).y() + kTitleBar;
         if (room.contains(room.left(), below)) room.setTop(below);
     }
+    const int needed = neededHeight(dialog);
+    if (needed > room.height()) {  // it takes of the bar what it needs, beside STOP as far as that goes
+        const int title = dialog.isVisible() ? dialog.geometry().top() - dialog.frameGeometry().top() : kTitleBar;
+        room = screen.adjusted(0, title, 0, 0);
+        if (const auto* stop = window->findChild<const QWidget*>("stopButton"); stop != nullptr)
+            room.setRight(std::max(stop->mapToGlobal(QPoint()).x() - 1, room.left() + dialog.width()));
+        room.setTop(std::max(room.top(), room.bottom() - needed));
+    }
+    dialog.resize(dialog.size().expandedTo({0, needed}));
     dialog.setMinimumHeight(std::min(dialog.minimumHeight(), room.height()));
     if (auto* layout = dialog.layout(); layout != nullptr && layout->minimumSize().height() > room.height())
         layout->setSizeConstraint(QLayout::SetNoConstraint);

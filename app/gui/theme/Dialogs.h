@@ -17,8 +17,9 @@ namespace tacto::gui {
 /// dialog (class and title) open already, that one comes to the front and `dialog` is deleted.
 void openDialog(QDialog* dialog);
 
-/// Moves a window that is not shown yet to below the safety bar of its parent's window, and makes it no higher than the
-/// screen has room there, so that STOP stays in sight. Without a parent it stays where it is.
+/// Moves a window to below the safety bar of its parent's window, so that STOP stays in sight, and makes it as high as
+/// its content needs and the screen has room. One that has no room there goes higher, beside STOP as far as it can.
+/// Without a parent it stays where it is.
 void place(QWidget& dialog);
 
 /// Opens a file or folder with the desktop's program for it. Where there is none, the value says where it lies.

@@ -5,6 +5,8 @@
 #include <QScreen>
 #include <utility>
 
+#include "app/gui/theme/Dialogs.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -30,8 +32,11 @@ private:
         auto wanted = dialog_.size().expandedTo(layout->totalMinimumSize());
         if (layout->hasHeightForWidth())
             wanted.setHeight(std::max(wanted.height(), layout->totalHeightForWidth(wanted.width())));
-        wanted = wanted.boundedTo(dialog_.screen()->availableSize().expandedTo(dialog_.size()));
+        const auto frame = dialog_.frameGeometry().size() - dialog_.size();
+        wanted = wanted.boundedTo((dialog_.screen()->availableSize() - frame).expandedTo(dialog_.size()));
         if (wanted != dialog_.size()) dialog_.resize(wanted);
+        const int bottom = dialog_.screen()->availableGeometry().bottom();
+        if (dialog_.isVisible() && dialog_.frameGeometry().bottom() > bottom) place(dialog_);
     }
     QDialog& dialog_;
     bool queued_ = false;

@@ -104,6 +104,7 @@ QRadioButton::indicator { width: ~14; height: ~14; border: 1px solid @edge; bord
 QRadioButton::indicator:checked { border: ~5 solid @primary; width: ~6; height: ~6; }
 QCheckBox:disabled, QRadioButton:disabled { color: @edge; }
 
+QSlider:horizontal { min-height: ~20; }
 QSlider::groove:horizontal { height: ~4; background: @sunken; border: 1px solid @line; border-radius: 2px; }
 QSlider::sub-page:horizontal { background: @edge; border-radius: 2px; }
 QSlider::sub-page:horizontal:disabled { background: @line; }

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/runner/NotesPanel.h"
+#include "app/gui/theme/GrowingDialog.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -46,6 +47,7 @@ DayDialog::DayDialog(DayNotes& day, QWidget* parent) : QDialog(parent) {
     connect(this, &QDialog::finished, &day, &DayNotes::noteAsked);
     layout->addWidget(buttons);
     resize(fontMetrics().averageCharWidth() * 64, sizeHint().height());
+    growWithContent(*this);
 }
 
 DayButton::DayButton(DayNotes& day, QWidget* parent) : QToolButton(parent), day_(day) {

@@ -5,6 +5,7 @@
 #include <QTimer>
 #include <QToolButton>
 #include <algorithm>
+#include <utility>
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
@@ -124,7 +125,10 @@ DockColumn::DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks)
     window_.addToolBar(Qt::RightToolBarArea, strip_);
     window_.installEventFilter(this);
     strip_->installEventFilter(this);
-    afterLookChange(*strip_, [this] { fitStrip(); });
+    afterLookChange(*strip_, [this] {
+        fitStrip();
+        fitWidth();
+    });
     apply();
 }
 
@@ -201,6 +205,17 @@ void DockColumn::fitStrip() {
         if (strip_->sizeHint().height() <= strip_->height()) return;
         (*button)->setWorded(false);
     }
+}
+
+/// Docks that were as narrow as they may be are so with another size of text, too.
+void DockColumn::fitWidth() {
+    constexpr int kNarrow = 8;  // more than that is a person's choice
+    const int before = std::exchange(width_, scaledPx(FoldingDock::kWidth));
+    if (before == width_) return;
+    QList<QDockWidget*> narrow;
+    for (auto* dock : docks_)
+        if (dock->isVisible() && !dock->isFloating() && dock->width() <= before + kNarrow) narrow << dock;
+    window_.resizeDocks(narrow, QList<int>(narrow.size(), width_), Qt::Horizontal);
 }
 
 void DockColumn::apply() {

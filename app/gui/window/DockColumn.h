@@ -11,6 +11,7 @@
 #include <set>
 #include <vector>
 
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/FoldingDock.h"
 
 namespace tacto::gui {
@@ -55,6 +56,7 @@ protected:
 private:
     void apply();
     void fitStrip();
+    void fitWidth();
     void foldAsLeft();
     void share();
 
@@ -66,6 +68,7 @@ private:
     View view_;
     bool entering_ = false;  // the view sets the folds, not the operator: they are not remembered
     bool collapsed_ = false;
+    int width_ = scaledPx(FoldingDock::kWidth);  // of the docks, at least
     std::set<Hidden> hidden_;
     std::vector<FoldingDock*> putAway_;  // floating ones, hidden meanwhile
 };

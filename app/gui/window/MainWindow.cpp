@@ -46,6 +46,7 @@ namespace {
 constexpr int kFrame_ms = 33;
 constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 constexpr int kDocksFrom = 960;      // narrower windows, as with large text, begin with the docks in a strip
+constexpr int kAllDocksFrom = 480;   // in lower ones all docks but that of the drive begin folded to their headers
 
 }  // namespace
 
@@ -202,8 +203,12 @@ void MainWindow::enterDocks() {
     const bool live = page == Workspaces::kLive, scope = workspaces_->showsScope();
     const auto name = scope ? QString("oscilloscope") : QString::number(page);
     std::vector<FoldingDock*> folded;
-    if (live) folded.push_back(scope ? static_cast<FoldingDock*>(devices_) : measurements_);
     hasRoomForDocks_ = width() >= scaledPx(kDocksFrom);
+    hasRoomForAllDocks_ = height() >= scaledPx(kAllDocksFrom);
+    if (!hasRoomForAllDocks_)
+        folded = {measurements_, exposure_, devices_};
+    else if (live)
+        folded.push_back(scope ? static_cast<FoldingDock*>(devices_) : measurements_);
     docks_->enter({page, name, live && hasRoomForDocks_, folded});
 }
 
@@ -331,15 +336,20 @@ void MainWindow::showEvent(QShowEvent* event) {
 /// A window system may put its frame around the window long after it is shown: the frame has to fit, too.
 void MainWindow::moveEvent(QMoveEvent* event) {
     QMainWindow::moveEvent(event);
-    if (!awaitsFrame_ || frameGeometry() == geometry()) return;
-    awaitsFrame_ = false;
-    QTimer::singleShot(0, this, [this] { keepOnScreen(*this); });
+    if (!awaitsFrame_) return;
+    QTimer::singleShot(0, this, [this] {  // the window knows of its frame after the event
+        if (!awaitsFrame_ || frameGeometry() == geometry()) return;
+        awaitsFrame_ = false;
+        keepOnScreen(*this);
+    });
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QMainWindow::resizeEvent(event);
     rail_->fit();
-    if (docks_ != nullptr && hasRoomForDocks_ != (width() >= scaledPx(kDocksFrom))) enterDocks();
+    const bool changed = hasRoomForDocks_ != (width() >= scaledPx(kDocksFrom)) ||
+                         hasRoomForAllDocks_ != (height() >= scaledPx(kAllDocksFrom));
+    if (docks_ != nullptr && changed) enterDocks();
 }
 
 /// What is built afterwards does not delay the first picture.

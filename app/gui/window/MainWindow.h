@@ -110,7 +110,7 @@ private:
     CloseQuestion* closing_ = nullptr;  ///< once all workspaces are there
     ArmQuestion* arming_ = nullptr;
     WorkspaceRail* rail_ = nullptr;
-    bool hasRoomForDocks_ = true;
+    bool hasRoomForDocks_ = true, hasRoomForAllDocks_ = true;
     bool awaitsFrame_ = false;
     QTimer frame_;
 };

@@ -253,7 +253,7 @@ void SafetyBar::showState(const Telemetry& telemetry) {
 }
 
 QString SafetyBar::closedWords() const {
-    return controller_.closedByRun() ? tr("A run closed the open bench.")
+    return controller_.closedByRun() ? tr("Closed by a run. Ctrl+B opens a simulated one.")
                                      : tr("No bench is open. Ctrl+B opens a simulated one.");
 }
 

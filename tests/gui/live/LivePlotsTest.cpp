@@ -9,6 +9,7 @@
 #include "app/gui/live/TaxelMap.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/PlotLooks.h"
 
 namespace tacto::test {
 namespace {
@@ -278,6 +279,29 @@ TEST_F(Plots, WhileAFaultHoldsTheOutputOffTheTrainsAreShadedAndNoneIsCalledNotDe
     ASSERT_TRUE(plots.trains().shownOff());
     EXPECT_NEAR(plots.trains().shownOff()->upper, 6.5, 1e-9) << "up to its reset";
     EXPECT_EQ(plots.trains().shownFailures(), (QVector<double>{4.5, 7.0}));
+}
+
+TEST_F(Plots, EveryTraceIsNamedInANarrowWindowToo) {
+    feel(2);
+    const auto written = [this] {
+        QStringList all;
+        for (const auto& word : wordsOf(plots)) all << word.text;
+        return all;
+    };
+    draw();
+    for (const auto* name : {"x", "y", "z", "roughness R", "pressure P", "commanded", "delivered"})
+        EXPECT_TRUE(written().contains(name)) << name << ": " << written().join('|').toStdString();
+    for (const int width : {390, 310}) {  // in a window of 1024 pixels with the docks open, and in less
+        plots.resize(width, 700);
+        draw();
+        const auto all = written();
+        for (const auto* name : {"x", "y", "z", "commanded", "delivered"})
+            EXPECT_TRUE(all.contains(name)) << width << ' ' << name << ": " << all.join('|').toStdString();
+        for (const auto& [whole, brief] : {std::pair("roughness R", "R"), std::pair("pressure P", "P")})
+            EXPECT_TRUE(all.contains(whole) || all.contains(brief)) << width << ": " << all.join('|').toStdString();
+    }
+    EXPECT_TRUE(written().contains("P")) << "for there is no room for more";
+    shot(plots, "strips-narrow");
 }
 
 TEST_F(Plots, NumbersOfALowStripDoNotLieOnEachOther) {

@@ -1,5 +1,6 @@
 // What the oscilloscope reads of its captures: the readings chosen, their statistics, and the table of them.
 #include <QMenu>
+#include <QScrollBar>
 #include <QSettings>
 #include <QTableWidget>
 #include <gmock/gmock.h>
@@ -8,6 +9,7 @@
 #include "app/report/NumberText.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/scope/Captures.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -122,6 +124,26 @@ TEST(MeasurementTable, AnEdgeThatTheSamplesDoNotResolveIsAnUpperBoundAndNotCount
     EXPECT_TRUE(cells->item(row, 1)->text().startsWith("1.59") || cells->item(row, 1)->text().startsWith("1.60"))
         << qPrintable(cells->item(row, 1)->text());
     EXPECT_TRUE(cells->item(row, 1)->toolTip().isEmpty());
+}
+
+TEST(MeasurementTable, NeverScrollsSidewaysAndSaysInATipWhatHasNoRoom) {
+    gui::ChosenReadings chosen;
+    gui::MeasurementTable table(chosen);
+    table.show();
+    table.add(prepared(twoPulses()));
+    const auto* cells = table.findChild<QTableWidget*>("measurements");
+    const auto tip = [&] { return cells->item(0, 1)->toolTip().toStdString(); };
+    for (const int width : {1400, 800, 560, 400}) {
+        table.resize(width, 320);
+        const bool all = width == 1400;
+        EXPECT_IN_TIME(comesTrue([&] { return cells->isColumnHidden(6) != all; })) << "n goes first, at " << width;
+        EXPECT_IN_TIME(comesTrue([&] { return cells->horizontalScrollBar()->maximum() == 0; })) << width;
+        EXPECT_FALSE(cells->isColumnHidden(1) || cells->isColumnHidden(7)) << "the values themselves";
+        EXPECT_EQ(tip().find("n 2") == std::string::npos, all) << width << ": " << tip();
+        EXPECT_EQ(cells->isColumnHidden(5), cells->isColumnHidden(4)) << "no least without a largest";
+    }
+    EXPECT_THAT(tip(), AllOf(HasSubstr("mean 40."), HasSubstr("s.d. "), HasSubstr("min "), HasSubstr("max ")));
+    shot(table, "table-narrow");
 }
 
 TEST(MeasurementTable, SaysWhatTheScreenHoldsWhenNoTriggerComes) {

@@ -7,6 +7,7 @@
 #include "core/base/Random.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/PlotLooks.h"
 #include "tests/gui/scope/Captures.h"
 
 namespace tacto::test {
@@ -229,6 +230,35 @@ TEST_F(Screen, CursorsReadEveryLaneInFlagsBeyondThePulse) {
     model.dragTimeCursor(1, model.viewport().left_s, 0);
     draw();
     shot(screen, "flags-edge");
+}
+
+TEST_F(Screen, ALevelCursorDoesNotStrikeOutWhatIsReadBetweenTheTimeCursors) {
+    model.fit();
+    model.setTimeCursors(true);
+    model.dragTimeCursor(0, -100e-6, 0);
+    model.dragTimeCursor(1, 500e-6, 0);
+    draw();
+    const auto span = [&] {
+        QRectF ink;
+        for (const auto& word : wordsOf(screen))
+            if (word.text.contains("1/")) ink = word.ink;
+        return ink;
+    };
+    const auto before = span();
+    QString all;
+    for (const auto& word : wordsOf(screen)) all += word.text + '|';
+    ASSERT_FALSE(before.isEmpty()) << all.toStdString();
+    model.setLevelCursors(true);
+    const auto* heights = screen.yAxis;
+    for (const double aside : {-4.0, 0.0, 4.0}) {
+        model.dragLevelCursor(0, heights->pixelToCoord(before.center().y() + aside), 0);
+        draw();
+        const double line = heights->coordToPixel(screen.overlay().levelCursors[0]);
+        const auto now = span();
+        EXPECT_TRUE(line < now.top() || line > now.bottom())
+            << line << " within " << now.top() << " to " << now.bottom();
+    }
+    shot(screen, "level-cursor-beside-span");
 }
 
 TEST_F(Screen, FlagsLeaveTheTracesInSightWhereThereIsRoom) {

@@ -1,6 +1,7 @@
 // The oscilloscope in small and large windows, with small and large text, light and dark.
 #include <QMenu>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QTableWidget>
 #include <QToolButton>
 #include <algorithm>
@@ -67,11 +68,13 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
     const auto* cells = scope.findChild<QTableWidget*>("measurements");
     for (int row = 0; row < cells->rowCount(); ++row) {
         for (int c = 0; c < cells->columnCount(); ++c) {
+            if (cells->isColumnHidden(c)) continue;  // its tip has it
             const auto* item = cells->item(row, c);
             EXPECT_GE(cells->columnWidth(c) - 4, QFontMetrics(item->font()).horizontalAdvance(item->text()))
                 << item->text().toStdString();
         }
     }
+    EXPECT_EQ(cells->horizontalScrollBar()->maximum(), 0);
     EXPECT_GT(scope.screen().axisRect()->width(), 100);
     EXPECT_GT(scope.screen().axisRect()->height(), 60);
     // The column of controls scrolls; what is in it has its full width.

@@ -6,6 +6,7 @@
 #include "app/gui/scope/SpectrumPanel.h"
 #include "core/base/Random.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/PlotLooks.h"
 #include "tests/gui/scope/Captures.h"
 
 namespace tacto::test {
@@ -60,6 +61,37 @@ TEST(SpectrumPanel, EachWindowReadsASineRightAndNamesItsPeaks) {
     next.restore(settings);
     EXPECT_EQ(next.window(), SpectralWindow::FlatTop);
     EXPECT_TRUE(next.logarithmic());
+}
+
+TEST(SpectrumPanel, NamesAtAnEdgeLieOnNoneOfTheOthersAndTheLineNamesTheHighestAsItsMarkDoes) {
+    auto samples = std::make_shared<std::vector<float>>();
+    constexpr double kRate = 81'920;
+    for (int i = 0; i < 8192; ++i) {
+        double sum = 0;
+        for (int k = 1; k <= 12; ++k)
+            sum += std::sqrt(2.0) / k * std::sin(2 * M_PI * (155 + 330 * (k - 1)) * i / kRate);
+        samples->push_back(static_cast<float>(sum));
+    }
+    const auto trace = gui::makeTrace("channel/voltage", "Voltage", "V", samples, kRate, 0, 0);
+    gui::SpectrumPanel panel;
+    panel.QWidget::show();
+    auto* log = find<QCheckBox>(panel, "Log frequency");
+    for (const int width : {500, 640, 900, 1400}) {
+        panel.resize(width, 220);
+        for (const bool on : {false, true}) {
+            log->setChecked(on);
+            letLive(20);
+            panel.show(trace, 0, 1, Qt::blue);
+            panel.findChild<QCustomPlot*>()->replot(QCustomPlot::rpImmediateRefresh);
+            letLive(20);
+            EXPECT_GE(panel.namedPeaks().size(), 1);
+            EXPECT_EQ(plotWordFaults(panel).join('\n').toStdString(), "") << width << (on ? ", log" : ", linear");
+        }
+    }
+    const auto& s = panel.spectrum();
+    ASSERT_FALSE(s.peaks.empty());
+    const auto mark = panel.namedPeaks().first().split(QStringLiteral(" · "));
+    EXPECT_THAT(s.note.toStdString(), HasSubstr("Highest " + mark[1].toStdString() + " at " + mark[0].toStdString()));
 }
 
 TEST(SpectrumPanel, ASmallSignalsAxisHasAPrefixAndItsPeakStandsThere) {

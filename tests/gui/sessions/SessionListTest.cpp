@@ -363,6 +363,20 @@ TEST_F(Sessions, TheKeysBelowTheListStandThereWholeOrNotAtAll) {
     EXPECT_TRUE(isEmpty());
 }
 
+TEST_F(Sessions, EachActionHasAnIconOfItsOwn) {
+    begin();
+    std::vector<QImage> seen;
+    for (const auto* name :
+         {"Compare two", "Verify", "Export CSV…", "Report", "Replay", "Open capture", "Show in folder"}) {
+        const auto* button = find<QPushButton>(workspace, name);
+        ASSERT_NE(button, nullptr) << name;
+        ASSERT_FALSE(button->icon().isNull()) << name;
+        const auto drawn = button->icon().pixmap(64, QIcon::Disabled).toImage();
+        for (const auto& other : seen) EXPECT_NE(drawn, other) << name << " looks as another does";
+        seen.push_back(drawn);
+    }
+}
+
 TEST_F(Sessions, LooksRight) {
     (void)sessions.write({.name = "a", .protocol = "load-safety", .wallStart = "2026-11-19T17:44:00Z"});
     (void)sessions.write({.name = "b", .protocol = "stimulator-calibration", .verdict = "stopped"});

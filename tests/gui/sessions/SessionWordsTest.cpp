@@ -42,7 +42,7 @@ TEST_F(Words, OfWhatHappenedAreSentencesWithoutIdsOrJson) {
     EXPECT_THAT(all, Contains("Mark: “table bumped”"));
     EXPECT_THAT(all, Contains("Armed."));
     EXPECT_THAT(all, Contains("A train was refused: RMS current, 5 s, would be 11.2 mA of 10 mA."));
-    EXPECT_THAT(all, Contains("The encoding profile was changed: Encoding, A max."));
+    EXPECT_THAT(all, Contains("The encoding profile was changed. Encoding: A max."));
     EXPECT_THAT(all, Contains("A device reports: packets were lost (lost packets 3)."));
     EXPECT_THAT(all, Contains("100 trials done."));
     EXPECT_THAT(all, Contains("Verdict pass: 98 of 100 told apart."));
@@ -53,6 +53,14 @@ TEST_F(Words, OfWhatHappenedAreSentencesWithoutIdsOrJson) {
     const auto mark = std::ranges::find_if(moments, [](const auto& moment) { return moment.mark; });
     ASSERT_NE(mark, moments.end());
     EXPECT_EQ(mark->when, "0:12.3") << "at the moment of the key";
+}
+
+TEST_F(Words, OfAChangedProfileNameEachPartOfItOnce) {
+    SessionRow event;
+    event.name = "settings";
+    event.body = {{"changed", {"encoding.ratio_per_train", "encoding.A_max_v", "roughness.surfaces"}}};
+    EXPECT_EQ(gui::eventSentence(event),
+              "The encoding profile was changed. Encoding: ratio per train, A max; roughness: surfaces.");
 }
 
 TEST_F(Words, OfAnEventThatIsUnknownAreItsValuesWithUnits) {

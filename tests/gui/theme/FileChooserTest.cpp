@@ -3,6 +3,7 @@
 #include <QPointer>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTreeView>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -10,6 +11,7 @@
 
 #include "app/gui/theme/Dialogs.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/RoomLooks.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -73,6 +75,29 @@ TEST(FileChooser, OpensNoneOfTheFilesThatItLists) {
         ASSERT_IN_TIME(comesTrue([&] { return dialog.isNull(); }));
     }
     ::close(held);
+}
+
+TEST(FileChooser, ShowsNamesAndDatesWhole) {
+    const QTemporaryDir folder;
+    for (const char* name : {"live-20261127T123849Z.tacto", "separability-20261127T124201Z.tacto", "capture.csv"}) {
+        QFile file(folder.filePath(name));
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    }
+    QWidget asking;
+    asking.show();
+    gui::FileQuestion question;
+    question.title = "Save";
+    question.wants = gui::FileQuestion::Wants::NewFile;
+    question.folder = folder.path();
+    gui::askForFile(asking, question, [](const QString&) {});
+    auto* dialog = asking.findChild<QFileDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    const auto* list = dialog->findChild<QTreeView*>("treeView");
+    ASSERT_IN_TIME(comesTrue([&] { return list->model()->rowCount(list->rootIndex()) == 3; }));
+    EXPECT_IN_TIME(comesTrue([&] { return cutCells(*dialog).isEmpty() && cutSideways(*dialog).isEmpty(); }))
+        << cutCells(*dialog).join('\n').toStdString() << cutSideways(*dialog).join('\n').toStdString();
+    shot(*dialog, "file-chooser");
+    dialog->close();
 }
 
 }  // namespace

@@ -2,16 +2,20 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QFile>
 #include <QFontInfo>
 #include <QHeaderView>
 #include <QLineEdit>
+#include <QRegularExpression>
 #include <QSpinBox>
 #include <QTabBar>
 #include <QTableWidget>
 #include <QTest>
+#include <filesystem>
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Icons.h"
 #include "app/gui/theme/PageStack.h"
 #include "app/gui/theme/ProgressBar.h"
 #include "app/gui/theme/Theme.h"
@@ -21,6 +25,7 @@
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
@@ -335,6 +340,24 @@ TEST_P(InTheme, RedIsForStopAndFaultsAndNothingElse) {
     for (int index = 0; index < 8; ++index) EXPECT_FALSE(isRed(gui::conditionInTheme({}, index).color)) << index;
     for (const auto* name : {"smooth-low", "smooth-high", "rough-low", "rough-high"})
         EXPECT_FALSE(isRed(gui::conditionInTheme(name).color)) << name;
+}
+
+TEST(Icons, EachThatTheWindowNamesIsThere) {
+    const QRegularExpression named(R"re(\bicon(?:Pixmap)?\("([a-z0-9-]+)")re");
+    int found = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceDir() / "app" / "gui")) {
+        if (entry.path().extension() != ".cpp") continue;
+        QFile file(QString::fromStdString(entry.path().string()));
+        ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+        auto all = named.globalMatch(QString::fromUtf8(file.readAll()));
+        while (all.hasNext()) {
+            const auto name = all.next().captured(1);
+            EXPECT_FALSE(gui::icon(name).isNull()) << entry.path().filename() << ": " << name.toStdString();
+            ++found;
+        }
+    }
+    EXPECT_GE(found, 15);
+    EXPECT_TRUE(gui::icon("no-such-icon").isNull());
 }
 
 TEST(Mnemonics, AreUnderlinedOnlyWhileAltIsHeld) {

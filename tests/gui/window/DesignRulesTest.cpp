@@ -6,6 +6,8 @@
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QLayout>
+#include <QRegularExpression>
+#include <QSettings>
 #include <QTabBar>
 #include <QToolBar>
 #include <QToolButton>
@@ -29,6 +31,7 @@ namespace {
 
 class DesignRules : public Window {
 protected:
+    ~DesignRules() override { QSettings().clear(); }
     /// Each workspace, and the oscilloscope; where it is live with every dock.
     template <class Follow>
     void onEachPage(Follow follow) {
@@ -150,6 +153,72 @@ TEST_F(DesignRules, StackedPlotsHaveBothEdgesInLine) {
         EXPECT_GE(strips.axisRects().size(), 5);
     }
     gui::applyTextSize(100);
+}
+
+TEST_F(DesignRules, APageHasOneFilledButtonAtMost) {
+    const auto check = [this](int page) {
+        QStringList filled;
+        for (const auto* button : shown<QPushButton>())
+            if (button->isEnabled() && button->property("role") == "primary") filled << button->text();
+        EXPECT_LE(filled.size(), 1) << page << ": " << filled.join(", ").toStdString();
+    };
+    onEachPage(check);
+    open();
+    onEachPage(check);
+}
+
+TEST_F(DesignRules, TheRailsCellsFillItAndBeginAtOneEdge) {
+    window.showWorkspace(0);
+    letLive(60);
+    const auto& rail = *window.findChild<QToolBar*>("workspaces");
+    const auto begins = [this](QToolButton& cell) {
+        const auto picture = window.grab(QRect(cell.mapTo(&window, QPoint()), cell.size())).toImage();
+        // From x = 8: the bar of the chosen one lies before it.
+        for (int x = 8; x < picture.width(); ++x)
+            for (int y = picture.height() * 3 / 5; y < picture.height(); ++y)  // of the word
+                if (contrast(picture.pixelColor(x, y), picture.pixelColor(8, 0)) >= 3) return x;
+        return -1;
+    };
+    const auto cells = rail.findChildren<QToolButton*>("workspaceButton");
+    EXPECT_EQ(cells.size(), 7);
+    for (auto* cell : cells) {
+        EXPECT_GE(cell->width(), rail.width() - 1) << cell->accessibleName().toStdString();
+        EXPECT_NEAR(begins(*cell), 13, 2) << cell->accessibleName().toStdString();
+    }
+}
+
+TEST_F(DesignRules, UnitsAndLimitSetsAreWrittenForPeople) {
+    QStringList forbidden{R"(\b[Oo]hms?\b)", R"(\bkohm\b)"};
+    for (const auto& set : window.controller().limits().sets)
+        if (set.id != "paper") forbidden << QRegularExpression::escape(QString::fromStdString(set.id));
+    const QRegularExpression inTips(forbidden.join('|'));
+    const QRegularExpression machine((forbidden << R"(\b[a-z]+_[a-z_]+\b)").join('|'));  // tips name a script's words
+    std::set<std::string> found;
+    int looked = 0;
+    const auto lookFor = [&](const QRegularExpression& words, const QString& text) {
+        ++looked;
+        if (const auto match = words.match(text); match.hasMatch())
+            found.insert(match.captured().toStdString() + " in \"" + text.toStdString() + '"');
+    };
+    const auto look = [&](const QString& text) { lookFor(machine, text); };
+    open();
+    arm();
+    onEachPage([&](int) {
+        for (const auto* widget : shown<QWidget>()) {
+            lookFor(inTips, widget->toolTip());
+            if (const auto* label = qobject_cast<const QLabel*>(widget)) look(label->text());
+            if (const auto* button = qobject_cast<const QAbstractButton*>(widget)) look(button->text());
+            if (const auto* box = qobject_cast<const QComboBox*>(widget))
+                for (int i = 0; i < box->count(); ++i) look(box->itemText(i));
+            const auto* view = qobject_cast<const QAbstractItemView*>(widget);
+            if (view == nullptr || view->model() == nullptr) continue;
+            for (int row = 0; row < view->model()->rowCount(view->rootIndex()); ++row)
+                for (int column = 0; column < view->model()->columnCount(view->rootIndex()); ++column)
+                    look(view->model()->index(row, column, view->rootIndex()).data().toString());
+        }
+    });
+    for (const auto& each : found) ADD_FAILURE() << each;
+    EXPECT_GE(looked, 500);
 }
 
 TEST_F(DesignRules, NoWorkspaceHasTwoOfPauseOrStop) {

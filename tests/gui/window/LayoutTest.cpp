@@ -410,11 +410,24 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
     }
     window.showWorkspace(0);
     letLive(100);
-    ASSERT_TRUE(dock("measurementDock").folded());
-    EXPECT_GE(dock("measurementDock").height(), dock("driveDock").titleBarWidget()->height()) << "a whole header";
+    for (const auto* name : {"measurementDock", "exposureDock", "deviceDock"}) {
+        EXPECT_TRUE(dock(name).folded()) << name;
+        EXPECT_GE(dock(name).height(), dock("driveDock").titleBarWidget()->height()) << name << ": a whole header";
+    }
+    for (const auto* part : {"driveFingertip", "Roughness R", "Pressure P"}) {
+        const auto* control = find<QWidget>(dock("driveDock"), part);
+        ASSERT_NE(control, nullptr) << part;
+        EXPECT_IN_TIME(comesTrue([&] { return control->visibleRegion() == QRegion(control->rect()); }))
+            << part << ": the drive has the room";
+    }
+    dock("deviceDock").fold(false);
     const auto* list = dock("deviceDock").findChild<QTreeWidget*>();
     const auto* item = list->topLevelItem(0);
-    EXPECT_GE(list->visualItemRect(item).height(), QFontMetrics(item->font(0)).height()) << "whole rows";
+    EXPECT_IN_TIME(comesTrue([&] {
+        return list->visualItemRect(item).height() >= QFontMetrics(item->font(0)).height();
+    })) << "whole rows";
+    dock("deviceDock").fold(true);
+    letLive(50);
     shot(window, "docks-open-200-live");
     EXPECT_IN_TIME(comesTrue([this] { return plotWordFaults(window).isEmpty(); }))
         << plotWordFaults(window).join('\n').toStdString();
@@ -423,12 +436,15 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
 
 TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
     RecordProperty("hazard", "H9");
-    open();
-    arm();
-    deliver();
+    // Laid out anew before anything is delivered: beside other work that takes longer than the control loop may be
+    // silent.
     gui::applyTextSize(200);
     window.resize(1280, 720);
+    open();
     window.showWorkspace(5);  // the docks are folded
+    letLive(300);
+    arm();
+    deliver();
     const auto& bar = *window.findChild<QWidget*>("safetyBar");
     const auto seen = [&] {
         std::vector<const gui::LimitBar*> all;
@@ -454,16 +470,27 @@ TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
     const auto place = [&] { return word->parentWidget()->geometry(); };
     const auto before = place();
     shot(window, "nearest-limit-200");
-    gui::applyTheme(gui::Theme::Dark);
-    letLive(100);
-    shot(window, "nearest-limit-200-dark");
-    gui::applyTheme(gui::Theme::Light);
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
     letLive(100);
     EXPECT_EQ(place(), before) << "nothing moves";
+    gui::applyTheme(gui::Theme::Dark);
+    EXPECT_IN_TIME(comesTrue([&] { return cutTexts(bar).isEmpty(); })) << cutTexts(bar).join('\n').toStdString();
+    shot(window, "nearest-limit-200-dark");
+    gui::applyTheme(gui::Theme::Light);
     gui::applyTextSize(100);
     window.showWorkspace(0);
+}
+
+TEST_F(Layout, AfterLargeTextTheDocksAreAsNarrowAsBefore) {
+    window.resize(1920, 1080);
+    window.showWorkspace(0);
+    letLive(100);
+    const int before = dock("driveDock").width();
+    gui::applyTextSize(200);
+    EXPECT_IN_TIME(comesTrue([&] { return dock("driveDock").width() > 1.8 * before; })) << dock("driveDock").width();
+    gui::applyTextSize(100);
+    EXPECT_IN_TIME(comesTrue([&] { return dock("driveDock").width() == before; })) << dock("driveDock").width();
 }
 
 TEST_F(Layout, ADockFoldsToItsHeader) {

@@ -9,6 +9,7 @@
 #include <QScrollBar>
 #include <QStatusBar>
 #include <QStyleOptionHeader>
+#include <QTableView>
 #include <QToolButton>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
@@ -23,6 +24,7 @@
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/DayDialog.h"
 #include "app/gui/window/SimulatedBenchDialog.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
@@ -268,6 +270,28 @@ TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
         EXPECT_TRUE(axis->label().at(0).isUpper()) << axis->label().toStdString();
 }
 
+TEST_F(ResultsInTheWindow, ASessionThatIsChosenLooksRight) {
+    open();
+    window.controller().present("P120", 50, 1);
+    ASSERT_IN_TIME(comesTrue([this] { return std::isfinite(window.controller().telemetry().roughness); }));
+    letLive(1000);
+    window.controller().close();
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
+    window.showWorkspace(3);
+    ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
+    click(*find<QPushButton>(window, "Open session"));
+    const auto is = [this](const QString& procedure) {
+        const auto* title = find<QLabel>(window, "sessionTitle");
+        return title != nullptr && title->text().startsWith(procedure);
+    };
+    ASSERT_IN_TIME(comesTrue([&] { return is("Separability"); }));
+    looksRight("session-separability");
+    const auto& table = *window.findChild<QTableView*>("sessionsTable");
+    QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, table.visualRect(table.model()->index(1, 0)).center());
+    ASSERT_IN_TIME(comesTrue([&] { return is("Live"); }));
+    looksRight("session-live");
+}
+
 TEST_F(ResultsInTheWindow, AFaultLooksRight) {
     ASSERT_NO_FATAL_FAILURE(openAndUnplugAfter2s());
     window.showWorkspace(0);
@@ -346,6 +370,7 @@ TEST_F(ResultsInTheWindow, InLargeTextTheDialogsOfTheBenchFitASmallScreen) {
     gui::applyTextSize(200);
     window.resize(1280, 720);
     letLive(100);
+    // Where they stand on a screen of that size: tests/e2e.
     const auto fits = [](QWidget& dialog) {
         static_cast<void>(comesTrue([&] { return dialog.isVisible() && faultsOf(dialog).empty(); }, 3000));
         EXPECT_EQ(faultsOf(dialog), "");
@@ -353,6 +378,8 @@ TEST_F(ResultsInTheWindow, InLargeTextTheDialogsOfTheBenchFitASmallScreen) {
         EXPECT_LE(dialog.width(), 1280);
         dialog.close();
     };
+    window.askForDay(false);
+    fits(*window.findChild<gui::DayDialog*>());
     window.askForSimulatedBench();
     auto* bench = window.findChild<gui::SimulatedBenchDialog*>();
     ASSERT_NE(bench, nullptr);

@@ -5,6 +5,7 @@
 #include <QPlainTextEdit>
 #include <QSettings>
 #include <QTabWidget>
+#include <QTableWidget>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <gmock/gmock.h>
@@ -186,6 +187,51 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
     EXPECT_TRUE(drive->isAncestorOf(QApplication::focusWidget())) << "the key leads to the drive";
     EXPECT_EQ(window.controller().telemetry().driving, before) << "and changes nothing there";
     EXPECT_IN_TIME(state() == InterlockState::Delivering);
+}
+
+TEST_F(DocksOfTheWindow, TheOscilloscopesPanelsLookRight) {
+    open();
+    arm();
+    window.controller().drive(DriveSource::Manual, 0.5, 0.8);
+    window.showWorkspace(0);
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    auto& scope = *window.findChild<gui::ScopeWorkspace*>();
+    ASSERT_IN_TIME(comesTrue([&] { return scope.table().statistics().captures() >= 3; }));
+    window.controller().disarm();  // the last trains stay
+    const auto* cells = scope.table().findChild<QTableWidget*>("measurements");
+    const auto wholeRows = [&] {
+        int whole = 0;
+        for (int row = 0; row < cells->rowCount(); ++row)
+            whole += cells->rowViewportPosition(row) + cells->rowHeight(row) <= cells->viewport()->height();
+        return whole;
+    };
+    const auto set = [&](const char* panel, bool on) {
+        auto* tool = find<QToolButton>(window, panel);
+        ASSERT_NE(tool, nullptr) << panel;
+        if (tool->isChecked() != on) click(*tool);
+    };
+    for (const auto* panel : {"All measurements", "Spectrum tool", "Controls"}) set(panel, false);
+    const std::vector<const char*> all[] = {
+        {"All measurements"}, {"Spectrum tool"}, {"All measurements", "Spectrum tool"}, {"Controls"}};
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (const auto size : {QSize(1280, 720), QSize(1920, 1080)}) {
+            window.resize(size);
+            letLive(100);
+            for (const auto& panels : all) {
+                for (const auto* panel : panels) set(panel, true);
+                static_cast<void>(comesTrue([&] { return faultsOf(window).empty(); }, 3000));
+                const auto name = QString("scope-%1-%2-%3")
+                                      .arg(theme == gui::Theme::Dark ? "dark" : "light", panels.front())
+                                      .arg(size.width());
+                shot(window, panels.size() > 1 ? name + "-both" : name);
+                EXPECT_EQ(faultsOf(window), "") << name.toStdString();
+                EXPECT_TRUE(!cells->isVisible() || wholeRows() >= 2) << name.toStdString();
+                for (const auto* panel : panels) set(panel, false);
+            }
+        }
+    }
+    gui::applyTheme(gui::Theme::Light);
 }
 
 /// Its list of sessions is empty: the word of one that ended in a fault is red by right.

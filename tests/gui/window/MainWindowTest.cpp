@@ -19,10 +19,12 @@
 
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/run/RunFiles.h"
+#include "tests/gui/window/TickingRun.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
@@ -66,6 +68,24 @@ TEST_F(Window, TheBenchMenuOffersWhatCanBeDone) {
     for (const auto* text : {"Close", "Arm…", "Disarm", "Pause", "Resume"}) EXPECT_TRUE(offered(text)) << text;
     window.controller().close();
     EXPECT_IN_TIME(comesTrue([&] { return !offered("Close") && !offered("Arm…"); }));
+}
+
+TEST_F(Window, ADisconnectedBenchSaysWhyAndWhatToDo) {
+    RecordProperty("hazard", "H12");
+    const auto* words = static_cast<const gui::ElidedLabel*>(window.findChild<QLabel*>("interlockReason"));
+    const auto says = [&] { return words->shownText().toStdString(); };
+    EXPECT_EQ(says(), "No bench is open. Ctrl+B opens a simulated one.");
+    open();
+    const auto order = tickingRun(window.controller(), "slow-ticks");
+    ASSERT_TRUE(order) << order.error().message;
+    static_cast<void>(window.controller().run(*order));
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == Activity::Running; }));
+    window.controller().stop("test");
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == Activity::Closed; }));
+    EXPECT_IN_TIME(comesTrue([&] { return says() == "Closed by a run. Ctrl+B opens a simulated one."; })) << says();
+    open();
+    window.controller().close();
+    EXPECT_IN_TIME(comesTrue([&] { return says() == "No bench is open. Ctrl+B opens a simulated one."; })) << says();
 }
 
 TEST_F(Window, ArmingTakesTwoSteps) {
@@ -260,6 +280,18 @@ TEST(WindowsStart, WorkspacesThatAreNotShownComeAfterTheFirstPicture) {
     gui::MainWindow unseen(simulatedRegistry, gui::MainWindow::Pages::AfterTheFirstPicture);
     unseen.closeUnasked();
     EXPECT_FALSE(unseen.isVisible());
+}
+
+TEST(WindowsStart, TheFrameFitsTheScreenToo) {
+    QSettings().clear();
+    gui::MainWindow window(simulatedRegistry);
+    const auto screen = window.screen()->availableGeometry();
+    window.setGeometry(screen);
+    window.show();
+    ASSERT_IN_TIME(comesTrue([&] { return window.frameGeometry() != window.geometry(); })) << "there is a frame";
+    EXPECT_IN_TIME(comesTrue([&] { return screen.contains(window.frameGeometry()); }))
+        << window.frameGeometry().width() << " x " << window.frameGeometry().height();
+    window.close();
 }
 
 TEST_F(Window, KeysReachEveryWorkspace) {

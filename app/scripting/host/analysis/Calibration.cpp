@@ -56,9 +56,8 @@ public:
                             "expected",
                             made_.readings[i], quantity_.id);
             }
-            const Json& measured = readings_[i]->read[quantity_.reading];
             rows[i].commanded = commanded;
-            rows[i].measured = measured.is_number() ? measured.get<double>() : std::nan("");
+            rows[i].measured = numberOr(readings_[i]->read[quantity_.reading]);
         }
         return {};
     }

@@ -117,10 +117,9 @@ Result<Json> fingertipScales(ScriptSession& session, const Arguments& arguments)
         if (!row.is_object() || !row.contains("reading") || !isReading(row["reading"]))
             return arguments.wrong("a weighed row", row, "{ reading: from bench.measureWeight(), direction }");
         const auto& reading = row["reading"];
-        const Json direction = row.value("direction", Json(""));
-        weighed.push_back({&reading, direction == "up"     ? SweepDirection::Up
-                                     : direction == "down" ? SweepDirection::Down
-                                                           : SweepDirection::None});
+        const auto direction = directionGiven("analysis.fingertipScales", row);
+        if (!direction) return failure(direction);
+        weighed.push_back({&reading, *direction});
         own = own && session.own().noted(reading);
         if (reading["taxels"].size() != weighed.front().reading->at("taxels").size() ||
             (!reading["taxels"].empty() && !reading.contains("taxel_unit")))

@@ -10,6 +10,14 @@ tl::unexpected<Error> otherThanExpected(std::string_view function, std::string_v
     return fail(ErrorCode::InvalidArgument, "{}: {} is {}, {} is expected", function, name, shown(value), accepted);
 }
 
+Result<SweepDirection> directionGiven(std::string_view function, const nlohmann::json& row) {
+    const auto given = row.value("direction", nlohmann::json(""));
+    const auto known =
+        given.is_string() ? valueFor(kSweepDirections, given.get_ref<const std::string&>()) : std::nullopt;
+    if (!known) return otherThanExpected(function, "direction", given, "\"up\", \"down\" or \"\"");
+    return *known;
+}
+
 Result<std::vector<CalibrationReading>> readingsGiven(std::string_view function, const nlohmann::json& rows) {
     std::vector<CalibrationReading> readings;
     for (const auto& row : rows) {
@@ -18,11 +26,9 @@ Result<std::vector<CalibrationReading>> readingsGiven(std::string_view function,
         if (!std::isfinite(reading.commanded))
             return otherThanExpected(function, "a reading", row, "an object with commanded, measured and direction");
         reading.measured = numberOr(row, "measured");
-        const auto direction = row.value("direction", nlohmann::json(""));
-        const auto known =
-            direction.is_string() ? valueFor(kSweepDirections, direction.get_ref<const std::string&>()) : std::nullopt;
-        if (!known) return otherThanExpected(function, "direction", direction, "\"up\", \"down\" or \"\"");
-        reading.direction = *known;
+        const auto direction = directionGiven(function, row);
+        if (!direction) return failure(direction);
+        reading.direction = *direction;
         readings.push_back(reading);
     }
     return readings;

@@ -17,6 +17,9 @@ namespace tacto::host::analysis {
 [[nodiscard]] Result<std::vector<CalibrationReading>> readingsGiven(std::string_view function,
                                                                     const nlohmann::json& rows);
 
+/// The direction of a row; none where it has none. Errors: as readingsGiven().
+[[nodiscard]] Result<SweepDirection> directionGiven(std::string_view function, const nlohmann::json& row);
+
 /// "analysis.calibration: direction is 3, "up", "down" or "" is expected".
 [[nodiscard]] tl::unexpected<Error> otherThanExpected(std::string_view function, std::string_view name,
                                                       const nlohmann::json& value, std::string_view accepted);

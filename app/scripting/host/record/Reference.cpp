@@ -45,13 +45,9 @@ Result<Json> reference(ScriptSession& session, const Arguments& arguments) {
 /// One rule everywhere: |reading - reference| + U ≤ tolerance (science.md section 12).
 Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known) {
     const auto [load, tolerance_pct, load_pct] = known;
-    const auto at = [&](const char* key) {
-        const Json value = reading.value(key, Json());
-        return value.is_number() ? value.get<double>() : std::nan("");
-    };
-    const double measured = at("load_ohm");
+    const double measured = numberOr(reading, "load_ohm");
     // 95 % of a rectangle of the resistor's own tolerance.
-    const double expanded = std::hypot(at("load_expanded_ohm"), 0.95 * load_pct / 100 * load);
+    const double expanded = std::hypot(numberOr(reading, "load_expanded_ohm"), 0.95 * load_pct / 100 * load);
     const double off_pct = 100 * (measured / load - 1);
     const Verdict verdict = guardBanded(off_pct, 100 * expanded / load, tolerance_pct);
     const Json check = {{"load_ohm", load},
