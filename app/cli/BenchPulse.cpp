@@ -94,13 +94,13 @@ Result<PulseOutcome> BenchPulse::deliver() {
     PulseOutcome outcome;
     auto check = send(gate_.approveCheck(clock_.now()), true, setup_.source.checkCurrent);
     if (!check) return failure(check);
-    outcome.check = std::move(*check);
+    outcome.check = *check;
     judge(outcome.check, true, outcome);
     if (outcome.verdict == "pass") {
         if (auto armed = arm(outcome.check); !armed) return failure(armed);
         auto pulse = send(gate_.approve(requestNow()), false, std::get<Milliamps>(order_.pulse.amplitude));
         if (!pulse) return failure(pulse);
-        outcome.pulse = std::move(*pulse);
+        outcome.pulse = *pulse;
         judge(*outcome.pulse, false, outcome);
     }
     interlock_.disarm("the pulse was delivered");

@@ -6,6 +6,7 @@
 #include "app/cli/SensorListening.h"
 #include "app/cli/TextTable.h"
 #include "app/run/AllDrivers.h"
+#include "core/base/JsonFields.h"
 #include "drivers/sensor_board/BoardReport.h"
 #include "drivers/sensor_board/SensorBoardDriver.h"
 
@@ -26,8 +27,7 @@ void declareSensor(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
 }
 
-json orNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-json orNull(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
+json textOrNull(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
 
 const char* nameOf(SampleFormat format) noexcept { return format == SampleFormat::Int16 ? "int16" : "int32"; }
 
@@ -47,15 +47,15 @@ json streamJson(const SensorBoard& board, const Listened& heard, std::size_t i) 
             {"channels", info.channels},
             {"format", nameOf(set.format)},
             {"rate_hz", info.rate_hz},
-            {"measured_rate_hz", orNull(heard.health[i].rate_hz)},
+            {"measured_rate_hz", numberOrNull(heard.health[i].rate_hz)},
             {"samples", counts.samples},
             {"samples_lost", counts.lostSamples},
             {"gaps", counts.gaps},
             {"scale", std::move(scale)},
             {"offset", std::move(offset)},
             {"calibrated", calibration.calibrated},
-            {"calibration_date", orNull(calibration.date)},
-            {"calibration_reference", orNull(calibration.reference)},
+            {"calibration_date", textOrNull(calibration.date)},
+            {"calibration_reference", textOrNull(calibration.reference)},
             {"scale_uncertainty", calibration.uncertainty}};
 }
 
@@ -65,7 +65,7 @@ json statusJson(const SensorBoard& board, const Listened& heard) {
     for (std::size_t i = 0; i < board.streams().size(); ++i) streams.push_back(streamJson(board, heard, i));
     auto line = json::object();
     const auto rows = sensorboard::rowsOf(heard.report);
-    for (const auto& row : rows.rows()) line[row.key] = orNull(row.value);
+    for (const auto& row : rows.rows()) line[row.key] = numberOrNull(row.value);
     const auto& own = heard.report.board;
     return {{"uri", who.uri},
             {"name", who.name},

@@ -30,7 +30,7 @@ void TextTable::add(std::vector<std::string> cells) {
     rows_.push_back(std::move(cells));
 }
 
-void TextTable::addLine(std::string line) { rows_.push_back({printable(line)}); }
+void TextTable::addLine(const std::string& line) { rows_.push_back({printable(line)}); }
 
 void TextTable::print() const {
     std::vector<std::size_t> widths(toTheRight_.size());

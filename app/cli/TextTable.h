@@ -16,7 +16,7 @@ public:
     /// As many cells as there are headings.
     void add(std::vector<std::string> cells);
     /// A line between two rows, as wide as it is.
-    void addLine(std::string line);
+    void addLine(const std::string& line);
     /// With headings, after an empty line.
     void print() const;
 

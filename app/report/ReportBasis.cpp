@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
@@ -137,6 +138,41 @@ void readRestsOn(const QJsonObject& results, ReportBasis& basis) {
     if (!lines.isEmpty()) basis.restsOn.push_back({"Rests on", lines.join('\n')});
 }
 
+/// One sentence where a quantity lacks the same on several loads: "current density into 100 ohm, 500 ohm and in the
+/// worst case was not evaluated: …".
+QStringList notEvaluatedOn(const QJsonArray& rows) {
+    struct Sentence {
+        QString before, after;
+        QStringList loads;
+        bool worst = false;
+    };
+    std::vector<Sentence> all;
+    for (const auto& element : rows) {
+        const auto row = element.toObject();
+        const QString load = row.value("load").toString(), reason = row.value("reason").toString();
+        if (row.value("verdict") != "not evaluated" || reason.isEmpty()) continue;
+        const qsizetype into = reason.indexOf(" into " + load + ' '), over = reason.indexOf(" over " + load + ' ');
+        const qsizetype at = std::max(into, over);
+        const QString before = at < 0 ? reason : reason.left(at);
+        const QString after = at < 0 ? QString() : reason.mid(at + QString(" into ").size() + load.size());
+        auto same = std::ranges::find_if(
+            all, [&](const Sentence& other) { return other.before == before && other.after == after; });
+        if (same == all.end()) same = all.insert(all.end(), {before, after, {}, false});
+        if (into >= 0)
+            same->loads << load;
+        else
+            same->worst = over >= 0;
+    }
+    QStringList texts;
+    for (const auto& each : all) {
+        QStringList places;
+        if (!each.loads.isEmpty()) places << "into " + each.loads.join(", ");
+        if (each.worst) places << "in the worst case";
+        texts << each.before + (places.isEmpty() ? QString() : ' ' + places.join(" and ")) + each.after;
+    }
+    return texts;
+}
+
 void readNotEvaluated(const QJsonObject& results, ReportBasis& basis) {
     QStringList found;
     const auto add = [&](const QString& text) {
@@ -149,12 +185,9 @@ void readNotEvaluated(const QJsonObject& results, ReportBasis& basis) {
     }
     const auto worst = results.value("worst_case").toObject();
     if (!results.contains("not_evaluated")) {
-        for (const auto& rows : {results.value("rows").toArray(), worst.value("rows").toArray()}) {
-            for (const auto& element : rows) {
-                const auto row = element.toObject();
-                if (row.value("verdict") == "not evaluated") add(row.value("reason").toString());
-            }
-        }
+        QJsonArray rows = results.value("rows").toArray();
+        for (const auto& row : worst.value("rows").toArray()) rows << row;
+        for (const auto& text : notEvaluatedOn(rows)) add(text);
     }
     if (found.size() > kMaxNamedAt) {
         const auto more = found.size() - kMaxNamedAt;

@@ -56,7 +56,8 @@ struct ReportText {
 
 /// What a script's `report.matrix` gives: one quantity or limit per row, one load or condition per column. A row is an
 /// object {"title", "note", "unit", "limit", "compare", "set" or "sets", "cells"}; a cell null (nothing asked there) or
-/// {"value", "expanded_uncertainty", "margin_pct", "verdict", "text"}: what is there is shown, the margin first.
+/// {"value", "expanded_uncertainty", "margin_pct", "verdict", "text"}: what is there is shown, the share of the limit
+/// first.
 struct ReportMatrix {
     QString caption;
     QStringList columns;

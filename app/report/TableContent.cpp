@@ -92,26 +92,26 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
     for (qsizetype r = 0; r < cells.size(); ++r) table.rows[static_cast<std::size_t>(r)] << cells[r];
 }
 
-/// How near to a limit is worth a second look, % of it.
-constexpr double kClose_pct = 20;
+/// How much of a limit used is worth a second look, %.
+constexpr double kClose_pct = 80;
 
 MatrixBlock::Cell judgedCell(const QJsonObject& cell, const QString& unit) {
     using State = MatrixBlock::State;
-    const double margin = numberOf(cell, "margin_pct");
+    const double used = 100 - numberOf(cell, "margin_pct");
     const QString verdict = cell.value("verdict").toString();
     const QString measured = uncertainText(numberOf(cell, "value"), numberOf(cell, "expanded_uncertainty"), unit);
     if (verdict == "not evaluated") return {"–", "not evaluated", State::Open};
     if (verdict == "not applicable") return {"–", measured + "\nnot judged", State::Plain};
-    if (!std::isfinite(margin)) {  // no limit to be within: it happened or it did not
+    if (!std::isfinite(used)) {  // no limit to be within: it happened or it did not
         return {verdictMark(verdict).shape, quantityText(numberOf(cell, "value"), unit),
                 verdict == "fail" ? State::Broken : State::Plain};
     }
-    const QString left = quantityText(margin, "%", 2);
-    const auto marked = [&](const char* key) { return verdictMark(QString(key)).shape + " " + left; };
+    const QString share = limitShareText(used);
+    const auto marked = [&](const char* key) { return verdictMark(QString(key)).shape + " " + share; };
     if (verdict == "fail") return {marked("fail"), measured, State::Broken};
     if (verdict == "indeterminate") return {marked("indeterminate"), measured, State::Close};
     if (verdict == "attention") return {marked("attention"), measured, State::Close};
-    return {left, measured, margin < kClose_pct ? State::Close : State::Plain};
+    return {share, measured, used >= kClose_pct ? State::Close : State::Plain};
 }
 
 MatrixBlock::Cell cellOf(const QJsonValue& value, const QString& rowUnit) {
@@ -156,6 +156,12 @@ QString limitSetTitle(const QString& id) {
     return QString::fromStdString(std::string(shortTitleOf(text)));
 }
 
+QString limitShareText(double used_pct) {
+    if (!std::isfinite(used_pct)) return "–";
+    if (used_pct > 0 && used_pct < 0.1) return "< 0.1\u202f%";
+    return QString::number(used_pct, 'f', used_pct < 1 && used_pct > 0 ? 1 : 0) + "\u202f%";
+}
+
 QString loadText(QString name) {
     static const QRegularExpression between("(\\d) (?=[kM]?Ω|[npuµ]F)");  // a number stays with its unit
     return name.replace("ohm", "Ω").replace("||", "∥").replace(between, QString("\\1") + QChar(0x00a0));
@@ -191,9 +197,9 @@ MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
     }
     if (judged) {
         matrix.legend =
-            "Each cell: the margin, (limit − value − U) / limit, and below it the value ± U (95\u202f%). ✖ exceeded, "
-            "? indeterminate, ▲ above a figure that asks for attention; shaded: less than 20\u202f% left, hatched: not "
-            "evaluated. Rows with the smallest margin come first.";
+            "Each cell: the share of the limit used, (value + U) / limit, and below it the value ± U (95\u202f%). ✖ "
+            "exceeded, ? indeterminate, ▲ above a figure that asks for attention; shaded: 80\u202f% or more used, "
+            "hatched: not evaluated. Rows of which the most is used come first.";
     }
     return matrix;
 }

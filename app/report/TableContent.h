@@ -17,6 +17,8 @@ namespace tacto {
 /// "FDA guidance" of "fda-pms"; "this program" of "gate"; an id that is not known
 /// stands as it is.
 [[nodiscard]] QString limitSetTitle(const QString& id);
+/// The share of a limit that value and U use together, "23 %"; "–" where it is not known.
+[[nodiscard]] QString limitShareText(double used_pct);
 /// "200 Ω + 10 kΩ ∥ 50 nF" of a load's name.
 [[nodiscard]] QString loadText(QString name);
 

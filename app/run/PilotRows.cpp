@@ -5,6 +5,7 @@
 
 #include "core/base/JsonFields.h"
 #include "core/devices/Device.h"
+#include "core/pilot/FoundRows.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/session/SessionReader.h"
 
@@ -35,11 +36,11 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
         if (!events) return failure(events);
         const auto& about = reader->about();
         for (const auto& event : *events) {
-            if (event.name == row::kPlan) rows.runSha256 = textOr(event.body, "run_sha256");
+            if (event.name == row::kPlan) rows.runSha256 = planRowFrom(event.body).runSha256;
             if (event.name == row::kSessionEnd) rows.ended = pilotEndFrom(textOr(event.body, "state"));
             if (event.name != row::kAnswer && event.name != row::kNoAnswer && event.name != row::kTrialBegin) continue;
             auto at = wallTimeFrom(about.wallStart);
-            if (!about.virtualClock) at += std::chrono::floor<std::chrono::seconds>(event.at);
+            if (!about.virtualClock) at += std::chrono::floor<std::chrono::seconds>(event.at - about.wallStartAt);
             rows.answeredAt = std::max(rows.answeredAt, at);
         }
         std::ranges::move(*events, std::back_inserter(rows.events));

@@ -131,7 +131,7 @@ std::string listedWords(const std::vector<std::string_view>& words) {
     return all;
 }
 
-AnyKind wordKindOf(std::vector<std::string_view> words, WordAccess access) {
+AnyKind wordKindOf(const std::vector<std::string_view>& words, WordAccess access) {
     const auto accepted = listedWords(words);
     AnyKind kind{.info = {.accepted = accepted, .words = words}};
     kind.readInto = [words, accepted, set = std::move(access.set)](

@@ -135,9 +135,9 @@ struct ValueKind : AnyKind {
 
 /// `from(json)` gives a std::optional<T>, empty for JSON that is not accepted; `to(value)` gives JSON.
 template <class T, class From, class To>
-[[nodiscard]] ValueKind<T> codedKind(std::string accepted, From from, To to) {
+[[nodiscard]] ValueKind<T> codedKind(const std::string& accepted, From from, To to) {
     ValueKind<T> kind;
-    kind.info.accepted = std::move(accepted);
+    kind.info.accepted = accepted;
     kind.reads([what = kind.info.accepted, from](const nlohmann::json& value, T& into, const RecordPlace& place,
                                                  std::string_view key) -> Result<void> {
         std::optional<T> found = from(value);
@@ -208,7 +208,7 @@ struct WordAccess {
     std::function<std::size_t(const void*)> find;  ///< which word; beyond the last: none
     std::function<void(void*, std::size_t)> set;
 };
-[[nodiscard]] AnyKind wordKindOf(std::vector<std::string_view> words, WordAccess access);
+[[nodiscard]] AnyKind wordKindOf(const std::vector<std::string_view>& words, WordAccess access);
 
 /// `words` must outlive the kind.
 template <class T>
@@ -221,7 +221,7 @@ template <class T>
         return i;
     };
     const auto set = [words](void* into, std::size_t i) { *static_cast<T*>(into) = words[i].value; };
-    return ValueKind<T>(wordKindOf(std::move(texts), {find, set}));
+    return ValueKind<T>(wordKindOf(texts, {find, set}));
 }
 
 /// How a list of some type is reached.

@@ -1,5 +1,6 @@
 #include "core/bench/BenchNotes.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/session/SessionWriter.h"
@@ -32,7 +33,7 @@ Result<void> BenchNotes::profile(const Profile& previous, const Profile& next) c
         if (!value.is_object()) changed.push_back(section);
         for (const auto& [key, part] : value.items()) {
             if (value.is_object() && before.at(section).value(key, nlohmann::json()) != part)
-                changed.push_back(section + "." + key);
+                changed.push_back(fmt::format("{}.{}", section, key));
         }
     }
     if (changed.empty()) return {};

@@ -56,7 +56,7 @@ std::string calibratedOutput(std::string_view serial, std::string_view uri) {
     if (output.empty() || !parsed) return output;
     for (const std::string_view chosen : {"connector", "channel"}) {
         for (const auto& [key, value] : parsed->parameters) {
-            if (key == chosen) output += " " + key + "=" + value;
+            if (key == chosen) output += fmt::format(" {}={}", key, value);
         }
     }
     return output;

@@ -8,8 +8,6 @@
 namespace tacto {
 
 namespace {
-// Stamps are decimal numbers in binary: 0.4 - 0.3 is a little more than 0.1.
-constexpr double kStampRounding = 1e-9;
 constexpr double kForceKept_s = 4;  // more than any frame waits
 
 std::size_t roomFor(double rate_hz) { return static_cast<std::size_t>(2 * kForceKept_s * rate_hz) + 256; }
@@ -33,7 +31,7 @@ void ForceTrack::push(double t_s, double force_n) noexcept {
         ++outOfOrder_;
         return;
     }
-    if (samples_.end() > 0 && t_s - newest_s() > kStale_s + kStampRounding) {
+    if (samples_.end() > 0 && t_s - newest_s() > kStale_s + kStampRounding_s) {
         ++stale_;
         contact_ = false;  // lost in the silence: it must start again
     }
@@ -126,7 +124,7 @@ ForceTrack::Reading ForceTrack::at(double t_s) noexcept {
             force += (samples_.values(readCursor_ + 1)[0] - force) / (until - from) * (t_s - from);
         }
     }
-    const bool fresh = t_s - from <= kStale_s + kStampRounding;
+    const bool fresh = t_s - from <= kStale_s + kStampRounding_s;
     return {force, fresh && samples_.values(readCursor_)[1] > 0, fresh};
 }
 
@@ -137,7 +135,7 @@ void ForceTrack::release(double t_s) noexcept {
 }
 
 std::size_t ForceTrack::staleStretches(double end_s) const noexcept {
-    return stale_ + (samples_.end() > 0 && end_s - newest_s() > kStale_s + kStampRounding ? 1 : 0);
+    return stale_ + (samples_.end() > 0 && end_s - newest_s() > kStale_s + kStampRounding_s ? 1 : 0);
 }
 
 }  // namespace tacto

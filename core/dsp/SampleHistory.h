@@ -13,6 +13,8 @@ namespace tacto {
 
 /// The time of what has not happened.
 inline constexpr double kInfinity_s = std::numeric_limits<double>::infinity();
+/// Stamps are decimal numbers in binary: 0.4 - 0.3 is a little more than 0.1.
+inline constexpr double kStampRounding_s = 1e-9;
 
 class SampleHistory {
 public:

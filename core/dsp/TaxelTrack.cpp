@@ -165,9 +165,8 @@ TaxelTrack::Reading TaxelTrack::at(double t_s, bool dynamic) noexcept {
     std::size_t nearest = cursor_;
     if (nearest + 1 < samples_.end()) {
         // Between two at the same distance the earlier counts, however their stamps were rounded.
-        constexpr double kStampRounding = 1e-9;
         const double later = std::abs(samples_.t(nearest + 1) - t_s);
-        if (later + kStampRounding < std::abs(samples_.t(nearest) - t_s)) ++nearest;
+        if (later + kStampRounding_s < std::abs(samples_.t(nearest) - t_s)) ++nearest;
     }
     if (std::abs(samples_.t(nearest) - t_s) > reach_) return {kNaN, kNaN};
 

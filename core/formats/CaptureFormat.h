@@ -62,7 +62,7 @@ struct CaptureReading {
                                                       const std::function<Result<CaptureReading>()>& read);
 
 /// What recognises() is shown: the file's beginning, at most kHeadBytes of it.
-constexpr std::size_t kHeadBytes = 64 * 1024;
+constexpr std::size_t kHeadBytes = 64UL * 1024;
 
 class CaptureFormat {
 public:

@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kBlock = 1024 * 1024;
+constexpr std::size_t kBlock = 1024UL * 1024;
 
 /// "#6200000": how many bytes of samples follow, and where.
 struct Block {

@@ -15,7 +15,7 @@ namespace tacto {
 class TextBlocks {
 public:
     /// Bytes of a block, and so of the longest line. What is read stays in the processor's cache until it is parsed.
-    static constexpr std::size_t kBlockBytes = 256 * 1024;
+    static constexpr std::size_t kBlockBytes = 256UL * 1024;
 
     /// Errors: of ByteFile::open().
     [[nodiscard]] static Result<TextBlocks> ofFile(const std::filesystem::path& path);

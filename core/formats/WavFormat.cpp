@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view kOwnComment = "Tactoscope capture";
 constexpr int kMaxChannels = 1024;  // libsndfile's
-constexpr std::size_t kSamplesAtOnce = 256 * 1024;
+constexpr std::size_t kSamplesAtOnce = 256UL * 1024;
 
 struct CloseSound {
     void operator()(SNDFILE* sound) const noexcept { ::sf_close(sound); }

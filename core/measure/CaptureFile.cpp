@@ -73,7 +73,7 @@ Result<void> checkWritable(const Capture& capture) {
 Result<void> writeCapture(const std::filesystem::path& path, const Capture& capture) {
     if (auto writable = checkWritable(capture); !writable) return writable;
     std::ofstream stream(path, std::ios::binary);
-    constexpr std::size_t kPiece = 1024 * 1024;  // written at a time: a long record's text is larger than itself
+    constexpr std::size_t kPiece = 1024UL * 1024;  // written at a time: a long record's text is larger than itself
     fmt::memory_buffer text;
     const auto flush = [&] {
         stream.write(text.data(), static_cast<std::streamsize>(text.size()));

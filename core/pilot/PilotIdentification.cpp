@@ -6,6 +6,7 @@
 
 #include "core/analysis/psychophysics/TrainingRule.h"
 #include "core/base/JsonFields.h"
+#include "core/pilot/FoundRows.h"
 
 namespace tacto {
 
@@ -38,11 +39,9 @@ std::vector<std::string> PilotIdentification::labels() const {
 Result<void> PilotIdentification::plan(bool withTrials) {
     auto& settings = stage_.settings();
     const auto stored = stage_.record().once(row::kPlan, "plan", [&]() -> Result<nlohmann::json> {
-        nlohmann::json body{{"seed", settings.seed},
-                            {"encoding", settings.encoding},
-                            {"blocks", static_cast<std::uint64_t>(settings.blocks)},
-                            {"run_sha256", settings.runSha256},
-                            {"trials", nullptr}};
+        nlohmann::json body = toJson(
+            PlanRow{settings.seed, settings.encoding, static_cast<std::uint64_t>(settings.blocks), settings.runSha256});
+        body["trials"] = nullptr;
         if (!withTrials) return body;
         auto planned = drawn();
         if (!planned) return failure(planned);
@@ -50,14 +49,14 @@ Result<void> PilotIdentification::plan(bool withTrials) {
         return body;
     });
     if (!stored) return failure(stored);
-    const auto blocks = countOr(*stored, "blocks");
-    if (textOr(*stored, "encoding") != settings.encoding || blocks < 1 || blocks > kMaxBlocks)
+    const auto row = planRowFrom(*stored);
+    if (row.encoding != settings.encoding || row.blocks < 1 || row.blocks > kMaxBlocks)
         return fail(ErrorCode::ParseError,
                     "the stored plan is of the encoding \"{}\" and {} blocks, and the session of {} and up to {}: it "
                     "cannot be gone on with",
-                    textOr(*stored, "encoding"), blocks, settings.encoding, kMaxBlocks);
-    settings.seed = countOr(*stored, "seed");
-    settings.blocks = static_cast<int>(blocks);
+                    row.encoding, row.blocks, settings.encoding, kMaxBlocks);
+    settings.seed = row.seed;
+    settings.blocks = static_cast<int>(row.blocks);
     plan_ = valueOr(*stored, "trials");
     if (!withTrials) return {};
     auto planned = drawn();
@@ -277,13 +276,12 @@ Result<bool> PilotIdentification::driftCheck(int block) {
     lastDetection_ = found.estimate.value;
     const auto stored =
         stage_.record().once(row::kDrift, fmt::format("block {}", block), [&]() -> Result<nlohmann::json> {
-            return nlohmann::json{
-                {"block", block},
-                {levelKey("detection", stage_.settings().unit),
-                 {{"value", found.estimate.value}, {"low", found.estimate.low}, {"high", found.estimate.high}}},
-                {"probability", found.probability},
-                {"rests", found.rests},
-                {"adapted", found.adapted}};
+            return toJson(DriftRow{.unit = stage_.settings().unit,
+                                   .block = settings.block,
+                                   .detection = found.estimate,
+                                   .probability = found.probability,
+                                   .rests = found.rests,
+                                   .adapted = found.adapted});
         });
     if (!stored) return failure(stored);
     auto row = *stored;

@@ -6,6 +6,7 @@
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/psychophysics/PredictedFit.h"
 #include "core/base/JsonFields.h"
+#include "core/pilot/FoundRows.h"
 
 namespace tacto {
 
@@ -176,17 +177,16 @@ Result<std::string> PilotSession::headlineText() const {
     const auto all = found();
     if (!all) return failure(all);
     PresentedRange range;
-    const auto& measured = thresholds_.rangeJson();
-    const auto number = [&measured](const char* key) { return numberOr(measured, key); };
+    const auto row = rangeRowFrom(thresholds_.rangeJson());
     if (stage_.settings().unit == LevelUnit::Current) {
-        range.low = Milliamps(number("min_ma"));
-        range.high = Milliamps(number("max_ma"));
-        range.lowVoltage = Volts(number("min_v"));
-        range.highVoltage = Volts(number("max_v"));
-        range.impedance = Ohms(number("impedance_ohm"));
+        range.low = Milliamps(row.min);
+        range.high = Milliamps(row.max);
+        range.lowVoltage = row.minVoltage;
+        range.highVoltage = row.maxVoltage;
+        range.impedance = row.impedance;
     } else {
-        range.lowIntensity = number("min_intensity");
-        range.highIntensity = number("max_intensity");
+        range.lowIntensity = row.min;
+        range.highIntensity = row.max;
     }
     return headline(stage_.settings().code, *all, range);
 }

@@ -4,19 +4,13 @@
 #include <cmath>
 
 #include "core/base/JsonFields.h"
+#include "core/pilot/FoundRows.h"
 
 namespace tacto {
 
 namespace {
 
 constexpr Seconds kFeltBeforeAsked{4};  // I_max, before "half an hour of this?"
-
-nlohmann::json orNull(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
-
-nlohmann::json estimateJson(const Estimate& estimate) {
-    if (!std::isfinite(estimate.value)) return nullptr;
-    return {{"value", estimate.value}, {"low", orNull(estimate.low)}, {"high", orNull(estimate.high)}};
-}
 
 nlohmann::json shareJson(const IntervalShare& share) { return {{"trials", share.trials}, {"right", share.right}}; }
 
@@ -153,7 +147,7 @@ Result<void> PilotThresholds::detection(DetectionMethod method) {
                                                  : measureBy<Staircase>(StaircaseSettings{});
     if (!done) return done;
     const auto kept = stage_.record().once(row::kEstimate, "detection", [this]() -> Result<nlohmann::json> {
-        return nlohmann::json{{"estimate", estimateJson(estimate_)}, {"trials", trials_.size()}};
+        return nlohmann::json{{"estimate", estimateOrNull(estimate_)}, {"trials", trials_.size()}};
     });
     return kept ? Result<void>() : failure(kept);
 }
@@ -273,7 +267,7 @@ Result<void> PilotThresholds::comparison() {
     }
     compared_ = procedure->result();
     const auto kept = stage_.record().once(row::kEstimate, "comparison", [this]() -> Result<nlohmann::json> {
-        return nlohmann::json{{"amplitude_weber", estimateJson(compared_->weber)},
+        return nlohmann::json{{"amplitude_weber", estimateOrNull(compared_->weber)},
                               {"at_edge", compared_->atEdge},
                               {"trials", compared_->trials.size()}};
     });
@@ -288,7 +282,7 @@ nlohmann::json PilotThresholds::comparisonJson() const {
         history.push_back({{levelKey("weaker", unit), each.pair.weaker},
                            {levelKey("stronger", unit), each.pair.stronger},
                            {"correct", each.correct}});
-    return {{"amplitude_weber", estimateJson(compared_->weber)},
+    return {{"amplitude_weber", estimateOrNull(compared_->weber)},
             {"at_edge", compared_->atEdge},
             {"trials", compared_->trials.size()},
             {"history", std::move(history)},
@@ -298,38 +292,36 @@ nlohmann::json PilotThresholds::comparisonJson() const {
 
 nlohmann::json PilotThresholds::describe(const PersonalRangeResult& found) const {
     const double ohm = stage_.impedance();
-    const auto unit = stage_.settings().unit;
-    nlohmann::json out{{"usable", found.usable},
-                       {"reason", found.reason.empty() ? nlohmann::json(nullptr) : nlohmann::json(found.reason)},
-                       {levelKey("min", unit), orNull(found.min)},
-                       {levelKey("max", unit), orNull(found.max)},
-                       {"jnd", orNull(found.jnd)},
-                       {"limited_by", nameOf(found.limitedBy)}};
-    if (unit == LevelUnit::Intensity) return out;
-    out["min_v"] = orNull(found.min * ohm / 1000);
-    out["max_v"] = orNull(found.max * ohm / 1000);
-    out["impedance_ohm"] = orNull(ohm);
-    return out;
+    return tacto::toJson(RangeRow{.unit = stage_.settings().unit,
+                                  .usable = found.usable,
+                                  .reason = found.reason,
+                                  .min = found.min,
+                                  .max = found.max,
+                                  .jnd = found.jnd,
+                                  .limitedBy = found.limitedBy,
+                                  .minVoltage = Volts(found.min * ohm / 1000),
+                                  .maxVoltage = Volts(found.max * ohm / 1000),
+                                  .impedance = Ohms(ohm)});
 }
 
 nlohmann::json PilotThresholds::toJson() const {
     const auto unit = stage_.settings().unit;
     nlohmann::json series = nlohmann::json::array();
     for (const auto& each : ascending_.series)
-        series.push_back({{levelKey("felt", unit), orNull(each.felt)},
-                          {levelKey("too_strong", unit), orNull(each.tooStrong)},
-                          {levelKey("highest", unit), orNull(each.highest)},
+        series.push_back({{levelKey("felt", unit), numberOrNull(each.felt)},
+                          {levelKey("too_strong", unit), numberOrNull(each.tooStrong)},
+                          {levelKey("highest", unit), numberOrNull(each.highest)},
                           {"ended_by", nameOf(each.endedBy)},
                           {"felt_empty", each.feltEmpty},
                           {"marked", each.marked()}});
     nlohmann::json history = nlohmann::json::array();
     for (const auto& each : trials_) history.push_back({{nameOf(unit), each.level}, {"correct", each.correct}});
     const nlohmann::json detection{
-        {"method", nameOf(method_)},         {levelKey("estimate", unit), estimateJson(estimate_)},
+        {"method", nameOf(method_)},         {levelKey("estimate", unit), estimateOrNull(estimate_)},
         {"trials", trials_.size()},          {"history", std::move(history)},
         {"first", shareJson(shares_.first)}, {"second", shareJson(shares_.second)}};
-    return {{levelKey("felt", unit), orNull(ascending_.felt)},
-            {levelKey("too_strong", unit), orNull(ascending_.tooStrong)},
+    return {{levelKey("felt", unit), numberOrNull(ascending_.felt)},
+            {levelKey("too_strong", unit), numberOrNull(ascending_.tooStrong)},
             {"said_too_strong", ascending_.saidTooStrong},
             {"series", std::move(series)},
             {"detection", measured_ ? detection : nlohmann::json(nullptr)},

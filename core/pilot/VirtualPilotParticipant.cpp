@@ -23,7 +23,7 @@ bool isSame(const DeliveredCondition& learned, const FeltPresentation& felt) {
 }  // namespace
 
 VirtualPilotParticipant::VirtualPilotParticipant(VirtualObserver observer, std::vector<std::string> conditions)
-    : observer_(std::move(observer)), conditions_(std::move(conditions)) {}
+    : observer_(observer), conditions_(std::move(conditions)) {}
 
 void VirtualPilotParticipant::show(const PilotScreen&) {}
 

@@ -36,7 +36,7 @@ struct Level {
 
 /// What is programmed is not an upper bound of a level.
 constexpr gate::Condition<Level> kLevelConditions[] = {
-    {gate::MoreThanProgrammed,
+    {gate::LevelMoreThanProgrammed,
      [](auto& level) noexcept { return siAmplitude(level.delivered) > siAmplitude(level.programmed); }},
 };
 

@@ -6,8 +6,9 @@
 // mutation test takes one rule at a time out of force and sees a test fail; in the product inForce() is the constant
 // true and leaves no trace.
 //
-// A new rule gets a name here; the tests do not build until it stands in their table (tests/safety/CheckNames.h), and
-// fail until there is a case that only it refuses. A refusal outside a table fails EveryRefusalHasItsRule.
+// A new rule gets a name of its own here; the tests do not build until it stands in their table
+// (tests/safety/CheckNames.h), and fail until there is a case that it alone refuses, or refuses in these words. A
+// refusal outside a table fails EveryRefusalHasItsRule, and so does a second rule of the same name.
 //
 // Thread-safety: pure functions. Nothing allocates while no rule is broken.
 #pragma once
@@ -60,6 +61,7 @@ enum Check : int {
     ImpedanceJump,
     // approve()
     MoreThanProgrammed,
+    LevelMoreThanProgrammed,
     Uncertainty,
     PulseBeyondPeriod,
     LongWithoutDeadMan,
@@ -77,16 +79,21 @@ enum Check : int {
     PulsesMax,
     IntervalValue,
     IntervalBelowTrain,
+    IntervalMayBeBelowTrain,
     OnsetAhead,
+    CheckOnsetAhead,
     ImpedanceRejected,
     PersonMonophasic,
     PersonNoImpedance,
     PersonStaleImpedance,
-    PersonBeyondCalibration,
+    PersonBeyondAmplitude,
+    PersonBeyondWidth,
+    PersonBeyondInterval,
     PersonLevel,
     CheckDiscomfort,
     // Accepted levels
     LevelOfPerson,
+    DiscomfortOfPerson,
     LevelMalformed,
     LevelInVolts,
     LevelDiscomfort,
@@ -129,6 +136,7 @@ enum Check : int {
     TrainNetCharge,
     TrainStuckOn,
     TrainStatusLate,
+    TrainNeverRead,
     TrainReadEarly,
     // Heartbeat
     HeartSilent,

@@ -84,7 +84,7 @@ struct Discomfort {
 };
 
 constexpr Rule<Discomfort> kDiscomfortRules[] = {
-    {LevelOfPerson, [](auto& d) { return !d.state.person(); },
+    {DiscomfortOfPerson, [](auto& d) { return !d.state.person(); },
      [](auto&) { return fail(ErrorCode::NotArmed, "discomfort is reported in person mode only"); }},
     {DiscomfortValue, [](auto& d) { return !(std::isfinite(d.level) && d.level >= 0); },
      [](auto& d) {

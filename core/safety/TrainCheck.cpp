@@ -66,7 +66,7 @@ constexpr FindingRule kStatusRules[] = {
     {TrainStatusLate, [](auto& t) noexcept { return t.status.at - t.end > kStatusDeadline; },
      TrainFinding::StatusMissing, "the stimulator's status came later than 50 ms after a train"},
     // Read too early: the next one counts, but it must come in time.
-    {TrainReadEarly, [](auto& t) noexcept { return t.early() && t.late(); }, TrainFinding::StatusMissing, kMissing},
+    {TrainNeverRead, [](auto& t) noexcept { return t.early() && t.late(); }, TrainFinding::StatusMissing, kMissing},
     {TrainReadEarly, [](auto& t) noexcept { return t.early(); }, TrainFinding::Pending, {}},
 };
 

@@ -135,7 +135,7 @@ constexpr Rule<AskedTrain> kPersonTrainRules[] = {
          return fail(ErrorCode::LimitExceeded, "the impedance was measured {:.3g} s ago; at most 5 s is accepted",
                      toSeconds(a.now - a.state.impedanceAt));
      }},
-    {PersonBeyondCalibration,
+    {PersonBeyondAmplitude,
      [](auto& a) {
          const auto* known = calibrationOf(a);
          return known != nullptr && !(inOwnUnit(a.train.amplitude) <= known->amplitude.highest * kSlack);
@@ -143,7 +143,7 @@ constexpr Rule<AskedTrain> kPersonTrainRules[] = {
      [](auto& a) {
          return beyond("amplitude", inOwnUnit(a.train.amplitude), "mA", calibrationOf(a)->amplitude.highest);
      }},
-    {PersonBeyondCalibration,
+    {PersonBeyondWidth,
      [](auto& a) {
          const auto* known = calibrationOf(a);
          return known != nullptr && !(Seconds(a.train.phaseWidth).count() <= known->phaseWidth->highest * kSlack);
@@ -152,7 +152,7 @@ constexpr Rule<AskedTrain> kPersonTrainRules[] = {
          return beyond("phase width", Seconds(a.train.phaseWidth).count() * 1e6, "us",
                        calibrationOf(a)->phaseWidth->highest * 1e6);
      }},
-    {PersonBeyondCalibration,
+    {PersonBeyondInterval,
      [](auto& a) {
          const auto* known = calibrationOf(a);
          return known != nullptr && !(a.interval.count() >= known->interval->lowest / kSlack);
@@ -164,7 +164,7 @@ constexpr Rule<AskedTrain> kPersonTrainRules[] = {
 double checkLevel(const AskedTrain& a) noexcept { return siValue(a.state.bounds->levelOf(a.train).amplitude) * 1e3; }
 
 constexpr Rule<AskedTrain> kCheckRules[] = {
-    {OnsetAhead, [](auto& a) { return a.onset > a.now + kApprovalLife; },
+    {CheckOnsetAhead, [](auto& a) { return a.onset > a.now + kApprovalLife; },
      [](auto& a) {
          return fail(ErrorCode::InvalidArgument, "the check is planned {:.3g} s ahead; an approval lasts 0.1 s",
                      toSeconds(a.onset - a.now));
@@ -184,7 +184,7 @@ Seconds shortestInterval(const AskedTrain& a) noexcept { return a.state.bounds->
 PulseTrain longestOf(const AskedTrain& a) noexcept { return a.state.bounds->largest(a.train); }
 
 constexpr Rule<AskedTrain> kTimeRules[] = {
-    {IntervalBelowTrain, [](auto& a) { return !(a.train.duration() <= shortestInterval(a) * (1 + kRounding)); },
+    {IntervalMayBeBelowTrain, [](auto& a) { return !(a.train.duration() <= shortestInterval(a) * (1 + kRounding)); },
      [](auto& a) {
          return fail(ErrorCode::InvalidArgument,
                      "interval {:.6g} s would come out as {:.6g} s, which is shorter than the train, {:.6g} s",

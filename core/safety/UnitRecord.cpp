@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <random>
+#include <span>
 #include <unistd.h>
 
 #include "core/safety/UnitClaim.h"
@@ -45,7 +46,10 @@ struct Train {
     std::array<std::int64_t, 2> leftAt_ns{};
 };
 
-constexpr Checked<Train> kEmpty{};  // All bits 0, as a new file is
+/// All bits 0, as a new file is.
+bool isEmpty(const Checked<Train>& train) {
+    return std::ranges::all_of(std::as_bytes(std::span(&train, 1)), [](std::byte one) { return one == std::byte(0); });
+}
 
 struct Fault {
     std::uint64_t causes = 0;
@@ -150,7 +154,7 @@ void UnitRecord::takeOver() {
         bool whole = true;
         std::uint64_t last = 0;
         for (const auto& train : map_.trains) {
-            if (std::memcmp(&train, &kEmpty, sizeof kEmpty) == 0) continue;
+            if (isEmpty(train)) continue;
             whole = whole && train.sound();
             last = std::max(last, train.content.sequence);
             newestWall = std::max(newestWall, train.content.wall_s);

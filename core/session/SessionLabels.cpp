@@ -120,8 +120,8 @@ void applyLabels(const nlohmann::json& body, SessionLabels& labels) {
 
 Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader) {
     const auto name = session.filename().string();
-    auto journal = session;
-    if (!reader.closed() || std::filesystem::exists(journal += "-wal")) {
+    const std::filesystem::path journal = session.string() + "-wal";
+    if (!reader.closed() || std::filesystem::exists(journal)) {
         return fail(ErrorCode::Unsupported,
                     "session {} has no end mark: it is being recorded, or was interrupted. It is kept as it is, "
                     "without changes",

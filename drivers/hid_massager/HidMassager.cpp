@@ -8,6 +8,18 @@
 
 namespace tacto::hid {
 
+namespace {
+
+/// Without a watchdog that answers there is no output. `what` befell the device for it.
+Error unwatched(std::string_view device, std::string_view what, WatchdogState watchdog) {
+    if (watchdog == WatchdogState::Ended)
+        return {ErrorCode::Device, fmt::format("{} {}: its watchdog has ended", device, what)};
+    return {ErrorCode::Timeout, fmt::format("{} {}: its watchdog has not answered for {:.0f} ms", device, what,
+                                            toSeconds(Watchdog::kUnansweredLimit) * 1e3)};
+}
+
+}  // namespace
+
 HidMassager::HidMassager(OpenPort open, DeviceIdentity identity, VibrationReports reports, const Clock& clock)
     : open_(std::move(open)),
       identity_(std::move(identity)),
@@ -182,9 +194,8 @@ void HidMassager::serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) no
     }
     if (what != HidWrite::Stop) {
         lastBeat_ = clock_.now();
-        if (!watchdog_->beat()) {
-            raise({ErrorCode::Device,
-                   fmt::format("{} is not driven: its watchdog has ended or stands still", identity_.name)});
+        if (const auto watchdog = watchdog_->beat(); watchdog != WatchdogState::Watching) {
+            raise(unwatched(identity_.name, "is not driven", watchdog));
             timer_.askStop();
             return finish(tl::unexpected<Error>(*fault_));
         }
@@ -232,8 +243,9 @@ Instant HidMassager::keepBeating(Instant now) {
     if (writing_ || !timer_.vibrating()) return Instant::max();
     if (now - lastBeat_ < Watchdog::kBeat) return lastBeat_ + Watchdog::kBeat;
     lastBeat_ = now;
-    if (watchdog_->beat()) return now + Watchdog::kBeat;
-    raise({ErrorCode::Device, fmt::format("{} was stopped: its watchdog has ended or stands still", identity_.name)});
+    const auto watchdog = watchdog_->beat();
+    if (watchdog == WatchdogState::Watching) return now + Watchdog::kBeat;
+    raise(unwatched(identity_.name, "was stopped", watchdog));
     timer_.askStop();
     return now;
 }

@@ -8,7 +8,8 @@
 // still under way after kTimeout is Timeout, its burst is given up and stopped when the write returns.
 //
 // A watchdog holds the stop as well, for when this program dies or stands still. It is started when the device is
-// opened, and without one nothing is written but the stop. A burst that was under way while this program stood still
+// opened, and without one nothing is written but the stop: one that has ended is Device, one that does not answer is
+// Timeout. A burst that was under way while this program stood still
 // for longer than Watchdog::kSilence is over: it is not repeated, the device is stopped again, and the next vibrate()
 // says so.
 //

@@ -1,7 +1,7 @@
 // Watchdog.h - keeps a massager's stop outside of this program, because nothing inside can send it after kill -9.
 //
 // A watchdog sends the stop when the program that made it ends in any way without saying so, and when the program
-// is silent for kSilence while output is on. A massager without a watchdog is not driven (safety.md, "The gate").
+// is silent for kSilence while output is on. A massager without a watchdog is not driven (safety.md, "Interlock").
 //
 // Thread-safety: one caller at a time. Destruction after rest() ends the watchdog; without it the watchdog sends the
 // stop.
@@ -15,18 +15,23 @@
 
 namespace tacto::hid {
 
+enum class WatchdogState {
+    Watching,
+    Silent,  ///< it has left beats unanswered for kUnansweredLimit: it, or the computer, stands still
+    Ended,   ///< its process is gone
+};
+
 class Watchdog {
 public:
     static constexpr Instant kSilence = kWatchdogSilence;            ///< with output on; the stop follows it
     static constexpr Instant kBeat = std::chrono::milliseconds(50);  ///< how often a caller beats meanwhile
-
-    virtual ~Watchdog() = default;
     static constexpr Instant kUnansweredLimit =
         std::chrono::milliseconds(500);  ///< how long it may leave beats unanswered
 
-    /// Output is about to begin, or goes on. Never waits. False where the watchdog has ended or stands still: then
-    /// there must be no output.
-    [[nodiscard]] virtual bool beat() noexcept = 0;
+    virtual ~Watchdog() = default;
+
+    /// Output is about to begin, or goes on. Never waits. Unless Watching is returned there must be no output.
+    [[nodiscard]] virtual WatchdogState beat() noexcept = 0;
     /// The device took its stop: silence is allowed until the next beat(). Never waits.
     virtual void rest() noexcept = 0;
 };

@@ -119,15 +119,20 @@ WatchdogProcess::~WatchdogProcess() {
     close(line_);
 }
 
-bool WatchdogProcess::beat() noexcept {
+WatchdogState WatchdogProcess::beat() noexcept {
     const char word = static_cast<char>(WatchdogWord::Beat);
     const auto now = std::chrono::steady_clock::now();
     char answer = 0;
-    while (recv(line_, &answer, 1, MSG_DONTWAIT) == 1) unanswered_.reset();
+    auto got = recv(line_, &answer, 1, MSG_DONTWAIT);
+    for (; got == 1; got = recv(line_, &answer, 1, MSG_DONTWAIT)) unanswered_.reset();
+    if (got == 0) return WatchdogState::Ended;
     // At rest there was nothing to answer.
     if (resting_ || !unanswered_) unanswered_ = now;
     resting_ = false;
-    return now - *unanswered_ <= kUnansweredLimit && send(line_, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT) == 1;
+    if (now - *unanswered_ > kUnansweredLimit) return WatchdogState::Silent;
+    if (send(line_, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT) == 1) return WatchdogState::Watching;
+    const bool full = errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS;  // it takes nothing out
+    return full ? WatchdogState::Silent : WatchdogState::Ended;
 }
 
 void WatchdogProcess::rest() noexcept {

@@ -27,7 +27,7 @@ public:
     WatchdogProcess(const WatchdogProcess&) = delete;
     WatchdogProcess& operator=(const WatchdogProcess&) = delete;
 
-    [[nodiscard]] bool beat() noexcept override;
+    [[nodiscard]] WatchdogState beat() noexcept override;
     void rest() noexcept override;
 
 private:

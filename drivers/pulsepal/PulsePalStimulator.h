@@ -32,7 +32,7 @@ namespace tacto::pulsepal {
 class PulsePalStimulator final : public Stimulator {
 public:
     static constexpr Seconds kTimeout{0.045};  ///< for one exchange; status() has 50 ms
-    /// The firmware gives up a half-received command after 0.5 s.
+    /// For what open() asks: longer than the 0.5 s for which the firmware waits for the rest of a command.
     static constexpr Seconds kGreetingTimeout{0.6};
 
     /// Connects, ends what the device was doing, asks what it is and turns all four channels off. `uri` is what opens

@@ -28,9 +28,9 @@ enum class ResultCode : std::uint8_t {
     Busy = 21,
     LowCurrent = 28,
 };
-/// Half a sentence on what went wrong, for "the stimulator refused LL_INIT: ...".
+/// What went wrong, half a sentence for refusal().
 [[nodiscard]] std::string_view meaningOf(ResultCode code) noexcept;
-/// The error arm for an ack that is not Ok: one sentence. Device.
+/// The error for an ack whose result is not Ok, code Device: "the stimulator refused LL_INIT: ...".
 [[nodiscard]] tl::unexpected<Error> refusal(Command command, ResultCode code);
 
 inline constexpr std::size_t kSamples = 128;
@@ -73,7 +73,7 @@ struct ExtendedVersionAck {
     Version protocol;
 };
 
-/// Errors, all: Device, for a payload that is no such ack.
+/// Errors of each: Device for a payload that is not this ack.
 [[nodiscard]] Result<ResultCode> readPlainAck(Command command, std::span<const std::uint8_t> payload);
 /// A result alone, or a result, a place and a measurement without samples, are acks too (an error, or no measurement).
 [[nodiscard]] Result<void> readChannelConfigAck(std::span<const std::uint8_t> payload, ChannelConfigAck& into);

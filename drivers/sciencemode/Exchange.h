@@ -13,6 +13,7 @@
 
 namespace tacto::sciencemode {
 
+/// How long an ack may take, from the end of the pulse where the request starts one.
 inline constexpr Seconds kAnswerTime{0.05};
 
 struct ExchangeCounts {

@@ -20,9 +20,10 @@
 
 namespace tacto::sciencemode {
 
-inline constexpr double kSampleUnit = 0.01;    ///< V or mA: the last digit of a sample
-inline constexpr Ohms kTouching{20};           ///< less than any skin or bench load
-inline constexpr double kAtCompliance = 0.95;  ///< of the compliance: the source found no path for its current
+inline constexpr double kSampleUnit = 0.01;  ///< V or mA: the last digit of a sample
+inline constexpr Ohms kTouching{20};         ///< below it the electrodes touch: less than any skin or bench load
+inline constexpr double kAtCompliance =
+    0.95;  ///< of the compliance; from there on the source found no path for its current
 
 /// What the device sampled during a pulse. Magnitudes: it sends no sign, so both phases look alike.
 struct SampledPulse {

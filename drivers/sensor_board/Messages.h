@@ -91,7 +91,7 @@ struct Refusal {
 /// The token of an answer; 0 for what was not asked for.
 [[nodiscard]] std::uint8_t tokenOf(const Frame& frame) noexcept;
 
-/// Errors, all: ParseError naming the field, its value and what was expected.
+/// Errors of each: ParseError naming the field, its value and what was expected.
 [[nodiscard]] Result<BoardIdentity> readIdentity(const Frame& frame);
 [[nodiscard]] Result<StreamConfiguration> readConfiguration(const Frame& frame);
 [[nodiscard]] Result<StreamCalibration> readCalibration(const Frame& frame);

@@ -183,8 +183,8 @@ Result<void> SensorBoard::identify(const SensorBoardSettings& settings) {
 }
 
 Result<void> SensorBoard::configure(const SensorBoardSettings& settings, std::size_t streams) {
-    for (std::uint8_t i = 0; i < streams; ++i) {
-        const std::array<std::uint8_t, 1> which{i};
+    for (std::size_t i = 0; i < streams; ++i) {
+        const std::array<std::uint8_t, 1> which{static_cast<std::uint8_t>(i)};
         const auto answer = link_.ask(Command::GetConfiguration, Reply::Configuration, which);
         if (!answer) return failure(answer);
         auto now = readConfiguration(*answer);

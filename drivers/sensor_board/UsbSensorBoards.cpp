@@ -7,7 +7,7 @@ namespace tacto {
 namespace {
 
 /// A second of a board's stream, and room for a faster one.
-constexpr std::size_t kRingBytes = 128 * 1024;
+constexpr std::size_t kRingBytes = 128UL * 1024;
 
 class UsbSensorBoards final : public SensorBoardPorts {
 public:

@@ -30,7 +30,7 @@ struct ScopeAndFlaws {
     ScopeFlaws flaws;
 };
 
-/// Errors, all four: InvalidArgument naming the key, its value and what is accepted.
+/// Errors of each: InvalidArgument naming the key, its value and what is accepted.
 [[nodiscard]] Result<FingerAndSensor> readFinger(const DeviceUri& uri, std::uint64_t seed);
 [[nodiscard]] Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t seed);
 [[nodiscard]] Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed);

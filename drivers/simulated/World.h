@@ -1,7 +1,8 @@
-// World.h - what the simulated devices of one bench have in common: the clock, the circuit between stimulator, load
-// and oscilloscope, and the finger. Lives as long as any of them.
+// World.h - what the simulated devices of one bench have in common: the clock, the seed, the circuit between
+// stimulator, load and oscilloscope, the reference source and the massager's motor. Lives as long as any of them.
+// Beside it, what changes the world from outside: loads, the reference source, surfaces under the finger.
 //
-// Thread-safety: const after opening; the circuit and the finger have their own rules.
+// Thread-safety: any thread; the circuit and the motor have rules of their own.
 #pragma once
 
 #include <atomic>
@@ -26,7 +27,7 @@ public:
     [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
     [[nodiscard]] SimulatedCircuit& circuit() noexcept { return circuit_; }
 
-    /// Voltage of a reference source in place of the load, V; 0: none.
+    /// Voltage of a reference source in place of the load, V; 0: there is none.
     [[nodiscard]] double reference() const noexcept { return reference_V_.load(std::memory_order_acquire); }
     void setReference(double volts) noexcept { reference_V_.store(volts, std::memory_order_release); }
 
@@ -76,7 +77,7 @@ private:
     const std::shared_ptr<World> world_;
 };
 
-/// Puts surfaces under the world's finger.
+/// Puts surfaces under a simulated finger.
 class FingerPresenter final : public SurfacePresenter {
 public:
     FingerPresenter(std::shared_ptr<World> world, std::shared_ptr<Finger> finger)

@@ -39,14 +39,6 @@ function encodings() {
   return out;
 }
 
-// Before anything is believed: the wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
-function checkReference(p) {
-  operator.wired(p.load);
-  bench.arm({ load: p.load });
-  bench.drive("manual", { roughness: 1, pressure: 1 });
-  return record.reference(measure.pulse(bench.capture({ trains: 1 })), p.load, p.load_tolerance_pct);
-}
-
 function conditionsOf(p) {
   const out = [];
   for (const [texture, roughness] of [["smooth", p.low], ["rough", p.high]]) {
@@ -274,7 +266,8 @@ function sameForAll(done) {
 function run(p) {
   if (!(p.low < p.high)) throw new Error("low is " + p.low + "; below high, " + p.high + ", is expected");
   report.text(symmetry(null) + ".");
-  const reference = checkReference(p);
+  operator.wired(p.load);
+  const reference = bench.readKnownLoad(p.load, p.load_tolerance_pct);
   bench.disarm();
   if (!reference.passed) {
     return verdict({ verdict: "indeterminate", reference, encodings: [],

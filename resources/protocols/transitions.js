@@ -110,14 +110,6 @@ function movementsOf() {
   return out;
 }
 
-// Before anything is believed: the wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
-function checkReference(p) {
-  operator.wired(p.load);
-  bench.arm({ load: p.load });
-  bench.drive("manual", { roughness: 1, pressure: 1 });
-  return record.reference(measure.pulse(bench.capture({ trains: 1 })), p.load, p.load_tolerance_pct);
-}
-
 function largestRows(found) {
   const rows = [];
   for (const movement of ["gradual", "abrupt"]) {
@@ -239,8 +231,8 @@ function limitsText(found) {
     : "Limits on a step from train to train, either way: " + limits.join(", ") + ".";
 }
 
-function run(p) {
-  if (!(p.low < p.high)) throw new Error("low is " + p.low + "; below high, " + p.high + ", is expected");
+// The limits on a step from train to train: the profile's, those given, or none.
+function setLimits(p) {
   bench.setEncoding({ hold: "voltage" });
   if (p.slew === "given") {
     bench.setEncoding({ amplitude_ratio_per_train: p.slew_amplitude_ratio, amplitude_slew_v_per_s: p.slew_v_per_s,
@@ -248,62 +240,95 @@ function run(p) {
   }
   if (p.slew === "off") bench.setEncoding({ amplitude_ratio_per_train: 0, amplitude_slew_v_per_s: 0,
     interval_ratio_per_train: 0 });
+}
 
+function changesOf(p) {
+  const plan = stepsOf(p);
+  const jumps = smallSteps().concat(p.jumps ? jumpsOf() : []), movements = movementsOf();
+  const names = plan.names.concat(jumps.map((jump) => jump.name), movements.map((movement) => movement.name));
+  return { steps: plan.steps, stepNames: plan.names, jumps: jumps, movements: movements, names: names };
+}
+
+// What has been watched so far is judged, and stands if the run ends early.
+function judge(p, changes, results, computed) {
+  results.latency = analysis.latency(results.steps, { names: changes.stepNames, tolerance_s: p.latency_tolerance_s });
+  results.changes = analysis.changes(results.steps.concat(results.jumps, results.movements),
+    { names: changes.names, complete_s: p.complete_s, seconds_alone: p.complete === "seconds" });
+  record.partial(results, [
+    { caption: CAPTURED, rows: changeRows(results.changes), columns: CHANGES },
+    { caption: "Latency of a step", rows: latencyRows(results.latency), columns: COLUMNS },
+    computed,
+  ]);
+}
+
+function watchSteps(changes, results, keep) {
+  for (const step of progress(changes.steps.concat(changes.jumps), "Steps")) {
+    const seen = bench.step(step.from, step.to, { phase: step.phase });
+    (changes.jumps.includes(step) ? results.jumps : results.steps).push(Object.assign({ name: step.name }, seen));
+    record.trial(step.name, seen);
+    keep();
+  }
+}
+
+function watchMovements(p, changes, results) {
+  for (const movement of progress(changes.movements, "Movements")) {
+    results.movements.push(Object.assign({ name: movement.name },
+      bench.traverse(movement.from, movement.to, { seconds: p.traverse_s })));
+  }
+}
+
+function writeLatency(latency) {
+  report.table("Latency: from the step to the first train that carries it, mean ± s.d.", latencyRows(latency), COLUMNS);
+  report.text(
+    "Design: the pending train is pulled forward to max(now, last onset + new interval), and carries the newest " +
+      "amplitude. Steps fall on moments spread over the interval. Off is the largest difference between a step and " +
+      "its design; trains is how many a change takes until it is complete, measured / designed.",
+  );
+}
+
+// Captures decide; a design that steps too far elsewhere in the plane leaves it open.
+function conclude(p, sweep, results) {
+  const elsewhere = sweep.reasons.map((reason) => "computed, not captured: " + reason);
+  results.notes = results.changes.notes;
+  results.reasons = results.changes.reasons.concat(results.latency.reasons, elsewhere);
+  if (!results.reference.passed) results.reasons.unshift(results.reference.reason + "; nothing was measured");
+  const verdicts = [results.changes.verdict, results.latency.verdict, sweep.verdict === "pass" ? "pass"
+    : "indeterminate"];
+  results.verdict = verdicts.includes("fail") ? "fail" : verdicts.includes("indeterminate") ? "indeterminate" : "pass";
+  if (results.verdict === "pass") results.reasons = passed(p, results.changes);
+  return verdict(results);
+}
+
+function run(p) {
+  if (!(p.low < p.high)) throw new Error("low is " + p.low + "; below high, " + p.high + ", is expected");
+  setLimits(p);
+
+  // What the encoding does all over the plane, by computation.
   const sweep = analysis.transitions({ lines: p.lines, traverse_s: p.traverse_s, jumps: p.jumps });
   const computed = { caption: "Computed: largest step from train to train", rows: largestRows(sweep),
     columns: LARGEST };
   const results = { transitions: sweep, changes: null, latency: null, steps: [], jumps: [], movements: [] };
   record.partial(results, [computed]);
   report.text(limitsText(sweep));
-  results.reference = checkReference(p);
 
-  const plan = stepsOf(p);
-  const jumps = smallSteps().concat(p.jumps ? jumpsOf() : []), movements = movementsOf();
-  const changed = plan.names.concat(jumps.map((jump) => jump.name), movements.map((movement) => movement.name));
-  const judge = () => {
-    results.latency = analysis.latency(results.steps, { names: plan.names, tolerance_s: p.latency_tolerance_s });
-    results.changes = analysis.changes(results.steps.concat(results.jumps, results.movements),
-      { names: changed, complete_s: p.complete_s, seconds_alone: p.complete === "seconds" });
-    record.partial(results, [
-      { caption: CAPTURED, rows: changeRows(results.changes), columns: CHANGES },
-      { caption: "Latency of a step", rows: latencyRows(results.latency), columns: COLUMNS },
-      computed,
-    ]);
-  };
-  const known = results.reference.passed;
-  for (const step of known ? progress(plan.steps.concat(jumps), "Steps") : []) {
-    const seen = bench.step(step.from, step.to, { phase: step.phase });
-    (jumps.includes(step) ? results.jumps : results.steps).push(Object.assign({ name: step.name }, seen));
-    record.trial(step.name, seen);
-    judge();
-  }
-  for (const movement of known ? progress(movements, "Movements") : []) {
-    results.movements.push(Object.assign({ name: movement.name },
-      bench.traverse(movement.from, movement.to, { seconds: p.traverse_s })));
+  // The wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
+  operator.wired(p.load);
+  results.reference = bench.readKnownLoad(p.load, p.load_tolerance_pct);
+
+  // What the oscilloscope sees of steps and movements.
+  const changes = changesOf(p);
+  const keep = () => judge(p, changes, results, computed);
+  if (results.reference.passed) {
+    watchSteps(changes, results, keep);
+    watchMovements(p, changes, results);
   }
   bench.disarm();
-  judge();
+  keep();
 
   writeChanges(p, results.changes);
-
-  report.table("Latency: from the step to the first train that carries it, mean ± s.d.", latencyRows(results.latency),
-    COLUMNS);
-  report.text(
-    "Design: the pending train is pulled forward to max(now, last onset + new interval), and carries the newest " +
-      "amplitude. Steps fall on moments spread over the interval. Off is the largest difference between a step and " +
-      "its design; trains is how many a change takes until it is complete, measured / designed.",
-  );
+  writeLatency(results.latency);
   writeSweep(sweep);
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
-  // Captures decide; a design that steps too far elsewhere in the plane leaves it open.
-  const elsewhere = sweep.reasons.map((reason) => "computed, not captured: " + reason);
-  results.notes = results.changes.notes;
-  results.reasons = results.changes.reasons.concat(results.latency.reasons, elsewhere);
-  if (!known) results.reasons.unshift(results.reference.reason + "; nothing was measured");
-  const verdicts = [results.changes.verdict, results.latency.verdict, sweep.verdict === "pass" ? "pass"
-    : "indeterminate"];
-  results.verdict = verdicts.includes("fail") ? "fail" : verdicts.includes("indeterminate") ? "indeterminate" : "pass";
-  if (results.verdict === "pass") results.reasons = passed(p, results.changes);
-  return verdict(results);
+  return conclude(p, sweep, results);
 }

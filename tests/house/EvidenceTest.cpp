@@ -1,4 +1,5 @@
-// Every test that pilot-evidence.md names exists, and it names some for each section of what it is evidence for.
+// Every test that pilot-evidence.md names exists, and it names some for each section of what it is evidence for. Every
+// hazard of safety.md has tests, and tests record no other.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <regex>
@@ -40,6 +41,23 @@ TEST(Evidence, NamesTestsThatExistForEachSection) {
         for (const auto& name : names) EXPECT_TRUE(declared.contains(name)) << name << " is not there";
     }
     EXPECT_THAT(sections, testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
+}
+
+TEST(Hazards, OfSafetyEachHasTestsAndNoTestNamesAnother) {
+    static const std::regex row(R"(\n\| (H\d+)( )\| )"), recorded(R"re(RecordProperty\("hazard",\s*"(\w+)()"\))re");
+    const auto known = namesIn(readTextFile(test::sourceDir() / "resources/design/safety.md").value(), row);
+    EXPECT_GE(known.size(), 12U);
+    std::set<std::string> tested;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::sourceDir() / "tests")) {
+        const auto ending = entry.path().extension();
+        if (ending == ".cpp" || ending == ".h") tested.merge(namesIn(readTextFile(entry.path()).value(), recorded));
+    }
+    const auto bare = [](const std::set<std::string>& names) {
+        std::set<std::string> ids;
+        for (const auto& name : names) ids.insert(name.substr(0, name.find('.')));
+        return ids;
+    };
+    EXPECT_EQ(bare(tested), bare(known));
 }
 
 TEST(Evidence, DeclarationsAreFound) {

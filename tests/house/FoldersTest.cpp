@@ -1,12 +1,14 @@
 // The pictures of the tree are of the tree: architecture.md lists the folders of core, drivers and app, and
-// CONTRIBUTING.md draws them.
+// CONTRIBUTING.md draws them, each above what it stands on.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <vector>
 
+#include "tests/house/Layers.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -54,11 +56,16 @@ Folders listedIn(const std::string& document) {
     return listed;
 }
 
+struct DrawnRow {
+    std::string top;  ///< "core"
+    std::vector<std::string> folders;
+};
+
 /// " core   │ safety   analysis: a library each │ what they are": rows of boxes; the first of a top folder names it.
-Folders drawnIn(const std::string& document) {
+std::vector<DrawnRow> rowsDrawnIn(const std::string& document) {
     static const std::string side = "│";
     static const std::regex box(R"((\w+)(?:: \w+(?: \w+)*)?)"), word(R"(\w+)");
-    Folders drawn;
+    std::vector<DrawnRow> rows;
     std::string current;
     std::istringstream lines(document);
     for (std::string line; std::getline(lines, line);) {
@@ -69,9 +76,26 @@ Folders drawnIn(const std::string& document) {
         std::smatch found;
         const auto margin = line.substr(0, left), row = line.substr(left + side.size(), right - left - side.size());
         if (std::regex_search(margin, found, word)) current = found[0];
-        for (std::sregex_iterator i(row.begin(), row.end(), box), end; i != end; ++i) drawn[current].insert((*i)[1]);
+        auto& drawn = rows.emplace_back(DrawnRow{current, {}});
+        for (std::sregex_iterator i(row.begin(), row.end(), box), end; i != end; ++i) drawn.folders.push_back((*i)[1]);
     }
+    return rows;
+}
+
+Folders drawnIn(const std::string& document) {
+    Folders drawn;
+    for (const auto& row : rowsDrawnIn(document)) drawn[row.top].insert(row.folders.begin(), row.folders.end());
     return drawn;
+}
+
+/// "core/safety" of a target with sources there or below; empty for one without.
+std::string folderOf(const test::Target& target) {
+    for (const fs::path source : target.sources) {
+        auto part = source.begin();
+        const auto top = *part++;
+        if (part != source.end() && std::next(part) != source.end()) return top / *part;
+    }
+    return {};
 }
 
 TEST(Folders, ArchitectureListsThem) {
@@ -89,6 +113,28 @@ TEST(Folders, ArchitectureListsThem) {
 }
 
 TEST(Folders, ContributingDrawsThem) { EXPECT_EQ(drawnIn(documentText("CONTRIBUTING.md")), foldersOfTheTree()); }
+
+TEST(Folders, ContributingDrawsEachAboveWhatItStandsOn) {
+    const auto rows = rowsDrawnIn(documentText("CONTRIBUTING.md"));
+    std::map<std::string, std::size_t> rowOf;  // from the top
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        for (const auto& folder : rows[row].folders) rowOf[rows[row].top + '/' + folder] = row;
+    const auto targets = test::targetsOfTheBuild();
+    std::size_t links = 0;
+    for (const auto& [name, target] : targets) {
+        const auto above = folderOf(target);
+        for (auto link : target.links) {
+            const auto linked = targets.find(link);
+            if (linked == targets.end() || above.empty()) continue;
+            const auto below = folderOf(linked->second);
+            if (below == above) continue;
+            ++links;
+            EXPECT_LT(rowOf[above], rowOf[below])
+                << above << " links " << below << ", which is drawn beside or above it";
+        }
+    }
+    EXPECT_GT(links, 80U);
+}
 
 TEST(Folders, AreReadFromTheirPictures) {
     EXPECT_EQ(listedIn("core/  Things.\n  base/   Text\n  a/, b/  both\ndrivers/   More.\n  usb/  x\n```\n  no/  y\n"),

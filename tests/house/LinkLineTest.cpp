@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "tests/house/Layers.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -12,23 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Target {
-    std::vector<std::string> sources, links, handsOn;
-};
-using Targets = std::map<std::string, Target>;
-
-/// As tests/house/CMakeLists.txt writes them.
-Targets readTargets(std::istream& in) {
-    Targets targets;
-    Target* current = nullptr;
-    for (std::string key, value; in >> key && std::getline(in >> std::ws, value);) {
-        if (key == "target") current = &targets[value];
-        if (key == "source") current->sources.push_back(value);
-        if (key == "links") current->links.push_back(value);
-        if (key == "hands_on") current->handsOn.push_back(value);
-    }
-    return targets;
-}
+using test::readTargets;
+using test::Targets;
 
 /// Whose headers the files of `target` may include, its own among them.
 std::set<std::string> reachOf(const Targets& targets, const std::string& target) {
@@ -101,9 +87,8 @@ std::vector<std::string> faultsOf(const fs::path& file, const std::vector<std::s
 }
 
 TEST(LinkLine, EveryIncludeFollowsIt) {
-    std::ifstream in(TACTO_LAYERS);
-    const auto targets = readTargets(in);
-    ASSERT_TRUE(targets.contains("tacto_base")) << TACTO_LAYERS;
+    const auto targets = test::targetsOfTheBuild();
+    ASSERT_TRUE(targets.contains("tacto_base"));
     const Owners owners(targets);
     std::size_t files = 0;
     for (const char* top : {"core", "drivers", "app"}) {

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <regex>
 
+#include "app/report/NumberText.h"
 #include "app/report/Report.h"
+#include "app/report/ReportBasis.h"
 #include "tests/report/Samples.h"
 #include "tests/support/Support.h"
 
@@ -312,6 +314,46 @@ TEST_F(Report, WhatARowIsAboutBeginsAsASentenceDoesAndAConditionKeepsItsName) {
     EXPECT_TRUE(html.contains("<td>smooth-low</td>"));
     EXPECT_TRUE(html.contains("Energy per pulse"));
     EXPECT_TRUE(html.contains("<li>Current density was not evaluated</li>"));
+}
+
+TEST_F(Report, AJudgedCellSaysHowMuchOfItsLimitIsUsed) {
+    RecordProperty("hazard", "H9");
+    ReportModel model;
+    const auto cell = [](double margin_pct) {
+        return QJsonObject{
+            {"value", 40.0}, {"expanded_uncertainty", 0.5}, {"verdict", "pass"}, {"margin_pct", margin_pct}};
+    };
+    const QJsonObject row{{"title", "peak voltage"},
+                          {"unit", "V"},
+                          {"limit", 40.0},
+                          {"cells", QJsonArray{cell(0), cell(58.4), cell(99.97), cell(99.4)}}};
+    model.items.emplace_back(ReportMatrix{"Limits", {"1 kohm", "2 kohm", "10 kohm", "100 kohm"}, QJsonArray{row}});
+    const auto html = QString::fromUtf8(contentOfFile(write(model, "t.html"))).replace(QChar(0x202f), ' ');
+    for (const auto* share : {"100 %", "42 %", "&lt; 0.1 %", "0.6 %"}) EXPECT_TRUE(html.contains(share)) << share;
+    EXPECT_TRUE(html.contains("the share of the limit used, (value + U) / limit"));
+    EXPECT_FALSE(html.contains("margin,"));
+}
+
+TEST_F(Report, WhatIsNotEvaluatedOnSeveralLoadsForOneReasonIsOneSentence) {
+    const auto row = [](const char* load, const char* join) {
+        return QJsonObject{
+            {"load", load},
+            {"verdict", "not evaluated"},
+            {"reason", QString("current density %1 %2 was not evaluated: the area is not known").arg(join, load)}};
+    };
+    const QJsonObject other{{"load", "100 ohm"},
+                            {"verdict", "not evaluated"},
+                            {"reason", "net charge into 100 ohm was not evaluated: it was not captured"}};
+    const QJsonObject results{
+        {"rows", QJsonArray{row("100 ohm", "into"), other, row("200 ohm + 10 kohm || 50 nF", "into")}},
+        {"worst_case", QJsonObject{{"rows", QJsonArray{row("500 to 10000 ohm", "over")}}}}};
+    ReportModel model;
+    readBasis(results, model);
+    ASSERT_EQ(model.basis.notEvaluated.size(), 2);
+    EXPECT_EQ(model.basis.notEvaluated[0],
+              withSigns("current density into 100 ohm, 200 ohm + 10 kohm || 50 nF and in the worst case was not "
+                        "evaluated: the area is not known"));
+    EXPECT_EQ(model.basis.notEvaluated[1], withSigns("net charge into 100 ohm was not evaluated: it was not captured"));
 }
 
 TEST_F(Report, ANameThatWasNotGivenIsALineToSignOnPaper) {

@@ -139,10 +139,10 @@ void addRequestCases(std::vector<GateCase>& cases) {
     add(
         IntervalValue, plain, [](auto& r) { r.interval = Seconds(kNaN); }, "not a finite time");
     add(
-        IntervalBelowTrain, plain, [](auto& r) { r.interval = Seconds(0.009); }, "shorter than the train");
+        IntervalBelowTrain, plain, [](auto& r) { r.interval = Seconds(0.009); }, "interval 0.009 s is shorter");
     add(
         OnsetAhead, plain, [](auto& r) { r.onset += std::chrono::milliseconds(101); }, "planned");
-    cases.push_back({OnsetAhead, "a check pulse planned ahead", [] {
+    cases.push_back({CheckOnsetAhead, "a check pulse planned ahead", [] {
                          Rig rig(benchSetup());
                          return rig.gate.approveCheck(rig.clock.now()).has_value() &&
                                 refuses(rig.gate.approveCheck(std::chrono::seconds(1)), ErrorCode::InvalidArgument,
@@ -234,7 +234,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         const CalibrationLine sooner = exactLine(0.9, 0, 0.1, 10);
         return refusedOnly(Quantity::RmsCurrent5s, 1.15, StimulatorCalibration{known, sooner, {}, {}}, "1.239");
     });
-    add(IntervalBelowTrain, "an interval that comes out shorter than its train", [=] {
+    add(IntervalMayBeBelowTrain, "an interval that comes out shorter than its train", [=] {
         GateSetup setup = benchSetup();
         PulseTrain train = volts(10);
         train.pulses = 50;  // at 100 Hz
@@ -392,7 +392,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         train.shape = PulseShape::Monophasic;
         return refuses(rig.ask(train), ErrorCode::LimitExceeded, "monophasic");
     });
-    add(PersonBeyondCalibration, "a person beyond the calibrated range", [] {
+    add(PersonBeyondAmplitude, "a person beyond the calibrated amplitudes", [] {
         GateSetup setup = personSetup();
         setup.calibration->amplitude.highest = 0.3;
         Rig rig(setup);
@@ -400,21 +400,37 @@ void addStateCases(std::vector<GateCase>& cases) {
         return rig.ask(milliamps(0.36)).has_value() &&
                refuses(rig.ask(milliamps(0.37)), ErrorCode::LimitExceeded, "beyond the range");
     });
-    add(PersonBeyondCalibration, "a person, with a phase or an interval beyond the calibrated range", [] {
+    add(PersonBeyondWidth, "a person, with a phase beyond the calibrated widths", [] {
         GateSetup setup = personSetup();
         setup.calibration->phaseWidth->highest = 180e-6;
-        setup.calibration->interval->lowest = 0.5;
         Rig rig(setup);
         (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
         PulseTrain longer = milliamps(0.3);
         longer.phaseWidth = Micros(220);
+        return rig.ask(milliamps(0.3)).has_value() &&
+               refuses(rig.ask(longer), ErrorCode::LimitExceeded, "phase width 220 us is beyond");
+    });
+    add(PersonBeyondInterval, "a person, with an interval beyond the calibrated ones", [] {
+        GateSetup setup = personSetup();
+        setup.calibration->interval->lowest = 0.5;
+        Rig rig(setup);
+        (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
         return rig.ask(milliamps(0.3), 0.42).has_value() &&
-               refuses(rig.ask(longer), ErrorCode::LimitExceeded, "phase width 220 us is beyond") &&
                refuses(rig.ask(milliamps(0.3), 0.4), ErrorCode::LimitExceeded, "interval 0.4 s is beyond");
     });
     withPerson(PersonLevel, "a jump above the ramp", [](Rig& rig) {
         (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
         return refuses(rig.ask(milliamps(0.6)), ErrorCode::LimitExceeded, "ramp rule") && rig.ask(milliamps(0.5));
+    });
+    add(LevelMoreThanProgrammed, "a level that comes out above the ramp", [] {
+        const auto asked = [](double gain) {
+            GateSetup setup = personSetup();
+            setup.calibration->amplitude = exactLine(gain, 0, 0.1, 50);
+            Rig rig(setup);
+            (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
+            return rig.ask(milliamps(0.45));
+        };
+        return asked(1).has_value() && refuses(asked(1.15), ErrorCode::LimitExceeded, "current would be 0.5175 mA");
     });
     withPerson(CheckDiscomfort, "a check pulse above the discomfort limit", [](Rig& rig) {
         const bool fine = rig.gate.approveCheck(rig.clock.now()).has_value();

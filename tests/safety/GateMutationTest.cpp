@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/safety/Rules.h"
@@ -52,13 +54,14 @@ TEST(GateMutation, EveryCheckTakenAwayIsNoticed) {
     RecordProperty("checks", static_cast<int>(checks.size()));
 }
 
-/// Whether `line` begins the entry of a named rule in a table.
-bool beginsARule(const std::string& line) {
+/// The named rule whose entry in a table begins in `line`; empty where none does.
+std::string_view ruleBegunIn(const std::string& line) {
     const auto brace = line.find_first_not_of(' ');
-    if (brace == std::string::npos || line[brace] != '{') return false;
-    return std::ranges::any_of(kCheckNames, [&](const CheckName& named) {
-        return line.compare(brace + 1, named.name.size() + 1, std::string(named.name) + ',') == 0;
-    });
+    if (brace == std::string::npos || line[brace] != '{') return {};
+    std::string_view entry = std::string_view(line).substr(brace + 1);
+    if (entry.starts_with("gate::")) entry.remove_prefix(6);
+    const auto named = std::ranges::find(kCheckNames, entry.substr(0, entry.find(',')), &CheckName::name);
+    return named != kCheckNames.end() ? named->name : std::string_view();
 }
 
 /// Every refusal in the files that decide stands in the entry of a rule, is worded by a function that only words, or
@@ -66,8 +69,10 @@ bool beginsARule(const std::string& line) {
 TEST(GateMutation, EveryRefusalHasItsRule) {
     RecordProperty("hazard", "H1");
     int refusals = 0;
-    for (const char* name : {"AcceptedIntensities.cpp", "AcceptedLevels.cpp", "SetupRules.cpp", "TrainRules.cpp",
-                             "LimitRules.cpp", "Interlock.cpp", "SafetyGate.cpp", "TrainCheck.cpp", "Heartbeat.h"}) {
+    std::map<std::string_view, std::string> rules;  // where each is
+    for (const char* name :
+         {"AcceptedIntensities.cpp", "AcceptedLevels.cpp", "SetupRules.cpp", "TrainRules.cpp", "LimitRules.cpp",
+          "Interlock.cpp", "SafetyGate.cpp", "TrainCheck.cpp", "DeliveryBounds.cpp", "Heartbeat.h"}) {
         std::ifstream in(sourceDir() / "core" / "safety" / name);
         ASSERT_TRUE(in) << name;
         std::vector<std::string> lines;
@@ -75,6 +80,11 @@ TEST(GateMutation, EveryRefusalHasItsRule) {
         for (std::size_t at = 0; at < lines.size(); ++at) {
             const auto& line = lines[at];
             const auto says = [&line](const char* words) { return line.find(words) != std::string::npos; };
+            // With two rules of one name, one could be wrong and the other would hide it from the mutation.
+            if (const auto rule = ruleBegunIn(line); !rule.empty()) {
+                const auto [first, isNew] = rules.try_emplace(rule, fmt::format("{}:{}", name, at + 1));
+                EXPECT_TRUE(isNew) << name << ':' << at + 1 << ": " << rule << " is a rule already, " << first->second;
+            }
             if (line.starts_with("tl::unexpected<Error> ")) continue;
             const bool refuses = says("fail(ErrorCode") || line.ends_with("fail(") || says("invalid(") ||
                                  says("beyond(") || says("refused(") || says("failure(") ||
@@ -88,7 +98,7 @@ TEST(GateMutation, EveryRefusalHasItsRule) {
             bool named = false;
             for (std::size_t back = 0; back <= at && !named; ++back) {
                 const auto& above = lines[at - back];
-                named = beginsARule(above) || above.starts_with("tl::unexpected<Error> ") ||
+                named = !ruleBegunIn(above).empty() || above.starts_with("tl::unexpected<Error> ") ||
                         (back <= 1 && above.find("// No rule:") != std::string::npos);
                 if (back > 0 && above.starts_with("}")) break;
             }
@@ -97,6 +107,7 @@ TEST(GateMutation, EveryRefusalHasItsRule) {
     }
     RecordProperty("refusals", refusals);
     EXPECT_GE(refusals, 80) << "the files were not read as expected";
+    EXPECT_GE(rules.size(), 100U) << "the tables were not read as expected";
 }
 
 }  // namespace tacto::test

@@ -164,10 +164,10 @@ void addInterlockCases(std::vector<GateCase>& cases) {
         return found([](auto& s) { s.at = 1s + 50ms; }, 1s + 52ms) == TrainFinding::Ok &&
                found([](auto& s) { s.at = 1s + 51ms; }, 1s + 52ms) == TrainFinding::StatusMissing;
     });
-    add(TrainReadEarly, "a status from before the train's end", [] {
-        return found([](auto& s) { s.at = 1s - 1ms; }) == TrainFinding::Pending &&
-               found([](auto& s) { s.at = 1s - 1ms; }, 1s + 51ms) == TrainFinding::StatusMissing;
-    });
+    add(TrainReadEarly, "a status from before the train's end",
+        [] { return found([](auto& s) { s.at = 1s - 1ms; }) == TrainFinding::Pending; });
+    add(TrainNeverRead, "no other status than that by the deadline",
+        [] { return found([](auto& s) { s.at = 1s - 1ms; }, 1s + 51ms) == TrainFinding::StatusMissing; });
 
     add(HeartSilent, "a loop that was silent for over 100 ms", [] {
         Heartbeat heart;
@@ -221,8 +221,11 @@ void addInterlockCases(std::vector<GateCase>& cases) {
     });
     add(LevelOfPerson, "accepting a level on a bench load", [] {
         Rig rig(benchSetup());
-        return notArmed(rig.gate.accept(milliamps(0.1)), "person mode only") &&
-               notArmed(rig.gate.reportDiscomfort(Milliamps(0.1)), "person mode only");
+        return notArmed(rig.gate.accept(milliamps(0.1)), "person mode only");
+    });
+    add(DiscomfortOfPerson, "reporting discomfort on a bench load", [] {
+        Rig rig(benchSetup());
+        return notArmed(rig.gate.reportDiscomfort(Milliamps(0.1)), "person mode only");
     });
     add(LevelMalformed, "accepting a train that no stimulator could mean", [] {
         Rig rig(personSetup());

@@ -180,8 +180,9 @@ TEST_F(Arming, OfACalibrationIsAskedForAsAnyOther) {
         "interval_min_s: 0.5, interval_max_s: 2, width_min_us: 100, width_max_us: 400, gap_min_us: 100, gap_max_us: "
         "400 };"
         "const step = { share: 0, direction: 'up', repeat: 1 };";
-    for (const char* call : {"calibration.readKnownLoad(s);", "calibration.warmUp(1000, 1);",
-                             "calibration.beginLevels('amplitude', s);", "calibration.readLevel('width', step, s);"}) {
+    for (const char* call :
+         {"bench.readKnownLoad(1000, 5);", "calibration.readKnownLoad(s);", "calibration.warmUp(1000, 1);",
+          "calibration.beginLevels('amplitude', s);", "calibration.readLevel('width', step, s);"}) {
         const auto outcome = run(settings + call, {});
         ASSERT_TRUE(outcome.error) << call;
         EXPECT_EQ(outcome.error->code, ErrorCode::NotFound) << call << outcome.error->message;

@@ -171,5 +171,30 @@ TEST(Weighings, GoUpAndDownAgainAndAgain) {
     EXPECT_EQ(order, "+20 +50 -50 -20 +20' +50' -50' -20' ");
 }
 
+TEST(GivenReadings, AreRefusedAlikeByEachFunctionThatTakesThem) {
+    RunBench rig;
+    for (const std::string function : {"analysis.calibration", "analysis.sensorScale"}) {
+        const auto refusal = [&](const std::string& row) {
+            const auto outcome =
+                rig.run(withRun(function + "([{ commanded: 1, measured: 2, direction: 'up' }, " + row + "]);"));
+            return outcome.error ? outcome.error->message : "";
+        };
+        EXPECT_THAT(refusal("{ commanded: 2, measured: 4, direction: 'sideways' }"),
+                    testing::HasSubstr(function + ": direction is \"sideways\", \"up\", \"down\" or \"\" is expected"));
+        EXPECT_THAT(refusal("{ commanded: '2', measured: 4 }"),
+                    testing::HasSubstr("an object with commanded, measured and direction is expected"));
+    }
+    const auto weighed = rig.run(withRun(
+        "analysis.fingertipScales([{ reading: { reference_n: 1, force: 1, taxels: [] }, direction: 'left' }], {});"));
+    ASSERT_TRUE(weighed.error);
+    EXPECT_THAT(weighed.error->message, testing::HasSubstr("analysis.fingertipScales: direction is \"left\""));
+    const auto outcome = rig.run(withRun(R"(
+        const rows = [1, 2, 3].map((commanded) => ({ commanded, measured: 2 * commanded + 1, direction: "up" }));
+        return verdict({ verdict: null, scale: analysis.sensorScale(rows) });)"));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_NEAR(outcome.results["scale"]["scale"].get<double>(), 0.5, 1e-12);
+    EXPECT_NEAR(outcome.results["scale"]["offset"].get<double>(), -0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace tacto

@@ -66,9 +66,10 @@ function run() { operator.wired(500); bench.arm({ load: 500 }); bench.present("s
 
 TEST(ProtocolDeclaration, NamesTheConfirmationOfArmingWhicheverFunctionArms) {
     RecordProperty("hazard", "H12");
-    for (const char* call : {"loads.arm(name)", "loads.askToArm(command)", "bench.tripBySilence('1 kohm', 1)",
-                             "calibration.warmUp(1, 2)", "calibration . readLevel('gap', step, p)",
-                             "calibration.readKnownLoad(p)", "calibration.beginLevels('gap', p)"}) {
+    for (const char* call :
+         {"loads.arm(name)", "loads.askToArm(command)", "bench.tripBySilence('1 kohm', 1)", "calibration.warmUp(1, 2)",
+          "calibration . readLevel('gap', step, p)", "calibration.readKnownLoad(p)",
+          "calibration.beginLevels('gap', p)", "bench.readKnownLoad(1000, 5)"}) {
         const auto read =
             readDeclaration(probe(fmt::format("protocol({{ title: 'x' }});\nfunction run(p) {{ {}; }}", call)));
         ASSERT_TRUE(read) << read.error().message;

@@ -1,8 +1,12 @@
+#include <filesystem>
 #include <gtest/gtest.h>
+#include <regex>
 #include <set>
 
 #include "app/scripting/engine/HostFunction.h"
 #include "app/scripting/engine/ScriptRun.h"
+#include "core/base/Csv.h"
+#include "tests/support/Support.h"
 
 namespace tacto {
 namespace {
@@ -26,6 +30,34 @@ TEST(HostReference, DescribesEveryFunctionAndParameter) {
             EXPECT_FALSE(parameter.name == "seconds" && parameter.unit != "s");
         }
     }
+}
+
+/// "load_ohm" of a description: what can only be a key of what is returned.
+std::set<std::string> keysIn(std::string_view description) {
+    static const std::regex key(R"(\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+\b)");
+    const std::string text(description);
+    std::set<std::string> keys;
+    for (std::sregex_iterator at(text.begin(), text.end(), key), end; at != end; ++at) keys.insert(at->str());
+    return keys;
+}
+
+TEST(HostReference, NamesNoKeyThatNothingWrites) {
+    std::string sources;
+    for (const char* folder : {"app/scripting", "core"}) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(test::sourceDir() / folder)) {
+            const auto ending = entry.path().extension();
+            if (ending == ".cpp" || ending == ".h") sources += readTextFile(entry.path()).value();
+        }
+    }
+    std::size_t keys = 0;
+    for (const auto& function : hostFunctions()) {
+        for (const auto& key : keysIn(function.returns)) {
+            ++keys;
+            EXPECT_NE(sources.find('"' + key + '"'), std::string::npos) << function.fullName() << " returns " << key;
+        }
+    }
+    EXPECT_GT(keys, 150U);
+    EXPECT_EQ(keysIn("{ a, load_ohm, x_1 }: _u_ is one"), (std::set<std::string>{"load_ohm", "x_1"}));
 }
 
 TEST(HostReference, NamesTheObjectsOfTheLanguageAndNothingTwice) {

@@ -43,7 +43,11 @@ TEST(KnownReference, OfTheLoadThatIsConnectedPassesAndIsRecorded) {
     const auto tables = reported(rig, "table");
     ASSERT_EQ(tables.size(), 1U);
     EXPECT_EQ(tables[0]["caption"], "Known-reference check");
-    EXPECT_EQ(tables[0]["rows"][0]["passed"], true);
+    const auto& row = tables[0]["rows"][0];
+    EXPECT_EQ(row["verdict"], "pass");
+    EXPECT_EQ(row["measured ± U"]["unit"], "ohm") << "one column with its uncertainty, not one for each key";
+    EXPECT_GT(row["measured ± U"]["expanded"].get<double>(), 1);
+    EXPECT_EQ(tables[0]["columns"].back(), "verdict");
 }
 
 TEST(KnownReference, OfAnotherLoadOrOfNoneFailsWithItsReason) {
@@ -59,11 +63,29 @@ TEST(KnownReference, OfAnotherLoadOrOfNoneFailsWithItsReason) {
                 testing::MatchesRegex("the known-reference check failed: .* ± .* ohm was measured where 2000 ohm is "
                                       "connected; 1 % of it is accepted, uncertainty included"));
     EXPECT_THAT(reasonOf("record.reference({}, 2000, 1)"), testing::HasSubstr("nothing was measured where 2000 ohm"));
-    EXPECT_THAT(reasonOf("record.reference({ load_ohm: NaN, load_limit: NaN }, 2000, 1)"),
+    EXPECT_THAT(reasonOf("record.reference({ load_ohm: NaN, load_expanded_ohm: NaN }, 2000, 1)"),
                 testing::HasSubstr("nothing was measured"));
     const auto refused = rig.run(withRun("record.reference({}, 0, 1)"));
     ASSERT_TRUE(refused.error);
     EXPECT_THAT(refused.error->message, testing::HasSubstr("load is 0"));
+}
+
+TEST(KnownReference, ReadAndJudgedInOneCallLeavesTheOutputArmedUnlessItFails) {
+    RecordProperty("hazard", "H12");
+    RunBench rig;
+    const auto outcome =
+        rig.run(withRun(std::string(kRead) +
+                        "const known = bench.readKnownLoad(1000, 5), state = bench.live().state;"
+                        "return verdict({ verdict: null, known, apart: record.reference(reading, 1000, 5), state });"));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& known = outcome.results["known"];
+    EXPECT_EQ(known["passed"], true) << known;
+    EXPECT_EQ(known["allowed_pct"], 5);
+    EXPECT_NEAR(known["measured_ohm"].get<double>(), outcome.results["apart"]["measured_ohm"].get<double>(), 10);
+    EXPECT_EQ(outcome.results["state"], "delivering");
+    const auto refused = rig.run(withRun("bench.arm(); bench.readKnownLoad(1000, 500);"));
+    ASSERT_TRUE(refused.error);
+    EXPECT_EQ(rig.bench().telemetry().state, InterlockState::Disarmed);
 }
 
 TEST(Wiring, OfASimulatedBenchIsReportedWithoutAQuestion) {

@@ -121,8 +121,8 @@ TEST(Sandbox, ShowsNothingOfTheObjectBehindIt) {
         const own = ["arm", "attempt", "calibration", "capture", "conditions", "devices", "disarm", "drive",
                      "electrodeArea", "exposure", "finished", "fitLoad", "lift", "live", "loads", "measureReference",
                      "measureRest", "measureSlide", "measureWeight", "predict", "present", "profilometer",
-                     "readReference", "replayed", "sensorStreams", "setElectrodeArea", "setEncoding", "setReferences",
-                     "step", "surfaces", "time", "traverse",
+                     "readKnownLoad", "readReference", "replayed", "sensorStreams", "setElectrodeArea", "setEncoding",
+                     "setReferences", "step", "surfaces", "time", "traverse",
                      "tripBySilence", "tripWhenArming", "tripWhileDelivering", "useCalibration",
                      "useFingertipScales", "wait", "watch", "weights"];
         if (Object.getOwnPropertyNames(bench).sort().join() !== own.join()) {

@@ -51,6 +51,24 @@ TEST(ShippedProtocols, OfAStudyAreRefusedWithoutOne) {
     }
 }
 
+/// A script imports nothing: what both ask for stands in each, and says the same.
+TEST(ShippedProtocols, OfAStudyAskForTheSameInTheSameWords) {
+    const auto parametersOf = [](const char* name) {
+        return readDeclaration(shipped().find(name).value()).value().parameters;
+    };
+    const auto others = parametersOf("pilot-identification");
+    std::size_t shared = 0;
+    for (const auto& one : parametersOf("pilot-thresholds")) {
+        const auto other = std::ranges::find(others, one.name, &ProtocolParameter::name);
+        if (other == others.end()) continue;
+        ++shared;
+        auto same = one;
+        if (one.name == "blocks") same.label = other->label;  // the test has some, the thresholds none
+        EXPECT_TRUE(same == *other) << one.name;
+    }
+    EXPECT_EQ(shared, others.size());
+}
+
 class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {

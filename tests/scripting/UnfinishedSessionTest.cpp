@@ -5,8 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/run/EncodingTurn.h"
+#include "app/run/PilotRows.h"
 #include "app/run/UnfinishedSession.h"
 #include "app/run/VirtualPerson.h"
+#include "core/pilot/PilotRecord.h"
+#include "core/session/SessionWriter.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -78,6 +81,21 @@ TEST_F(UnfinishedSessionTest, ItEndsOnceEveryGateLetsAnotherBegin) {
     EXPECT_EQ(ends.begin(*study_, request_, remarks_).value().session.number, 2);
     EXPECT_EQ(study_->session(first.session.id).value().state, StudySessionState::Stopped);
     EXPECT_THAT(remarks_, ElementsAre("Session 1 of " + who_.code + " was ended as stopped."));
+}
+
+TEST_F(UnfinishedSessionTest, WhatWasPresentedLastIsTimedFromWhenTheWallClockWasRead) {
+    RecordProperty("hazard", "H8");
+    const auto begun = study_->beginSession(request_).value();
+    const SteadyClock clock;
+    SessionAbout about;
+    about.wallStart = "2099-01-01T10:00:00Z";
+    about.wallStartAt = std::chrono::seconds(10);  // opening the devices takes a while
+    auto writer = SessionWriter::create(begun.path, about, clock, begun.seal).value();
+    ASSERT_TRUE(writer->event(std::chrono::seconds(12), row::kAnswer, {{"name", "test 1"}}));
+    ASSERT_TRUE(writer->close());
+    using namespace std::chrono;
+    EXPECT_EQ(pilotRows(*study_, begun.session).value().answeredAt,
+              sys_days{year(2099) / 1 / 1} + hours(10) + seconds(2));
 }
 
 class EncodingTurnTest : public UnfinishedSessionTest {

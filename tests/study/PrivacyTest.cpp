@@ -10,8 +10,8 @@ protected:
     void expectNothingSaid(const char* when) const {
         const auto all = everythingBelow(scratch.path());
         EXPECT_GT(all.size(), 10'000U);
-        for (const char* secret : {"Muster", "1987", "female", "ambidextrous", "faint", "Klara", "Lot of",
-                                   "rough-high", "P-7K3D", "P7K3D"})
+        for (const char* secret :
+             {"Muster", "1987", "female", "ambidextrous", "faint", "Klara", "Lot of", "rough-high", "P-7K3D", "P7K3D"})
             EXPECT_EQ(all.find(secret), std::string::npos) << "\"" << secret << "\" is to be read " << when;
     }
 };

@@ -2,6 +2,7 @@
 
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
@@ -155,7 +156,16 @@ void CalibrationView::end(const nlohmann::json& results) {
         auto judged = readingsFrom(key, found);
         if (judged) of(key) = std::move(*judged);
     }
-    if (!all_.empty()) choose(follow_ ? 0 : shown_);
+    if (!all_.empty()) choose(follow_ ? nearest() : shown_);
+}
+
+/// The quantity that uses most of its tolerance: the verdict's first reason is about it.
+int CalibrationView::nearest() const {
+    const auto share = [](const CalibrationReadings& one) {
+        const auto* use = one.nearest();
+        return use != nullptr ? use->share() : 0;
+    };
+    return int(std::ranges::max_element(all_, {}, share) - all_.begin());
 }
 
 void CalibrationView::choose(int index) {
@@ -167,6 +177,7 @@ void CalibrationView::choose(int index) {
     errors_->show(chosen);
     for (std::size_t i = 0; i < cards_.size(); ++i) cards_[i]->show(all_[i]);
     cards_[std::size_t(index)]->setChecked(true);
+    arrange();
     say();
 }
 
@@ -218,10 +229,8 @@ void CalibrationView::arrange() {
     const int rows = (count + columns - 1) / columns;
     const bool placed = places_->count() == count && columns_ == columns;
     columns_ = columns;
-    for (int i = 0; i < count && !placed; ++i) {
-        places_->addWidget(cards_[std::size_t(i)], i / columns, i % columns);
-        places_->setColumnStretch(i, i < columns ? 1 : 0);
-    }
+    for (int i = 0; i < count && !placed; ++i) places_->addWidget(cards_[std::size_t(i)], i / columns, i % columns);
+    shareWidth(columns);
     for (auto* card : cards_) {
         const auto leaves = [&](Shape shape) {
             return height() - head_->sizeHint().height() - rows * card->heightOf(shape) >= kPlotShare * height();
@@ -229,6 +238,22 @@ void CalibrationView::arrange() {
         card->setShape(leaves(Shape::Large)      ? Shape::Large
                        : leaves(Shape::TwoLines) ? Shape::TwoLines
                                                  : Shape::OneLine);
+    }
+}
+
+/// Alike, or as their words want it where those fit in no other way: a verdict keeps its word.
+void CalibrationView::shareWidth(int columns) {
+    const int count = int(cards_.size());
+    std::vector<int> wanted(std::size_t(count), 0);
+    for (int i = 0; i < count; ++i) {
+        auto& column = wanted[std::size_t(i % columns)];
+        column = std::max(column, cards_[std::size_t(i)]->wordedWidth());
+    }
+    const int each = (width() - (columns - 1) * kCardsApart) / columns;
+    const bool alike = std::ranges::all_of(wanted, [each](int column) { return column <= each; });
+    for (int i = 0; i < count; ++i) {
+        const int stretch = i >= columns ? 0 : alike ? 1 : wanted[std::size_t(i)];
+        places_->setColumnStretch(i, stretch);
     }
 }
 

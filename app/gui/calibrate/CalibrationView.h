@@ -50,7 +50,9 @@ private:
     void addTools(QBoxLayout& row);
     [[nodiscard]] CalibrationReadings& of(const std::string& quantity);
     void choose(int index);
+    [[nodiscard]] int nearest() const;
     void arrange();
+    void shareWidth(int columns);
     void say();
     nlohmann::json parameters_;
     std::vector<CalibrationReadings> all_;

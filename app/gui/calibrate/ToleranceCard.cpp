@@ -68,6 +68,13 @@ int ToleranceCard::heightOf(Shape shape) const {
            2 * kCardTop + 4;
 }
 
+int ToleranceCard::wordedWidth() const {
+    const QFontMetrics body(textFont(TextSize::Body, QFont::DemiBold));
+    const QFontMetrics small(textFont(TextSize::Small, QFont::DemiBold));
+    const int verdict = verdict_.isEmpty() ? 0 : scaledPx(kCardIcon) + small.horizontalAdvance(verdict_) + 4 + kCardPad;
+    return 2 * kCardPad + body.horizontalAdvance(text() + "  " + large_) + verdict;
+}
+
 QSize ToleranceCard::sizeHint() const { return {scaledPx(kCardWidth), heightOf(shape_)}; }
 
 QSize ToleranceCard::minimumSizeHint() const { return {scaledPx(kNarrowCard), sizeHint().height()}; }
@@ -154,8 +161,8 @@ void ToleranceCard::paintLarge(QPainter& painter) const {
     }
 }
 
-/// At the right of `head`. Returns the width that it takes: the word only where it leaves `wanted` to what stands left,
-/// for the verdict above and the tool tip have the word too.
+/// At the right of `head`. Returns the width that it takes: the word only where it leaves `wanted` to what stands left
+/// (wordedWidth()), for the verdict above and the tool tip have the word too.
 int ToleranceCard::paintVerdict(QPainter& painter, const QRect& head, int wanted) const {
     if (verdict_.isEmpty()) return 0;
     const auto style = verdictStyle(verdict_);

@@ -1,11 +1,15 @@
 #include "app/gui/calibrate/WiringPage.h"
 
+#include <QApplication>
+#include <QFile>
 #include <QLabel>
 #include <QPainter>
 #include <QSvgRenderer>
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
@@ -14,10 +18,27 @@ namespace {
 
 constexpr int kDrawingChars = 60, kMinDrawingChars = 42;  // its width, and the least at which its words are read
 
-/// As wide as its place lets it be. On white in both themes: it is a drawing on paper.
+/// The drawing of a report in the theme's colours and the window's type.
+QByteArray inTheme(QByteArray svg) {
+    const auto& c = colours();
+    const auto replace = [&svg](const char* onPaper, const char* before, const QColor& here) {
+        svg.replace(QByteArray(before) + onPaper, before + here.name().toUtf8());
+    };
+    replace("#009E73", "fill=\"", c.currentText);  // words
+    replace("#009E73", "", c.current);
+    replace("#0072B2", "", c.voltage);
+    replace("#20242a", "", c.text);
+    return svg.replace("DejaVu Sans", QApplication::font().family().toUtf8());
+}
+
+/// As wide as its place lets it be.
 class WiringDrawing final : public QLabel {
 public:
-    WiringDrawing(const QString& file, QWidget* parent) : QLabel(parent), renderer_(file) {
+    WiringDrawing(const QByteArray& svg, QWidget* parent) : QLabel(parent), renderer_(inTheme(svg)) {
+        onLookChange(*this, [this, svg] {
+            renderer_.load(inTheme(svg));
+            update();
+        });
         auto policy = QSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
         policy.setHeightForWidth(true);
         setSizePolicy(policy);
@@ -34,7 +55,6 @@ protected:
     void paintEvent(QPaintEvent* /*event*/) override {
         QPainter painter(this);
         const QRectF paper(0, 0, std::min(width(), chars(kDrawingChars)), heightForWidth(width()));
-        painter.fillRect(paper, Qt::white);
         painter.setRenderHint(QPainter::Antialiasing);
         renderer_.render(&painter, paper);
     }
@@ -63,7 +83,9 @@ WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
     column->addWidget(says);
     const auto file = drawingFile("wiring");
     if (file) {
-        auto* drawing = new WiringDrawing(QString::fromStdString(file->string()), page);
+        QFile svg(QString::fromStdString(file->string()));
+        static_cast<void>(svg.open(QIODevice::ReadOnly));  // it is there: see drawingFile()
+        auto* drawing = new WiringDrawing(svg.readAll(), page);
         drawing->setObjectName("wiringDrawing");
         drawing->setAccessibleName(
             tr("Drawing: the stimulator's output goes through the load and then the shunt back to it; channel 1 across "
@@ -74,6 +96,7 @@ WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
     }
     column->addStretch();
     setWidget(page);
+    for (auto* ground : {page, viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
 }
 
 }  // namespace tacto::gui

@@ -234,7 +234,12 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
     const bool armed = state == InterlockState::Armed || state == InterlockState::Delivering;
     if (state == InterlockState::Paused || (armed && telemetry.paused))
         return tr("Paused: nothing is delivered until resumed.");
-    if (!armed) return tr("Nothing is delivered until the output is armed.");
+    if (!armed) {
+        const auto first = byHand_->isChecked() ? wouldByHand(controller_) : std::nullopt;
+        return first ? tr("By hand asks for %1 once the output is armed.")
+                           .arg(trainText(first->amplitude.value(), first->interval.count()))
+                     : tr("Nothing is delivered until the output is armed.");
+    }
     if (std::isfinite(telemetry.amplitude_v) && vibrates())
         return tr("The massager vibrates; nothing of it is read back.");
     if (std::isfinite(telemetry.amplitude_v)) {
@@ -265,10 +270,13 @@ void DrivePanel::followFinger(const Telemetry& telemetry) {
 void DrivePanel::refresh(const Telemetry& telemetry) {
     if (controller_.activity() == Activity::Live) {
         follow(telemetry.driving);
-        const bool known = std::isfinite(telemetry.roughness) && std::isfinite(telemetry.pressure);
+        const auto& ordered = controller_.lastDrive();
+        const bool byHand = telemetry.driving == DriveSource::Manual && ordered.source == DriveSource::Manual;
+        // Before it is armed the bench tells of the fingertip alone.
+        const auto now = byHand ? ordered : DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure};
+        const bool known = std::isfinite(now.roughness) && std::isfinite(now.pressure);
         const bool another = !was_ || was_->source != telemetry.driving;
-        if (telemetry.driving != DriveSource::Off && (known || another))  // the last that is known of it
-            was_ = DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure};
+        if (telemetry.driving != DriveSource::Off && (known || another)) was_ = now;  // the last that is known of it
     }
     followFinger(telemetry);
     const auto output = outputText(telemetry);

@@ -294,13 +294,24 @@ void LiveWorkspace::refresh(const Telemetry& telemetry, bool visible) {
     if (isDue(sinceSide_, kSideEvery_ms)) showSide(telemetry);
 }
 
+/// While the output is off the bench tells of the fingertip, whatever drives: what is set by hand was ordered here.
+Telemetry LiveWorkspace::asDriven(Telemetry telemetry) const {
+    const auto& ordered = controller_.lastDrive();
+    if (telemetry.driving == DriveSource::Manual && ordered.source == DriveSource::Manual) {
+        telemetry.roughness = ordered.roughness;
+        telemetry.pressure = ordered.pressure;
+    }
+    return telemetry;
+}
+
 void LiveWorkspace::showPlane(const Telemetry& telemetry) {
     const bool stale = healthWords(telemetry, !history_.streams().empty(), 0).stale;
     const bool byHand = telemetry.driving == DriveSource::Manual;
     const double absent = std::nan("");
+    const auto driven = asDriven(telemetry);
     where_->setText(byHand ? tr("Set by hand") : tr("Where the fingertip is"));
-    plane_->show(history_.frames(), history_.now_s(), stale && !byHand ? absent : telemetry.roughness,
-                 stale && !byHand ? absent : telemetry.pressure, byHand);
+    plane_->show(history_.frames(), history_.now_s(), stale && !byHand ? absent : driven.roughness,
+                 stale && !byHand ? absent : driven.pressure, byHand);
 }
 
 void LiveWorkspace::showSide(const Telemetry& telemetry) {
@@ -316,7 +327,7 @@ void LiveWorkspace::showSide(const Telemetry& telemetry) {
     setTone(*health_, health.stale ? Tone::Warning : Tone::Quiet);
     staleLine_->setVisible(plotOnly_ && health.stale);
     if (health.stale) staleLine_->setText(health.text);
-    command_->show(telemetry, health.stale, controller_.profile().encoding.conditions);
+    command_->show(asDriven(telemetry), health.stale, controller_.profile().encoding.conditions);
     showTaxels(health.stale);
 }
 

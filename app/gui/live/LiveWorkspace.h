@@ -60,6 +60,7 @@ private:
     void addPlotTools(ToolRow& row);
     void fit();
     void begin();
+    [[nodiscard]] Telemetry asDriven(Telemetry telemetry) const;
     void showPlane(const Telemetry& telemetry);
     void showSide(const Telemetry& telemetry);
     void showTaxels(bool stale);

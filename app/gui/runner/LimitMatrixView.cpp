@@ -27,19 +27,12 @@ constexpr int kCellShare = Qt::UserRole + 1;  // "23 %"
 constexpr int kCellNear = Qt::UserRole + 2;   // 80 % or more of the limit used
 constexpr int kLineNote = Qt::UserRole;       // below a limit's title
 constexpr int kLineUnit = Qt::UserRole + 3;   // of a limit
-constexpr int kRow = 36, kHighRow = 44, kIconSize = 14, kPad = 8;
+constexpr int kRow = 36, kHighRow = 44, kIconSize = 14, kPad = 8, kHeaderPad = 5;
 constexpr double kNear_pct = 80;
 constexpr int kLimitChars = 30, kLoadChars = 9;
 
 QString wordsOf(const json& value) {
     return value.is_string() ? visible(QString::fromStdString(value.get<std::string>())) : QString();
-}
-
-/// The share of the limit that value and U use together.
-QString shareText(double used_pct) {
-    if (!std::isfinite(used_pct)) return "–";
-    if (used_pct > 0 && used_pct < 0.1) return QObject::tr("< 0.1 %");
-    return decimalText(used_pct, used_pct < 1 && used_pct > 0 ? 1 : 0) + " %";
 }
 
 /// The limit's title, below it the limit, whose it is and its verdict.
@@ -86,18 +79,44 @@ bool isAsked(const QString& verdict) { return !verdict.isEmpty() && verdict != "
 /// Wide enough for the largest share with its sign; else the header has the sign.
 bool isRoomy(int cellWidth) {
     const QFontMetrics metrics(textFont(TextSize::Small, QFont::DemiBold));
-    return cellWidth >= scaledPx(kIconSize) + kPad + metrics.horizontalAdvance("100 %") + 4;
+    return cellWidth >= scaledPx(kIconSize) + kPad + metrics.horizontalAdvance("100\u202f%") + 4;
 }
 
-QString bareShare(const QModelIndex& index) { return index.data(kCellShare).toString().remove(" %"); }
+QString bareShare(const QModelIndex& index) { return index.data(kCellShare).toString().remove("\u202f%"); }
+
+QFontMetrics cellMetrics() { return QFontMetrics(textFont(TextSize::Small, QFont::DemiBold)); }
+
+/// Shape and share beside each other.
+int besideWidth(const QString& share) { return scaledPx(kIconSize) + 4 + cellMetrics().horizontalAdvance(share); }
+
+/// In two lines where it is too long for a column: "100", below it "kΩ".
+QString headerText(const QString& load, int columnWidth) {
+    auto text = load;
+    const QFontMetrics metrics(textFont(TextSize::Small));
+    if (metrics.horizontalAdvance(text) + scaledPx(kHeaderPad) <= columnWidth) return text;
+    return text.replace(' ', '\n').replace(QChar(0x00a0), '\n');
+}
+
+/// In two lines.
+int leastHeaderWidth(const QStringList& loads) {
+    const QFontMetrics metrics(textFont(TextSize::Small));
+    int widest = 0;
+    for (const auto& load : loads)
+        for (const auto& word : headerText(load, 0).split('\n'))
+            widest = std::max(widest, metrics.horizontalAdvance(word));
+    return widest + scaledPx(kHeaderPad);
+}
 
 class CellDelegate final : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
-    /// The least that it can be painted in.
-    [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& /*option*/, const QModelIndex& index) const override {
-        const QFontMetrics metrics(textFont(TextSize::Small, QFont::DemiBold));
-        return {scaledPx(kIconSize) + 4 + metrics.horizontalAdvance(bareShare(index)), metrics.height() + 4};
+    /// The least that it can be painted in: the share below the shape.
+    [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        const auto metrics = cellMetrics();
+        const int share = metrics.horizontalAdvance(bareShare(index)) + 4;
+        if (!isAsked(index.data(kCellVerdict).toString())) return {share, metrics.height() + 4};
+        if (besideWidth(bareShare(index)) <= option.rect.width()) return {share, metrics.height() + 4};
+        return {share, scaledPx(kIconSize) + metrics.height() + 4};
     }
     void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
         const auto& c = colours();
@@ -112,18 +131,26 @@ public:
         const int size = scaledPx(kIconSize);
         const bool room = isRoomy(cell.width());
         const int pad = room ? kPad / 2 : 1;
-        if (asked)
-            paintCellShape(*painter, {cell.left() + pad, cell.top(), size, cell.height()}, verdict, isNear, size);
         const auto text = room ? index.data(kCellShare).toString() : bareShare(index);
+        const bool below = asked && besideWidth(text) > option.rect.width();
+        // The two lines together stand in the middle.
+        const int high = painter->fontMetrics().height();
+        const auto lines = below ? cell.adjusted(0, std::max(0, (cell.height() - size - high) / 2), 0, 0) : cell;
+        if (asked) {
+            const QRect place = below ? QRect(lines.left(), lines.top(), lines.width(), size)
+                                      : QRect(cell.left() + pad, cell.top(), size, cell.height());
+            paintCellShape(*painter, place, verdict, isNear, size);
+        }
         painter->setPen(style.ink);
+        const auto place =
+            below ? QRect(lines.left(), lines.top() + size, lines.width(), high) : cell.adjusted(0, 0, -pad, 0);
+        const int where = int(asked && !below ? Qt::AlignRight : Qt::AlignHCenter) | Qt::AlignVCenter;
         if (verdict == "not evaluated") {
             // Words keep their contrast on the hatch.
-            const auto words = painter->fontMetrics().boundingRect(cell.adjusted(0, 0, -pad, 0),
-                                                                   Qt::AlignRight | Qt::AlignVCenter, text);
+            const auto words = painter->fontMetrics().boundingRect(place, where, text);
             painter->fillRect(words.adjusted(-2, 0, 2, 0), style.ground);
         }
-        painter->drawText(cell.adjusted(0, 0, -pad, 0),
-                          int(asked ? Qt::AlignRight : Qt::AlignHCenter) | Qt::AlignVCenter, text);
+        painter->drawText(place, where, text);
         if ((option.state & (QStyle::State_HasFocus | QStyle::State_Selected)) != 0) {
             painter->setPen(QPen(c.text, 2));
             painter->drawRect(cell.adjusted(1, 1, -1, -1));
@@ -161,7 +188,7 @@ LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
     setEditTriggers(NoEditTriggers);
     setSelectionMode(SingleSelection);
     setTabKeyNavigation(false);
-    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setHorizontalScrollMode(ScrollPerPixel);
     setVerticalScrollMode(ScrollPerPixel);
     setItemDelegate(new CellDelegate(this));
     setItemDelegateForColumn(0, new LimitDelegate(this));
@@ -190,12 +217,11 @@ void LimitMatrixView::show(const json& matrix) {
         const auto name = wordsOf(load);
         loads_.push_back(loadText(name));
         loadKeys_.push_back(name);
-        header << (name.contains("||")                           ? tr("skin RC")
-                   : name.contains(' ') && !name.contains("ohm") ? QString(name).replace(' ', '\n')
-                                                                 : loadText(name));
+        header << (name.contains("||") ? tr("skin RC") : loadText(name));
     }
     setColumnCount(int(header.size()));
     setHorizontalHeaderLabels(header);
+    headings_ = header;
     horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     for (int c = 1; c < columnCount(); ++c) horizontalHeaderItem(c)->setToolTip(loads_[std::size_t(c) - 1]);
     setRowCount(int(lines.size()));
@@ -246,7 +272,7 @@ void LimitMatrixView::addLine(int row, const json& line) {
         const double value = numberOr(memberAt(cell, "value"));
         const auto share = judged == "not evaluated"    ? tr("n. e.")
                            : judged == "not applicable" ? QString("–")
-                           : std::isfinite(most)        ? shareText(used)
+                           : std::isfinite(most)        ? limitShareText(used)
                            : !std::isfinite(value)      ? (judged == "fail" ? tr("no") : QString("–"))
                                                         : decimalText(value, 2) + " " + unit;
         item->setText(verdictStyle(judged).shape + " " + share);
@@ -258,8 +284,7 @@ void LimitMatrixView::addLine(int row, const json& line) {
             std::isfinite(most) ? tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)
             : judged == "pass"  ? tr("%1 on %2: after %3, %4.").arg(title, loads_[at], quantityText(value, unit), limit)
                                 : tr("%1 on %2: not shown to be %3.").arg(title, loads_[at], limit)};
-        if (std::isfinite(used))
-            says << tr("%1 used with its uncertainty, margin %2.").arg(share, shareText(100 - used));
+        if (std::isfinite(used)) says << tr("%1 used, with its uncertainty.").arg(share);
         says << tr("Verdict: %1.").arg(judged) << wordsOf(memberAt(cell, "note"));
         item->setToolTip(says.join(' ').trimmed());
         item->setData(Qt::AccessibleTextRole, item->toolTip());
@@ -291,14 +316,23 @@ void LimitMatrixView::fitColumns() {
     const int loads = columnCount() - 1;
     const int chars = fontMetrics().averageCharWidth();
     // Loads share what the limits leave, and are never wider than their words want.
-    const int first = std::min(chars * kLimitChars * 2, std::max(chars * kLimitChars, viewport()->width() / 4));
-    const int each = std::clamp((viewport()->width() - first) / loads, chars * kLoadChars / 2, chars * kLoadChars * 2);
-    header->setSectionResizeMode(0, QHeaderView::Stretch);
+    const int least = chars * kLoadChars / 2;
+    int first = std::min(chars * kLimitChars * 2, std::max(chars * kLimitChars, viewport()->width() / 4));
+    const int words = leastHeaderWidth(headings_);
+    if ((viewport()->width() - first) / loads < words)
+        first = std::max(chars * kLimitChars * 2 / 3, viewport()->width() - words * loads);
+    const int each = std::clamp((viewport()->width() - first) / loads, std::max(least, words), chars * kLoadChars * 2);
+    // In the narrowest places a limit's words are elided, and the loads scroll.
+    const bool scrolls = first + each * loads > viewport()->width();
+    if (scrolls) first = std::max(chars * kLimitChars / 2, viewport()->width() - each * loads);
+    header->setSectionResizeMode(0, scrolls ? QHeaderView::Fixed : QHeaderView::Stretch);
+    if (scrolls) header->resizeSection(0, first);
     const auto unit = isRoomy(each - 2) ? QString() : tr(" in %");
     horizontalHeaderItem(0)->setText(tr("Limit, worst first\nshare used%1, with U").arg(unit));
     for (int c = 1; c < columnCount(); ++c) {
         header->setSectionResizeMode(c, QHeaderView::Fixed);
         header->resizeSection(c, each);
+        horizontalHeaderItem(c)->setText(headerText(headings_[c], each));
     }
 }
 

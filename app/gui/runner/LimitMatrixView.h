@@ -46,6 +46,7 @@ private:
     bool fillsHeight_ = false;
     std::vector<QString> loads_;     // as people write them
     std::vector<QString> loadKeys_;  // as the results do
+    QStringList headings_;           // of the columns, in one line each
 };
 
 }  // namespace tacto::gui

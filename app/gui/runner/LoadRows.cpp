@@ -37,9 +37,9 @@ LoadRows::LoadRows(QWidget* parent) : QTableWidget(0, kColumns, parent) {
     setTabKeyNavigation(false);
     setWordWrap(false);
     setHorizontalScrollMode(ScrollPerPixel);
-    verticalHeader()->setDefaultSectionSize(fontMetrics().height() * 3 / 2);
     begin();
     onLookChange(*this, [this] { colour(); });
+    afterLookChange(*this, [this] { fit(); });
 }
 
 void LoadRows::begin() {
@@ -48,7 +48,7 @@ void LoadRows::begin() {
         const int row = rowOf(QString::fromUtf8(named.name.data(), qsizetype(named.name.size())));
         write(row, kVerdict, tr("○ to do"));
     }
-    resizeColumnsToContents();
+    fit();
 }
 
 int LoadRows::rowOf(const QString& load) {
@@ -58,7 +58,7 @@ int LoadRows::rowOf(const QString& load) {
     const int row = rowCount();
     insertRow(row);
     for (int column = 0; column < kColumns; ++column) {
-        auto* cell = new QTableWidgetItem(column == kLoad      ? loadText(load)
+        auto* cell = new QTableWidgetItem(column == kLoad      ? (load.contains("||") ? tr("skin RC") : loadText(load))
                                           : column == kVerdict ? QString()
                                                                : QString("–"));
         const bool right = column != kLoad && column != kVerdict;
@@ -66,6 +66,7 @@ int LoadRows::rowOf(const QString& load) {
         setItem(row, column, cell);
     }
     item(row, kLoad)->setData(kNameRole, load);
+    item(row, kLoad)->setToolTip(loadText(load));
     return row;
 }
 
@@ -103,7 +104,7 @@ void LoadRows::add(const nlohmann::json& trial) {
         numbers(row, trial, "impedance_ohm");
         write(row, kVerdict, tr("◔ being measured"));
     }
-    resizeColumnsToContents();
+    fit();
 }
 
 void LoadRows::end(const nlohmann::json& results) {
@@ -116,7 +117,7 @@ void LoadRows::end(const nlohmann::json& results) {
     for (int row = 0; row < rowCount(); ++row) {
         if (item(row, kVerdict)->data(kVerdictRole).toString().isEmpty()) judge(row, "not evaluated");
     }
-    resizeColumnsToContents();
+    fit();
 }
 
 QString LoadRows::verdictOf(const QString& load) const {
@@ -124,6 +125,11 @@ QString LoadRows::verdictOf(const QString& load) const {
         if (item(row, kLoad)->data(kNameRole).toString() == load) return item(row, kVerdict)->text();
     }
     return {};
+}
+
+void LoadRows::fit() {
+    verticalHeader()->setDefaultSectionSize(fontMetrics().height() * 3 / 2);
+    resizeColumnsToContents();
 }
 
 void LoadRows::colour() {

@@ -28,6 +28,7 @@ private:
     void write(int row, Column column, const QString& text);
     void numbers(int row, const nlohmann::json& values, const char* measured);
     void judge(int row, const QString& verdict);
+    void fit();
     void colour();
 };
 

@@ -92,7 +92,7 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
     if (parameter.type == ParameterType::Choice) {
         auto* box = new QComboBox(this);
         for (const auto& [key, text] : parameter.choices)
-            box->addItem(QString::fromStdString(text.empty() ? key : text), QString::fromStdString(key));
+            box->addItem(withOhmSigns(qtext(text.empty() ? key : text)), qtext(key));
         box->setCurrentIndex(box->findData(plain(parameter.value)));
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(8);  // characters; grows with the column
@@ -198,7 +198,9 @@ void ParameterForm::addRow(Field& field) {
     stack->setContentsMargins(0, 0, 0, 0);
     stack->setSpacing(0);
     auto* line = new QHBoxLayout;
-    line->addWidget(field.whole, 1);
+    const bool ticks = parameter.type == ParameterType::Boolean;
+    line->addWidget(field.whole, ticks ? 0 : 1);
+    if (ticks) line->addWidget(field.label = new QLabel(qtext(parameter.label), column), 1);
     field.range = new QLabel(rangeText(parameter), column);
     field.range->setTextFormat(Qt::PlainText);
     setTone(*field.range, Tone::Quiet);
@@ -210,13 +212,17 @@ void ParameterForm::addRow(Field& field) {
     auto label = QString::fromStdString(parameter.label);
     if (!parameter.unit.empty()) label += QString(" (%1)").arg(shownUnit(parameter));
     auto* rows = parameter.reference ? referenceRows_ : settingsRows_;
-    rows->addRow(label, column);
-    if (auto* written = qobject_cast<QLabel*>(rows->labelForField(column))) {
-        written->setBuddy(field.editor);
-        written->setWordWrap(true);
-        setTextSize(*written, TextSize::Body, !parameter.needed.empty());
-        field.label = written;
+    if (ticks) {
+        rows->addRow(column);
+        field.label->installEventFilter(this);  // as of a box with words of its own, which would not wrap
+    } else {
+        rows->addRow(label, column);
+        field.label = qobject_cast<QLabel*>(rows->labelForField(column));
     }
+    if (field.label == nullptr) return;
+    field.label->setBuddy(field.editor);
+    field.label->setWordWrap(true);
+    setTextSize(*field.label, TextSize::Body, !parameter.needed.empty());
 }
 
 bool ParameterForm::hasReference() const {
@@ -326,6 +332,11 @@ void ParameterForm::say(const Field& field, bool lacking) const {
 }
 
 bool ParameterForm::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::MouseButtonRelease) {
+        for (const auto& field : fields_)
+            if (auto* tick = qobject_cast<QCheckBox*>(field.editor); tick != nullptr && field.label == watched)
+                tick->click();
+    }
     if (event->type() == QEvent::FocusOut) {
         const auto reason = static_cast<QFocusEvent*>(event)->reason();
         const bool comesBack = reason == Qt::PopupFocusReason || reason == Qt::ActiveWindowFocusReason;

@@ -119,7 +119,7 @@ QBoxLayout* ProcedurePages::turning() {
 
 QWidget* ProcedurePages::buildWiring() {
     auto* page = new QWidget(this);
-    auto* column = pageLayout(page, {}, {});  // the panel has a title
+    auto* column = pageLayout(page, tr("Wiring"), {});
     auto* row = turning();
     wiring_ = new WiringPanel(page);
     auto* devices = scrolling(formColumn(wiring_), page);

@@ -8,6 +8,7 @@
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
+#include "app/gui/theme/HeightAt.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/TurningRow.h"
 #include "app/report/NumberText.h"
@@ -169,12 +170,8 @@ void ProcedurePath::fitLegend() {
 bool ProcedurePath::event(QEvent* event) {
     const bool done = QWidget::event(event);
     const auto* parts = layout();  // none while it is turned
-    if (parts != nullptr && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize)) {
-        const bool wraps = parts->hasHeightForWidth();
-        const int across = wraps ? parts->totalHeightForWidth(width()) : parts->totalSizeHint().height();
-        const int down = wraps ? parts->totalMinimumHeightForWidth(width()) : parts->totalMinimumSize().height();
-        setMinimumHeight(across_ ? across : down);
-    }
+    if (parts != nullptr && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
+        setMinimumHeight(across_ ? wholeHeightAt(*parts, width()) : leastHeightAt(*parts, width()));
     if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) fitLegend();
     return done;
 }

@@ -128,7 +128,7 @@ void ProtocolWorkspace::connectPages() {
     connect(&pages_->views(), &RunViews::plotOnlyWanted, this, &ProtocolWorkspace::plotOnlyWanted);
     connect(&pages_->views(), &RunViews::nextChosen, this, &ProtocolWorkspace::goOn);
     connect(&pages_->sign(), &SignPage::stateChanged, this, [this] {
-        steps_->setNote(kSign, pages_->sign().state());
+        steps_->setNote(kSign, pages_->sign().note());
         steps_->setState(kSign, pages_->sign().taken() ? StepList::State::Done : StepList::State::ToDo);
     });
     connect(&pages_->sign(), &SignPage::settingsWanted, this, [this] { goTo(kSettings); });

@@ -8,12 +8,14 @@
 #include "app/gui/runner/ReportPrinter.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TurningRow.h"
 
 namespace tacto::gui {
 
 namespace {
 constexpr double kZoomStep = 1.25, kMinZoom = 0.25, kMaxZoom = 5;
-}
+constexpr int kLinesApart = 8;
+}  // namespace
 
 ReportView::ReportView(const QString& empty, QWidget* parent)
     : QWidget(parent),
@@ -40,8 +42,14 @@ ReportView::ReportView(const QString& empty, QWidget* parent)
 
 QWidget* ReportView::buildRow() {
     auto* holder = new QWidget(this);
-    row_ = new QHBoxLayout(holder);
-    row_->setContentsMargins(0, 0, 0, 0);
+    auto* acts = new QHBoxLayout;
+    row_ = new QHBoxLayout;
+    auto* lines = new TurningRow(
+        [this, acts] { return acts->sizeHint().width() + kLinesApart + row_->minimumSize().width(); }, holder);
+    lines->setContentsMargins(0, 0, 0, 0);
+    lines->setSpacing(kLinesApart);
+    lines->addLayout(acts);
+    lines->addLayout(row_, 1);
     print_ = new QPushButton(tr("Print"), holder);
     print_->setObjectName("printReport");
     print_->setToolTip(
@@ -58,8 +66,9 @@ QWidget* ReportView::buildRow() {
     });
     for (auto* button : {print_, elsewhere_}) {
         button->setAutoDefault(false);
-        row_->addWidget(button);
+        acts->addWidget(button);
     }
+    acts->addStretch();
     zoom_ = buildZoom(holder);
     row_->addWidget(zoom_);
     return holder;

@@ -23,7 +23,7 @@ public:
     void show(const QString& pdf);
     void clear();
     [[nodiscard]] const QString& report() const { return report_; }
-    /// The line of buttons below the pages: what is added stands at its end.
+    /// The last line of buttons below the pages: what is added stands at its end.
     [[nodiscard]] QHBoxLayout& row() { return *row_; }
 
 signals:
@@ -44,8 +44,8 @@ private:
     QLabel* empty_;
     QPdfDocument* document_;
     QPdfView* view_;
-    QHBoxLayout* row_ = nullptr;
-    QWidget* zoom_ = nullptr;  ///< its buttons
+    QHBoxLayout* row_ = nullptr;  ///< a line of its own where the buttons have no room beside it
+    QWidget* zoom_ = nullptr;     ///< its buttons
     QPushButton* print_ = nullptr;
     QPushButton* elsewhere_ = nullptr;
     ReportPrinter* printer_;

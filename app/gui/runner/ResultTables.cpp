@@ -4,6 +4,7 @@
 #include <QLabel>
 
 #include "app/gui/calibrate/CalibrationResult.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
@@ -45,6 +46,9 @@ bool isMatrix(const json& value) {
 ResultTables::ResultTables(QWidget* parent) : QWidget(parent), layout_(new QVBoxLayout(this)) {
     setObjectName("resultTables");
     layout_->setContentsMargins(0, 0, 0, 0);
+    afterLookChange(*this, [this] {
+        for (auto* table : findChildren<QTableWidget*>()) layOutRecordTable(*table, width());
+    });
 }
 
 void ResultTables::show(const json& results) {

@@ -5,6 +5,7 @@
 
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/ProgressBar.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
@@ -57,7 +58,7 @@ RunPanel::RunPanel(QWidget* parent)
     connect(run_, &QPushButton::clicked, this, &RunPanel::runWanted);
     setFocusProxy(run_);
     layout_->addWidget(run_);
-    bar_ = new QProgressBar(this);
+    bar_ = new ProgressBar(this);
     bar_->setAccessibleName(tr("Progress"));
     bar_->setToolTip(
         tr("STOP, Esc and Shift+F5 switch the output off and end the run; what was recorded so far is kept. "
@@ -164,8 +165,10 @@ void RunPanel::sayHowFar(const QString& format, const QString& left) {
 }
 
 void RunPanel::sayLeft() {
-    const bool closes = benchOpen_ && !running_;
-    left_->setText(closes ? howLong_ + '\n' + tr("Running closes the open bench.") : howLong_);
+    const auto more = running_     ? tr("Esc ends the run; what was recorded is kept.")
+                      : benchOpen_ ? tr("Running closes the open bench.")
+                                   : QString();
+    left_->setText(more.isEmpty() ? howLong_ : howLong_ + '\n' + more);
 }
 
 void RunPanel::setBench(bool open, bool closedByRun) {

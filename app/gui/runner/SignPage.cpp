@@ -9,20 +9,27 @@
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TurningRow.h"
 
 namespace tacto::gui {
 
 namespace {
-constexpr int kNotesWidth = 260;
+constexpr int kNotesWidth = 260, kBesideWords = 16;
+constexpr int kLowestView = 240;  // below the words
 }  // namespace
 
 SignPage::SignPage(QWidget* parent) : QWidget(parent), maker_(this) {
-    auto* row = new QHBoxLayout(this);
+    auto* row = new TurningRow(
+        [this] { return scaledPx(kNotesWidth) + kBesideWords + view_->minimumSizeHint().width(); }, this);
     row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(16);
-    row->addWidget(buildWords());
+    row->setSpacing(kBesideWords);
+    words_ = buildWords();
+    row->addWidget(words_);
     view_ = new ReportView(tr("The report appears here after a run."), this);
     row->addWidget(view_, 1);
+    connect(row, &TurningRow::turned, this, &SignPage::fitWords);
+    onFontChange(*words_, [this] { fitWords(beside_); });
+    fitWords(true);
     addStateTo(view_->row());
     if (auto* open = view_->findChild<QPushButton*>("openReport")) {
         makePrimary(*open);
@@ -48,7 +55,6 @@ SignPage::SignPage(QWidget* parent) : QWidget(parent), maker_(this) {
 
 QWidget* SignPage::buildWords() {
     auto* holder = new QWidget(this);
-    boundWidth(*holder, kNotesWidth);
     auto* column = new QVBoxLayout(holder);
     column->setContentsMargins(0, 0, 0, 0);
     auto* how = new QLabel(tr("Print the report and sign in ink, on the lines of its first page; or open it in the PDF "
@@ -96,6 +102,12 @@ QWidget* SignPage::buildWords() {
     return holder;
 }
 
+void SignPage::fitWords(bool beside) {
+    beside_ = beside;
+    words_->setMaximumWidth(beside ? scaledPx(kNotesWidth) : QWIDGETSIZE_MAX);
+    view_->setMinimumHeight(beside ? 0 : scaledPx(kLowestView));
+}
+
 void SignPage::showNotes(const RunNotes* notes) {
     named_->setVisible(notes != nullptr);
     if (notes == nullptr) return;
@@ -133,6 +145,12 @@ QString SignPage::state() const {
     if (maker_.busy()) return tr("Drawing the report…");
     if (!printed_.isEmpty()) return printed_;
     return view_->report().isEmpty() ? QString() : tr("Written as PDF and HTML.");
+}
+
+QString SignPage::note() const {
+    if (!fault_.isEmpty() || maker_.busy() || view_->report().isEmpty()) return state();
+    if (!taken_) return tr("Not signed yet");
+    return printed_.isEmpty() ? tr("Opened to be signed") : printed_;
 }
 
 void SignPage::showState() {

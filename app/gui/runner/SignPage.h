@@ -28,8 +28,8 @@ public:
     void clear();
     /// Has the reports of the run drawn.
     void show(const FinishedRun& run);
-    /// "written", "being drawn…", or why there is none; for the step.
-    [[nodiscard]] QString state() const;
+    /// Whether it is signed, as far as the program sees it; before that, how far the report is. For the step.
+    [[nodiscard]] QString note() const;
     /// The report of this run was printed or opened from here.
     [[nodiscard]] bool taken() const noexcept { return taken_; }
     /// A report that is written already.
@@ -41,13 +41,18 @@ signals:
 
 private:
     [[nodiscard]] QWidget* buildWords();
+    void fitWords(bool beside);
+    /// "Written…", "Drawing…", or why there is none.
+    [[nodiscard]] QString state() const;
     void addStateTo(QHBoxLayout& row);
     void showNotes(const RunNotes* notes);
     void take();
     void showState();
     std::vector<QLabel*> notes_;  ///< operator, sample, reviewer, ambient
+    QWidget* words_ = nullptr;
     QWidget* named_ = nullptr;
     ReportView* view_;
+    bool beside_ = true;  ///< words and report
     QPushButton* cancel_ = nullptr;
     QProgressBar* drawing_ = nullptr;
     QLabel* says_ = nullptr;

@@ -24,8 +24,10 @@ Result<std::vector<DeviceUri>> devicesOf(const QString& text) {
     return uris;
 }
 
-WiringPanel::WiringPanel(QWidget* parent) : QGroupBox(tr("Wiring"), parent) {
+WiringPanel::WiringPanel(QWidget* parent) : QWidget(parent) {
+    setAccessibleName(tr("Devices"));
     auto* form = new QFormLayout(this);
+    form->setContentsMargins(0, 0, 0, 0);
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     form->setRowWrapPolicy(QFormLayout::WrapLongRows);
     needs_ = new QLabel(this);

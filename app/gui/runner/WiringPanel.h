@@ -4,17 +4,17 @@
 #pragma once
 
 #include <QCheckBox>
-#include <QGroupBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSpinBox>
+#include <QWidget>
 
 #include "app/gui/theme/TroubleLine.h"
 #include "app/run/ProtocolRun.h"
 
 namespace tacto::gui {
 
-class WiringPanel final : public QGroupBox {
+class WiringPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit WiringPanel(QWidget* parent = nullptr);

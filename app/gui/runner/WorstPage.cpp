@@ -3,12 +3,12 @@
 #include <QHBoxLayout>
 #include <QPushButton>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <utility>
 
 #include "app/gui/runner/WorstCase.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/HeightAt.h"
 #include "app/gui/theme/LimitSetView.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
@@ -43,7 +43,7 @@ WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTabl
 bool WorstPage::event(QEvent* event) {
     const bool done = QWidget::event(event);
     if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize)
-        setMinimumHeight(std::max(0, layout()->totalMinimumHeightForWidth(width())));
+        setMinimumHeight(leastHeightAt(*layout(), width()));
     return done;
 }
 

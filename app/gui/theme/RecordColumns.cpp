@@ -1,6 +1,7 @@
 #include "app/gui/theme/RecordColumns.h"
 
 #include <QHeaderView>
+#include <QScrollBar>
 #include <algorithm>
 #include <cmath>
 
@@ -214,6 +215,20 @@ int narrowWords(QTableWidget& table, int width, int room) {
     return width;
 }
 
+/// All rows are in sight; where numbers have no room the table scrolls sideways, with its bar below the last row.
+void keepWhole(QTableWidget& table, int height) {
+    constexpr const char* kHeight = "heightOfRows";
+    auto& bar = *table.horizontalScrollBar();
+    const auto fit = [&table, &bar] {
+        const int below = bar.maximum() > bar.minimum() ? bar.sizeHint().height() : 0;
+        table.setFixedHeight(table.property(kHeight).toInt() + below);
+    };
+    const bool first = !table.property(kHeight).isValid();
+    table.setProperty(kHeight, height);
+    if (first) QObject::connect(&bar, &QScrollBar::rangeChanged, &table, fit);
+    fit();
+}
+
 }  // namespace
 
 const json& memberAt(const json& record, const std::string& path) {
@@ -277,7 +292,7 @@ void layOutRecordTable(QTableWidget& table, int room_px) {
     table.setWordWrap(false);
     table.setTextElideMode(Qt::ElideRight);
     table.setTabKeyNavigation(false);
-    table.setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    table.setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     table.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     table.setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     auto* header = table.horizontalHeader();
@@ -288,7 +303,9 @@ void layOutRecordTable(QTableWidget& table, int room_px) {
     int width = fitColumns(table);
     if (width > std::min(kRoom, room_px)) {
         setTextSize(table, TextSize::Small);
-        width = narrowWords(table, fitColumns(table), std::min(scaledPx(kRoom), room_px));
+        const int room = std::min(scaledPx(kRoom), room_px);
+        width = narrowWords(table, fitColumns(table), room);
+        if (width > room) width = fitColumns(table);  // it scrolls: no word gives way for nothing
     }
     // A last column of words takes the rest; one of numbers stands beside the others.
     const bool words = !isOfNumbers(table, table.columnCount() - 1);
@@ -297,7 +314,7 @@ void layOutRecordTable(QTableWidget& table, int room_px) {
     table.resizeRowsToContents();
     int height = header->height() + 2 * table.frameWidth();
     for (int row = 0; row < table.rowCount(); ++row) height += table.rowHeight(row);
-    table.setFixedHeight(height);
+    keepWhole(table, height);
 }
 
 }  // namespace tacto::gui

@@ -136,6 +136,8 @@ QTableView, QTreeView, QListView { border: 1px solid @line; outline: none; gridl
     alternate-background-color: @base; }
 QTableView#sessionsTable { border: none; border-top: 1px solid @line; }
 QTableView#sessionsTable QHeaderView::section:first { padding-left: 16px; }
+QTableView#limitMatrix QHeaderView::section { padding: 0 ~2; }
+QTableView#limitMatrix QHeaderView::section:first { padding-left: ~8; }
 QTableView::item, QTreeView::item { border-bottom: 1px solid @grid; padding: 0 ~4; }
 QTableView::item:selected, QTreeView::item:selected, QListView::item:selected {
     background: @selection; color: @text; }

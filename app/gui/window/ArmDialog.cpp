@@ -50,7 +50,8 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
         this));
     auto* form = new QFormLayout;
     form->setHorizontalSpacing(12);
-    load_ = new QLineEdit(withOhmSigns(load), this);
+    static const QRegularExpression close("(\\d)([kM]?ohm)");  // as addresses have it: "1kohm"
+    load_ = new QLineEdit(withOhmSigns(QString(load).replace(close, "\\1 \\2")), this);
     load_->setPlaceholderText(tr("what is connected, such as 1 kΩ"));
     load_->setToolTip(tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”."));
     form->addRow(tr("Declared &load"), load_);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/gui/theme/HeightAt.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
@@ -108,9 +109,8 @@ void FoldingDock::limitHeight() {
 int FoldingDock::wantedHeight() const {
     if (inside_ == nullptr || inside_->layout() == nullptr) return sizeHint().height();
     const auto margins = widget()->layout()->contentsMargins();
-    const auto* rows = inside_->layout();
     return header_->height() + 1 + margins.top() + margins.bottom() +
-           (rows->hasHeightForWidth() ? rows->totalHeightForWidth(inside_->width()) : rows->totalSizeHint().height());
+           wholeHeightAt(*inside_->layout(), inside_->width());
 }
 
 void FoldingDock::noteContent() {

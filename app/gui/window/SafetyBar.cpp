@@ -109,6 +109,7 @@ QWidget* SafetyBar::buildFacts() {
     device_ = new ElidedLabel(holder);
     calibration_ = new ElidedLabel(holder);
     calibration_->setObjectName("calibrationAge");
+    load_->setObjectName("impedance");
     for (auto* label : {load_, device_, calibration_}) setTextSize(*label, TextSize::Small, label == load_);
     column->addStretch();
     for (auto* label : {load_, device_, calibration_}) column->addWidget(label);
@@ -280,15 +281,29 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
                           : name;
     device_->setText(text);
     device_->setToolTip(text);
-    load_->setText(
-        !open->source ? QString()  // a massager has no impedance
-        : std::isfinite(telemetry.impedance_ohm)
-            ? QString("%1 · %2").arg(quantityText(telemetry.impedance_ohm, "ohm", 3), ageText(telemetry.impedanceAge_s))
-            : tr(kUnmeasured));
+    const double age_s = noteImpedance(telemetry);
+    load_->setText(!open->source ? QString()  // a massager has no impedance
+                   : std::isfinite(measured_ohm_)
+                       ? QString("%1 · %2").arg(quantityText(measured_ohm_, "ohm", 3), ageText(age_s))
+                       : tr(kUnmeasured));
     load_->setToolTip(tr("%1\nImpedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
-                         "measured again before the next train.")
+                         "measured again before the next train; after a stop, before the output is armed.")
                           .arg(load_->text()));
     showCalibration();
+}
+
+/// The bench forgets the impedance with each stop, for it arms on none that is old; what was measured stays to be read,
+/// with its age, until a fault or another bench. Returns that age in seconds.
+double SafetyBar::noteImpedance(const Telemetry& telemetry) {
+    const auto bench = controller_.tap();
+    const bool another = bench != measuredOn_.lock() || !bench;
+    if (another || telemetry.state == InterlockState::Faulted) measured_ohm_ = NAN;
+    measuredOn_ = bench;
+    if (std::isfinite(telemetry.impedance_ohm)) {
+        measured_ohm_ = telemetry.impedance_ohm;
+        measuredAt_s_ = toSeconds(telemetry.at) - telemetry.impedanceAge_s;
+    }
+    return toSeconds(telemetry.at) - measuredAt_s_;
 }
 
 /// Amber where it does not count: a person may not be connected to what was never measured.

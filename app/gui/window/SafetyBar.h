@@ -9,7 +9,9 @@
 #include <QFrame>
 #include <QLabel>
 #include <QPushButton>
+#include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -64,6 +66,7 @@ private:
     [[nodiscard]] QString protocol() const;
     [[nodiscard]] QString closedWords() const;
     void showDevice(const Telemetry& telemetry);
+    [[nodiscard]] double noteImpedance(const Telemetry& telemetry);
     void showCalibration();
     void showExposure(const Telemetry& telemetry);
     void showButtons(InterlockState state);
@@ -90,6 +93,9 @@ private:
     ConfirmButton* pause_ = nullptr;
     QPushButton* details_ = nullptr;  ///< in its place while faulted
     StopButton* stop_ = nullptr;
+    double measured_ohm_ = NAN;  ///< |Z| as last measured on this bench
+    double measuredAt_s_ = NAN;  ///< on its clock
+    std::weak_ptr<BenchTap> measuredOn_;
     std::uint64_t trainsSeen_ = 0;
     bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash that goes with each train

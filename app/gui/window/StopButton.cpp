@@ -60,14 +60,14 @@ void StopButton::paintEvent(QPaintEvent*) {
     painter.fillRect(rect(), isDown() ? style.ground.darker(130) : style.ground);
     painter.setPen(style.ink);
     const QFontMetrics word(wordFont()), small(keysFont());
-    const int top = (height() - word.height() - small.height()) / 2;
+    const int top = (height() - word.height() - small.height()) / 2 - 1;  // clear of the frame
     painter.setFont(wordFont());
     painter.drawText(QRect(0, top, width(), word.height()), Qt::AlignCenter, text());
     painter.setFont(keysFont());
     painter.drawText(QRect(0, top + word.height(), width(), small.height()), Qt::AlignCenter, keys());
     if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;
     painter.setPen(QPen(style.ink, 2));
-    painter.drawRect(rect().adjusted(4, 4, -5, -5));
+    painter.drawRect(rect().adjusted(2, 2, -3, -3));
 }
 
 }  // namespace tacto::gui

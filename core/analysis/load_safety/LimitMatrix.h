@@ -27,7 +27,7 @@ struct LimitLine {
     std::string item, title, unit, set;
     double limit = std::numeric_limits<double>::quiet_NaN();  ///< NaN: output must end before the next train (H3)
     bool strict = false;                                      ///< "<" and not "≤"
-    std::string source;      ///< document and clause
+    std::string source;                                       ///< document and clause
     std::string confidence;  ///< in that source, as its limit set states it; empty for this program's own
     double margin_pct = std::numeric_limits<double>::quiet_NaN();  ///< the smallest of the cells
     std::size_t worst = 0;                                         ///< the cell that has it, an index into the loads

@@ -8,6 +8,7 @@
 #include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/JsonFields.h"
 #include "core/base/WholeNumber.h"
+#include "core/pilot/FoundRows.h"
 #include "core/pilot/PilotRecord.h"
 
 namespace tacto {
@@ -40,31 +41,25 @@ public:
         const auto& body = each.body;
         const auto name = textOr(body, "name");
         if (each.name == row::kPlan) {
-            out_.encoding = textOr(body, "encoding");
+            out_.encoding = planRowFrom(body).encoding;
         } else if (each.name == row::kImpedance) {
             impedance_ = numberOr(body, "impedance_ohm");
             if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);
         } else if (each.name == row::kEstimate && body.contains("amplitude_weber")) {
             // At the edge of what was considered it may be anything beyond: no figure.
-            if (!flagOr(body, "at_edge")) out_.amplitudeWeber = numberOr(body["amplitude_weber"], "value");
+            if (!flagOr(body, "at_edge")) out_.amplitudeWeber = estimateFrom(body["amplitude_weber"]).value;
         } else if (each.name == row::kEstimate) {
-            const auto& estimate = valueOr(body, "estimate");
-            detectionLevel_ = numberOr(estimate, "value");
-            out_.detection = detectionLevel_;
-            out_.detectionLow = numberOr(estimate, "low");
-            out_.detectionHigh = numberOr(estimate, "high");
+            const auto estimate = estimateFrom(valueOr(body, "estimate"));
+            out_.detection = detectionLevel_ = estimate.value;
+            out_.detectionLow = estimate.low;
+            out_.detectionHigh = estimate.high;
         } else if (each.name == row::kDrift) {
-            const auto& found = valueOr(body, body.contains("detection_ma") ? "detection_ma" : "detection_intensity");
-            detectionLevel_ = numberOr(found, "value");
-            if (flagOr(body, "adapted")) adapted_.insert(countOr(body, "block"));
-            out_.drift.push_back({countOr(body, "block"), detectionLevel_, flagOr(body, "adapted")});
+            const auto found = driftRowFrom(body);
+            detectionLevel_ = found.detection.value;
+            if (found.adapted) adapted_.insert(found.block);
+            out_.drift.push_back({found.block, detectionLevel_, found.adapted});
         } else if (each.name == row::kRange) {
-            out_.low = Milliamps(numberOr(body, "min_ma"));
-            out_.high = Milliamps(numberOr(body, "max_ma"));
-            out_.lowIntensity = numberOr(body, "min_intensity");
-            out_.highIntensity = numberOr(body, "max_intensity");
-            out_.rangeNotUsable = flagOr(body, "usable") ? std::string() : textOr(body, "reason");
-            if (!flagOr(body, "usable") && out_.rangeNotUsable.empty()) out_.rangeNotUsable = "it was not confirmed";
+            takeRange(rangeRowFrom(body));
         } else if (each.name == row::kSkin) {
             takeSkin(name, body);
         } else if (each.name == row::kRating) {
@@ -145,6 +140,18 @@ private:
         if (trial.response != "too-strong") return;
         const double strong = level > 0 ? level : beforeLevel_;
         out_.tooStrong = std::isnan(out_.tooStrong) ? strong : std::min(out_.tooStrong, strong);
+    }
+
+    void takeRange(const RangeRow& found) {
+        if (found.unit == LevelUnit::Intensity) {
+            out_.lowIntensity = found.min;
+            out_.highIntensity = found.max;
+        } else {
+            out_.low = Milliamps(found.min);
+            out_.high = Milliamps(found.max);
+        }
+        out_.rangeNotUsable.clear();
+        if (!found.usable) out_.rangeNotUsable = found.reason.empty() ? "it was not confirmed" : found.reason;
     }
 
     void takeSkin(const std::string& name, const json& body) {

@@ -71,8 +71,7 @@ private:
                                     "",
                                     false};
             if (!device.maker.empty()) identity.name = device.maker + " " + identity.name;
-            const int bus = std::atoi(device.path.c_str());  // "1-4.2"
-            identity.uri += fmt::format(":conn={}.{}", bus, device.address);
+            identity.uri += fmt::format(":conn={}.{}", device.bus, device.address);
             identity.obstacle = device.obstacle();
             found.push_back(std::move(identity));
         }

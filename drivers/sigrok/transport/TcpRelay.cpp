@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/base/Loopback.h"
+#include "core/base/WholeNumber.h"
 
 namespace tacto::sigrok_driver {
 
@@ -96,7 +97,7 @@ bool isOurOwn(int accepted) {
     std::error_code error;
     for (std::filesystem::directory_iterator at("/proc/self/fd", error), end; !error && at != end;
          at.increment(error)) {
-        const int own = std::atoi(at->path().filename().c_str());
+        const int own = parseWhole<int>(at->path().filename().string()).value_or(-1);
         sockaddr_in bound{};
         sockaddr_in connected{};
         size = sizeof bound;

@@ -9,11 +9,12 @@ constexpr auto kLong = std::chrono::seconds(5);
 class FakeWatchdog final : public hid::Watchdog {
 public:
     explicit FakeWatchdog(FakeHidDevice& device) : device_(device) {}
-    bool beat() noexcept override {
+    hid::WatchdogState beat() noexcept override {
         const std::scoped_lock lock(device_.mutex_);
         ++device_.beats_;
         device_.resting_ = false;
-        return !device_.watchRefused_;
+        if (device_.watchRefused_) return hid::WatchdogState::Ended;
+        return device_.watchSilent_ ? hid::WatchdogState::Silent : hid::WatchdogState::Watching;
     }
     void rest() noexcept override {
         const std::scoped_lock lock(device_.mutex_);
@@ -135,6 +136,11 @@ bool FakeHidDevice::waitForHeld() const {
 bool FakeHidDevice::waitForLast(const Bytes& report) const {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, kLong, [&] { return !writes_.empty() && writes_.back().bytes == report; });
+}
+
+void FakeHidDevice::silenceWatch(bool silent) {
+    const std::scoped_lock lock(mutex_);
+    watchSilent_ = silent;
 }
 
 int FakeHidDevice::beats() const {

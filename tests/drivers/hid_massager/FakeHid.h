@@ -55,6 +55,8 @@ public:
     [[nodiscard]] int openNow() const;
     /// No watchdog starts for its ports while it is so; one that runs has ended.
     void refuseWatch(bool refused);
+    /// The watchdogs of its ports run on and do not answer.
+    void silenceWatch(bool silent);
     /// Times that a port's watchdog was told that output is on; whether the last word was that it is off.
     [[nodiscard]] int beats() const;
     [[nodiscard]] bool watchRests() const;
@@ -78,7 +80,7 @@ private:
     std::vector<Write> writes_;
     std::deque<Bytes> sent_;
     std::optional<std::size_t> takeOnly_;
-    bool plugged_ = true, refused_ = false, held_ = false, watchRefused_ = false, resting_ = true;
+    bool plugged_ = true, refused_ = false, held_ = false, watchRefused_ = false, watchSilent_ = false, resting_ = true;
     int beats_ = 0, waiting_ = 0, attempts_ = 0, openings_ = 0, openNow_ = 0;
     std::uint64_t session_ = 0;  // plug() makes old ports useless
 };

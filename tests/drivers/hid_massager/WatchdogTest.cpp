@@ -201,7 +201,7 @@ TEST_F(WatchdogProcessTest, TriesUntilTheDeviceTakesTheStop) {
     auto watchdog = hid::WatchdogProcess::start(hidraw());
     ASSERT_IN_TIME(watchdog);
     pad.refuseWrites(EIO);
-    ASSERT_IN_TIME((*watchdog)->beat());
+    ASSERT_IN_TIME((*watchdog)->beat() == hid::WatchdogState::Watching);
     watchdog->reset();  // as a death: no word that the output is off
     EXPECT_TRUE(pad.waitForReports(0).empty());
     pad.refuseWrites(0);
@@ -218,7 +218,7 @@ std::vector<pid_t> children() {
     return all;
 }
 
-TEST_F(WatchdogProcessTest, OneThatStandsStillIsNoWatchdog) {
+TEST_F(WatchdogProcessTest, OneThatStandsStillOrHasEndedIsNoWatchdog) {
     RecordProperty("hazard", "H2");
     const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     const auto before = children();
@@ -227,11 +227,13 @@ TEST_F(WatchdogProcessTest, OneThatStandsStillIsNoWatchdog) {
     auto started = children();
     std::erase_if(started, [&](pid_t one) { return std::find(before.begin(), before.end(), one) != before.end(); });
     ASSERT_EQ(started.size(), 1U);
+    auto state = hid::WatchdogState::Watching;
     // How long beats are taken, at most 1.5 s.
     const auto beats = [&] {
         const auto begun = Steady::now();
         while (Steady::now() - begun < milliseconds(1500)) {
-            if (!(*watchdog)->beat()) break;
+            state = (*watchdog)->beat();
+            if (state != hid::WatchdogState::Watching) break;
             std::this_thread::sleep_for(hid::Watchdog::kBeat);
         }
         return Steady::now() - begun;
@@ -242,18 +244,22 @@ TEST_F(WatchdogProcessTest, OneThatStandsStillIsNoWatchdog) {
     const auto deaf = beats();
     EXPECT_GE(deaf, hid::Watchdog::kUnansweredLimit);
     EXPECT_IN_TIME(deaf <= milliseconds(800));
+    EXPECT_EQ(state, hid::WatchdogState::Silent);
     kill(started.front(), SIGCONT);
     (*watchdog)->rest();
     std::this_thread::sleep_for(milliseconds(100));
-    EXPECT_IN_TIME((*watchdog)->beat()) << "it answers again";
+    EXPECT_IN_TIME((*watchdog)->beat() == hid::WatchdogState::Watching) << "it answers again";
     (*watchdog)->rest();
+    kill(started.front(), SIGKILL);
+    static_cast<void>(beats());
+    EXPECT_EQ(state, hid::WatchdogState::Ended);
 }
 
 TEST_F(WatchdogProcessTest, EndedInOrderSendsNothing) {
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
     auto watchdog = hid::WatchdogProcess::start(hidraw());
     ASSERT_IN_TIME(watchdog);
-    ASSERT_IN_TIME((*watchdog)->beat());
+    ASSERT_IN_TIME((*watchdog)->beat() == hid::WatchdogState::Watching);
     (*watchdog)->rest();
     watchdog->reset();  // returns when its process has ended
     EXPECT_TRUE(pad.waitForReports(0).empty());

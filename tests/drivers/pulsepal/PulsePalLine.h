@@ -1,49 +1,31 @@
-// PulsePalLine.h - an emulated Pulse Pal at the other end of a Transport, in this process.
+// PulsePalLine.h - an emulated Pulse Pal at the other end of a Transport, in this process, as DeviceLine; it loses its
+// power when it is unplugged. And a driver on such a line.
 //
-// On a virtual clock a read that waits moves the clock, so it must be the clock's only mover meanwhile. The line
-// outlives its transports: what was put out can be judged after the driver has closed.
-//
-// Thread-safety: every function from any thread.
+// Thread-safety: every function of the line from any thread.
 #pragma once
 
-#include <condition_variable>
-#include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 
-#include "core/base/Clock.h"
-#include "core/devices/TransportPorts.h"
 #include "drivers/pulsepal/PulsePalStimulator.h"
+#include "tests/support/emulated/DeviceLine.h"
 #include "tests/support/emulated/pulsepal/EmulatedPulsePal.h"
 
 namespace tacto::test {
 
-class PulsePalLine : public std::enable_shared_from_this<PulsePalLine> {
+class PulsePalLine final : public DeviceLine {
 public:
-    /// `movable` is `clock` itself where it is virtual, else null. `ready`: whether transports set DTR.
+    /// `ready`: whether transports set DTR.
     PulsePalLine(const Clock& clock, VirtualClock* movable, bool ready = true, std::uint32_t firmware = 21);
 
-    /// Errors: NotFound while unplugged.
-    [[nodiscard]] Result<std::unique_ptr<Transport>> connect();
-    [[nodiscard]] Connect connector();
-
-    void unplug();
-    void plug();
     /// The next write breaks off after so many bytes and reports a time-out.
     void breakOff(std::size_t bytes);
     /// Its answers are this byte from now on, as many as it would send; nothing: its own.
     void garble(std::optional<std::uint8_t> byte);
-    /// Called in every write(), before its bytes reach the device.
-    void onWrite(std::function<void(std::span<const std::uint8_t>)> hook);
-    /// Bytes of every write() and writeUrgent() so far, one entry a transfer.
-    [[nodiscard]] std::vector<std::vector<std::uint8_t>> written();
 
-    /// Calls `look(device, now)` while nothing else does.
     template <class Look>
     auto inspect(Look&& look) {
-        const std::scoped_lock lock(mutex_);
-        return look(device_, clock_.now());
+        return lookAt(device_, std::forward<Look>(look));
     }
     [[nodiscard]] bool active() {
         return inspect([](auto& device, Instant now) { return device.active(now); });
@@ -53,19 +35,17 @@ public:
     }
 
 private:
-    friend class PulsePalTransport;
-    const Clock& clock_;
-    VirtualClock* const movable_;
+    [[nodiscard]] Result<void> receive(std::span<const std::uint8_t> bytes, Instant now) override;
+    void receiveUrgent(std::span<const std::uint8_t> bytes, Instant now) noexcept override;
+    [[nodiscard]] std::size_t transmit(std::span<std::uint8_t> into, Instant now) override;
+    [[nodiscard]] std::optional<Instant> nextTransmit(Instant now) override;
+    void connected() override { device_.setReady(ready_); }
+    void powerCycle(Instant now) override { device_.powerCycle(now); }
+
     const bool ready_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
     pulsepal::EmulatedPulsePal device_;
-    bool plugged_ = true;
-    std::uint64_t session_ = 0;  // plug() makes old transports useless
     std::optional<std::size_t> breakOff_;
     std::optional<std::uint8_t> garbled_;
-    std::shared_ptr<const std::function<void(std::span<const std::uint8_t>)>> hook_;
-    std::vector<std::vector<std::uint8_t>> written_;
 };
 
 /// A driver on such a line, with a gate that approves for it, on the virtual clock.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
+#include "app/gui/calibrate/ToleranceCard.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 #include "tests/gui/window/WindowFixture.h"
@@ -104,6 +105,12 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
     };
     EXPECT_IN_TIME(comesTrue([&] { return inSight("Sign report…"); })) << "what comes next stands below the plot";
     EXPECT_IN_TIME(comesTrue([&] { return errors->height() >= 300; })) << errors->height() << ", with it in sight";
+    for (const auto* card : window.findChildren<gui::ToleranceCard*>()) {
+        if (!card->isVisible()) continue;
+        EXPECT_IN_TIME(comesTrue([&] { return card->wordedWidth() <= card->width(); }))
+            << card->text().toStdString() << " has the verdict's shape without its word: " << card->width() << " of "
+            << card->wordedWidth() << " px";
+    }
     letLive(100);
     shot(window, "calibrate_window_1280");
     gui::applyTheme(gui::Theme::Dark);

@@ -13,6 +13,7 @@
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 #include "tests/support/InTime.h"
@@ -108,7 +109,9 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     const auto* kind = workspace.findChild<QWidget*>("tabRow")->findChild<QComboBox*>();
     EXPECT_TRUE(kind->isVisible());
     EXPECT_LT(kind->mapTo(&workspace, QPoint(0, kind->height())).y(), errors->mapTo(&workspace, QPoint()).y() - 60);
-    EXPECT_EQ(errors->xAxis->label(), "commanded amplitude (V)");
+    const auto first = workspace.runner().findChild<QLabel*>("verdictWhy")->text().section(':', 0, 0);
+    EXPECT_EQ(errors->xAxis->label().section(" (", 0, 0), "commanded " + first.toLower())
+        << "the plot is of what the first reason is about";
     click(the<gui::StepButton>("Settings"));
     EXPECT_FALSE(kind->isVisible());
     click(the<gui::StepButton>("Result"));
@@ -227,6 +230,17 @@ TEST_F(Calibrate, TheWiringIsDrawnBeforeTheRun) {
     EXPECT_IN_TIME(comesTrue([&] { return drawing->visibleRegion().boundingRect().size() == drawing->size(); }))
         << "the whole of it is in sight";
     shot(workspace, "calibrate_wiring");
+    gui::applyTheme(gui::Theme::Dark);
+    const auto ink = [&] {
+        return pixelsOf(workspace.grab(QRect(drawing->mapTo(&workspace, QPoint()), drawing->size())).toImage(),
+                        gui::colours().text);
+    };
+    EXPECT_IN_TIME(comesTrue([&] { return ink() > 500; })) << "in the theme's ink";
+    EXPECT_EQ(
+        pixelsOf(workspace.grab(QRect(drawing->mapTo(&workspace, QPoint()), drawing->size())).toImage(), Qt::white), 0)
+        << "no white sheet";
+    shot(workspace, "calibrate_wiring_dark");
+    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace

@@ -181,6 +181,21 @@ TEST_F(View, OtherTrialsAreNone) {
     EXPECT_EQ(gui::calibratedQuantity(reading("gap down", 1, 1)), "gap");
 }
 
+TEST_F(View, AResultShowsTheQuantityThatUsesMostOfItsTolerance) {
+    const auto found = [](const char* unit, double command, double error, double tolerance) {
+        const Json level{{"commanded", command}, {"mean", command + error},         {"expanded_uncertainty", 0},
+                         {"worst_error", error}, {"worst_expanded_uncertainty", 0}, {"tolerance", tolerance}};
+        return Json{{"unit", unit},
+                    {"gain", 1.0},
+                    {"verdict", "pass"},
+                    {"levels", Json::array({level})},
+                    {"readings", Json::array({{{"commanded", command}, {"measured", command}, {"direction", "up"}}})}};
+    };
+    sweep();
+    view.end({{"amplitude", found("V", 10, 0.06, 0.2)}, {"width", found("s", 1e-4, 0.4e-6, 1e-6)}});
+    EXPECT_EQ(view.quantityShown(), "Phase width") << "40 % against 30 %";
+}
+
 TEST_F(View, TheResultHasTheLastWord) {
     sweep();
     Json levels = Json::array();

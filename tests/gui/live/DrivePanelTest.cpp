@@ -1,4 +1,5 @@
 // After a stop the panel of the drive says what drove, so that the operator goes on knowingly; it goes on with nothing.
+#include <QDoubleSpinBox>
 #include <QPushButton>
 #include <cmath>
 
@@ -53,6 +54,24 @@ TEST_F(DriveThatWas, IsNamedAfterAStopAndStartsNothing) {
     ASSERT_IN_TIME(passes(2.5));
     EXPECT_EQ(controller.telemetry().trainsDelivered, delivered) << "what was does not go on by itself";
     EXPECT_EQ(controller.telemetry().driving, DriveSource::Off);
+}
+
+TEST_F(DriveThatWas, ByHandSaysBeforeArmingWhatItAsksForAndAfterwardsWhatWasSet) {
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(comesTrue([this] { return drive.isEnabled(); }));
+    drive.findChild<QPushButton*>("driveByHand")->click();
+    drive.findChild<QDoubleSpinBox*>("driveRoughness")->setValue(0.69);
+    ASSERT_IN_TIME(comesTrue([this] {
+        const auto telemetry = controller.telemetry();
+        drive.refresh(telemetry);
+        return telemetry.driving == DriveSource::Manual && std::isfinite(telemetry.roughness);
+    }));
+    ASSERT_NE(controller.telemetry().roughness, 0.69) << "while it is off the bench tells of the fingertip";
+    EXPECT_EQ(drive.headline(), "Off") << "nothing is delivered";
+    EXPECT_EQ(says(), "By hand asks for 30.7\u202fV every 2.00\u202fs once the output is armed.");
+    controller.stop("test");
+    ASSERT_IN_TIME(saysOff());
+    EXPECT_THAT(says(), StartsWith("Was by hand, R 0.69, P 0.00."));
 }
 
 TEST_F(DriveThatWas, IsTheFingertipWhereItDroveAndAnotherBenchKnowsOfNone) {

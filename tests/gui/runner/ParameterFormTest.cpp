@@ -1,5 +1,7 @@
 // The form of a protocol's parameters.
 #include <QCheckBox>
+#include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QTest>
 #include <gtest/gtest.h>
@@ -48,8 +50,34 @@ TEST(ParameterForm, ATickSaysYesByItself) {
     const auto* box = form.findChild<QCheckBox*>("keep");
     ASSERT_NE(box, nullptr);
     EXPECT_TRUE(box->isChecked());
-    EXPECT_EQ(box->text(), "");
     EXPECT_EQ(box->accessibleName(), "Keep the captures");
+    form.resize(400, 100);
+    form.setVisible(true);
+    QLabel* label = nullptr;
+    for (auto* one : form.findChildren<QLabel*>())
+        if (one->text() == "Keep the captures") label = one;
+    ASSERT_NE(label, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return label->isVisible() && box->isVisible(); }));
+    const auto middle = [](const QWidget& of) { return of.mapToGlobal(of.rect().center()); };
+    EXPECT_NEAR(middle(*label).y(), middle(*box).y(), 4) << "in one line";
+    EXPECT_GT(middle(*label).x(), middle(*box).x());
+    QTest::mouseClick(label, Qt::LeftButton);
+    EXPECT_FALSE(box->isChecked()) << "its words are part of it";
+}
+
+TEST(ParameterForm, AChoiceOfALoadHasTheSignOfItsUnit) {
+    ProtocolDeclaration declaration;
+    ProtocolParameter load;
+    load.name = "reference";
+    load.label = "Known load";
+    load.type = ParameterType::Choice;
+    load.choices = {{"1 kohm", ""}, {"100 ohm", ""}};
+    load.value = "1 kohm";
+    declaration.parameters = {load};
+    gui::ParameterForm form;
+    form.show(declaration);
+    EXPECT_EQ(form.findChild<QComboBox*>("reference")->currentText(), "1 kΩ");
+    EXPECT_EQ(form.text("reference"), "1 kohm") << "the script's own word";
 }
 
 ProtocolParameter areaFromTheProfile() {

@@ -459,7 +459,8 @@ function run(p) {
     })) << says("timeLeft").toStdString();
     controller.pause();
     EXPECT_TRUE(controller.paused());
-    ASSERT_IN_TIME(comesTrue([this] { return says("timeLeft") == "paused"; }));
+    ASSERT_IN_TIME(comesTrue([this] { return says("timeLeft").startsWith("paused\n"); }));
+    EXPECT_THAT(says("timeLeft").toStdString(), HasSubstr("Esc ends the run; what was recorded is kept."));
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Paused; }));
     controller.resume();
     EXPECT_FALSE(controller.paused());

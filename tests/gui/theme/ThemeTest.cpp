@@ -17,6 +17,7 @@
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/PageStack.h"
+#include "app/gui/theme/ProgressBar.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/TurningRow.h"
 #include "app/gui/theme/Verdict.h"
@@ -250,6 +251,28 @@ double shareSeenOn(QWidget& widget, const QPoint& at) {
     for (int y = 0; y < picture.height(); ++y)
         for (int x = 0; x < picture.width(); ++x) seen += contrast(picture.pixelColor(x, y), ground) >= 3;
     return double(seen) / (picture.width() * picture.height());
+}
+
+TEST_P(InTheme, TheWordsOfAProgressBarAreReadOnBothItsGrounds) {
+    gui::ProgressBar bar;
+    bar.setRange(0, 2);
+    bar.setFormat("Interval: 74 of 110");
+    bar.resize(220, bar.sizeHint().height());
+    bar.show();
+    const auto& c = gui::colours();
+    EXPECT_GE(contrast(c.text, c.sunken), 4.5);
+    EXPECT_GE(contrast(c.base, c.bar), 4.5);
+    const auto drawn = [&](int value) {
+        bar.setValue(value);
+        QCoreApplication::processEvents();
+        return bar.grab().toImage();
+    };
+    const auto empty = drawn(0), half = drawn(1), whole = drawn(2);
+    EXPECT_GT(pixelsOf(empty, c.text), 30);
+    EXPECT_EQ(pixelsOf(whole, c.text), 0) << "nothing is written in it on the fill";
+    EXPECT_GT(pixelsOf(whole, c.base), 30);
+    EXPECT_GT(pixelsOf(half, c.text), 10);
+    EXPECT_GT(pixelsOf(half, c.base), 10);
 }
 
 TEST_P(InTheme, TheTickOfACheckBoxIsSeen) {

@@ -3,10 +3,12 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QDoubleSpinBox>
+#include <QHeaderView>
 #include <QLineEdit>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QStatusBar>
+#include <QStyleOptionHeader>
 #include <QTableView>
 #include <QToolButton>
 
@@ -14,6 +16,7 @@
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/LimitMatrixView.h"
+#include "app/gui/runner/SignPage.h"
 #include "app/gui/runner/StepButton.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/ScopeModel.h"
@@ -167,7 +170,8 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
     looksRight("result-safety");
     // The tracing of the strongest output is a view of its own, and beside it in the large window.
     plotHas<gui::LimitMatrixView>(0.8, "matrix", {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)});
-    const auto* matrix = window.findChild<gui::LimitMatrixView*>();
+    const auto* matrix = find<gui::LimitMatrixView>(window, "limitMatrix");
+    ASSERT_TRUE(matrix != nullptr && matrix->rowCount() > 10);
     for (const auto size : {QSize(1280, 720), QSize(1300, 737), QSize(1440, 900), QSize(1920, 1080)}) {
         window.resize(size);
         letLive(100);
@@ -183,6 +187,67 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
             EXPECT_TRUE(top >= bottom || top + matrix->rowHeight(row) <= bottom)
                 << row << " is cut at " << size.height();
         }
+    }
+}
+
+TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
+    window.showWorkspace(2);
+    ASSERT_NO_FATAL_FAILURE(type("area", "4"));
+    ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
+    const auto reported = [this] {
+        return std::ranges::any_of(window.findChildren<gui::SignPage*>(),
+                                   [](const auto* sign) { return sign->note() == "Not signed yet"; });
+    };
+    ASSERT_IN_TIME(comesTrue(reported, 60'000));
+    const auto isWhole = [this](const char* name) {
+        gui::applyTextSize(200);
+        window.resize(1280, 720);
+        static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 3000));
+        EXPECT_EQ(faultsOf(window), "") << name;
+        shot(window, QString("large-%1").arg(name));
+        gui::applyTextSize(100);
+    };
+    isWhole("safety-result");
+    const auto* matrix = find<gui::LimitMatrixView>(window, "limitMatrix");
+    ASSERT_TRUE(matrix != nullptr && matrix->rowCount() > 10);
+    gui::applyTextSize(200);
+    EXPECT_IN_TIME(comesTrue([&] { return matrix->horizontalHeader()->length() <= matrix->viewport()->width(); }));
+    EXPECT_EQ(matrix->horizontalHeaderItem(6)->text(), "100\nkΩ") << "in two lines where one has no room";
+    const auto* header = matrix->horizontalHeader();
+    for (int c = 0; c < header->count(); ++c) {
+        QStyleOptionHeader section;
+        section.initFrom(header);
+        section.rect = QRect(0, 0, header->sectionSize(c), header->height());
+        section.position = c == 0 ? QStyleOptionHeader::Beginning : QStyleOptionHeader::Middle;
+        const auto words = header->style()->subElementRect(QStyle::SE_HeaderLabel, &section, header);
+        const auto text = matrix->horizontalHeaderItem(c)->text();
+        EXPECT_LE(header->fontMetrics().size(0, text).width(), words.width()) << text.toStdString();
+    }
+    gui::applyTextSize(100);
+    EXPECT_IN_TIME(comesTrue([&] { return matrix->horizontalHeaderItem(6)->text() == "100\u00a0kΩ"; }));
+    fitsBesideTheDocks("safety-result", "limitMatrix");  // which scrolls by itself there
+    click(*find<QPushButton>(window, "Tables"));
+    gui::applyTextSize(200);
+    const auto numbersCut = [this] { return cutCells(window).filter("no tool tip"); };
+    EXPECT_IN_TIME(comesTrue([&] { return numbersCut().isEmpty(); })) << numbersCut().join('\n').toStdString();
+    EXPECT_THAT(cutCells(window).filter("pass").join('\n').toStdString(), "") << "a verdict keeps its word";
+    int tables = 0;
+    for (const auto* table : window.findChildren<QTableWidget*>()) {
+        if (!table->isVisible()) continue;
+        ++tables;
+        const bool fits = table->horizontalHeader()->length() <= table->viewport()->width();
+        EXPECT_TRUE(fits || table->horizontalScrollBar()->isVisible()) << table->accessibleName().toStdString();
+    }
+    EXPECT_GE(tables, 2);
+    shot(window, "large-safety-tables");
+    gui::applyTextSize(100);
+    fitsBesideTheDocks("safety-tables", "QTableWidget");  // numbers are not cut: they scroll
+    click(*find<QPushButton>(window, "Sign report…"));
+    isWhole("sign");
+    fitsBesideTheDocks("sign");
+    for (const auto* step : {"Known reference", "Settings", "Run"}) {
+        click(*find<gui::StepButton>(window, step));
+        isWhole(step);
     }
 }
 

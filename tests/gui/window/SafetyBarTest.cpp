@@ -245,6 +245,48 @@ TEST(LimitBarRow, ShowsThoseNearestToTheirLimitsWhereNotAllFit) {
     EXPECT_EQ(seen, QStringList("b"));
 }
 
+TEST_F(Bar, AfterAStopTheImpedanceStaysToBeReadWithItsAgeUntilAFault) {
+    RecordProperty("hazard", "H9");
+    ASSERT_IN_TIME(armed({"sim:"}));
+    const auto says = [this](const Telemetry& telemetry) {
+        bar.refresh(telemetry);
+        return bar.findChild<QLabel*>("impedance")->text().toStdString();
+    };
+    EXPECT_THAT(says(controller.telemetry()), AllOf(HasSubstr("Ω"), HasSubstr(" · ")));
+    controller.stop("test");
+    ASSERT_IN_TIME(comesTrue([this] {
+        const auto now = controller.telemetry();
+        return now.state == InterlockState::Disarmed && std::isnan(now.impedance_ohm);
+    }));
+    auto later = controller.telemetry();
+    later.at += std::chrono::seconds(12);
+    EXPECT_THAT(says(later), AllOf(HasSubstr("Ω"), HasSubstr("12 s ago"))) << "as the measurements say it";
+    later.state = InterlockState::Faulted;
+    says(later);
+    later.state = InterlockState::Disarmed;
+    EXPECT_EQ(says(later), "Impedance not measured") << "the electrode may be open";
+}
+
+TEST_F(Bar, KeysFocusOnStopCoversNoneOfItsWords) {
+    auto& stop = *bar.findChild<QPushButton*>("stopButton");
+    stop.window()->activateWindow();
+    ASSERT_IN_TIME(QTest::qWaitForWindowActive(stop.window()));
+    bar.setFocus();
+    const auto ink = gui::stateStyle(InterlockState::Faulted).ink;
+    const auto plain = stop.grab().toImage();
+    stop.setFocus(Qt::TabFocusReason);
+    stop.window()->setAttribute(Qt::WA_KeyboardFocusChange);
+    const auto framed = stop.grab().toImage();
+    ASSERT_NE(plain, framed);
+    int touching = 0;
+    for (int y = 0; y < plain.height(); ++y)
+        for (int x = 0; x < plain.width(); ++x)
+            touching += plain.pixelColor(x, y) != gui::stateStyle(InterlockState::Faulted).ground &&
+                        framed.pixelColor(x, y) != plain.pixelColor(x, y);
+    EXPECT_EQ(touching, 0) << "the frame runs through a word";
+    EXPECT_GT(pixelsOf(framed, ink), pixelsOf(plain, ink));
+}
+
 TEST_F(Bar, StopAndTheButtonsAreWholeOnANarrowScreen) {
     RecordProperty("hazard", "H2");
     bar.refresh(in(InterlockState::Faulted, "the electrode is open: a long story that has no room here"));

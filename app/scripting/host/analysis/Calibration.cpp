@@ -5,6 +5,7 @@
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/analysis/AnalysisObject.h"
 #include "app/scripting/host/analysis/CalibrationAsked.h"
+#include "app/scripting/host/analysis/GivenReadings.h"
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 
@@ -55,9 +56,8 @@ public:
                             "expected",
                             made_.readings[i], quantity_.id);
             }
-            const Json& measured = readings_[i]->read[quantity_.reading];
             rows[i].commanded = commanded;
-            rows[i].measured = measured.is_number() ? measured.get<double>() : std::nan("");
+            rows[i].measured = numberOr(readings_[i]->read[quantity_.reading]);
         }
         return {};
     }
@@ -122,42 +122,18 @@ Result<std::optional<OwnSeries>> ownSeries(ScriptSession& session, const Json& r
     return std::optional<OwnSeries>(std::in_place, session, *known, std::move(*numbers), std::move(*readings));
 }
 
-tl::unexpected<Error> otherThanExpected(std::string_view name, const Json& value, std::string_view accepted) {
-    return fail(ErrorCode::InvalidArgument, "analysis.calibration: {} is {}, {} is expected", name, shown(value),
-                accepted);
-}
-
-Result<std::vector<CalibrationReading>> readingsFrom(const Json& rows) {
-    std::vector<CalibrationReading> readings;
-    for (const auto& row : rows) {
-        if (!row.is_object() || !row.value("commanded", Json()).is_number()) {
-            return otherThanExpected("a reading", row, "an object with commanded, measured and direction");
-        }
-        CalibrationReading reading;
-        reading.commanded = row["commanded"].get<double>();
-        const Json measured = row.value("measured", Json());
-        if (measured.is_number()) reading.measured = measured.get<double>();
-        const Json direction = row.value("direction", Json(""));
-        const auto known =
-            direction.is_string() ? valueFor(kSweepDirections, direction.get_ref<const std::string&>()) : std::nullopt;
-        if (!known) return otherThanExpected("direction", direction, "\"up\", \"down\" or \"\"");
-        reading.direction = *known;
-        readings.push_back(reading);
-    }
-    return readings;
-}
-
 }  // namespace
 
 Result<Json> calibrationOf(ScriptSession& session, const Json& rows, CalibrationAsked asked) {
-    auto readings = readingsFrom(rows);
+    auto readings = readingsGiven("analysis.calibration", rows);
     if (!readings) return failure(readings);
     auto& [quantity, tolerance_pct, fit, errors] = asked;
     auto own = ownSeries(session, rows, quantity);
     if (!own) return failure(own);
     if (*own) {
         if (fit.sameLevel > kWidestLevel)
-            return otherThanExpected("same_level", fit.sameLevel, fmt::format("at most {}", kWidestLevel));
+            return otherThanExpected("analysis.calibration", "same_level", fit.sameLevel,
+                                     fmt::format("at most {}", kWidestLevel));
         if (auto filled = (*own)->fill(*readings); !filled) return failure(filled);
         (*own)->widen(errors);
     }

@@ -9,18 +9,15 @@
 
 namespace tacto::host::analysis {
 
-using report::numberIn;
-using report::textIn;
-
 namespace {
 
 std::string notHeld(const Json& row) {
-    const auto unit = textIn(row, "unit");
+    const auto unit = textOr(row, "unit");
     return fmt::format("{}: at {} the stored calibration expects {}, and {} was measured; ± {} is allowed",
-                       report::titleOfQuantity(textIn(row, "quantity")), scaledText(numberIn(row, "commanded"), unit),
-                       scaledText(numberIn(row, "expected"), unit),
-                       measuredText(numberIn(row, "measured"), numberIn(row, "expanded_uncertainty"), unit),
-                       scaledText(numberIn(row, "allowed"), unit));
+                       report::titleOfQuantity(textOr(row, "quantity")), scaledText(numberOr(row, "commanded"), unit),
+                       scaledText(numberOr(row, "expected"), unit),
+                       measuredText(numberOr(row, "measured"), numberOr(row, "expanded_uncertainty"), unit),
+                       scaledText(numberOr(row, "allowed"), unit));
 }
 
 }  // namespace
@@ -28,7 +25,7 @@ std::string notHeld(const Json& row) {
 /// Guard-banded, as at its making: within the tolerance, this run's uncertainty included.
 Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
     const Json &found = arguments.object("found"), &line = arguments.object("line");
-    const auto quantity = textIn(found, "quantity");
+    const auto quantity = textOr(found, "quantity");
     const auto* one = calibratedQuantity(quantity);
     const double scale = one != nullptr ? one->perUnit : 1;  // as people read them
     Json rows = Json::array(), reasons = Json::array();
@@ -36,14 +33,14 @@ Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
     Verdict verdict = levels.empty() ? Verdict::Indeterminate : Verdict::Pass;
     if (levels.empty()) reasons.push_back("No level was read: nothing was checked.");
     for (const auto& level : levels) {
-        const double commanded = numberIn(level, "commanded"), mean = numberIn(level, "mean");
-        const double expected = numberIn(line, "gain") * commanded + numberIn(line, "offset");
-        const double off = mean - expected, u = numberIn(level, "expanded_uncertainty");
+        const double commanded = numberOr(level, "commanded"), mean = numberOr(level, "mean");
+        const double expected = numberOr(line, "gain") * commanded + numberOr(line, "offset");
+        const double off = mean - expected, u = numberOr(level, "expanded_uncertainty");
         const double allowed = arguments.number("tolerance") / 100 * commanded;
         // A current source is programmed to A / |Z|: that it comes back to the same levels is not sure. The line knows
         // its own range.
         const bool known =
-            commanded >= 0.98 * numberIn(line, "lowest") && commanded <= 1.02 * numberIn(line, "highest");
+            commanded >= 0.98 * numberOr(line, "lowest") && commanded <= 1.02 * numberOr(line, "highest");
         const Verdict judged = known ? guardBanded(off, u, allowed) : Verdict::Indeterminate;
         verdict = worseOf(verdict, judged);
         rows.push_back({{"quantity", quantity},
@@ -53,7 +50,7 @@ Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
                         {"off", numberOrNull(off * scale)},
                         {"expanded_uncertainty", numberOrNull(u * scale)},
                         {"allowed", numberOrNull(allowed * scale)},
-                        {"unit", scale != 1 ? "us" : textIn(found, "unit")},
+                        {"unit", scale != 1 ? "us" : textOr(found, "unit")},
                         {"verdict", nameOf(judged)}});
         if (judged != Verdict::Pass) reasons.push_back(notHeld(rows.back()));
     }

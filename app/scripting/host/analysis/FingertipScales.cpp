@@ -3,6 +3,7 @@
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/analysis/AnalysisObject.h"
+#include "app/scripting/host/analysis/GivenReadings.h"
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 
@@ -93,21 +94,9 @@ Result<Json> sensorScale(ScriptSession&, const Arguments& arguments) {
     const Json& rows = arguments.list("readings");
     const auto name = arguments.text("options.name");
     const auto tolerance = arguments.number("options.tolerance_pct");
-    std::vector<CalibrationReading> readings;
-    for (const auto& row : rows) {
-        if (!row.is_object() || !row.value("commanded", Json()).is_number()) {
-            return arguments.wrong("a reading", row, "an object with commanded (the reference) and measured");
-        }
-        CalibrationReading reading;
-        reading.commanded = row["commanded"].get<double>();
-        const Json measured = row.value("measured", Json());
-        if (measured.is_number()) reading.measured = measured.get<double>();
-        const Json direction = row.value("direction", Json(""));
-        if (direction == "up") reading.direction = SweepDirection::Up;
-        if (direction == "down") reading.direction = SweepDirection::Down;
-        readings.push_back(reading);
-    }
-    auto found = fitSensorScale(readings, tolerance / 100, name);
+    const auto readings = readingsGiven("analysis.sensorScale", rows);
+    if (!readings) return failure(readings);
+    auto found = fitSensorScale(*readings, tolerance / 100, name);
     if (!found) return failure(found);
     return toJson(*found);
 }
@@ -128,10 +117,9 @@ Result<Json> fingertipScales(ScriptSession& session, const Arguments& arguments)
         if (!row.is_object() || !row.contains("reading") || !isReading(row["reading"]))
             return arguments.wrong("a weighed row", row, "{ reading: from bench.measureWeight(), direction }");
         const auto& reading = row["reading"];
-        const Json direction = row.value("direction", Json(""));
-        weighed.push_back({&reading, direction == "up"     ? SweepDirection::Up
-                                     : direction == "down" ? SweepDirection::Down
-                                                           : SweepDirection::None});
+        const auto direction = directionGiven("analysis.fingertipScales", row);
+        if (!direction) return failure(direction);
+        weighed.push_back({&reading, *direction});
         own = own && session.own().noted(reading);
         if (reading["taxels"].size() != weighed.front().reading->at("taxels").size() ||
             (!reading["taxels"].empty() && !reading.contains("taxel_unit")))

@@ -15,17 +15,13 @@ Result<Json> separability(ScriptSession&, const Arguments& arguments) {
         if (!row.is_object() || !row.value("condition", Json()).is_string()) {
             return arguments.wrong("a trial", row, "an object with a condition, from record.trials(),");
         }
-        const auto value = [&row](const char* key) {
-            const auto at = row.find(key);
-            return at != row.end() && at->is_number() ? at->get<double>() : std::nan("");
-        };
         SeparabilityTrial trial;
         trial.condition = row["condition"].get<std::string>();
-        trial.amplitude = value("amplitude_v");
-        trial.interval_s = value("interval_s");
-        trial.amplitudeUncertainty = value("amplitude_u_v");
-        trial.intervalUncertainty_s = value("interval_u_s");
-        trial.timeBase = value("time_base_u");
+        trial.amplitude = numberOr(row, "amplitude_v");
+        trial.interval_s = numberOr(row, "interval_s");
+        trial.amplitudeUncertainty = numberOr(row, "amplitude_u_v");
+        trial.intervalUncertainty_s = numberOr(row, "interval_u_s");
+        trial.timeBase = numberOr(row, "time_base_u");
         features.push_back({{"condition", trial.condition},
                             {"amplitude_v", numberOrNull(trial.amplitude)},
                             {"interval_s", numberOrNull(trial.interval_s)},

@@ -219,6 +219,18 @@ std::vector<HostFunction> benchFunctions() {
                  "again. The output must be disarmed.",
          .errors = "Throws while armed.",
          .call = host::bench::useCalibration},
+        {.name = "readKnownLoad",
+         .parameters = {number("load", "ohm", "that is connected").range(1, 1e6),
+                        number("tolerance", "%", "how far the reading may lie from the load, its uncertainty included")
+                            .range(0, 100)},
+         .text = "Before anything is believed: arms, reads one train of the strongest command and judges it as "
+                 "record.reference() does. The output stays armed and driven.",
+         .returns = "As record.reference().",
+         .errors = "As bench.arm() and bench.capture().",
+         .asks = kConfirmArming,
+         .needs = Role::Oscilloscope,
+         .failsDisarmed = true,
+         .call = host::bench::readKnownLoad},
         {.name = "readReference",
          .parameters = {number("volts", "V",
                                "of the reference source, as its certificate or a calibrated multimeter says")

@@ -20,6 +20,7 @@ HostCall present, lift, measureReference, setReferences;                        
 HostCall streams, measureRest, measureSlide, measureWeight;                     // Fingertip.cpp
 HostCall profilometer, surfaces, weights;                                       // GivenSurfaces.cpp
 HostCall readReference;                                                         // AbsoluteReference.cpp
+HostCall readKnownLoad;                                                         // KnownLoad.cpp
 HostCall step, traverse;                                                        // Steps.cpp
 HostCall inChecking, whileDelivering, bySilence;                                // Trips.cpp
 

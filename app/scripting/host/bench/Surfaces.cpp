@@ -6,6 +6,7 @@
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/bench/BenchObject.h"
+#include "core/base/JsonFields.h"
 #include "core/base/Statistics.h"
 
 namespace tacto::host::bench {
@@ -112,15 +113,11 @@ Result<Json> setReferences(ScriptSession& session, const Arguments& arguments) {
     const Json& rough = arguments.object("rough");
     Profile profile = session.bench().profile();
     RoughnessSettings& settings = profile.roughness;
-    const auto value = [](const Json& of, const char* key) {
-        const auto at = of.find(key);
-        return at != of.end() && at->is_number() ? at->get<double>() : std::nan("");
-    };
     ReferenceScale& spectral = settings.spectral == SpectralFeature::Relative ? settings.h : settings.hAbs;
     ReferenceScale& taxel = settings.taxel == TaxelFeature::Static ? settings.vStatic : settings.vDynamic;
     int set = 0;
     for (const auto& [key, scale] : {std::pair<const char*, ReferenceScale*>{"h", &spectral}, {"v", &taxel}}) {
-        const ReferenceScale measured{value(smooth, key), value(rough, key)};
+        const ReferenceScale measured{numberOr(smooth, key), numberOr(rough, key)};
         if (std::isnan(measured.smooth) && std::isnan(measured.rough)) continue;  // this rig does not have it
         *scale = measured;
         ++set;

@@ -8,7 +8,7 @@ namespace tacto::host::calibration {
 
 namespace {
 
-using report::digitsOf, report::numberIn;
+using report::digitsOf;
 
 constexpr double kStandsOut = 5;  // standard deviations at rest
 
@@ -24,8 +24,8 @@ std::string toldApart(const Json& results) {
     // What one repeat cannot tell is not known, and is not 0.
     return fmt::format("{} and {} are told apart: d′ of R is {} (95 %: {} to {}), at least 1 is wanted",
                        surfaces.at(0).at("name").get<std::string>(), surfaces.at(1).at("name").get<std::string>(),
-                       digitsOf(numberIn(distance, "value"), 3), digitsOf(numberIn(distance, "low"), 3),
-                       digitsOf(numberIn(distance, "high"), 3));
+                       digitsOf(numberOr(distance, "value"), 3), digitsOf(numberOr(distance, "low"), 3),
+                       digitsOf(numberOr(distance, "high"), 3));
 }
 
 }  // namespace
@@ -79,10 +79,10 @@ Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
     if (passed) return Json{{"check", check}, {"reason", ""}};
     const auto read = check["measured"].is_null()
                           ? std::string("nothing")
-                          : digitsOf(numberIn(check, "measured"), 4) + " " +
+                          : digitsOf(numberOr(check, "measured"), 4) + " " +
                                 (check["unit"].is_string() ? check["unit"].get<std::string>() : std::string("null"));
     const auto reason = fmt::format("the known-reference check failed: {} was read under {} N; nothing was calibrated",
-                                    read, digitsOf(numberIn(check, "reference_n"), 4));
+                                    read, digitsOf(numberOr(check, "reference_n"), 4));
     return Json{{"check", check}, {"reason", reason}};
 }
 

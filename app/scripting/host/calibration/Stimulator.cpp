@@ -15,13 +15,13 @@ namespace tacto::host::calibration {
 
 namespace {
 
-using report::listIn, report::numberIn, report::textIn;
+using report::listIn;
 
 constexpr double kClock_pct = 0.5;  // how far intervals may be from the computer's clock (choice)
 
 std::string worstOf(const Json& judged) {
     const auto any = [&judged](std::string_view verdict) {
-        return std::ranges::any_of(judged, [&](const Json& one) { return textIn(one, "verdict") == verdict; });
+        return std::ranges::any_of(judged, [&](const Json& one) { return textOr(one, "verdict") == verdict; });
     };
     return any("fail") ? "fail" : any("indeterminate") ? "indeterminate" : "pass";
 }
@@ -30,8 +30,8 @@ std::string worstOf(const Json& judged) {
 double worstUse(const Json& found) {
     double worst = 0;
     for (const auto& level : listIn(found, "levels")) {
-        const double use = (std::abs(numberIn(level, "worst_error")) + numberIn(level, "worst_expanded_uncertainty")) /
-                           numberIn(level, "tolerance");
+        const double use = (std::abs(numberOr(level, "worst_error")) + numberOr(level, "worst_expanded_uncertainty")) /
+                           numberOr(level, "tolerance");
         if (use > worst) worst = use;
     }
     return worst;
@@ -54,11 +54,11 @@ Result<Json> knownRanges(ScriptSession&, const Arguments& arguments) {
     Json settings = arguments.object("settings");
     for (const auto& one : kCalibratedQuantities) {
         const Json line = stored.value(one.id, Json::object());
-        const double lowest = one.perUnit * numberIn(line, "lowest");
-        const double highest = one.perUnit * numberIn(line, "highest");
+        const double lowest = one.perUnit * numberOr(line, "lowest");
+        const double highest = one.perUnit * numberOr(line, "highest");
         if (std::isnan(lowest) || std::isnan(highest))
             return arguments.wrong("stored", stored, "what bench.calibration holds");
-        if (textIn(line, "unit") == "mA") continue;
+        if (textOr(line, "unit") == "mA") continue;
         const LevelRange range(arguments, one);
         settings[LevelRange::key(one, "min")] = std::max(lowest, range.low);
         settings[LevelRange::key(one, "max")] = std::min(highest, range.high);
@@ -84,8 +84,8 @@ Result<Json> timeBase(ScriptSession&, const Arguments& arguments) {
     const Json& found = arguments.any("interval");
     if (found.is_null()) return Json("");
     if (!found.is_object()) return arguments.wrong("interval", found, "what calibration.judge() returned");
-    const double off_pct = 100 * std::abs(numberIn(found, "gain") - 1);
-    const double expanded_pct = 100 * numberIn(found, "gain_expanded_uncertainty");
+    const double off_pct = 100 * std::abs(numberOr(found, "gain") - 1);
+    const double expanded_pct = 100 * numberOr(found, "gain_expanded_uncertainty");
     if (off_pct + expanded_pct <= kClock_pct) return Json("");
     return Json(fmt::format(
         "the time base is not sure: intervals by the computer's clock are read {} off, at most {} % is allowed "
@@ -101,7 +101,7 @@ Result<Json> checkVerdict(ScriptSession&, const Arguments& arguments) {
         for (const auto& reason : listIn(check, "reasons")) reasons.push_back(reason);
     if (verdict == "pass")
         reasons =
-            Json::array({textIn(arguments.object("stored"), "text") + "; it still holds at three levels of each"});
+            Json::array({textOr(arguments.object("stored"), "text") + "; it still holds at three levels of each"});
     return Json{{"verdict", verdict}, {"reasons", std::move(reasons)}};
 }
 
@@ -119,7 +119,7 @@ Result<Json> stimulatorVerdict(ScriptSession&, const Arguments& arguments) {
     for (const auto& one : found) nearestFirst.push_back(&one);
     std::ranges::stable_sort(nearestFirst, std::greater(), [](const Json* one) { return worstUse(*one); });
     for (const auto* one : nearestFirst) {
-        const auto title = report::titleOfQuantity(textIn(*one, "quantity"));
+        const auto title = report::titleOfQuantity(textOr(*one, "quantity"));
         for (const auto& reason : listIn(*one, "reasons"))
             reasons.push_back(title + ": " + (reason.is_string() ? reason.get<std::string>() : shown(reason)));
     }

@@ -23,9 +23,10 @@ std::vector<HostFunction> measureFunctions() {
          .returns =
              "{ unit, amplitude, interval_s, width_s, gap_s, trains, warnings, commanded: { amplitude, interval_s, "
              "width_s, gap_s }, instrument: { gain_tolerance, offset_tolerance, resolution, sampling_step_s, "
-             "full_scale }, load_ohm, load_limit, captures, reading }: reading is its number in this run, for "
+             "full_scale }, load_ohm, load_expanded_ohm, captures, reading }: reading is its number in this run, for "
              "analysis.calibration(); amplitude in unit, V or mA by the stimulator's source; what could not be "
-             "measured or is not stated is null; load_limit is the relative half-width that both channels state.",
+             "measured or is not stated is null; load_ohm is V / I, load_expanded_ohm its U from what both channels "
+             "state.",
          .errors = "Throws for captures that are held no longer, or without the channel that is read.",
          .needs = Role::Stimulator,
          .call = host::measure::pulse},

@@ -3,6 +3,7 @@
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/record/RecordObject.h"
+#include "app/scripting/host/record/ReferenceCheck.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
 #include "core/session/SessionWriter.h"
@@ -36,19 +37,17 @@ std::string whyNot(Verdict verdict, const Json& check, double load, double toler
 
 }  // namespace
 
-/// One rule everywhere: |reading - reference| + U ≤ tolerance (science.md section 12).
 Result<Json> reference(ScriptSession& session, const Arguments& arguments) {
-    const Json& reading = arguments.object("reading");
-    const auto load = arguments.number("load");
-    const auto tolerance_pct = arguments.number("tolerance");
-    const auto load_pct = arguments.number("of the load");
-    const auto at = [&](const char* key) {
-        const Json value = reading.value(key, Json());
-        return value.is_number() ? value.get<double>() : std::nan("");
-    };
-    const double measured = at("load_ohm");
+    return judgeReference(session, arguments.object("reading"),
+                          {arguments.number("load"), arguments.number("tolerance"), arguments.number("of the load")});
+}
+
+/// One rule everywhere: |reading - reference| + U ≤ tolerance (science.md section 12).
+Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known) {
+    const auto [load, tolerance_pct, load_pct] = known;
+    const double measured = numberOr(reading, "load_ohm");
     // 95 % of a rectangle of the resistor's own tolerance.
-    const double expanded = std::hypot(at("load_expanded_ohm"), 0.95 * load_pct / 100 * load);
+    const double expanded = std::hypot(numberOr(reading, "load_expanded_ohm"), 0.95 * load_pct / 100 * load);
     const double off_pct = 100 * (measured / load - 1);
     const Verdict verdict = guardBanded(off_pct, 100 * expanded / load, tolerance_pct);
     const Json check = {{"load_ohm", load},
@@ -61,12 +60,19 @@ Result<Json> reference(ScriptSession& session, const Arguments& arguments) {
     if (session.writer() != nullptr) {
         auto& writer = *session.writer();
         if (auto kept = writer.measurement(session.now(), "known-reference check", check); !kept) return failure(kept);
-        auto shown = writer.reportItem(session.now(), {{"kind", "table"},
-                                                       {"caption", "Known-reference check"},
-                                                       {"rows", Json::array({check})},
-                                                       {"columns",
-                                                        {"load_ohm", "measured_ohm", "expanded_ohm", "deviation_pct",
-                                                         "expanded_uncertainty_pct", "allowed_pct", "passed"}}});
+        const auto withU = [](const Json& value, const Json& u, const char* unit) -> Json {
+            return {{"value", value}, {"expanded", u}, {"unit", unit}};
+        };
+        const Json row = {{"load_ohm", load},
+                          {"measured ± U", withU(check["measured_ohm"], check["expanded_ohm"], "ohm")},
+                          {"off ± U", withU(check["deviation_pct"], check["expanded_uncertainty_pct"], "%")},
+                          {"allowed_pct", tolerance_pct},
+                          {"verdict", nameOf(verdict)}};
+        auto shown = writer.reportItem(
+            session.now(), {{"kind", "table"},
+                            {"caption", "Known-reference check"},
+                            {"rows", Json::array({row})},
+                            {"columns", {"load_ohm", "measured ± U", "off ± U", "allowed_pct", "verdict"}}});
         if (!shown) return failure(shown);
     }
     Json out = check;

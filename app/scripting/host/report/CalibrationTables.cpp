@@ -27,16 +27,16 @@ Json tableOf(const std::string& caption, Json rows, Json columns) {
 Json levels(const Json& found, const std::string& title, const std::string& unit) {
     Json rows = Json::array();
     for (const auto& level : listIn(found, "levels")) {
-        const double commanded = numberIn(level, "commanded");
-        const double up = numberIn(level, "mean_up"), down = numberIn(level, "mean_down");
+        const double commanded = numberOr(level, "commanded");
+        const double up = numberOr(level, "mean_up"), down = numberOr(level, "mean_down");
         rows.push_back({{"commanded", scaledText(commanded, unit)},
                         {"n", level.at("n")},
                         {"error_going_up", plain(up - commanded, unit)},
                         {"error_going_down", plain(down - commanded, unit)},
                         {"hysteresis", plain(down - up, unit)},
                         {"error judged ± U",
-                         withU(numberIn(level, "worst_error"), numberIn(level, "worst_expanded_uncertainty"), unit)},
-                        {"tolerance", "± " + measuredText(numberIn(level, "tolerance"), 0, unit)},
+                         withU(numberOr(level, "worst_error"), numberOr(level, "worst_expanded_uncertainty"), unit)},
+                        {"tolerance", "± " + measuredText(numberOr(level, "tolerance"), 0, unit)},
                         {"verdict", level.at("verdict")}});
     }
     return tableOf(title + ": levels", std::move(rows),
@@ -48,23 +48,23 @@ Json levels(const Json& found, const std::string& title, const std::string& unit
 Json budget(const Json& found, const std::string& title, const std::string& unit) {
     const Json &largest = found.at("budget"), &smallest = found.at("budget_smallest");
     std::map<std::string, double> small;
-    for (const auto& row : listIn(smallest, "rows")) small[textIn(row, "name")] = numberIn(row, "contribution");
+    for (const auto& row : listIn(smallest, "rows")) small[textOr(row, "name")] = numberOr(row, "contribution");
     Json rows = Json::array();
     for (const auto& row : listIn(largest, "rows")) {
-        const auto name = textIn(row, "name");
-        const double freedom = numberIn(row, "degrees_of_freedom");
+        const auto name = textOr(row, "name");
+        const double freedom = numberOr(row, "degrees_of_freedom");
         rows.push_back({{"contribution", name},
                         {"distribution", row.at("distribution")},
                         {"at_the_smallest", plain(small.contains(name) ? small[name] : std::nan(""), unit)},
-                        {"at_the_largest", plain(numberIn(row, "contribution"), unit)},
+                        {"at_the_largest", plain(numberOr(row, "contribution"), unit)},
                         {"degrees_of_freedom", std::isnan(freedom) ? "∞" : fmt::format("{:.0f}", freedom)}});
     }
     for (const auto& [name, key] :
          {std::pair("combined, u", "combined"), std::pair("expanded, U (95 %)", "expanded_uncertainty")}) {
         rows.push_back({{"contribution", name},
                         {"distribution", ""},
-                        {"at_the_smallest", plain(numberIn(smallest, key), unit)},
-                        {"at_the_largest", plain(numberIn(largest, key), unit)},
+                        {"at_the_smallest", plain(numberOr(smallest, key), unit)},
+                        {"at_the_largest", plain(numberOr(largest, key), unit)},
                         {"degrees_of_freedom", ""}});
     }
     return tableOf(title + ": uncertainty budget at the smallest and the largest command", std::move(rows),
@@ -72,8 +72,8 @@ Json budget(const Json& found, const std::string& title, const std::string& unit
 }
 
 std::string coverage(const Json& of) {
-    const double factor = numberIn(of, "coverage_factor");
-    return (std::isnan(factor) ? "" : fmt::format("k = {:.2f}, ", factor)) + textIn(of, "method");
+    const double factor = numberOr(of, "coverage_factor");
+    return (std::isnan(factor) ? "" : fmt::format("k = {:.2f}, ", factor)) + textOr(of, "method");
 }
 
 }  // namespace
@@ -84,13 +84,13 @@ std::string titleOfQuantity(const std::string& quantity) {
 }
 
 Json calibrationItems(const Json& found) {
-    const auto title = titleOfQuantity(textIn(found, "quantity")), unit = textIn(found, "unit");
-    const double outliers = numberIn(found, "outliers");
+    const auto title = titleOfQuantity(textOr(found, "quantity")), unit = textOr(found, "unit");
+    const double outliers = numberOr(found, "outliers");
     Json marked = Json::array();
     for (const auto& reading : listIn(found, "readings")) {
         if (reading.value("outlier", Json()) != Json(true)) continue;
-        marked.push_back({{"commanded", scaledText(numberIn(reading, "commanded"), unit)},
-                          {"measured", plain(numberIn(reading, "measured"), unit)},
+        marked.push_back({{"commanded", scaledText(numberOr(reading, "commanded"), unit)},
+                          {"measured", plain(numberOr(reading, "measured"), unit)},
                           {"direction", reading.at("direction")}});
     }
     const auto text =
@@ -109,12 +109,12 @@ Json calibrationItems(const Json& found) {
 Json calibrationSummary(const Json& all) {
     Json rows = Json::array();
     for (const auto& found : all) {
-        const auto unit = textIn(found, "unit");
-        const auto brief = [&found](const char* key) { return scaledText(numberIn(found, key), "%", 2); };
+        const auto unit = textOr(found, "unit");
+        const auto brief = [&found](const char* key) { return scaledText(numberOr(found, key), "%", 2); };
         rows.push_back(
-            {{"quantity", titleOfQuantity(textIn(found, "quantity"))},
-             {"gain", withU(numberIn(found, "gain"), numberIn(found, "gain_expanded_uncertainty"), "")},
-             {"offset", withU(numberIn(found, "offset"), numberIn(found, "offset_expanded_uncertainty"), unit)},
+            {{"quantity", titleOfQuantity(textOr(found, "quantity"))},
+             {"gain", withU(numberOr(found, "gain"), numberOr(found, "gain_expanded_uncertainty"), "")},
+             {"offset", withU(numberOr(found, "offset"), numberOr(found, "offset_expanded_uncertainty"), unit)},
              {"residual", brief("residual_max_pct_fs")},
              {"repeatability", brief("repeatability_pct_fs")},
              {"hysteresis", brief("hysteresis_pct_fs")},
@@ -127,14 +127,14 @@ Json calibrationSummary(const Json& all) {
 Json calibrationCheckTable(const Json& rows) {
     Json out = Json::array();
     for (const auto& row : rows) {
-        const auto unit = textIn(row, "unit");
-        out.push_back({{"commanded", scaledText(numberIn(row, "commanded"), unit)},
-                       {"expected", measuredText(numberIn(row, "expected"), 0, unit)},
-                       {"off ± U", withU(numberIn(row, "off"), numberIn(row, "expanded_uncertainty"), unit)},
-                       {"allowed", "± " + scaledText(numberIn(row, "allowed"), unit)},
+        const auto unit = textOr(row, "unit");
+        out.push_back({{"commanded", scaledText(numberOr(row, "commanded"), unit)},
+                       {"expected", measuredText(numberOr(row, "expected"), 0, unit)},
+                       {"off ± U", withU(numberOr(row, "off"), numberOr(row, "expanded_uncertainty"), unit)},
+                       {"allowed", "± " + scaledText(numberOr(row, "allowed"), unit)},
                        {"verdict", row.at("verdict")}});
     }
-    const auto title = rows.empty() ? std::string() : titleOfQuantity(textIn(rows.front(), "quantity"));
+    const auto title = rows.empty() ? std::string() : titleOfQuantity(textOr(rows.front(), "quantity"));
     return tableOf(title + ": check of the stored calibration", std::move(out),
                    {"commanded", "expected", "off ± U", "allowed", "verdict"});
 }

@@ -4,36 +4,27 @@
 #pragma once
 
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
-namespace tacto::host::report {
+#include "core/base/JsonFields.h"
+#include "core/base/QuantityText.h"
+#include "core/base/Text.h"
 
-/// NaN where it is absent or no number.
-[[nodiscard]] inline double numberIn(const nlohmann::json& row, const char* key) {
-    const auto at = row.find(key);
-    return at != row.end() && at->is_number() ? at->get<double>() : std::nan("");
-}
+namespace tacto::host::report {
 
 /// With so many significant digits, zeros at the end included; "–" for what is not known. Whole numbers of up to six
 /// digits are written out: 1010, not 1.01e+3.
 [[nodiscard]] inline std::string digitsOf(double value, int digits) {
     if (!std::isfinite(value)) return "–";
     const auto scientific = fmt::format("{:.{}e}", value, digits - 1);
-    const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
-    if (exponent >= digits && exponent < 6) return fmt::format("{:.0f}", std::strtod(scientific.c_str(), nullptr));
+    const int exponent = decimalExponent(value, digits);
+    if (exponent >= digits && exponent < 6) return fmt::format("{:.0f}", *parseNumber(scientific));
     if (exponent < -6 || exponent >= digits)
         return fmt::format("{}e{:+}", scientific.substr(0, scientific.find('e')), exponent);
     return fmt::format("{:.{}f}", value, digits - 1 - exponent);
-}
-
-/// Empty where it is absent or no text.
-[[nodiscard]] inline std::string textIn(const nlohmann::json& row, const char* key) {
-    const auto at = row.find(key);
-    return at != row.end() && at->is_string() ? at->get<std::string>() : std::string();
 }
 
 /// An empty list where it is absent or none.

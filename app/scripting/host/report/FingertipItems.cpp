@@ -20,11 +20,11 @@ Json tableItem(std::string caption, Json rows, Json columns) {
 }
 
 void addForce(Json& items, const Json& force) {
-    if (std::isnan(numberIn(force, "scale"))) {
-        items.push_back(paragraph("Force: " + textIn(force, "reason") + "."));
+    if (std::isnan(numberOr(force, "scale"))) {
+        items.push_back(paragraph("Force: " + textOr(force, "reason") + "."));
         return;
     }
-    const auto unit = textIn(force, "unit");
+    const auto unit = textOr(force, "unit");
     if (unit == "N") {
         Json shown = force;
         shown["quantity"] = "force";
@@ -42,7 +42,7 @@ void addForce(Json& items, const Json& force) {
     }
     items.push_back(tableItem("Force against weights (reading in " + unit + ")", std::move(rows),
                               {"weight_n", "n", "mean", "mean_up", "mean_down", "s", "residual"}));
-    const auto digits = [&force](const char* key, int count) { return digitsOf(numberIn(force, key), count); };
+    const auto digits = [&force](const char* key, int count) { return digitsOf(numberOr(force, key), count); };
     items.push_back(paragraph(fmt::format(
         "Force: {} ± {} N per {}, offset {} ± {} N (95 %); hysteresis {} % and repeatability {} % of the "
         "largest weight.",
@@ -52,7 +52,7 @@ void addForce(Json& items, const Json& force) {
 
 void addTaxels(Json& items, const Json& taxels, const FingertipReferences& known) {
     if (taxels.empty()) return;
-    const auto unit = textIn(taxels.front(), "unit");
+    const auto unit = textOr(taxels.front(), "unit");
     Json rows = Json::array();
     for (const auto& taxel : taxels) {
         Json row = Json::object();
@@ -85,17 +85,17 @@ std::string rankText(const Json& rank) {
     if (!rank.is_object())
         return "Spearman's rank correlation of R against Ra: not evaluated; five or more surfaces of known Ra are "
                "wanted.";
-    const auto digits = [&rank](const char* key) { return digitsOf(numberIn(rank, key), 3); };
-    const auto note = textIn(rank, "note");
+    const auto digits = [&rank](const char* key) { return digitsOf(numberOr(rank, key), 3); };
+    const auto note = textOr(rank, "note");
     return fmt::format("Spearman's rank correlation of R against Ra over {} surfaces: {} (95 %: {} to {}){}.{}",
-                       numberIn(rank, "n"), digits("value"), digits("low"), digits("high"),
+                       numberOr(rank, "n"), digits("value"), digits("low"), digits("high"),
                        rank.value("ties", Json()) == Json(true) ? ", equal values sharing their ranks" : "",
                        note.empty() ? "" : " Note: " + note + ".");
 }
 
 std::string uncertaintyText(const Json& u) {
     if (!u.is_object()) return "The uncertainty of R was not evaluated.";
-    const auto digits = [&u](const char* key, int count) { return digitsOf(numberIn(u, key), count); };
+    const auto digits = [&u](const char* key, int count) { return digitsOf(numberOr(u, key), count); };
     return fmt::format(
         "U of R for one slide (95 %, k = {}): {} at R 0, {} at R 0.5, {} at R 1, from the repeatability "
         "of the slides (s = {}) and of the two references' means.",
@@ -140,7 +140,7 @@ Json sensorCalibrationItems(const Json& found, bool simulated) {
         items.push_back(
             paragraph("On the simulated fingertip the ranking holds by construction: the relief of its "
                       "surfaces follows their Ra."));
-    items.push_back(paragraph(textIn(found, "known_limit")));
+    items.push_back(paragraph(textOr(found, "known_limit")));
     items.push_back(paragraph(uncertaintyText(found.value("uncertainty_R", Json()))));
     for (const auto& warning : listIn(found, "warnings"))
         items.push_back(paragraph("Note: " + warning.get<std::string>() + "."));
@@ -153,12 +153,12 @@ Json fingertipRestItems(const Json& rest, bool hasTaxels) {
         Json rows = Json::array();
         for (const auto& baseline : listIn(rest, "taxel_baseline"))
             rows.push_back({{"taxel", rows.size() + 1}, {"baseline", baseline}, {"floor", rest.at("taxel_floor")}});
-        items.push_back(tableItem("Taxels at rest, nothing touched (" + textIn(rest, "taxel_unit") + ")",
+        items.push_back(tableItem("Taxels at rest, nothing touched (" + textOr(rest, "taxel_unit") + ")",
                                   std::move(rows), {"taxel", "baseline", "floor"}));
     }
-    if (const double square = numberIn(rest, "mean_square"); !std::isnan(square)) {
+    if (const double square = numberOr(rest, "mean_square"); !std::isnan(square)) {
         items.push_back(paragraph(fmt::format("Acceleration at rest, 5 Hz to 1 kHz: mean square {} ({})².",
-                                              digitsOf(square, 3), textIn(rest, "unit"))));
+                                              digitsOf(square, 3), textOr(rest, "unit"))));
     }
     return items;
 }

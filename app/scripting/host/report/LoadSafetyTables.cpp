@@ -72,7 +72,7 @@ Json limitRows(const Json& found) {
             rows.push_back(std::move(row));
         } else {
             (*same)["sets"].push_back(line.at("set"));
-            if (textIn(line, "compare") == "<") (*same)["compare"] = "<";
+            if (textOr(line, "compare") == "<") (*same)["compare"] = "<";
         }
     }
     return rows;
@@ -87,13 +87,13 @@ Json closest(const Json& limits) {
         const auto cell = std::ranges::find_if(
             cells, [&](const Json& each) { return each.is_object() && each.at("load") == line.at("worst_load"); });
         if (cell == cells.end()) continue;
-        Json row = {{"remark", textIn(*cell, "note")}};
+        Json row = {{"remark", textOr(*cell, "note")}};
         copy(row, "requirement", line, "title");
         copy(row, "load", line, "worst_load");
         copy(row, "value", *cell, "value");
         copy(row, "expanded_uncertainty", *cell, "expanded_uncertainty");
         copy(row, "limit", line, "limit");
-        copy(row, "margin_pct", line, "margin_pct");
+        row["used_pct"] = 100 - numberOr(line, "margin_pct");
         copy(row, "unit", line, "unit");
         copy(row, "verdict", *cell, "verdict");
         rows.push_back(std::move(row));
@@ -106,9 +106,9 @@ Json loadsMatrix(const Json& found) {
     std::vector<const Json*> loads;
     double fewest = std::nan("");  // trains
     for (const auto& load : listIn(found, "loads")) {
-        if (!(numberIn(load, "commands_delivered") > 0) && !(numberIn(load, "commands_refused") > 0)) continue;
+        if (!(numberOr(load, "commands_delivered") > 0) && !(numberOr(load, "commands_refused") > 0)) continue;
         loads.push_back(&load);
-        if (numberIn(load, "trains") > 0) fewest = std::fmin(fewest, numberIn(load, "trains"));
+        if (numberOr(load, "trains") > 0) fewest = std::fmin(fewest, numberOr(load, "trains"));
     }
     Json columns = Json::array(), impedances = Json::array(), verdicts = Json::array();
     for (const auto* load : loads) {
@@ -146,17 +146,17 @@ Json outputs(const Json& found) {
     Json rows = listIn(found, "described");
     const std::size_t described = rows.size();
     for (const auto& row : listIn(found, "disclosed")) {
-        const auto value = numberIn(row, "value");
+        const auto value = numberOr(row, "value");
         const auto said = std::isnan(value)
-                              ? textIn(row, "reason")
-                              : measuredText(value, numberIn(row, "expanded_uncertainty"), textIn(row, "unit"));
-        const auto text = said + " into " + writtenLoad(textIn(row, "load"));
+                              ? textOr(row, "reason")
+                              : measuredText(value, numberOr(row, "expanded_uncertainty"), textOr(row, "unit"));
+        const auto text = said + " into " + writtenLoad(textOr(row, "load"));
         const auto same = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(described), rows.end(),
                                        [&](const Json& each) { return each.at("output") == row.at("output"); });
         if (same == rows.end()) {
             rows.push_back({{"output", row.at("output")}, {"commanded", ""}, {"measured", text}});
         } else {
-            (*same)["measured"] = textIn(*same, "measured") + "; " + text;
+            (*same)["measured"] = textOr(*same, "measured") + "; " + text;
         }
     }
     return rows;
@@ -164,23 +164,23 @@ Json outputs(const Json& found) {
 
 std::string limitText(const Json& line) {
     if (!hasLimit(line)) return kBeforeNextTrain;
-    return fmt::format("{} {}", textIn(line, "compare") == "<" ? "<" : "≤",
-                       scaledText(numberIn(line, "limit"), textIn(line, "unit"), 3));
+    return fmt::format("{} {}", textOr(line, "compare") == "<" ? "<" : "≤",
+                       scaledText(numberOr(line, "limit"), textOr(line, "unit"), 3));
 }
 
 /// Where each limit comes from and how sure that is, once and not on every row.
 Json sources(const Json& found) {
     Json rows = Json::array();
     for (const auto& line : linesOf(found)) {
-        const auto limit = textIn(line, "title") + " " + limitText(line);
-        const auto confidence = textIn(line, "confidence").empty() ? "our own" : textIn(line, "confidence");
+        const auto limit = textOr(line, "title") + " " + limitText(line);
+        const auto confidence = textOr(line, "confidence").empty() ? "our own" : textOr(line, "confidence");
         const auto same = std::ranges::find_if(rows, [&](const Json& row) {
             return row.at("source") == line.at("source") && row.at("confidence") == confidence;
         });
         if (same == rows.end()) {
             rows.push_back({{"requirement", limit}, {"source", line.at("source")}, {"confidence", confidence}});
         } else {
-            (*same)["requirement"] = textIn(*same, "requirement") + "; " + limit;
+            (*same)["requirement"] = textOr(*same, "requirement") + "; " + limit;
         }
     }
     return rows;
@@ -189,14 +189,14 @@ Json sources(const Json& found) {
 Json refusals(const Json& found) {
     Json rows = Json::array();
     for (const auto& row : listIn(found, "rows")) {
-        if (textIn(row, "set") != "gate") continue;
+        if (textOr(row, "set") != "gate") continue;
         Json out = Json::object();
         copy(out, "load", row, "load");
         copy(out, "asked", row, "title");
         copy(out, "would_be", row, "source");
         copy(out, "verdict", row, "verdict");
         copy(out, "reason", row, "reason");
-        if (textIn(row, "verdict") == "refused as expected") out["reason"] = "";
+        if (textOr(row, "verdict") == "refused as expected") out["reason"] = "";
         rows.push_back(std::move(out));
     }
     return rows;
@@ -206,8 +206,8 @@ Json trips(const Json& found) {
     constexpr std::string_view kTrip = "trip: ";
     Json rows = Json::array();
     for (const auto& row : listIn(found, "rows")) {
-        if (textIn(row, "set") != "interlock") continue;
-        auto title = textIn(row, "title");
+        if (textOr(row, "set") != "interlock") continue;
+        auto title = textOr(row, "title");
         if (const auto at = title.find(kTrip); at != std::string::npos) title.erase(at, kTrip.size());
         Json out = {{"trip", title}};
         copy(out, "ended_after_s", row, "value");
@@ -222,28 +222,28 @@ Json trips(const Json& found) {
 
 Json loadSafetyTables(const Json& found) {
     const Json limits = limitRows(found);
-    return Json::array({{{"caption", "Closest to their limits"},
-                         {"rows", closest(limits)},
-                         {"columns",
-                          {"requirement", "load", "value", "expanded_uncertainty", "limit", "margin_pct", "unit",
-                           "verdict", "remark"}}},
-                        {{"kind", "matrix"},
-                         {"caption", "Limits against loads, closest to a limit first"},
-                         {"columns", ofMatrix(found, "loads")},
-                         {"rows", limits}},
-                        loadsMatrix(found),
-                        {{"caption", "Output, as the FDA guidance asks"},
-                         {"rows", outputs(found)},
-                         {"columns", {"output", "commanded", "measured"}}},
-                        {{"caption", "Asked for and refused"},
-                         {"rows", refusals(found)},
-                         {"columns", {"load", "asked", "would_be", "verdict", "reason"}}},
-                        {{"caption", "What must end output by itself"},
-                         {"rows", trips(found)},
-                         {"columns", {"trip", "ended_after_s", "verdict", "reason"}}},
-                        {{"caption", "Where each limit comes from, and our confidence in it"},
-                         {"rows", sources(found)},
-                         {"columns", {"requirement", "source", "confidence"}}}});
+    return Json::array(
+        {{{"caption", "Closest to their limits"},
+          {"rows", closest(limits)},
+          {"columns",
+           {"requirement", "load", "value", "expanded_uncertainty", "limit", "used_pct", "unit", "verdict", "remark"}}},
+         {{"kind", "matrix"},
+          {"caption", "Limits against loads, closest to a limit first"},
+          {"columns", ofMatrix(found, "loads")},
+          {"rows", limits}},
+         loadsMatrix(found),
+         {{"caption", "Output, as the FDA guidance asks"},
+          {"rows", outputs(found)},
+          {"columns", {"output", "commanded", "measured"}}},
+         {{"caption", "Asked for and refused"},
+          {"rows", refusals(found)},
+          {"columns", {"load", "asked", "would_be", "verdict", "reason"}}},
+         {{"caption", "What must end output by itself"},
+          {"rows", trips(found)},
+          {"columns", {"trip", "ended_after_s", "verdict", "reason"}}},
+         {{"caption", "Where each limit comes from, and our confidence in it"},
+          {"rows", sources(found)},
+          {"columns", {"requirement", "source", "confidence"}}}});
 }
 
 }  // namespace tacto::host::report

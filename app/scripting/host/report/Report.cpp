@@ -58,7 +58,7 @@ Result<Json> matrix(ScriptSession& session, const Arguments& arguments) {
 
 Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
     const Json& found = arguments.object("found");
-    const auto caption = titleOfQuantity(textIn(found, "quantity")) + ": error, tolerance and the two sweep directions";
+    const auto caption = titleOfQuantity(textOr(found, "quantity")) + ": error, tolerance and the two sweep directions";
     const Json figure = {
         {"kind", "figure"}, {"caption", caption}, {"figure", plot::calibrationFigure(found, "errors")}};
     if (auto written = writeItem(session, figure); !written) return written;
