@@ -25,7 +25,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPerChannel = static_cast<int>(kStatistics.size());
-constexpr int kLeastRows = 2;
+constexpr int kMinRows = 2;
 /// What gives way where there is no room, together and one after the other.
 const std::vector<std::vector<Statistic>> kGiveWay{
     {Statistic::Count}, {Statistic::Min, Statistic::Max}, {Statistic::Sd}, {Statistic::Mean}};
@@ -202,7 +202,7 @@ void MeasurementTable::fitColumns() {
     // It may be squeezed to these: the screen goes first.
     const auto& header = *table_->horizontalHeader();
     table_->setMinimumHeight(std::max(header.height(), header.sizeHint().height()) +
-                             kLeastRows * table_->verticalHeader()->defaultSectionSize() + 4);
+                             kMinRows * table_->verticalHeader()->defaultSectionSize() + 4);
     refill();
 }
 

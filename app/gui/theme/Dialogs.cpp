@@ -66,9 +66,9 @@ public:
                 header.setSectionResizeMode(column, column == 0 ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
         }
         if (auto* places = findChild<QListView*>("sidebar"); places != nullptr) {
-            constexpr int kMargin = 24, kMost = 240;
+            constexpr int kMargin = 24, kMaxWidth = 240;
             places->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-            places->setMinimumWidth(std::min(places->sizeHintForColumn(0) + kMargin, kMost));
+            places->setMinimumWidth(std::min(places->sizeHintForColumn(0) + kMargin, kMaxWidth));
         }
         for (auto* shortcut : findChildren<QShortcut*>()) {
             if (shortcut->key() == QKeySequence(QKeySequence::Delete)) shortcut->setEnabled(false);
