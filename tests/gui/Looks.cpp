@@ -237,6 +237,7 @@ std::string faultsOf(const QWidget& in) {
     for (const auto& text : beyondTheirPlace(in)) all << "cut by what is around: " + text;
     for (const auto& text : untoldElisions(in)) all << "elided: " + text;
     for (const auto& text : plotWordFaults(in)) all << "plot: " + text;
+    for (const auto& text : palePlotWords(in)) all << "plot, pale: " + text;
     for (const auto& text : legendsOverData(in)) all << "plot: " + text;
     return all.join('\n').toStdString();
 }

@@ -5,6 +5,9 @@
 #include <QPaintEngine>
 #include <algorithm>
 #include <cmath>
+#include <map>
+
+#include "tests/gui/Looks.h"
 
 namespace tacto::test {
 
@@ -37,7 +40,7 @@ public:
         ink.setRight(std::min(ink.right(), at.x() + item.width()));  // what another face draws may be narrower
         auto room = plot_;
         if (painter()->hasClipping()) room &= turned.mapRect(painter()->clipBoundingRect());
-        words.push_back({text, turned.mapRect(ink), room});
+        words.push_back({text, turned.mapRect(ink), room, painter()->pen().color()});
     }
     [[nodiscard]] Type type() const override { return User; }
 
@@ -159,6 +162,35 @@ QStringList plotWordFaults(const QWidget& in) {
                                  .arg(both.width(), 0, 'f', 0)
                                  .arg(both.height(), 0, 'f', 0);
             }
+        }
+    });
+    return found;
+}
+
+namespace {
+
+/// The colour that most pixels of the place have: letters cover less of it than their ground does.
+QColor groundOf(const QImage& picture, const QRectF& place) {
+    std::map<QRgb, int> count;
+    const auto within = place.toAlignedRect().adjusted(-2, -2, 2, 2) & picture.rect();
+    for (int y = within.top(); y <= within.bottom(); ++y)
+        for (int x = within.left(); x <= within.right(); ++x) ++count[picture.pixel(x, y)];
+    const auto most = std::ranges::max_element(count, {}, [](const auto& each) { return each.second; });
+    return most == count.end() ? QColor() : QColor(most->first);
+}
+
+}  // namespace
+
+QStringList palePlotWords(const QWidget& in) {
+    QStringList found;
+    forEachPlot(in, [&](QCustomPlot& plot) {
+        const auto picture = plot.toPixmap(0, 0, 1).toImage().convertToFormat(QImage::Format_RGB32);
+        for (const auto& word : wordsOf(plot)) {
+            if (!word.ink.intersects(word.room)) continue;
+            const auto ground = groundOf(picture, word.ink);
+            if (ground.isValid() && contrast(word.colour, ground) < 4.5)
+                found << QString("\"%1\" in %2: %3 on %4")
+                             .arg(word.text, plotName(plot), word.colour.name(), ground.name());
         }
     });
     return found;

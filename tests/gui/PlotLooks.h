@@ -1,4 +1,4 @@
-// PlotLooks.h - what can be judged of how plots look: words that are cut or lie over each other, legends over data.
+// PlotLooks.h - what can be judged of how plots look: words that are cut, pale or over each other, legends over data.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -16,12 +16,15 @@ struct PlotWord {
     QString text;
     QRectF ink;   ///< what its letters cover, in pixels of the plot
     QRectF room;  ///< what it may cover: the plot, or what it is clipped to
+    QColor colour;
 };
 /// All upright or quarter-turned words of the plot without its watermark, which lies behind them.
 [[nodiscard]] std::vector<PlotWord> wordsOf(QCustomPlot& plot);
 
 /// Words of visible plots that lie over each other, or that their plot's edge cuts.
 [[nodiscard]] QStringList plotWordFaults(const QWidget& in);
+/// Words of visible plots with a contrast below 4.5:1 to what is drawn around their letters.
+[[nodiscard]] QStringList palePlotWords(const QWidget& in);
 /// Legends within axes that lie over points or lines of their plot.
 [[nodiscard]] QStringList legendsOverData(const QWidget& in);
 

@@ -27,6 +27,7 @@ constexpr int kMeasuredRows = 60;  // for the widths of columns
 constexpr int kRoomyChars = 88;    // from this width on all columns are shown
 constexpr int kWordyChars = 84;    // and from this one the search says where it searches
 constexpr int kGap = 8, kSide = 16;
+constexpr int kEdge = 2;  // lines of the sheet around a table that has no place yet
 constexpr int kChosenBar = 4;
 constexpr int kLead = 9;  // with the shape's own edges: where search and titles begin
 
@@ -221,7 +222,7 @@ void SessionList::fitColumns() {
     // The table may have its own size later.
     const int bar = table_->verticalScrollBar()->sizeHint().width();
     const bool placed = table_->isVisible() && table_->width() == width();
-    const int room = !placed ? width() - bar - 2 * table_->frameWidth()
+    const int room = !placed ? width() - bar - 2 * table_->frameWidth() - kEdge
                              : table_->viewport()->width() - (table_->verticalScrollBar()->isVisible() ? 0 : bar);
     table_->setColumnHidden(SessionModel::kSample, least() > room);
     table_->setColumnHidden(SessionModel::kNote, least() > room);

@@ -19,7 +19,7 @@ QString limitOf(const LimitRow& row) {
 }
 
 /// Files are plain ASCII.
-QString shownUnits(std::string_view text) { return withOhmSigns(qtext(text)); }
+QString shownUnits(std::string_view text) { return withOhmSigns(qtext(text)).replace("cm2", "cm²"); }
 
 QString overText(const LimitRow& row) {
     const double window_s = windowOf(row.quantity);

@@ -100,6 +100,17 @@ TEST_F(WalkOfPlots, FindsWordsThatAnEdgeCuts) {
     EXPECT_TRUE(plotWordFaults(window).join('\n').contains("is cut")) << "a title of an axis";
 }
 
+TEST_F(WalkOfPlots, FindsPaleWords) {
+    auto& item = text("a mark", 1, 3);
+    EXPECT_EQ(palePlotWords(window).join('\n').toStdString(), "");
+    item.setColor(QColor(0x999999));
+    plot.replot();
+    EXPECT_EQ(palePlotWords(window).size(), 1) << palePlotWords(window).join('\n').toStdString();
+    item.setBrush(Qt::black);
+    plot.replot();
+    EXPECT_EQ(palePlotWords(window).join('\n').toStdString(), "") << "on a ground of its own";
+}
+
 TEST_F(WalkOfPlots, FindsALegendOverData) {
     plot.legend->setVisible(true);
     plot.axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignRight);

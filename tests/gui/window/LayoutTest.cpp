@@ -201,6 +201,9 @@ TEST_F(Layout, WithThePlotAloneASessionOfAPilotHasNoPath) {
     click(*begin);
     const auto* path = page().findChild<QWidget*>("path");
     ASSERT_IN_TIME(comesTrue([&] { return path->isVisible(); }));
+    // One that is stopped while its bench opens has no result.
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Running; }));
+    letLive(300);
     key(Qt::Key_F11);
     EXPECT_FALSE(path->isVisible());
     shot(window, "plot-only-pilot");
