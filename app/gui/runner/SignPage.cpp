@@ -8,6 +8,7 @@
 #include "app/gui/runner/ReportView.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/ProgressBar.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/TurningRow.h"
 
@@ -122,7 +123,7 @@ void SignPage::take() {
 }
 
 void SignPage::addStateTo(QHBoxLayout& row) {
-    drawing_ = new QProgressBar(this);
+    drawing_ = new ProgressBar(this);
     drawing_->setRange(0, 0);
     drawing_->setTextVisible(false);
     drawing_->setAccessibleName(tr("Drawing the report"));

@@ -13,6 +13,7 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/ProgressBar.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -171,7 +172,7 @@ QWidget* SessionsWorkspace::buildNews() {
     says_->setContentsMargins(0, 0, 0, kListMargin / 2);
     says_->hide();
     says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    progress_ = new QProgressBar(holder);
+    progress_ = new ProgressBar(holder);
     progress_->setMaximumWidth(fontMetrics().averageCharWidth() * 30);
     cancel_ = new QPushButton(tr("Cancel"), holder);
     cancel_->setToolTip(tr("Cancels what is under way. No half-written file is left."));
