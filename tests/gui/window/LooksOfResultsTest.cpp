@@ -148,6 +148,8 @@ TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
     click(*find<QToolButton>(window, "Plot only"));
     EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") != nullptr; }));
     fitsBesideTheDocks("calibrate-result");
+    click(*find<QPushButton>(window, "Tables"));
+    fitsBesideTheDocks("calibrate-tables", "QTableWidget");  // they scroll
     click(*find<QPushButton>(window, "Log"));
     fitsBesideTheDocks("calibrate-log");
     for (const auto* step : {"Wiring", "Known reference", "Settings", "Run"}) {
