@@ -162,6 +162,7 @@ void SessionOverview::show(std::shared_ptr<const ReadSession> session) {
     layout()->activate();
     showHead();
     showHappened();
+    QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // once the head has its width
 }
 
 void SessionOverview::showHead() {
@@ -183,7 +184,7 @@ void SessionOverview::showHead() {
 /// The plot below keeps its room, however long the reason is; the tool tip has all of it.
 void SessionOverview::fitWhy() {
     const bool low = height() < scaledPx(kLowPage);
-    const int room = low ? why_->width() : int(kWhyLines * kWrapped * why_->width());
+    const int room = low ? why_->width() - 4 : int(kWhyLines * kWrapped * why_->width());
     why_->setText(why_->fontMetrics().elidedText(whole_, Qt::ElideRight, std::max(room, why_->fontMetrics().height())));
 }
 

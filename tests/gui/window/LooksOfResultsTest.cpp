@@ -288,6 +288,9 @@ TEST_F(ResultsInTheWindow, ASessionThatIsChosenLooksRight) {
     };
     ASSERT_IN_TIME(comesTrue([&] { return is("Separability"); }));
     looksRight("session-separability");
+    window.resize(1280, 720);
+    const auto* why = find<QLabel>(window, "sessionWhy");
+    EXPECT_IN_TIME(comesTrue([&] { return why->height() < 2 * why->fontMetrics().height(); })) << "one line";
     const auto& table = *window.findChild<QTableView*>("sessionsTable");
     QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, table.visualRect(table.model()->index(1, 0)).center());
     ASSERT_IN_TIME(comesTrue([&] { return is("Live"); }));
