@@ -81,6 +81,8 @@ public:
             grid->addWidget(says_, grid->rowCount(), 0, 1, grid->columnCount());
         if (auto* name = findChild<QLineEdit*>("fileNameEdit"))
             connect(name, &QLineEdit::textChanged, says_, &QLabel::hide);
+        constexpr int kWidth = 110;  // characters: the names of sessions, with size and date
+        resize(std::max(width(), kWidth * fontMetrics().averageCharWidth()), height());
     }
 
     void accept() override {

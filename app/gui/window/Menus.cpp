@@ -12,6 +12,8 @@
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/RecentFiles.h"
 #include "app/gui/window/RecordingLine.h"
+#include "app/gui/window/SafetyBar.h"
+#include "app/gui/window/StateWords.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
@@ -68,16 +70,28 @@ void Menus::addBench() {
     auto* reset = bench->addAction(tr("&Reset fault"), controller, &BenchController::resetFault);
     auto* check = bench->addAction(tr("Check &impedance"), &window_, &MainWindow::checkImpedance);
     bench->setToolTipsVisible(true);
-    const auto follow = [controller, close, arm, disarm, pause, resume, reset, check] {
+    const auto follow = [=, this] {
         const auto activity = controller->activity();
-        const bool live = activity == Activity::Live;
-        const bool open = activity != Activity::Closed;
-        for (auto* action : {close, arm, reset, check}) action->setEnabled(live);
-        for (auto* action : {disarm, pause, resume}) action->setEnabled(open);
-        const auto why = open ? tr("A run has the bench.") : tr("No bench is open.");
-        for (auto* action : {close, arm, disarm, pause, resume, reset, check})
-            action->setToolTip(action->isEnabled() ? QString() : why);
+        const auto state = controller->telemetry().state;
+        const auto closed = activity == Activity::Closed ? tr("No bench is open.") : QString();
+        const auto taken = activity == Activity::Running ? tr("A run has the bench.") : closed;
+        const auto unless = [](const QString& first, bool possible, const QString& why) {
+            return first.isEmpty() && !possible ? why : first;
+        };
+        const std::pair<QAction*, QString> whyNot[] = {
+            {close, taken},
+            {arm, taken},
+            {check, taken},
+            {disarm, unless(closed, isOn(state), tr("The output is not armed."))},
+            {pause, unless(closed, window_.safetyBar().canHold(true), tr("Nothing is delivered."))},
+            {resume, unless(closed, window_.safetyBar().canHold(false), tr("Nothing is paused."))},
+            {reset, unless(taken, state == InterlockState::Faulted, tr("There is no fault."))}};
+        for (const auto& [action, why] : whyNot) {
+            action->setEnabled(why.isEmpty());
+            action->setToolTip(why);
+        }
     };
+    connect(bench, &QMenu::aboutToShow, this, follow);
     connect(controller, &BenchController::changed, this, follow);
     follow();
     bench->addSeparator();

@@ -72,9 +72,7 @@ void NoticeBanner::refresh(const Telemetry& telemetry) {
 /// loop's next step: that is waited for, for some frames.
 void NoticeBanner::sayState(const Telemetry& telemetry) {
     const auto state = telemetry.state;
-    const bool live = state == InterlockState::Checking || state == InterlockState::Armed ||
-                      state == InterlockState::Delivering || state == InterlockState::Paused;
-    if (live || !saidArmed_) {
+    if (isOn(state) || !saidArmed_) {
         framesWithoutReason_ = 0;
         return;
     }

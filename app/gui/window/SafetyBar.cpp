@@ -342,14 +342,12 @@ void SafetyBar::showExposure(const Telemetry& telemetry) {
 
 void SafetyBar::showButtons(InterlockState state) {
     const bool live = controller_.activity() == Activity::Live;
-    const bool on = state == InterlockState::Armed || state == InterlockState::Delivering ||
-                    state == InterlockState::Paused || state == InterlockState::Checking;
     if (state == InterlockState::Faulted) {
         action_->setMeaning(tr(kActions[2]), true);
         action_->setToolTip(
             tr("Checks the devices again and searches for an unplugged one. When the cause is gone the bench is "
                "disarmed, not armed."));
-    } else if (on) {
+    } else if (isOn(state)) {
         action_->setMeaning(tr(kActions[1]), false);
         action_->setToolTip(tr("Ends the output and disarms the bench."));
     } else {
@@ -366,6 +364,8 @@ void SafetyBar::showButtons(InterlockState state) {
     details_->setVisible(state == InterlockState::Faulted);
     makePrimary(*action_, state == InterlockState::Faulted);
 }
+
+bool SafetyBar::canHold(bool hold) const { return pause_->isEnabled() && paused_ != hold; }
 
 void SafetyBar::pressAction() {
     if (!action_->listens()) return;

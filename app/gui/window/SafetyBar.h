@@ -46,6 +46,8 @@ public:
     void setPauseInstead(std::optional<PauseInstead> instead) { pauseInstead_ = std::move(instead); }
     /// As the button Pause or Resume.
     void holdOutput(bool hold);
+    /// Whether Pause (true) or Resume (false) would do something, as of the last refresh().
+    [[nodiscard]] bool canHold(bool hold) const;
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:

@@ -69,4 +69,9 @@ QString stateWords(const Telemetry& telemetry, const QString& protocol) {
     return {};
 }
 
+bool isOn(InterlockState state) noexcept {
+    return state == InterlockState::Checking || state == InterlockState::Armed || state == InterlockState::Delivering ||
+           state == InterlockState::Paused;
+}
+
 }  // namespace tacto::gui

@@ -16,4 +16,7 @@ namespace tacto::gui {
 /// "stopped with Esc" of "operator (Esc)", as the bench keeps it; any other reason as it is.
 [[nodiscard]] QString reasonWords(const QString& reason);
 
+/// Checking, armed, delivering or paused: there is something to disarm.
+[[nodiscard]] bool isOn(InterlockState state) noexcept;
+
 }  // namespace tacto::gui

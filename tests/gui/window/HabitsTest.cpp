@@ -63,6 +63,42 @@ TEST_F(Habits, ARecordingThatIsDroppedReplaysAndIsRemembered) {
     EXPECT_EQ(recent->menu()->actions().first()->text().toStdString(), kExample.string());
 }
 
+TEST_F(Habits, TheBenchMenuOffersWhatCanBeDoneAndSaysWhyNotTheRest) {
+    RecordProperty("hazard", "H2");
+    const auto whyNot = [this](const char* entry) {
+        const auto* action = menuEntry("Bench", entry);
+        return action == nullptr ? "not there" : action->isEnabled() ? "" : action->toolTip().toStdString();
+    };
+    EXPECT_EQ(whyNot("Disarm"), "No bench is open.");
+    ASSERT_NO_FATAL_FAILURE(openAndUnplugAfter2s());
+    EXPECT_EQ(whyNot("Disarm"), "The output is not armed.");
+    EXPECT_EQ(whyNot("Pause"), "Nothing is delivered.");
+    EXPECT_EQ(whyNot("Resume"), "Nothing is paused.");
+    EXPECT_EQ(whyNot("Reset fault"), "There is no fault.");
+    EXPECT_EQ(whyNot("Arm…"), "");
+    EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    EXPECT_EQ(whyNot("Reset fault"), "");
+    EXPECT_EQ(whyNot("Disarm"), "The output is not armed.");
+}
+
+TEST_F(Habits, TheBenchMenuPausesAndDisarmsWhatIsDelivered) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(open());
+    ASSERT_NO_FATAL_FAILURE(arm());
+    EXPECT_TRUE(menuEntry("Bench", "Disarm")->isEnabled());
+    ASSERT_NO_FATAL_FAILURE(deliver());
+    letLive(80);
+    EXPECT_TRUE(menuEntry("Bench", "Pause")->isEnabled());
+    EXPECT_FALSE(menuEntry("Bench", "Resume")->isEnabled());
+    menuEntry("Bench", "Pause")->trigger();
+    EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Paused; }));
+    letLive(80);
+    EXPECT_TRUE(menuEntry("Bench", "Resume")->isEnabled());
+    menuEntry("Bench", "Disarm")->trigger();
+    EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
+    EXPECT_FALSE(menuEntry("Bench", "Disarm")->isEnabled());
+}
+
 TEST_F(Habits, ACaptureThatIsDroppedOpensInTheOscilloscope) {
     const ScratchDir folder;
     drop(folder.write("pulse.csv", "time_s,voltage_V\n0,0\n0.0001,10\n0.0002,10\n0.0003,0\n0.0004,0\n"));
@@ -124,8 +160,9 @@ TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
             const auto& row = set.rows[std::size_t(line)];
             EXPECT_THAT(rows->item(line, 1)->text().toStdString(), HasSubstr(row.strict ? "<" : "≤"));
             EXPECT_EQ(rows->item(line, 2)->text() == "one pulse", windowOf(row.quantity) == 0);
-            EXPECT_EQ(rows->item(line, 5)->text(),
-                      QString::fromStdString(row.source).replace("kohm", "kΩ").replace(" ohm", " Ω"));
+            const auto source =
+                QString::fromStdString(row.source).replace("kohm", "kΩ").replace(" ohm", " Ω").replace("cm2", "cm²");
+            EXPECT_EQ(rows->item(line, 5)->text().toStdString(), source.toStdString());
         }
         shot(*help, QString("help-limits-%1").arg(i + 1));
     }
