@@ -218,7 +218,11 @@ RunResult runScript(const Running& running, const std::map<std::string, std::str
     static_cast<void>(run.script()->wait());
     interrupts.onStop({});
     line.clear();
-    return running.finish();
+    auto result = running.finish();
+    // A session answers its operator's questions itself.
+    if (result.outcome.error || running.session) return result;
+    for (const auto& name : desk.unasked()) say(stderr, "--set {}: the protocol did not ask for it.\n", name);
+    return result;
 }
 
 int exitFor(const RunResult& result) {

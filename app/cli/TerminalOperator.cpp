@@ -20,6 +20,7 @@ TerminalOperator::TerminalOperator(std::map<std::string, std::string> answers, c
       beforeAsking_(std::move(beforeAsking)) {}
 
 Result<nlohmann::json> TerminalOperator::ask(const OperatorQuestion& question) {
+    asked_.insert(question.name);
     const bool isConfirmation = question.kind == OperatorQuestion::Kind::Confirm;
     if (!isConfirmation || answers_.contains(question.name) || !canAsk()) return preset_.ask(question);
     if (beforeAsking_) beforeAsking_();
@@ -38,6 +39,13 @@ Result<nlohmann::json> TerminalOperator::ask(const OperatorQuestion& question) {
             break;
     }
     return fail(ErrorCode::Stopped, "stopped by the operator (signal)");
+}
+
+std::vector<std::string> TerminalOperator::unasked() const {
+    std::vector<std::string> names;
+    for (const auto& [name, answer] : answers_)
+        if (!asked_.contains(name)) names.push_back(name);
+    return names;
 }
 
 }  // namespace tacto::cli

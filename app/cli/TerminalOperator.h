@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 
 #include "app/run/SignalStop.h"
 #include "app/scripting/engine/Operator.h"
@@ -22,9 +23,12 @@ public:
 
     [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question) override;
     void cancel() noexcept override {}  // the signal that stops a run ends the question too
+    /// Names of `answers` that nothing has asked for. Not while the script runs.
+    [[nodiscard]] std::vector<std::string> unasked() const;
 
 private:
     const std::map<std::string, std::string> answers_;
+    std::set<std::string> asked_;
     PresetOperator preset_;
     const SignalStop& interrupts_;
     const std::function<void()> beforeAsking_;

@@ -326,6 +326,17 @@ TEST(ProtocolSettings, RefuseAWholeNumberThatADoubleDoesNotHold) {
     EXPECT_NE(parameterError("{ type: 'integer', value: 1e300 }"), "");
 }
 
+TEST(ProtocolSettings, TakeKeysThatBeginAsTheScriptsText) {
+    const auto declaration = readDeclaration(probe("protocol({ title: 'x' });\nfunction run(p) {\n"
+                                                   "for (const n of ['a', 'b']) operator.enter('dmm-' + n, 'R?'); }"))
+                                 .value();
+    EXPECT_FALSE(declaration.hasOtherQuestions);
+    EXPECT_EQ(declaration.questions, std::vector<std::string>{"dmm-*"});
+    EXPECT_EQ(applySettings(declaration, {{"dmm-b", "500"}}).value().answers.at("dmm-b"), "500");
+    EXPECT_EQ(applySettings(declaration, {{"dnm-b", "500"}}).error().message,
+              "probe has no parameter dnm-b; it has dmm-*");
+}
+
 TEST(ProtocolSettings, TakeAnyKeyWhereQuestionNamesAreComputed) {
     const auto declaration = readDeclaration(probe("protocol({ title: 'x' });\nfunction run(p) {\n"
                                                    "for (const n of ['a', 'b']) operator.confirm(n, 'Sure?'); }"))

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <future>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -93,6 +94,8 @@ TEST(LoadSafetyRun, WithoutAnElectrodeAreaIsIndeterminate) {
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
     EXPECT_EQ(loadOf(outcome.results, "500 ohm")["verdict"], "not evaluated");
     EXPECT_TRUE(loadOf(outcome.results, "500 ohm")["power_density_w_cm2"].is_null());
+    EXPECT_THAT(nlohmann::json(rig.reportItems()).dump(),
+                testing::HasSubstr("not evaluated into 500 Ω: the electrode's area is not known"));
 }
 
 TEST(LoadSafetyRun, AStimulatorThatCannotReadBackIsNoPass) {

@@ -40,6 +40,13 @@ std::vector<std::string> namesWithoutStudy() {
     return names;
 }
 
+TEST(ShippedProtocols, TakeNoSettingThatNothingReads) {
+    for (const auto& name : shippedNames()) {  // an area under a misspelt name would be a check without it
+        const auto declaration = readDeclaration(shipped().find(name).value()).value();
+        EXPECT_FALSE(applySettings(declaration, {{"electrode_area", "5"}})) << name;
+    }
+}
+
 TEST(ShippedProtocols, OfAStudyAreRefusedWithoutOne) {
     for (const auto* name : {"pilot-thresholds", "pilot-identification"}) {
         RunBench rig;

@@ -60,10 +60,11 @@ bool mayAsk(const QString& text, std::string_view question) {
 void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaration) {
     const QString text = QString::fromStdString(source.text);
     static const QRegularExpression asks(
-        QStringLiteral(R"re(\boperator\s*\.\s*(?:confirm|choose|enter)\s*\(\s*(?:(["'])([^"'\\]*)\1\s*,)?)re"));
+        QStringLiteral(R"re(\boperator\s*\.\s*(?:confirm|choose|enter)\s*\(\s*(?:(["'])([^"'\\]*)\1\s*([,+]))?)re"));
     for (auto matches = asks.globalMatch(text); matches.hasNext();) {
         const auto match = matches.next();
-        const std::string name = match.captured(2).toStdString();
+        std::string name = match.captured(2).toStdString();
+        if (!name.empty() && match.captured(3) == "+") name += '*';  // "dmm-" + load: its beginning is known
         if (name.empty()) {
             declaration.hasOtherQuestions = true;
         } else if (std::find(declaration.questions.begin(), declaration.questions.end(), name) ==

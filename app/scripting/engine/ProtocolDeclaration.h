@@ -43,9 +43,10 @@ struct ProtocolDeclaration {
     std::set<Role> needs;
     ProtocolView view = ProtocolView::None;
     std::vector<ProtocolParameter> parameters;  ///< as written
-    std::vector<std::string> questions;         ///< names the script's text passes to `operator`; "surface-*" and
-                                                ///< "fit-load" where it uses functions that may ask those
-    bool hasOtherQuestions = false;             ///< it also computes such names
+    std::vector<std::string> questions;  ///< names the script's text passes to `operator`, "dmm-*" where only the
+                                         ///< beginning stands there; "surface-*" and "fit-load" where it uses
+                                         ///< functions that may ask those
+    bool hasOtherQuestions = false;      ///< it also computes whole names
 };
 
 /// What a run takes out of a list of KEY=VALUE settings.

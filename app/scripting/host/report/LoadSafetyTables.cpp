@@ -147,10 +147,12 @@ Json outputs(const Json& found) {
     const std::size_t described = rows.size();
     for (const auto& row : listIn(found, "disclosed")) {
         const auto value = numberOr(row, "value");
-        const auto said = std::isnan(value)
-                              ? textOr(row, "reason")
-                              : measuredText(value, numberOr(row, "expanded_uncertainty"), textOr(row, "unit"));
-        const auto text = said + " into " + writtenLoad(textOr(row, "load"));
+        const auto load = writtenLoad(textOr(row, "load"));
+        const auto text =
+            std::isnan(value)
+                ? fmt::format("not evaluated into {}: {}", load, textOr(row, "reason"))
+                : fmt::format("{} into {}",
+                              measuredText(value, numberOr(row, "expanded_uncertainty"), textOr(row, "unit")), load);
         const auto same = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(described), rows.end(),
                                        [&](const Json& each) { return each.at("output") == row.at("output"); });
         if (same == rows.end()) {
