@@ -89,7 +89,7 @@ TEST(LoadSafetyRun, OpenShortLooseContactAndSilenceTrip) {
 
 TEST(LoadSafetyRun, WithoutAnElectrodeAreaIsIndeterminate) {
     RecordProperty("hazard", "H9");
-    LoadSafetyRig rig({});
+    LoadSafetyRig rig({}, 1, true);
     const auto outcome = rig.run({{"steps", "2"}});
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
     EXPECT_EQ(loadOf(outcome.results, "500 ohm")["verdict"], "not evaluated");
