@@ -296,7 +296,6 @@ function conclude(p, sweep, results) {
     : "indeterminate"];
   results.verdict = verdicts.includes("fail") ? "fail" : verdicts.includes("indeterminate") ? "indeterminate" : "pass";
   if (results.verdict === "pass") results.reasons = passed(p, results.changes);
-  return verdict(results);
 }
 
 function run(p) {
@@ -330,5 +329,6 @@ function run(p) {
   writeSweep(sweep);
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
-  return conclude(p, sweep, results);
+  conclude(p, sweep, results);
+  return verdict(results);
 }
