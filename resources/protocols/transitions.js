@@ -316,7 +316,7 @@ function run(p) {
 
   // What the oscilloscope sees of steps and movements.
   const changes = changesOf(p);
-  const keep = () => judge(p, changes, results, computed);
+  const keep = () => { judge(p, changes, results, computed); };
   if (results.reference.passed) {
     watchSteps(changes, results, keep);
     watchMovements(p, changes, results);
