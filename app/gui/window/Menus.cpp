@@ -70,13 +70,14 @@ void Menus::addBench() {
     auto* reset = bench->addAction(tr("&Reset fault"), controller, &BenchController::resetFault);
     auto* check = bench->addAction(tr("Check &impedance"), &window_, &MainWindow::checkImpedance);
     bench->setToolTipsVisible(true);
-    const auto follow = [=, this] {
+    // The state of the output is looked up as the menu opens.
+    const auto follow = [=, this](bool opens) {
         const auto activity = controller->activity();
         const auto state = controller->telemetry().state;
         const auto closed = activity == Activity::Closed ? tr("No bench is open.") : QString();
         const auto taken = activity == Activity::Running ? tr("A run has the bench.") : closed;
-        const auto unless = [](const QString& first, bool possible, const QString& why) {
-            return first.isEmpty() && !possible ? why : first;
+        const auto unless = [opens](const QString& first, bool possible, const QString& why) {
+            return opens && first.isEmpty() && !possible ? why : first;
         };
         const std::pair<QAction*, QString> whyNot[] = {
             {close, taken},
@@ -91,9 +92,10 @@ void Menus::addBench() {
             action->setToolTip(why);
         }
     };
-    connect(bench, &QMenu::aboutToShow, this, follow);
-    connect(controller, &BenchController::changed, this, follow);
-    follow();
+    connect(bench, &QMenu::aboutToShow, this, [follow] { follow(true); });
+    connect(bench, &QMenu::aboutToHide, this, [follow] { follow(false); });
+    connect(controller, &BenchController::changed, this, [follow, bench] { follow(bench->isVisible()); });
+    follow(false);
     bench->addSeparator();
     auto* mark = bench->addAction(tr("&Mark this moment…"), QKeySequence(Qt::CTRL | Qt::Key_M), &window_,
                                   &MainWindow::markMoment);
