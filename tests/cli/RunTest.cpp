@@ -345,6 +345,18 @@ TEST(Run, ResultsOfAnyShapeLeaveTheVerdictStanding) {
     }
 }
 
+TEST(RunLoadSafety, RefusesASettingThatNothingReadsAndNamesAnAnswerThatWasNotAskedFor) {
+    const Desk desk;
+    const auto misspelt =
+        desk.run({"run", "load-safety", "--device", "sim:", "--set", "aera=3", "--out", desk.at("a")});
+    EXPECT_EQ(misspelt.code, 2) << misspelt.err;
+    EXPECT_THAT(misspelt.err, HasSubstr("load-safety has no parameter aera; it has area, "));
+    const auto unasked = desk.run({"run", "load-safety", "--device", "sim:", "--set", "area=3", "--set", "steps=2",
+                                   "--set", "dmm-1-kohm=1000", "--out", desk.at("b")});
+    EXPECT_EQ(unasked.code, 0) << unasked.err;
+    EXPECT_THAT(unasked.err, HasSubstr("--set dmm-1-kohm: the protocol did not ask for it."));
+}
+
 TEST(Run, AScriptThatDeclaresByTheClockDoesNotRun) {
     RecordProperty("hazard", "H9");
     const Desk desk;

@@ -17,10 +17,15 @@ std::optional<Command> wouldByHand(const BenchController& controller) {
     return commandOf(controller, controller.hand());
 }
 
+std::optional<DriveCommand> orderedByHand(const BenchController& controller, const Telemetry& telemetry) {
+    const auto& ordered = controller.lastDrive();
+    if (telemetry.driving != DriveSource::Manual || ordered.source != DriveSource::Manual) return std::nullopt;
+    return ordered;
+}
+
 std::optional<Command> firstByHand(const BenchController& controller, const Telemetry& telemetry) {
-    const auto& wanted = controller.lastDrive();
-    if (telemetry.driving != DriveSource::Manual || wanted.source != DriveSource::Manual) return std::nullopt;
-    return commandOf(controller, wanted);
+    const auto ordered = orderedByHand(controller, telemetry);
+    return ordered ? commandOf(controller, *ordered) : std::nullopt;
 }
 
 std::optional<ComingTrain> comingTrain(const BenchController& controller, const Telemetry& telemetry) {

@@ -11,6 +11,9 @@
 
 namespace tacto::gui {
 
+/// What was ordered by hand, while that drives: until the output is armed the bench tells of the fingertip alone.
+[[nodiscard]] std::optional<DriveCommand> orderedByHand(const BenchController& controller, const Telemetry& telemetry);
+
 /// What the drive by hand asks for first. Nothing while something else drives or nothing does, and where nothing can be
 /// delivered.
 [[nodiscard]] std::optional<Command> firstByHand(const BenchController& controller, const Telemetry& telemetry);

@@ -270,10 +270,8 @@ void DrivePanel::followFinger(const Telemetry& telemetry) {
 void DrivePanel::refresh(const Telemetry& telemetry) {
     if (controller_.activity() == Activity::Live) {
         follow(telemetry.driving);
-        const auto& ordered = controller_.lastDrive();
-        const bool byHand = telemetry.driving == DriveSource::Manual && ordered.source == DriveSource::Manual;
-        // Before it is armed the bench tells of the fingertip alone.
-        const auto now = byHand ? ordered : DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure};
+        const auto now = orderedByHand(controller_, telemetry)
+                             .value_or(DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure});
         const bool known = std::isfinite(now.roughness) && std::isfinite(now.pressure);
         const bool another = !was_ || was_->source != telemetry.driving;
         if (telemetry.driving != DriveSource::Off && (known || another)) was_ = now;  // the last that is known of it

@@ -10,6 +10,7 @@
 #include <functional>
 #include <set>
 
+#include "app/gui/controller/FirstOutput.h"
 #include "app/gui/live/CommandPanel.h"
 #include "app/gui/live/ProfileEditor.h"
 #include "app/gui/live/RigPanel.h"
@@ -294,12 +295,11 @@ void LiveWorkspace::refresh(const Telemetry& telemetry, bool visible) {
     if (isDue(sinceSide_, kSideEvery_ms)) showSide(telemetry);
 }
 
-/// While the output is off the bench tells of the fingertip, whatever drives: what is set by hand was ordered here.
+/// With R and P as set by hand, while that drives.
 Telemetry LiveWorkspace::asDriven(Telemetry telemetry) const {
-    const auto& ordered = controller_.lastDrive();
-    if (telemetry.driving == DriveSource::Manual && ordered.source == DriveSource::Manual) {
-        telemetry.roughness = ordered.roughness;
-        telemetry.pressure = ordered.pressure;
+    if (const auto ordered = orderedByHand(controller_, telemetry)) {
+        telemetry.roughness = ordered->roughness;
+        telemetry.pressure = ordered->pressure;
     }
     return telemetry;
 }

@@ -110,7 +110,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
     ticker->setSubTickCount(0);
     plot_->yAxis->setTicker(ticker);
-    plot_->yAxis->setNumberFormat("eb");  // a power of ten each, whatever it is
+    plot_->yAxis->setNumberFormat("eb");  // each as a power of ten
     plot_->yAxis->setNumberPrecision(0);
     peaks_->setLineStyle(QCPGraph::lsNone);
     for (std::size_t i = 0; i < kMaxPeaks; ++i) {

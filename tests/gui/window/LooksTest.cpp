@@ -93,6 +93,16 @@ protected:
             if (dock->isVisible() && !dock->folded()) open.push_back(dock);
         return open;
     }
+    /// With the oscilloscope in sight, until it has `captures` of them.
+    void deliverToTheScope(int captures) {
+        open();
+        arm();
+        window.controller().drive(DriveSource::Manual, 0.5, 0.8);
+        window.showWorkspace(0);
+        window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+        auto& scope = *window.findChild<gui::ScopeWorkspace*>();
+        ASSERT_IN_TIME(comesTrue([&] { return int(scope.table().statistics().captures()) >= captures; }));
+    }
     /// Docks that have room to spare while another is cut.
     [[nodiscard]] std::string unfairDocks() {
         const auto spare = [](const gui::FoldingDock* dock) { return dock->height() - dock->wantedHeight(); };
@@ -152,13 +162,8 @@ TEST_F(DocksOfTheWindow, CutNoRowOfTheDevices) {
 }
 
 TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
-    open();
-    arm();
-    window.controller().drive(DriveSource::Manual, 0.5, 0.8);
-    window.showWorkspace(0);
-    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    ASSERT_NO_FATAL_FAILURE(deliverToTheScope(5));
     auto& scope = *window.findChild<gui::ScopeWorkspace*>();
-    ASSERT_IN_TIME(comesTrue([&] { return scope.table().statistics().captures() >= 5; }));
     auto& model = scope.model();
     const double width = model.viewport().width_s();
     EXPECT_NEAR(500e-6 / width, 1.0 / 3, 0.05) << "the first train is what one sees";
@@ -190,13 +195,8 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
 }
 
 TEST_F(DocksOfTheWindow, TheOscilloscopesPanelsLookRight) {
-    open();
-    arm();
-    window.controller().drive(DriveSource::Manual, 0.5, 0.8);
-    window.showWorkspace(0);
-    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    ASSERT_NO_FATAL_FAILURE(deliverToTheScope(3));
     auto& scope = *window.findChild<gui::ScopeWorkspace*>();
-    ASSERT_IN_TIME(comesTrue([&] { return scope.table().statistics().captures() >= 3; }));
     window.controller().disarm();  // the last trains stay
     const auto* cells = scope.table().findChild<QTableWidget*>("measurements");
     const auto wholeRows = [&] {
