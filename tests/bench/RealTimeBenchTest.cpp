@@ -65,7 +65,7 @@ TEST_F(RealTimeBenchTest, StopReachesForceOffWithinTenMilliseconds) {
     }
     ASSERT_EQ(took.size(), std::size_t{kStops}) << "each of them of a bench that was armed and driven";
     std::ranges::sort(took);
-    const auto microseconds = [&](int percent) {
+    const auto microseconds = [&](std::size_t percent) {
         return std::chrono::duration<double, std::micro>(took[took.size() * percent / 100]).count();
     };
     RecordProperty("armed_stops", std::to_string(took.size()));

@@ -52,8 +52,7 @@ void PilotDesk::writeUnfinished(const std::string& folder, const std::string& pr
 
 Ran PilotDesk::runDisturbed(const Disturbance& by, const std::string& protocol, const Words& more,
                             const std::string& study) const {
-    auto given = desk_.environment();
-    given.push_back(std::string("LD_PRELOAD=") + TACTO_KILL_AT_SYNC_LIBRARY + ":" + TACTO_MOVED_CLOCK_LIBRARY);
+    auto given = desk_.environment(TACTO_KILL_AT_SYNC_LIBRARY ":" TACTO_MOVED_CLOCK_LIBRARY);
     given.push_back("TACTO_KILL_AT_SYNC=" + std::to_string(by.killAtSync));
     given.push_back("TACTO_CLOCK_AHEAD=" + std::to_string(by.clock.count()));
     given.push_back("TACTO_CLOCK_FROM_SYNC=" + std::to_string(by.clockFromSync));

@@ -8,6 +8,7 @@
 #include <spawn.h>
 #include <sstream>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -34,14 +35,20 @@ std::string contentOf(const std::filesystem::path& file) {
     return content.str();
 }
 
-Words Desk::environment() const {
+Words Desk::environment(const std::string& preloaded) const {
     Words kept;
+    auto libraries = preloaded;
+    if (passphrasesAreCheap_) libraries += ":" TACTO_CHEAP_PASSPHRASE_LIBRARY;
     for (char** entry = environ; *entry != nullptr; ++entry) {
         const std::string_view text(*entry);
         const auto is = [&](std::string_view name) { return text.starts_with(name); };
-        if (is("DISPLAY=") || is("WAYLAND_DISPLAY=") || is("QT_") || is("XDG_") || is("HOME=")) continue;
+        constexpr std::string_view kPreload = "LD_PRELOAD=";
+        if (is(kPreload)) libraries.insert(0, std::string(text.substr(kPreload.size())) + ':');
+        if (is(kPreload) || is("DISPLAY=") || is("WAYLAND_DISPLAY=") || is("QT_") || is("XDG_") || is("HOME="))
+            continue;
         kept.emplace_back(text);
     }
+    kept.push_back("LD_PRELOAD=" + libraries);
     kept.push_back("HOME=" + home_.path().string());
     kept.push_back("XDG_DATA_HOME=" + (home_.path() / "data").string());
     return kept;
@@ -110,9 +117,11 @@ void Desk::Started::signal(int number) const { kill(pid_, number); }
 Ran Desk::Started::wait(std::chrono::seconds limit) {
     if (!endedWithin(limit)) kill(pid_, SIGKILL);
     int status = 0;
-    waitpid(pid_, &status, 0);
+    rusage used{};
+    wait4(pid_, &status, 0, &used);
     pid_ = -1;
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), contentOf(out_), contentOf(err_)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), contentOf(out_), contentOf(err_),
+            used.ru_maxrss};
 }
 
 std::string Desk::write(std::string_view name, std::string_view content) const {

@@ -19,9 +19,10 @@ namespace tacto::test {
 using Words = std::vector<std::string>;
 
 struct Ran {
-    int code = 0;     ///< exit code; a signal's number, negative, when that ended the program
-    std::string out;  ///< stdout
-    std::string err;  ///< stderr
+    int code = 0;       ///< exit code; a signal's number, negative, when that ended the program
+    std::string out;    ///< stdout
+    std::string err;    ///< stderr
+    long most_KiB = 0;  ///< the memory that it held at most
 };
 
 /// A user's folder with a home of its own: nothing outside it is written.
@@ -56,8 +57,11 @@ public:
     [[nodiscard]] pid_t spawn(const Words& words, posix_spawn_file_actions_t& actions, short flags = 0) const;
 
     [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
-    /// What the program is started with: no display, none of the tester's own settings, and a home of the desk's.
-    [[nodiscard]] Words environment() const;
+    /// What the program is started with: no display, none of the tester's own settings, a home of the desk's, and these
+    /// libraries preloaded, divided by ':'.
+    [[nodiscard]] Words environment(const std::string& preloaded = {}) const;
+    /// From here on a key is made of a passphrase at the program's own cost, not at the least one.
+    void payForPassphrases() { passphrasesAreCheap_ = false; }
     /// A path below the folder, as text.
     [[nodiscard]] std::string at(std::string_view name) const { return (path() / name).string(); }
     std::string write(std::string_view name, std::string_view content) const;
@@ -73,6 +77,7 @@ private:
     ScratchDir home_;
     ScratchDir streams_;
     mutable int count_ = 0;
+    bool passphrasesAreCheap_ = true;
 };
 
 [[nodiscard]] std::string contentOf(const std::filesystem::path& file);

@@ -27,9 +27,21 @@ protected:
         return study(words);
     }
     [[nodiscard]] std::string at() const { return desk.at("study"); }
-    const Desk desk;
+    Desk desk;
     std::string passphrase;
 };
+
+TEST_F(StudyCli, AGuessAtAPassphraseTakesTheMemoryThatIsPromised) {
+    RecordProperty("hazard", "H11");
+    constexpr long kPromised_KiB = 256L << 10;
+    const auto cheap = create();
+    ASSERT_EQ(cheap.code, 0) << cheap.err;
+    desk.payForPassphrases();
+    const auto dear = study({"show", at()});
+    EXPECT_EQ(dear.code, 3) << dear.err;  // sealed at another cost, so with another key
+    EXPECT_GE(dear.most_KiB, kPromised_KiB);
+    EXPECT_LT(cheap.most_KiB, kPromised_KiB);  // the other tests' way, or that figure would say nothing
+}
 
 TEST_F(StudyCli, IsMadeEnrolledInConsentedToShownLeftAndWithdrawnFrom) {
     RecordProperty("hazard", "H11");

@@ -450,7 +450,7 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryDialog) {
              type("Escape");
          }},
         {"Pause in the dialog",
-         [this] {
+         [] {
              focus(*newest());
              type("Pause");
          }},

@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
     backtrace(loaded.data(), 1);  // the first call allocates
     struct sigaction crash {};
     crash.sa_handler = sayWhere;
-    crash.sa_flags = SA_RESETHAND | SA_NODEFER;
+    crash.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
     for (const int signal : {SIGSEGV, SIGABRT, SIGBUS}) sigaction(signal, &crash, nullptr);
     const QTemporaryDir home;
     for (const auto* name : {"HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})

@@ -77,7 +77,7 @@ std::vector<Mention> mentionsIn(const std::string& text) {
         const auto numbers = (*i)[2].str();
         for (std::sregex_iterator n(numbers.begin(), numbers.end(), number); n != end; ++n)
             mention.sections.push_back(n->str());
-        for (const int group : {3, 4})
+        for (const std::size_t group : {3U, 4U})
             if ((*i)[group].matched) mention.sections.push_back((*i)[group]);
         mentions.push_back(std::move(mention));
     }

@@ -45,9 +45,10 @@ TEST(Figure, NamesWhatIsWrongAndWhere) {
     EXPECT_EQ(refusal({{"type", "plane"}}), "A figure of type \"plane\": \"trials\" must be a list.");
     EXPECT_EQ(refusal({{"type", "plane"}, {"trials", QJsonArray{QJsonObject{{"amplitude_v", "ten"}}}}}),
               "A figure of type \"plane\".trials[0]: \"amplitude_v\" must be a number.");
-    EXPECT_EQ(
-        refusal({{"type", "confusion"}, {"labels", QJsonArray{"a", "b"}}, {"confusion", QJsonArray{QJsonArray{1, 2}}}}),
-        "A figure of type \"confusion\": \"confusion\" must be one row per label.");
+    EXPECT_EQ(refusal({{"type", "confusion"},
+                       {"labels", QJsonArray{"a", "b"}},
+                       {"confusion", QJsonArray{QJsonValue(QJsonArray{1, 2})}}}),
+              "A figure of type \"confusion\": \"confusion\" must be one row per label.");
     EXPECT_EQ(refusal({{"type", "timeline"}, {"t_s", QJsonArray{0, 1}}, {"r", QJsonArray{0.5}}}),
               "A figure of type \"timeline\": \"r\" must be as long as \"t_s\".");
     EXPECT_EQ(

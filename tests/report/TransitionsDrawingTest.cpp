@@ -33,7 +33,7 @@ TEST(TransitionsFigure, KeepsWhatIsNotKnownAsUnknown) {
 
 TEST(TransitionsFigure, NamesWhatIsWrong) {
     auto ragged = mapJson(), missing = mapJson(), wanted = mapJson(), place = mapJson();
-    ragged["amplitude"] = QJsonArray{QJsonArray{1, 2, 3}};
+    ragged["amplitude"] = QJsonArray{QJsonValue(QJsonArray{1, 2, 3})};
     missing.remove("interval");
     wanted["wanted_jnd"] = 0;
     place["largest_interval"] = "corner";

@@ -187,7 +187,7 @@ void ParticipantField::resizeEvent(QResizeEvent* event) {
 void ParticipantField::mousePressEvent(QMouseEvent* /*event*/) { emit missed(); }
 
 void ParticipantField::paintIntervals(QPainter& painter) const {
-    constexpr double kRadius = 8, kEdge = 2;
+    constexpr double kRounding = 8, kOutline = 2;
     const auto& c = colours();
     const double wide = (width() - gap_px_) / 2.0;
     const double high = std::min(height(), pixelsOf(kTallestTarget_mm, *this));
@@ -197,9 +197,9 @@ void ParticipantField::paintIntervals(QPainter& painter) const {
     for (const int interval : {1, 2}) {
         const bool passes = interval == passing_;
         const QRectF box((interval - 1) * (wide + gap_px_), 0, wide, high);
-        painter.setPen(QPen(passes ? c.text : c.edge, kEdge));
+        painter.setPen(QPen(passes ? c.text : c.edge, kOutline));
         painter.setBrush(passes ? c.text : c.base);
-        painter.drawRoundedRect(box.adjusted(1, 1, -1, -1), kRadius, kRadius);
+        painter.drawRoundedRect(box.adjusted(1, 1, -1, -1), kRounding, kRounding);
         painter.setPen(passes ? c.base : c.quiet);
         painter.drawText(box, Qt::AlignCenter, QString::number(interval));
     }

@@ -112,7 +112,7 @@ void PilotWorkspace::connectSession() {
     connect(session, &SessionConduct::ended, this, [this, session](const std::shared_ptr<const FinishedRun>& run) {
         const auto& outcome = run->result.outcome;
         reopened_ = false;
-        showPage(kResult);
+        showPage(kOutcome);
         path_->end(outcome.error.has_value() || run->result.verdict() == "stopped");
         result_->show(run->result, session->start().folder, ofStudy_);
         if (ofStudy_) study_.takeBack();
@@ -150,7 +150,7 @@ void PilotWorkspace::showBeside(Page page) {
     // Large text in a small window: the session's own page comes first, then the path.
     const auto* shown = pages_->widget(page);
     const int room = (parentWidget() != nullptr ? parentWidget() : this)->width() - shown->minimumSizeHint().width();
-    const bool ofASession = page == kSession || (page == kResult && !reopened_);
+    const bool ofASession = page == kSession || (page == kOutcome && !reopened_);
     const bool path = !plotOnly_ && ofASession && room >= path_->maximumWidth();
     const bool side = page == kSession && room >= path_->maximumWidth() + side_->maximumWidth();
     for (auto* left : {static_cast<QWidget*>(path_), static_cast<QWidget*>(pathEdge_)}) left->setVisible(path);
@@ -180,7 +180,7 @@ void PilotWorkspace::showRecorded(const RunResult& result) {
     if (running()) return;  // the session's own page stays
     ofStudy_ = reopened_ = true;
     result_->show(result, study_.folder(), ofStudy_);
-    showPage(kResult);
+    showPage(kOutcome);
 }
 
 void PilotWorkspace::beginRehearsal(bool goOn) {

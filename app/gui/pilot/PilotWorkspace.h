@@ -54,7 +54,7 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    enum Page { kHome, kStart, kSession, kResult };
+    enum Page { kHome, kStart, kSession, kOutcome };
     [[nodiscard]] QWidget* buildHome();
     void connectSession();
     void connectResult();

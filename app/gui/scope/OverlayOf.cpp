@@ -121,12 +121,12 @@ void fillCursors(const ScopeModel& model, OverlayState& o) {
 void fillTrigger(const ScopeModel& model, OverlayState& o) {
     const auto& trigger = model.trigger();
     if (model.shown() && !model.roll() && std::isfinite(model.shown()->capture->trigger_s)) {
-        o.trigger.emplace();
+        o.trigger = OverlayState::Trigger{};
         o.trigger->moment_s = trigger.moment_s().value_or(0);
         o.trigger->colour = colours().quiet;
     }
     if (const auto* source = model.lane(trigger.lane()); source != nullptr && source->shown) {
-        if (!o.trigger) o.trigger.emplace();
+        if (!o.trigger) o.trigger = OverlayState::Trigger{};
         o.trigger->height = model.scaleOf(*source).heightOf(trigger.level());
         o.trigger->colour = laneInk(model, *source);
         o.trigger->held = trigger.held();

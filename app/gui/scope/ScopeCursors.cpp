@@ -41,8 +41,9 @@ void ScopeCursors::hideTime() {
 }
 
 void ScopeCursors::showLevel(const LaneScale& scale) {
-    constexpr double kEdge = kHalfUp - 0.5;
-    level_ = {scale.levelAt(std::max(-kEdge, scale.position - 1)), scale.levelAt(std::min(kEdge, scale.position + 1))};
+    constexpr double kFarthest = kHalfUp - 0.5;
+    level_ = {scale.levelAt(std::max(-kFarthest, scale.position - 1)),
+              scale.levelAt(std::min(kFarthest, scale.position + 1))};
     focused_ = 2;
 }
 

@@ -38,7 +38,7 @@ struct Key {
     const char* does;
 };
 constexpr const char* kAlways = QT_TRANSLATE_NOOP("Keys", "Always");
-constexpr const char* kBench = QT_TRANSLATE_NOOP("Keys", "Bench and protocols");
+constexpr const char* kAboutBench = QT_TRANSLATE_NOOP("Keys", "Bench and protocols");
 constexpr const char* kScopeKeys = QT_TRANSLATE_NOOP("Keys", "Oscilloscope and plots");
 const std::vector<std::pair<const char*, std::vector<Key>>>& allKeys() {
     static const std::vector<std::pair<const char*, std::vector<Key>>> all{
@@ -53,7 +53,7 @@ const std::vector<std::pair<const char*, std::vector<Key>>>& allKeys() {
           {"F11", QT_TRANSLATE_NOOP("Keys", "safety bar and plot alone")},
           {"Shift+F11", QT_TRANSLATE_NOOP("Keys", "full screen")},
           {"Ctrl+Q", QT_TRANSLATE_NOOP("Keys", "output off and quit")}}},
-        {kBench,
+        {kAboutBench,
          {{"Ctrl+B", QT_TRANSLATE_NOOP("Keys", "opens the simulated bench")},
           {"Ctrl+O", QT_TRANSLATE_NOOP("Keys", "opens a recording, session or capture")},
           {"Ctrl+M", QT_TRANSLATE_NOOP("Keys", "marks this moment with a word, in plots, session and report")},

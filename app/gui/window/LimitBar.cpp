@@ -120,7 +120,7 @@ void LimitBar::paintEvent(QPaintEvent*) {
     painter.drawText(top, Qt::AlignLeft | Qt::AlignVCenter,
                      metrics.elidedText(title_, Qt::ElideRight, width() - taken));
     painter.setPen(share_ >= 0.8 && oneLine ? c.amberText : c.text);
-    painter.drawText(oneLine ? top : bottom, (oneLine ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter,
+    painter.drawText(oneLine ? top : bottom, int((oneLine ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter),
                      metrics.elidedText(shownText(), Qt::ElideRight, width()));
     if (known_ && !limited_ && evaluated_) return;
     const int room = height() - (oneLine ? 1 : 2) * line - 2 * kBarLineGap;

@@ -47,7 +47,7 @@ TEST(ScienceModePoint, TimeAndCurrentHaveBitsOfTheirOwn) {
         const auto word = (static_cast<std::uint32_t>((*bytes)[0]) << 24U) |
                           (static_cast<std::uint32_t>((*bytes)[1]) << 16U) |
                           (static_cast<std::uint32_t>((*bytes)[2]) << 8U) | (*bytes)[3];
-        RC_ASSERT(word >> 20U == static_cast<std::uint32_t>(us));
+        RC_ASSERT((word >> 20U) == static_cast<std::uint32_t>(us));
         RC_ASSERT((word >> 10U & 0x3FFU) == static_cast<std::uint32_t>(half + 300));
         RC_ASSERT((word & 0x3FFU) == 0U);
     });

@@ -218,7 +218,7 @@ TEST_F(ScienceModeThreads, TheDriversOwnThreadSendsTheRestOfATrain) {
         }
         ASSERT_TRUE(cameLate(outcome.error())) << outcome.error().message;
     }
-    ASSERT_IN_TIME(!"one of 20 trains");
+    ASSERT_IN_TIME(false) << "one of 20 trains";
 }
 
 TEST_F(ScienceModeThreads, ForceOffFromManyThreadsWhileDelivering) {

@@ -87,7 +87,7 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 2'000));  // what it says now is laid out
     EXPECT_EQ(faultsOf(window), "");
     shot(window, "pilot-virtual-result");
-    fitsBesideTheDocks("pilot-result", "confusion");
+    LargeBesideDocks(*this).fits("pilot-result", "confusion");
     window.showWorkspace(0);
     EXPECT_EQ(window.workspace(), 0) << "the session has ended";
     window.showWorkspace(4);
@@ -204,7 +204,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     ASSERT_TRUE(pilot->running()) << "a key that is held counts once: " << headline();
     // Here nothing is armed that the control loop has to look after while pictures are made.
     looksRight(*pilot, "pilot-running", {QSize(1280, 720), QSize(1280, 720)}, &window);
-    fitsBesideTheDocks("pilot-running");
+    LargeBesideDocks(*this).fits("pilot-running");
     looksRight(*strip, "pilot-strip", {}, theirs);
     click(*find<QPushButton>(*strip, "0"));
     ASSERT_IN_TIME(comesTrue(

@@ -134,11 +134,11 @@ protected:
         EXPECT_THAT(said("pilotNote"), HasSubstr("Simulated. In the study at " + place().string()));
         EXPECT_FALSE(pilot->findChild<gui::StepList*>()->isVisible()) << "nothing is under way";
         looksRight(*pilot, "pilot-reopened-result", {QSize(1280, 720), QSize(1280, 720)}, &window);
-        fitsBesideTheDocks("pilot-reopened-result", "confusion");  // the matrix scrolls by itself
+        LargeBesideDocks(*this).fits("pilot-reopened-result", "confusion");  // the matrix scrolls by itself
         click(*pilot->findChild<QPushButton*>("backFromResult"));
         ASSERT_NO_FATAL_FAILURE(seeList());
         looksRight(*pilot, "pilot-study-with-a-session", {QSize(1280, 720), QSize(1280, 720)}, &window);
-        fitsBesideTheDocks("pilot-study-with-a-session");
+        LargeBesideDocks(*this).fits("pilot-study-with-a-session");
     }
     void expectABrokenRecordIsNamed() {
         const auto file = *std::filesystem::directory_iterator(place() / "sessions");
@@ -319,7 +319,7 @@ TEST_F(StudyInTheWindow, EveryPageLooksRightAtEverySize) {
     auto* tabs = pilot->findChild<gui::TabbedPage*>();
     const auto look = [&](const char* name) {
         looksRight(*pilot, QString("pilot-%1").arg(name), {QSize(1280, 720), QSize(1280, 720)}, &window);
-        fitsBesideTheDocks(QString("pilot-%1").arg(name));
+        LargeBesideDocks(*this).fits(QString("pilot-%1").arg(name));
     };
     look("rehearsal");
     tabs->setCurrentIndex(1);

@@ -39,7 +39,7 @@ TEST(ExposureNow, WhileTheOutputIsOffNothingOfAPulseIsDeliveredAndAWindowKeepsIt
         EXPECT_EQ(gui::outputIsOff(telemetry.state), off);
         const auto rows = gui::exposureNow(telemetry);
         ASSERT_EQ(rows.size(), 4U);
-        for (const std::size_t pulse : {0, 1}) {
+        for (const std::size_t pulse : {0U, 1U}) {
             EXPECT_EQ(rows[pulse].value, off ? 0 : 7);
             EXPECT_EQ(rows[pulse].within, off);
         }

@@ -147,18 +147,19 @@ TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
     EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") == nullptr; })) << "as F11";
     click(*find<QToolButton>(window, "Plot only"));
     EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") != nullptr; }));
-    fitsBesideTheDocks("calibrate-result");
+    const LargeBesideDocks large(*this);
+    large.fits("calibrate-result");
     click(*find<QPushButton>(window, "Tables"));
-    fitsBesideTheDocks("calibrate-tables", "QTableWidget");  // they scroll
+    large.fits("calibrate-tables", "QTableWidget");  // they scroll
     click(*find<QPushButton>(window, "Log"));
-    fitsBesideTheDocks("calibrate-log");
+    large.fits("calibrate-log");
     for (const auto* step : {"Wiring", "Known reference", "Settings", "Run"}) {
         click(*find<gui::StepButton>(window, step));
-        fitsBesideTheDocks(QString("calibrate-%1").arg(step));
+        large.fits(QString("calibrate-%1").arg(step));
     }
     for (const int tab : {1, 2}) {
         window.findChild<gui::TabbedPage*>("calibratePages")->setCurrentIndex(tab);
-        fitsBesideTheDocks(QString("calibrate-tab-%1").arg(tab), "calibrationHistory");
+        large.fits(QString("calibrate-tab-%1").arg(tab), "calibrationHistory");
     }
 }
 
@@ -227,7 +228,7 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
     }
     gui::applyTextSize(100);
     EXPECT_IN_TIME(comesTrue([&] { return matrix->horizontalHeaderItem(6)->text() == "100\u00a0kΩ"; }));
-    fitsBesideTheDocks("safety-result", "limitMatrix");  // which scrolls by itself there
+    LargeBesideDocks(*this).fits("safety-result", "limitMatrix");  // which scrolls by itself there
     click(*find<QPushButton>(window, "Tables"));
     gui::applyTextSize(200);
     const auto numbersCut = [this] { return cutCells(window).filter("no tool tip"); };
@@ -243,10 +244,10 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
     EXPECT_GE(tables, 2);
     shot(window, "large-safety-tables");
     gui::applyTextSize(100);
-    fitsBesideTheDocks("safety-tables", "QTableWidget");  // numbers are not cut: they scroll
+    LargeBesideDocks(*this).fits("safety-tables", "QTableWidget");  // numbers are not cut: they scroll
     click(*find<QPushButton>(window, "Sign report…"));
     isWhole("sign");
-    fitsBesideTheDocks("sign");
+    LargeBesideDocks(*this).fits("sign");
     for (const auto* step : {"Known reference", "Settings", "Run"}) {
         click(*find<gui::StepButton>(window, step));
         isWhole(step);

@@ -318,7 +318,7 @@ TEST_F(Bar, TheStatesShapePulsesWithEachTrain) {
     };
     telemetry.trainsDelivered = 4;
     const int quiet = settles();
-    for (int train = 5; train < 8; ++train) {
+    for (std::uint64_t train = 5; train < 8; ++train) {
         telemetry.trainsDelivered = train;
         EXPECT_GT(drawn(), quiet + 20) << "train " << train;
         EXPECT_EQ(settles(), quiet) << "and it is over before the next";

@@ -84,29 +84,48 @@ protected:
                 all += fmt::format("{} {} {}\n", widgetName(*each), each->minimumSizeHint().width(), each->width());
         return all;
     }
-    /// With text at 200 %, 1280 x 720 and the docks opened by hand, nothing of what is shown is cut sideways.
-    /// `scrolls`: the one table that has a scroll bar of its own there.
-    void fitsBesideTheDocks(const QString& name, const char* scrolls = nullptr) {
-        const auto faults = [&] {
-            auto all = cutSideways(window);
-            if (scrolls != nullptr) all = all.filter(QRegularExpression(QString("^(?!.*%1)").arg(scrolls)));
-            return all;
-        };
-        const auto before = window.size();
-        gui::applyTextSize(200);
-        window.resize(1280, 720);
-        auto* docks = window.findChild<gui::DockColumn*>();
-        const bool collapsed = docks->collapsed();
-        docks->setCollapsed(false);
-        EXPECT_IN_TIME(comesTrue([&] { return faults().isEmpty(); })) << name.toStdString() << '\n'
-                                                                      << faults().join('\n').toStdString() << '\n'
-                                                                      << wide();
-        EXPECT_EQ(window.size(), QSize(1280, 720)) << name.toStdString();
-        shot(window, "beside-docks-" + name);
-        docks->setCollapsed(collapsed);
-        gui::applyTextSize(100);
-        window.resize(before);
-    }
+    /// While it lives, text is at 200 %, the window 1280 x 720, and the docks are opened by hand. Laying the style
+    /// sheet on a window twice takes a second: one of these is for several pages.
+    class LargeBesideDocks {
+    public:
+        explicit LargeBesideDocks(Window& of)
+            : of_(of),
+              size_(of.window.size()),
+              docks_(of.window.findChild<gui::DockColumn*>()),
+              collapsed_(docks_->collapsed()) {
+            gui::applyTextSize(200);
+            of_.window.resize(1280, 720);
+            docks_->setCollapsed(false);
+        }
+        ~LargeBesideDocks() {
+            docks_->setCollapsed(collapsed_);
+            gui::applyTextSize(100);
+            of_.window.resize(size_);
+        }
+        LargeBesideDocks(const LargeBesideDocks&) = delete;
+        LargeBesideDocks& operator=(const LargeBesideDocks&) = delete;
+
+        /// Nothing of what is shown is cut sideways. `scrolls`: the one table that has a scroll bar of its own there.
+        void fits(const QString& name, const char* scrolls = nullptr) const {
+            auto& shown = of_.window;
+            const auto faults = [&] {
+                auto all = cutSideways(shown);
+                if (scrolls != nullptr) all = all.filter(QRegularExpression(QString("^(?!.*%1)").arg(scrolls)));
+                return all;
+            };
+            EXPECT_IN_TIME(comesTrue([&] { return faults().isEmpty(); })) << name.toStdString() << '\n'
+                                                                          << faults().join('\n').toStdString() << '\n'
+                                                                          << of_.wide();
+            EXPECT_EQ(shown.size(), QSize(1280, 720)) << name.toStdString();
+            shot(shown, "beside-docks-" + name);
+        }
+
+    private:
+        Window& of_;
+        QSize size_;
+        gui::DockColumn* docks_;
+        bool collapsed_;
+    };
     gui::MainWindow window;
 };
 

@@ -12,8 +12,6 @@ namespace tacto::host::report {
 
 namespace {
 
-using Json = nlohmann::json;
-
 Json plain(double value, const std::string& unit) { return {{"value", numberOrNull(value)}, {"unit", unit}}; }
 
 Json withU(double value, double expanded, const std::string& unit) {

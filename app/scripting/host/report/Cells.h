@@ -15,6 +15,8 @@
 
 namespace tacto::host::report {
 
+using Json = nlohmann::json;
+
 /// With so many significant digits, zeros at the end included; "–" for what is not known. Whole numbers of up to six
 /// digits are written out: 1010, not 1.01e+3.
 [[nodiscard]] inline std::string digitsOf(double value, int digits) {
@@ -28,14 +30,14 @@ namespace tacto::host::report {
 }
 
 /// An empty list where it is absent or none.
-[[nodiscard]] inline const nlohmann::json& listIn(const nlohmann::json& row, const char* key) {
-    static const nlohmann::json kNone = nlohmann::json::array();
+[[nodiscard]] inline const Json& listIn(const Json& row, const char* key) {
+    static const Json kNone = Json::array();
     const auto at = row.find(key);
     return at != row.end() && at->is_array() ? *at : kNone;
 }
 
 /// Takes `from`'s member over, if there is one.
-inline void copy(nlohmann::json& row, const char* key, const nlohmann::json& from, const char* fromKey) {
+inline void copy(Json& row, const char* key, const Json& from, const char* fromKey) {
     if (const auto at = from.find(fromKey); at != from.end()) row[key] = *at;
 }
 

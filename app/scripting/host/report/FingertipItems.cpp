@@ -10,8 +10,6 @@ namespace tacto::host::report {
 
 namespace {
 
-using Json = nlohmann::json;
-
 Json paragraph(std::string text) { return {{"kind", "text"}, {"text", std::move(text)}}; }
 
 Json tableItem(std::string caption, Json rows, Json columns) {

@@ -11,8 +11,6 @@ namespace tacto::host::report {
 
 namespace {
 
-using Json = nlohmann::json;
-
 /// What the table of loads shows of each.
 struct MeasuredRow {
     const char* title;

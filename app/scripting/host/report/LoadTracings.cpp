@@ -14,8 +14,6 @@ namespace tacto::host::report {
 
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::string_view kShown[] = {"500 ohm", "2 kohm", "10 kohm"};
 constexpr std::string_view kNote = "From the baseline before the train; the strongest command that the limits allow.";
 
