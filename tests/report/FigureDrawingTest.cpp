@@ -214,7 +214,8 @@ TEST(FigureDrawing, TitlesOfAxesBeginWithACapital) {
     for (const auto& type : kTypes) {
         const auto figure = parseFigure(sampleOf(type));
         ASSERT_TRUE(figure) << figure.error().message;
-        for (auto* axes : drawFigure(*figure, false)->plot().axisRects()) {
+        const auto sheet = drawFigure(*figure, false);
+        for (const auto* axes : sheet->plot().axisRects()) {
             for (const auto* axis : axes->axes()) {
                 const auto title = axis->label();
                 if (title.isEmpty()) continue;

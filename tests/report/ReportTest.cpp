@@ -113,7 +113,7 @@ TEST_F(Report, KeepsEachCaptionOnItsFiguresPage) {
     const std::vector<std::pair<const char*, const char*>> pairs{
         {"Texture alone", "Figure 1."}, {"Interval between trains", "Figure 2."},
         {"Current (mA)", "Figure 3."},  {"Presented", "Figure 4."},
-        {"Roughness R", "Figure 5."},   {"Share of the limit", "Figure 6."}};
+        {"roughness R", "Figure 5."},   {"Share of the limit", "Figure 6."}};
     for (const auto& [inside, caption] : pairs) {
         const auto with = std::count_if(pages.begin(), pages.end(), [&](const std::string& page) {
             return page.find(caption) != std::string::npos;

@@ -307,6 +307,7 @@ QRect handleOf(QSlider& slider, double least) {
 }
 
 TEST_P(InTheme, TheHandleOfASliderIsWholeAndSeenFromEndToEnd) {
+    constexpr double kThere = 1.2, kSeen = 3, kStandsOut = 7;  // contrasts to what is behind it
     for (const int percent : {100, 200}) {
         gui::applyTextSize(percent);
         QWidget window;
@@ -324,24 +325,25 @@ TEST_P(InTheme, TheHandleOfASliderIsWholeAndSeenFromEndToEnd) {
         std::vector<QRect> places;
         for (const int value : {0, 50, 100}) {
             slider->setValue(value);
-            places.push_back(handleOf(*slider, 3));
+            const auto seen = handleOf(*slider, kSeen);
+            EXPECT_GE(seen.width(), 12 * percent / 100) << percent << ", at " << value;
+            EXPECT_GE(seen.height(), 14 * percent / 100) << percent << ", at " << value;
+            places.push_back(handleOf(*slider, kThere));
         }
-        const auto& middle = places[1];
-        EXPECT_GE(middle.width(), 14 * percent / 100) << percent;
-        EXPECT_GE(middle.height(), 14 * percent / 100) << percent;
-        for (const auto& place : places) EXPECT_EQ(place.size(), middle.size()) << "cut at an end, at " << percent;
-        EXPECT_LE(places[0].left(), 2);
-        EXPECT_GE(places[2].right(), slider->width() - 3);
-        EXPECT_NEAR(middle.center().x(), slider->width() / 2.0, 2);
+        const auto size = places[1].size();
+        for (const auto& place : places) EXPECT_EQ(place.size(), size) << "cut at an end, at " << percent;
+        EXPECT_LE(places[0].left(), 2 * percent / 100);
+        EXPECT_GE(places[2].right(), slider->width() - 1 - 2 * percent / 100);
+        EXPECT_NEAR(places[1].center().x(), slider->width() / 2.0, 2);
         slider->setValue(50);
         slider->setFocus();
-        EXPECT_EQ(handleOf(*slider, 3).size(), middle.size());
-        EXPECT_FALSE(handleOf(*slider, 7).isEmpty()) << "it stands out more while it has the keys";
+        EXPECT_EQ(handleOf(*slider, kThere).size(), size);
+        EXPECT_FALSE(handleOf(*slider, kStandsOut).isEmpty()) << "while it has the keys";
         other->setFocus();
-        EXPECT_TRUE(handleOf(*slider, 7).isEmpty());
+        EXPECT_TRUE(handleOf(*slider, kStandsOut).isEmpty());
         slider->setEnabled(false);  // while the fingertip drives it shows what that feels
-        EXPECT_EQ(handleOf(*slider, 1.2).size(), middle.size());
-        EXPECT_TRUE(handleOf(*slider, 3).isEmpty()) << "and does not look as if it took a hand";
+        EXPECT_EQ(handleOf(*slider, kThere).size(), size);
+        EXPECT_TRUE(handleOf(*slider, kSeen).isEmpty()) << "and does not look as if it took a hand";
     }
     gui::applyTextSize(100);
 }
