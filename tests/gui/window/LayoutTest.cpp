@@ -637,10 +637,13 @@ TEST_F(Layout, AFaultSaysCauseOutputAndNextStepAndMovesNothing) {
     EXPECT_EQ(window.centralWidget()->geometry(), pagesAt);
 }
 
-TEST_F(Layout, ARefusedArmingIsSaidAndMovesNothing) {
-    RecordProperty("hazard", "H12");
-    const auto places = [this] {
-        std::map<const QWidget*, QRect> all;
+class LayoutUnderANotice : public Layout {
+protected:
+    using Places = std::map<const QWidget*, QRect>;
+    LayoutUnderANotice() : notice(*window.findChild<QFrame*>("banner")) { RecordProperty("hazard", "H12"); }
+    /// Where the page and all that is in it stand, docks, bars, STOP and "Arm…".
+    [[nodiscard]] Places places() {
+        Places all;
         const auto add = [&](const QWidget& each) {
             if (each.isVisible()) all[&each] = QRect(each.mapTo(&window, QPoint()), each.size());
         };
@@ -650,54 +653,81 @@ TEST_F(Layout, ARefusedArmingIsSaidAndMovesNothing) {
         for (const char* each : {"stopButton", "armButton"}) add(*window.findChild<QPushButton*>(each));
         add(page());
         return all;
-    };
-    const auto atRest = [&] {
+    }
+    [[nodiscard]] Places atRest() {
         auto before = places();
         EXPECT_IN_TIME(comesTrue([&] {
             letLive(100);
             return std::exchange(before, places()) == before;
         }));
         return before;
-    };
-    const auto* notice = window.findChild<QFrame*>("banner");
-    const auto expectSaid = [&](const char* what) {
+    }
+    /// What has another place than before, by name.
+    [[nodiscard]] std::string movedSince(const Places& before) {
+        std::string moved;
+        const auto now = atRest();
+        for (const auto& [widget, place] : before)
+            if (const auto found = now.find(widget); found == now.end() || found->second != place)
+                moved += widgetName(*widget) + '\n';
+        return moved + (now.size() > before.size() ? "and more is there\n" : "");
+    }
+    void expectSaid(const char* what) {
         ASSERT_IN_TIME(comesTrue([&] { return banner().contains(what); })) << banner().toStdString();
-        EXPECT_TRUE(window.rect().contains(QRect(notice->mapTo(&window, QPoint()), notice->size())));
-        EXPECT_EQ(notice->visibleRegion(), QRegion(notice->rect())) << "nothing lies over it";
-        EXPECT_EQ(cutTexts(*notice).join('\n').toStdString(), "");
-    };
+        EXPECT_TRUE(window.rect().contains(QRect(notice.mapTo(&window, QPoint()), notice.size())));
+        EXPECT_EQ(notice.visibleRegion(), QRegion(notice.rect())) << "nothing lies over it";
+        EXPECT_EQ(cutTexts(notice).join('\n').toStdString(), "");
+    }
+    /// Another load than the one that is connected: refused once it is measured.
+    void armOnAnotherLoad(Places& before) {
+        click(*window.findChild<QPushButton*>("armButton"));
+        auto* second = window.findChild<QPushButton*>("armOutput");
+        ASSERT_NE(second, nullptr);
+        auto* load = second->window()->findChild<QLineEdit*>();
+        load->selectAll();
+        QTest::keyClicks(load, "5 kohm");
+        before = atRest();
+        click(*second);
+        ASSERT_NO_FATAL_FAILURE(expectSaid("Output is off"));
+    }
+    QFrame& notice;
+};
+
+TEST_F(LayoutUnderANotice, ARefusedArmingMovesNothing) {
     for (const int workspace : {0, 2, 5}) {
         window.showWorkspace(workspace);
         const auto before = atRest();
         window.askToArm();
         ASSERT_NO_FATAL_FAILURE(expectSaid("Nothing to arm: no bench is open."));
-        EXPECT_TRUE(atRest() == before) << "workspace " << workspace;
+        EXPECT_EQ(movedSince(before), "") << "workspace " << workspace;
         shot(window, QString("arming-refused-%1").arg(workspace));
-        click(*find<QPushButton>(*notice, "Dismiss"));
-        EXPECT_TRUE(atRest() == before) << "without it, too";
+        click(*find<QPushButton>(notice, "Dismiss"));
+        EXPECT_EQ(movedSince(before), "") << "without it, too";
     }
-    // By the bench, which measures another load than the one that was declared.
+}
+
+TEST_F(LayoutUnderANotice, AnArmingThatTheBenchRefusesMovesNothing) {
     window.showWorkspace(0);
     ASSERT_NO_FATAL_FAILURE(open());
-    click(*window.findChild<QPushButton*>("armButton"));
-    auto* second = window.findChild<QPushButton*>("armOutput");
-    ASSERT_NE(second, nullptr);
-    auto* load = second->window()->findChild<QLineEdit*>();
-    load->selectAll();
-    QTest::keyClicks(load, "5 kohm");
-    const auto before = atRest();
-    click(*second);
-    ASSERT_NO_FATAL_FAILURE(expectSaid("Output is off"));
-    EXPECT_TRUE(atRest() == before);
+    Places before;
+    ASSERT_NO_FATAL_FAILURE(armOnAnotherLoad(before));
+    EXPECT_EQ(movedSince(before), "");
+}
+
+TEST_F(LayoutUnderANotice, ItStaysAtTheLowerEdgeBelowAMarksLine) {
+    window.showWorkspace(0);
+    ASSERT_NO_FATAL_FAILURE(open());
+    Places before;
+    ASSERT_NO_FATAL_FAILURE(armOnAnotherLoad(before));
     window.resize(1280, 720);
     const auto* centre = window.centralWidget();
-    EXPECT_IN_TIME(comesTrue([&] {
-        return notice->width() == centre->width() && notice->geometry().bottom() == centre->rect().bottom();
-    })) << "it stays at the lower edge";
+    EXPECT_IN_TIME(comesTrue(
+        [&] { return notice.width() == centre->width() && notice.geometry().bottom() == centre->rect().bottom(); }));
+    window.activateWindow();  // the arming dialog had the keys
+    ASSERT_IN_TIME(comesTrue([this] { return window.isActiveWindow(); }));
     key(Qt::Key_M, Qt::ControlModifier);
     const auto* mark = window.findChild<QFrame*>("markLine");
     ASSERT_IN_TIME(comesTrue([&] { return mark->isVisible(); }));
-    EXPECT_FALSE(mark->geometry().intersects(notice->geometry())) << "both are read";
+    EXPECT_FALSE(mark->geometry().intersects(notice.geometry())) << "both are read";
     shot(window, "arming-refused-and-mark");
     gui::applyTheme(gui::Theme::Dark);
     shot(window, "arming-refused-and-mark-dark");
