@@ -38,7 +38,7 @@ struct Known {
 };
 
 QString textOf(const json& value) {
-    if (value.is_string()) return withSigns(visible(QString::fromStdString(value.get<std::string>())));
+    if (value.is_string()) return visible(QString::fromStdString(value.get<std::string>()));
     if (value.is_boolean()) return value.get<bool>() ? QObject::tr("yes") : QObject::tr("no");
     if (value.is_number()) return settingText(value.get<double>(), {});
     return kNone;
@@ -162,7 +162,7 @@ QString wordsText(As as, const json& value) {
         case As::LimitSet:
             return limitSetTitle(text);
         default:
-            return text.isEmpty() ? kNone : text;
+            return text.isEmpty() ? kNone : withSigns(text);
     }
 }
 
