@@ -4,6 +4,7 @@
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
 #include "app/report/Reach.h"
+#include "app/report/ShownText.h"
 
 namespace tacto {
 namespace {
@@ -45,8 +46,8 @@ QCPScatterStyle cross() { return {QCPScatterStyle::ssCross, QPen(ink::kFault, 1.
 
 void nameAxes(QCPAxisRect* axes, const CalibrationFigure& figure, const AxisUnit& x, const AxisUnit& y,
               const char* vertical) {
-    axes->axis(QCPAxis::atBottom)->setLabel(QString("%1 commanded (%2)").arg(figure.quantity, x.unit));
-    axes->axis(QCPAxis::atLeft)->setLabel(QString("%1 (%2)").arg(QString::fromUtf8(vertical), y.unit));
+    axes->axis(QCPAxis::atBottom)->setLabel(axisTitle("Commanded " + figure.quantity, x.unit));
+    axes->axis(QCPAxis::atLeft)->setLabel(axisTitle(QString::fromUtf8(vertical), y.unit));
     axes->axis(QCPAxis::atBottom)->setTicker(QSharedPointer<PlainTicker>::create(8));
     axes->axis(QCPAxis::atLeft)->setTicker(QSharedPointer<PlainTicker>::create(6));
 }

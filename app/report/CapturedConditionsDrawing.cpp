@@ -3,6 +3,7 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
 
 namespace tacto {
 namespace {
@@ -96,7 +97,7 @@ private:
         auto* axes = addLaneAxes(row, 0, labelled);
         auto* time = axes->axis(QCPAxis::atBottom);
         time->setRange(-0.03 * scales_.span_s, 1.04 * scales_.span_s);
-        if (labelled) time->setLabel("time (s)");
+        if (labelled) time->setLabel(axisTitle("Time", "s"));
         auto* name =
             sheet_->addNote(axes, lane.letter + "\u2002" + lane.name, {0, -0.02}, Qt::AlignLeft | Qt::AlignBottom);
         name->setFont(textFont(10, true));
@@ -131,7 +132,7 @@ private:
         const AxisUnit unit = axisUnit(scales_.pulseEnd_s - scales_.pulseBegin_s, "s");
         time->setRange(scales_.pulseBegin_s * unit.factor, scales_.pulseEnd_s * unit.factor);
         time->setTicker(QSharedPointer<PlainTicker>::create(3));
-        if (labelled) time->setLabel("first pulse (" + unit.unit + ")");
+        if (labelled) time->setLabel(axisTitle("First pulse", unit.unit));
         if (lane.pulse_v.empty() || !(lane.pulseRate_hz > 0)) {
             sheet_->addNote(axes, "not captured", {0.5, 0.5})->setColor(ink::kQuiet);
             return;

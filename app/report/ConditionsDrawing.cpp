@@ -2,6 +2,7 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
 
 namespace tacto {
 namespace {
@@ -96,7 +97,7 @@ private:
         axes->setMaximumSize(QWIDGETSIZE_MAX, kLaneHeight + (timeAxis ? kAxisHeight : 0));
         axes->setMinimumSize(40, kLaneHeight + (timeAxis ? kAxisHeight : 0));
         axes->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
-        if (timeAxis) time->setLabel("time (s)");
+        if (timeAxis) time->setLabel(axisTitle("Time", "s"));
         return axes;
     }
 

@@ -4,13 +4,10 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
 #include "app/report/Reach.h"
+#include "app/report/ShownText.h"
 
 namespace tacto {
 namespace {
-
-QString named(const CurvesFigure::Axis& axis) {
-    return axis.unit.isEmpty() ? axis.label : QString("%1 (%2)").arg(axis.label, axis.unit);
-}
 
 QVector<double> vectorOf(const std::vector<double>& values) { return {values.begin(), values.end()}; }
 
@@ -68,8 +65,8 @@ std::unique_ptr<PlotSheet> drawCurves(const CurvesFigure& figure, bool simulated
         graph->setName(line.label);
         graph->addToLegend(legend);
     }
-    axes->axis(QCPAxis::atBottom)->setLabel(named(figure.x));
-    axes->axis(QCPAxis::atLeft)->setLabel(named(figure.y));
+    axes->axis(QCPAxis::atBottom)->setLabel(axisTitle(figure.x.label, figure.x.unit));
+    axes->axis(QCPAxis::atLeft)->setLabel(axisTitle(figure.y.label, figure.y.unit));
     axes->axis(QCPAxis::atBottom)->setTicker(QSharedPointer<PlainTicker>::create(8));
     axes->axis(QCPAxis::atLeft)->setTicker(QSharedPointer<PlainTicker>::create(6));
     axes->axis(QCPAxis::atBottom)->setRange(padded(x.low, x.high, 0.03));

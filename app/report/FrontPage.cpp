@@ -38,7 +38,7 @@ FactsBlock factsOf(const ReportModel& model) {
     QStringList open = basis.notEvaluated;
     // A run that broke off, or that approved nothing, has no exposure: said here, and no section is left empty for it.
     if (has(model, Role::Stimulator) && model.exposure.empty())
-        open << "exposure was not computed: this session holds no approved train";
+        open << "exposure: this session holds no approved train";
     block.facts.push_back(
         {"Not evaluated", open.isEmpty() ? QString("nothing, as far as this session says") : open.join(";\n") + "."});
     block.facts.push_back({"Sample", orNotRecorded(basis.sample)});

@@ -52,8 +52,9 @@ struct Part {
     std::vector<double> widths;
 };
 
-/// Columns in as many parts as the page's width makes necessary.
+/// Columns in as many parts as the page's width makes necessary; each says what its rows are about.
 std::vector<Part> partsOf(const TableBlock& table) {
+    const std::size_t naming = table.naming < table.columns.size() ? table.naming : 0;
     std::vector<Want> wants;
     for (std::size_t i = 0; i < table.columns.size(); ++i) wants.push_back(wantOf(table, i));
     std::vector<Part> parts(1);
@@ -61,8 +62,8 @@ std::vector<Part> partsOf(const TableBlock& table) {
     for (std::size_t i = 0; i < wants.size(); ++i) {
         if (used + wants[i].least > PdfPages::kWidth && parts.back().columns.size() > 1) {
             parts.emplace_back();
-            parts.back().columns.push_back(0);
-            used = wants[0].least;
+            parts.back().columns.push_back(naming);
+            used = wants[naming].least;
         }
         parts.back().columns.push_back(i);
         used += wants[i].least;

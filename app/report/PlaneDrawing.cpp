@@ -2,6 +2,7 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
 
 namespace tacto {
 namespace {
@@ -105,8 +106,8 @@ void drawEnlarged(PlotSheet& sheet, QCPLayoutGrid* grid, int cell, const Cluster
     }
     horizontal->setRange(-1.12 * xReach * xUnit.factor, 1.12 * xReach * xUnit.factor);
     vertical->setRange(-1.12 * yReach * yUnit.factor, 1.12 * yReach * yUnit.factor);
-    horizontal->setLabel("Δ interval (" + xUnit.unit + ")");
-    vertical->setLabel("Δ amplitude (" + yUnit.unit + ")");
+    horizontal->setLabel(axisTitle("Δ interval", xUnit.unit));
+    vertical->setLabel(axisTitle("Δ amplitude", yUnit.unit));
     for (auto* axis : {horizontal, vertical}) {
         axis->setLabelFont(textFont(9));
         axis->setTickLabelFont(textFont(9));
@@ -167,8 +168,8 @@ std::unique_ptr<PlotSheet> drawPlane(const PlaneFigure& figure, bool simulated) 
     }
     axes->axis(QCPAxis::atBottom)->setRange(padded(lowX, highX, 0.12));
     axes->axis(QCPAxis::atLeft)->setRange(padded(lowY, highY, 0.12));
-    axes->axis(QCPAxis::atBottom)->setLabel("interval between trains (s)");
-    axes->axis(QCPAxis::atLeft)->setLabel("amplitude (V)");
+    axes->axis(QCPAxis::atBottom)->setLabel(axisTitle("Interval between trains", "s"));
+    axes->axis(QCPAxis::atLeft)->setLabel(axisTitle("Amplitude", "V"));
     if (enlarge) {
         auto* grid = sheet->addGrid(0, 1);
         grid->setRowSpacing(4);

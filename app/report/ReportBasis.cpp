@@ -1,5 +1,6 @@
 #include "app/report/ReportBasis.h"
 
+#include <QRegularExpression>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -194,7 +195,9 @@ void readNotEvaluated(const QJsonObject& results, ReportBasis& basis) {
         found = found.mid(0, kMaxNamedAt);
         found << QString("and %1 more, which stand among the results").arg(more);
     }
-    for (auto& each : found) each = withSigns(each);
+    // The page says "Not evaluated" beside them: what it is and why are left.
+    static const QRegularExpression saidBefore(" (?:was|were) not evaluated\\b");
+    for (auto& each : found) each = withSigns(each.remove(saidBefore));
     basis.notEvaluated = found;
 }
 

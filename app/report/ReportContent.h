@@ -47,6 +47,7 @@ struct TableBlock {
     QString caption;
     std::vector<Column> columns;
     std::vector<QStringList> rows;
+    std::size_t naming = 0;  ///< the column that says what a row is about: the first, or the one after the verdict
 };
 struct FigureBlock {
     QString caption;

@@ -80,7 +80,7 @@ struct ReportBasis {
     std::vector<ReportFact> restsOn;  ///< references, calibration
     std::vector<ReportInstrument> instruments;
     QString certificate;       ///< of the oscilloscope, and whether it was used; empty: none
-    QStringList notEvaluated;  ///< a sentence each; empty: nothing is known to be left out
+    QStringList notEvaluated;  ///< what and why, "net charge into 1 kΩ: …"; empty: nothing is known to be left out
     QString operatorName;      ///< these as they were entered; empty: not recorded
     QString sample;
     QString reviewer;

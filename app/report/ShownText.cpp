@@ -61,4 +61,8 @@ QString capitalised(QString text) {
     return text;
 }
 
+QString axisTitle(const QString& title, const QString& unit) {
+    return unit.isEmpty() ? capitalised(title) : QString("%1 (%2)").arg(capitalised(title), unit);
+}
+
 }  // namespace tacto

@@ -20,6 +20,9 @@ inline constexpr qsizetype kShownHead = 80;    ///< on every page
 /// With its first letter as a sentence has it: "Peak voltage".
 [[nodiscard]] QString capitalised(QString text);
 
+/// An axis's title, in window and report: "Force (N)"; without a unit the title alone.
+[[nodiscard]] QString axisTitle(const QString& title, const QString& unit = {});
+
 /// The model with its texts as they are shown, but for the cells of scripts' tables: those are shortened when worded.
 [[nodiscard]] ReportModel shownModel(ReportModel model);
 

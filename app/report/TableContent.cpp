@@ -12,8 +12,9 @@
 namespace tacto {
 namespace {
 
-/// Columns of a script's table in their order, and without those that no row has.
-QStringList columnsOf(const ReportTable& table) {
+const QString kVerdict = QStringLiteral("verdict");
+
+QStringList keysOf(const ReportTable& table) {
     if (!table.columns.isEmpty()) return table.columns;
     QStringList keys;
     for (const auto& row : table.rows) {
@@ -27,10 +28,17 @@ QStringList columnsOf(const ReportTable& table) {
     std::stable_sort(keys.begin(), keys.end(), [](const QString& left, const QString& right) {
         const auto rank = [](const QString& key) {
             const auto index = first.indexOf(key);
-            return index < 0 ? first.size() + (key == "verdict" ? 1 : 0) : index;
+            return index < 0 ? first.size() : index;
         };
         return rank(left) < rank(right);
     });
+    return keys;
+}
+
+/// Columns of a script's table in their order, but the verdict before all others, as in the window's tables.
+QStringList columnsOf(const ReportTable& table) {
+    QStringList keys = keysOf(table);
+    if (const auto at = keys.indexOf(kVerdict); at > 0) keys.move(at, 0);
     return keys;
 }
 
@@ -56,8 +64,7 @@ QString wordsOf(const QJsonValue& value, const QString& unit) {
 
 void fillColumn(TableBlock& table, const ReportTable& source, const QString& key) {
     const ColumnName name = columnName(key);
-    const bool ownUnit = hasUnitOfItsOwn(source.columns.isEmpty() ? columnsOf(source) : source.columns) &&
-                         (key == "value" || key == "limit");
+    const bool ownUnit = hasUnitOfItsOwn(keysOf(source)) && (key == "value" || key == "limit");
     std::vector<double> numbers;
     bool numeric = ownUnit;
     bool figures = key != "load" && !source.rows.isEmpty();  // texts of numbers are numbers too
@@ -74,7 +81,7 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
         const auto value = row.value(key);
         cells << (ownUnit                      ? withOwnUnit(row, key)
                   : value.isDouble() && format ? quantityText(value.toDouble(), name.unit, *format)
-                  : key == "verdict"           ? verdictCell(shownText(cellText(value, {}), kShownCell))
+                  : key == kVerdict            ? verdictCell(shownText(cellText(value, {}), kShownCell))
                   : key == "load"              ? shownText(loadText(cellText(value, {})), kShownCell)
                                                : wordsOf(value, name.unit));
     }
@@ -176,6 +183,7 @@ TableBlock tableOf(const ReportTable& source, const QString& caption) {
     for (const auto& key : keys) {
         if (merges && (key == "unit" || key == "expanded_uncertainty")) continue;
         fillColumn(table, source, key);
+        if (key == kVerdict) table.naming = table.columns.size();
     }
     return table;
 }

@@ -115,8 +115,8 @@ std::unique_ptr<PlotSheet> drawConfusion(const ConfusionFigure& figure, bool sim
     horizontal->setRange(-0.5, columns - 0.5);
     vertical->setRange(-0.5, rows - 0.5);
     vertical->setRangeReversed(true);
-    horizontal->setLabel(figure.answers);
-    vertical->setLabel("presented");
+    horizontal->setLabel(axisTitle(figure.answers));
+    vertical->setLabel(axisTitle("Presented"));
     for (auto* axis : {horizontal, vertical}) {
         axis->grid()->setVisible(false);
         axis->setTickLength(0, 0);
@@ -175,7 +175,7 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
     names->setTickLength(0, 0);
     names->grid()->setVisible(false);
     share->setRange(0, 100 * kReach);
-    share->setLabel("share of the limit (%)");
+    share->setLabel(axisTitle("Share of the limit", "%"));
     auto* limit = new QCPItemLine(&sheet->plot());
     limit->setClipToAxisRect(false);
     for (auto* position : {limit->start, limit->end}) {

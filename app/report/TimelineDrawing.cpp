@@ -2,6 +2,7 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
 
 namespace tacto {
 namespace {
@@ -124,7 +125,7 @@ std::unique_ptr<PlotSheet> drawTimeline(const TimelineFigure& figure, bool simul
     auto* upper = sheet->addAxes(1, 0);
     auto* upperLegend = sheet->addLegend(0, 0, 4);
     upper->axis(QCPAxis::atLeft)->setRange(0, 1.02);
-    upper->axis(QCPAxis::atLeft)->setLabel("index (0 to 1)");
+    upper->axis(QCPAxis::atLeft)->setLabel(axisTitle("Index", "0 to 1"));
     upper->axis(QCPAxis::atBottom)->setTickLabels(false);
     if (inputs) {
         sheet->watermark(upper);
@@ -151,8 +152,8 @@ std::unique_ptr<PlotSheet> drawTimeline(const TimelineFigure& figure, bool simul
                   "amplitude encoded", true);
     }
     lower->axis(QCPAxis::atLeft)->setRange(highest > 0 ? -0.05 * highest : 0, highest > 0 ? 1.1 * highest : 1);
-    lower->axis(QCPAxis::atLeft)->setLabel("amplitude (V)");
-    lower->axis(QCPAxis::atBottom)->setLabel("time (s)");
+    lower->axis(QCPAxis::atLeft)->setLabel(axisTitle("Amplitude", "V"));
+    lower->axis(QCPAxis::atBottom)->setLabel(axisTitle("Time", "s"));
     lower->axis(QCPAxis::atBottom)->setTicker(QSharedPointer<PlainTicker>::create(8));
     upper->axis(QCPAxis::atBottom)->setTicker(QSharedPointer<PlainTicker>::create(8));
     if (lowerLegend->itemCount() == 0) {

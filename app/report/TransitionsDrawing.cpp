@@ -1,6 +1,7 @@
 // The largest step from train to train over the R–P plane: a number in every cell, so that it reads without colour too.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
+#include "app/report/ShownText.h"
 
 namespace tacto {
 namespace {
@@ -75,8 +76,8 @@ void drawMap(PlotSheet& sheet, int column, const QString& title, const Transitio
         axes->axis(side)->grid()->setVisible(false);
         axes->axis(side)->setTicker(ends());
     }
-    axes->axis(QCPAxis::atBottom)->setLabel("roughness R");
-    axes->axis(QCPAxis::atLeft)->setLabel("pressure P");
+    axes->axis(QCPAxis::atBottom)->setLabel(axisTitle("Roughness R"));
+    axes->axis(QCPAxis::atLeft)->setLabel(axisTitle("Pressure P"));
     const bool numbered = n <= 13;
     for (std::size_t p = 0; p < n; ++p) {
         for (std::size_t r = 0; r < n; ++r) {

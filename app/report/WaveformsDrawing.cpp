@@ -2,6 +2,7 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
 
 namespace tacto {
 namespace {
@@ -107,9 +108,9 @@ private:
         level->setTicker(QSharedPointer<PlainTicker>::create(4));
         time->setTicker(QSharedPointer<PlainTicker>::create(columns_ > 2 ? 3 : 6));
         time->setTickLabels(!isVoltage);
-        if (!isVoltage) time->setLabel("time (" + scales_.time.unit + ")");
+        if (!isVoltage) time->setLabel(axisTitle("Time", scales_.time.unit));
         if (labelled) {
-            level->setLabel(QString(isVoltage ? "voltage (%1)" : "current (%1)").arg(unit.unit));
+            level->setLabel(axisTitle(isVoltage ? "Voltage" : "Current", unit.unit));
             axes->setMarginGroup(QCP::msLeft, marginGroup());
         }
         const auto [begin, end] = activeSpan(trace);

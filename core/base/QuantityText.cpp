@@ -81,9 +81,7 @@ int decimalExponent(double value, int digits) {
     return std::stoi(rounded.substr(rounded.find('e') + 1));
 }
 
-std::string decimalText(double value, int decimals) {
-    return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
-}
+std::string decimalText(double value, int decimals) { return std::isfinite(value) ? fixedText(value, decimals) : "–"; }
 
 std::string scaledText(double value, std::string_view unit, int digits) {
     if (!std::isfinite(value)) return "–";

@@ -28,7 +28,7 @@ namespace tacto {
 /// finite or below 0 is unknown, and is said to be: "40.12 V (U unknown)".
 [[nodiscard]] std::string measuredText(double value, double expanded, std::string_view unit);
 
-/// With as many decimals as asked for: "0.98". "–" for what is not finite.
+/// With as many decimals as asked for: "0.98", never "-0.00". "–" for what is not finite.
 [[nodiscard]] std::string decimalText(double value, int decimals);
 
 /// What the texts with units are made of, for columns that share a prefix.

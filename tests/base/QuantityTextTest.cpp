@@ -27,6 +27,12 @@ TEST(QuantityText, ScalesTheUnitToTheValue) {
     EXPECT_EQ(scaledText(1.679e-05, "s", 3), "16.8 µs");
 }
 
+TEST(QuantityText, ZeroHasNoSign) {
+    EXPECT_EQ(decimalText(-0.004, 2), "0.00");
+    EXPECT_EQ(decimalText(-0.0, 1), "0.0");
+    EXPECT_EQ(decimalText(-0.006, 2), "-0.01");
+}
+
 TEST(QuantityText, RoundsBeforeItChoosesThePrefix) {
     EXPECT_EQ(scaledText(999.96, "V", 3), "1.00 kV");
     EXPECT_EQ(scaledText(1e6, "S/s", 4), "1.000 MS/s");

@@ -239,6 +239,7 @@ std::string faultsOf(const QWidget& in) {
     for (const auto& text : plotWordFaults(in)) all << "plot: " + text;
     for (const auto& text : palePlotWords(in)) all << "plot, pale: " + text;
     for (const auto& text : legendsOverData(in)) all << "plot: " + text;
+    for (const auto& text : smallAxisTitles(in)) all << "plot, title of an axis: " + text;
     return all.join('\n').toStdString();
 }
 

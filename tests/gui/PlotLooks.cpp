@@ -212,4 +212,18 @@ QStringList legendsOverData(const QWidget& in) {
     return found;
 }
 
+QStringList smallAxisTitles(const QWidget& in) {
+    QStringList found;
+    forEachPlot(in, [&](const QCustomPlot& plot) {
+        for (const auto* axes : plot.axisRects()) {
+            for (const auto* axis : axes->axes()) {
+                const auto title = axis->label();
+                if (axis->visible() && !title.isEmpty() && title.front().isLower())
+                    found << QString("\"%1\" in %2").arg(title, plotName(plot));
+            }
+        }
+    });
+    return found;
+}
+
 }  // namespace tacto::test

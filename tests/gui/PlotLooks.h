@@ -27,5 +27,7 @@ struct PlotWord {
 [[nodiscard]] QStringList palePlotWords(const QWidget& in);
 /// Legends within axes that lie over points or lines of their plot.
 [[nodiscard]] QStringList legendsOverData(const QWidget& in);
+/// Axes of visible plots whose title does not begin as a sentence does.
+[[nodiscard]] QStringList smallAxisTitles(const QWidget& in);
 
 }  // namespace tacto::test

@@ -203,10 +203,28 @@ TEST(FigureDrawing, ShowsTheSweepDirectionsOnAScaleOfTheirOwn) {
         {"type", "calibration"}, {"view", "errors"}, {"quantity", "amplitude"}, {"unit", "V"},
         {"gain", 1.0},           {"offset", 0.0},    {"levels", levels},        {"readings", QJsonArray{}}};
     const auto text = textOf(svgOf(errors));
-    EXPECT_THAT(text, HasSubstr("measured \u2212 commanded (mV)"));
-    EXPECT_THAT(text, HasSubstr("error of each direction (mV)"));
+    EXPECT_THAT(text, HasSubstr("Measured \u2212 commanded (mV)"));
+    EXPECT_THAT(text, HasSubstr("Error of each direction (mV)"));
     EXPECT_THAT(text, HasSubstr("750")) << "the tolerance of 800 mV";
     EXPECT_THAT(text, HasSubstr("\u22121.0")) << "and what 2 mV between the directions are seen on";
+}
+
+TEST(FigureDrawing, TitlesOfAxesBeginWithACapital) {
+    std::size_t titled = 0;
+    for (const auto& type : kTypes) {
+        const auto figure = parseFigure(sampleOf(type));
+        ASSERT_TRUE(figure) << figure.error().message;
+        const auto sheet = drawFigure(*figure, false);
+        for (const auto* axes : sheet->plot().axisRects()) {
+            for (const auto* axis : axes->axes()) {
+                const auto title = axis->label();
+                if (title.isEmpty()) continue;
+                ++titled;
+                EXPECT_FALSE(title.front().isLower()) << type.toStdString() << ": " << title.toStdString();
+            }
+        }
+    }
+    EXPECT_GE(titled, kTypes.size());
 }
 
 TEST(FigureDrawing, DrawsAFlatWaveform) {

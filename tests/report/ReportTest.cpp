@@ -6,6 +6,7 @@
 #include "app/report/NumberText.h"
 #include "app/report/Report.h"
 #include "app/report/ReportBasis.h"
+#include "app/report/TableContent.h"
 #include "tests/report/Samples.h"
 #include "tests/support/Support.h"
 
@@ -110,9 +111,9 @@ TEST_F(Report, KeepsEachCaptionOnItsFiguresPage) {
     }
     // A word from inside each figure, and its caption.
     const std::vector<std::pair<const char*, const char*>> pairs{
-        {"Texture alone", "Figure 1."}, {"interval between trains", "Figure 2."},
-        {"current (mA)", "Figure 3."},  {"presented", "Figure 4."},
-        {"roughness R", "Figure 5."},   {"share of the limit", "Figure 6."}};
+        {"Texture alone", "Figure 1."}, {"Interval between trains", "Figure 2."},
+        {"Current (mA)", "Figure 3."},  {"Presented", "Figure 4."},
+        {"roughness R", "Figure 5."},   {"Share of the limit", "Figure 6."}};
     for (const auto& [inside, caption] : pairs) {
         const auto with = std::count_if(pages.begin(), pages.end(), [&](const std::string& page) {
             return page.find(caption) != std::string::npos;
@@ -121,7 +122,7 @@ TEST_F(Report, KeepsEachCaptionOnItsFiguresPage) {
         const bool together = std::any_of(pages.begin(), pages.end(), [&](const std::string& page) {
             return page.find(caption) != std::string::npos && page.find(inside) != std::string::npos;
         });
-        EXPECT_TRUE(together || std::string(inside) == "current (mA)" || std::string(inside) == "presented")
+        EXPECT_TRUE(together || std::string(inside) == "Current (mA)" || std::string(inside) == "Presented")
             << caption << " (rotated labels may come out as single letters)";
     }
 }
@@ -195,7 +196,7 @@ TEST_F(Report, NeverCallsAMissingExposureWithin) {
     EXPECT_TRUE(shown.contains(": no electrode area"));
     model.exposure.clear();
     const auto html = contentOfFile(write(model, "e.html"));
-    EXPECT_TRUE(html.contains("exposure was not computed: this session holds no approved train"));
+    EXPECT_TRUE(html.contains("exposure: this session holds no approved train"));
     EXPECT_FALSE(html.contains("Computed from approved trains")) << "no section is left empty for it";
 }
 
@@ -281,6 +282,20 @@ TEST_F(Report, SplitsATableThatIsWiderThanThePage) {
     EXPECT_NE(text.find("Loads, further columns"), std::string::npos) << text;
     EXPECT_NE(text.find("pass"), std::string::npos);
     EXPECT_GE(occurrences(text, "200 Ω"), 2U) << "each part names its rows";
+    EXPECT_EQ(occurrences(text, "pass"), 1U) << "not by its verdict";
+}
+
+TEST_F(Report, ATableBeginsWithItsVerdictAsInTheWindow) {
+    const QJsonObject row{{"load", "500 ohm"}, {"peak_v", 20.1}, {"verdict", "pass"}, {"reason", "none"}};
+    for (const QStringList& given : {QStringList{"load", "peak_v", "verdict", "reason"}, QStringList{}}) {
+        const auto table = tableOf({"Loads", given, QJsonArray{row}}, "Loads");
+        ASSERT_EQ(table.columns.size(), 4U);
+        EXPECT_EQ(table.columns[0].title, "Verdict");
+        EXPECT_EQ(table.columns[1].title, "Load");
+        EXPECT_EQ(table.rows[0].mid(0, 2), (QStringList{"✔\u00a0pass", "500\u00a0Ω"}));
+        EXPECT_EQ(table.naming, 1U) << "a part of a wide table says its rows' loads";
+    }
+    EXPECT_EQ(tableOf({"Loads", {"load", "peak_v"}, QJsonArray{row}}, "Loads").naming, 0U);
 }
 
 TEST_F(Report, ATableHasItsUnitInTheHeaderAndItsVerdictAsShapeAndWord) {
@@ -350,10 +365,11 @@ TEST_F(Report, WhatIsNotEvaluatedOnSeveralLoadsForOneReasonIsOneSentence) {
     ReportModel model;
     readBasis(results, model);
     ASSERT_EQ(model.basis.notEvaluated.size(), 2);
+    // Beside "Not evaluated", which is not said again.
     EXPECT_EQ(model.basis.notEvaluated[0],
-              withSigns("current density into 100 ohm, 200 ohm + 10 kohm || 50 nF and in the worst case was not "
-                        "evaluated: the area is not known"));
-    EXPECT_EQ(model.basis.notEvaluated[1], withSigns("net charge into 100 ohm was not evaluated: it was not captured"));
+              withSigns("current density into 100 ohm, 200 ohm + 10 kohm || 50 nF and in the worst case: the area is "
+                        "not known"));
+    EXPECT_EQ(model.basis.notEvaluated[1], withSigns("net charge into 100 ohm: it was not captured"));
 }
 
 TEST_F(Report, ANameThatWasNotGivenIsALineToSignOnPaper) {

@@ -45,7 +45,7 @@ TEST(TransitionsFigure, NamesWhatIsWrong) {
 
 TEST(TransitionsFigure, IsDrawnWithItsNumbersAsVectors) {
     const auto svg = drawn(mapJson(), false);
-    for (const char* text : {"Amplitude: at most 8.2", "roughness R", "pressure P", ">1.5<", ">0.5<"}) {
+    for (const char* text : {"Amplitude: at most 8.2", "Roughness R", "Pressure P", ">1.5<", ">0.5<"}) {
         EXPECT_THAT(svg, HasSubstr(text));
     }
     EXPECT_EQ(svg.find(">1.2<"), std::string::npos) << "the plane ends at 1";

@@ -5,6 +5,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/report/PlotSheet.h"
 #include "app/report/Reach.h"
+#include "app/report/ShownText.h"
 
 namespace tacto::gui {
 
@@ -12,7 +13,8 @@ namespace {
 
 constexpr double kMargin = 0.06;
 constexpr int kTicks = 5;
-constexpr int kEdge = 4;  // pixels around the axes
+constexpr int kEdge = 4, kEdgeAbove = 1;         // pixels around the axes
+constexpr int kBelowTicks = 2, kBelowTitle = 1;  // and around the title below them: a small window has few to spare
 constexpr int kMinChars = 24;
 constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;
@@ -62,7 +64,9 @@ void CalibrationPlot::build() {
     marked_->setName(tr("outlier, kept"));
     means_->setName(tr("mean ± U (95 %)"));
     bandTop_->setName(tr("tolerance"));
-    axisRect()->setMinimumMargins(QMargins(kEdge, kEdge, kEdge, kEdge));
+    axisRect()->setMinimumMargins(QMargins(kEdge, kEdgeAbove, kEdge, kEdge));
+    xAxis->setLabelPadding(kBelowTicks);
+    xAxis->setPadding(kBelowTitle);
     addLegend();
     watermark_ = addWatermark(*axisRect());
     watermark_->setVisible(false);
@@ -99,8 +103,8 @@ void CalibrationPlot::clear() {
     hideNearest();
     bars_->setData(QVector<double>());
     for (auto* axis : {xAxis, yAxis}) axis->setTickLabels(false);
-    xAxis->setLabel(tr("commanded"));
-    yAxis->setLabel(kind_ == Kind::Errors ? tr("measured − commanded") : tr("measured"));
+    xAxis->setLabel(tr("Commanded"));
+    yAxis->setLabel(kind_ == Kind::Errors ? tr("Measured − commanded") : tr("Measured"));
     legend->setVisible(false);
     empty_->setVisible(true);
     colour();
@@ -149,10 +153,9 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
     yAxis->setRange(rangeOf(y, upward.factor));
     drawReadings(of, across, upward);
     if (kind_ == Kind::Errors) nameNearest(of, across, upward);
-    xAxis->setLabel(tr("commanded %1 (%2)").arg(quantityTitle(of.quantity).toLower(), across.unit));
+    xAxis->setLabel(axisTitle(tr("Commanded %1").arg(quantityTitle(of.quantity).toLower()), across.unit));
     if (of.tolerance_pct > 0) bandTop_->setName(tr("tolerance ± %1").arg(settingText(of.tolerance_pct, "%")));
-    yAxis->setLabel(kind_ == Kind::Errors ? tr("measured − commanded (%1)").arg(upward.unit)
-                                          : tr("measured (%1)").arg(upward.unit));
+    yAxis->setLabel(axisTitle(kind_ == Kind::Errors ? tr("Measured − commanded") : tr("Measured"), upward.unit));
     for (auto* axis : {xAxis, yAxis}) {
         axis->setTickLabels(true);
         axis->setTicker(QSharedPointer<PlainTicker>::create(kTicks));

@@ -222,7 +222,7 @@ void CalibrationTrendView::drawLane(LaneOf which, const std::vector<TrendJump>& 
     const double span = known && high > low ? high - low : known && low != 0 ? std::abs(low) * 0.1 : 1;
     const double from = known ? low - (which == kULane ? 0 : kPad * span) : 0;
     lane.axes->axis(QCPAxis::atLeft)->setRange(from * axis.factor, ((known ? high : 1) + kPad * span) * axis.factor);
-    const QString labels[kLanes] = {tr("gain"), tr("offset (%1)").arg(axis.unit), tr("U (%)")};
+    const QString labels[kLanes] = {tr("Gain"), axisTitle(tr("Offset"), axis.unit), axisTitle(tr("U"), "%")};
     lane.axes->axis(QCPAxis::atLeft)->setLabel(labels[which]);
 }
 

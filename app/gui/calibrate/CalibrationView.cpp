@@ -9,6 +9,7 @@
 #include "app/gui/calibrate/ToleranceCard.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PageStack.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
@@ -21,6 +22,7 @@ namespace {
 constexpr double kPlotShare = 0.82;  // of its height the plot has: with the page's edges 80 % of their column
 constexpr int kCardFrom = 104;       // the width from which a card has room beside others
 constexpr int kCardsApart = 8, kCardsBelow = 0;
+constexpr int kToolHigh = 26;  // the line of the title is no higher: a small window's plot wants the rest
 
 }  // namespace
 
@@ -85,6 +87,9 @@ void CalibrationView::addTools(QBoxLayout& row) {
         tool->setIcon(icon(iconName));
         tool->setAutoRaise(true);
         tool->setFocusPolicy(Qt::StrongFocus);
+        const auto fit = [tool] { tool->setFixedHeight(scaledPx(kToolHigh)); };
+        onFontChange(*tool, fit);
+        fit();
         connect(tool, &QToolButton::clicked, this, task);
         row.addWidget(tool);
     };

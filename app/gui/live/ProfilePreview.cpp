@@ -40,7 +40,7 @@ ProfilePreview::ProfilePreview(QWidget* parent)
     auto* unused = axisRect();
     amplitude_ = cell(*this, 0, tr("Amplitude (V)"));
     interval_ = cell(*this, 1, tr("Interval (s)"));
-    pulse_ = cell(*this, 2, tr("pulse (V)"));
+    pulse_ = cell(*this, 2, tr("Pulse (V)"));
     pulse_->axis(QCPAxis::atBottom)->setLabel(tr("Time (µs)"));
     plotLayout()->remove(unused);
     plotLayout()->simplify();

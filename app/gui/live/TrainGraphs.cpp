@@ -165,18 +165,19 @@ void TrainGraphs::colour() {
     auto& keys = strip_.caption();
     keys.setSample(0, command_->pen());
     keys.setSample(1, QPen(c.voltage, 3));
-    keys.setSample(2, Qt::NoPen, measured_->scatterStyle());
-    keys.setSample(3, Qt::NoPen, scoped_->scatterStyle());
-    keys.setSample(4, Qt::NoPen, failed_->scatterStyle());
+    keys.setSample(2, Qt::NoPen, failed_->scatterStyle());
+    keys.setSample(3, Qt::NoPen, measured_->scatterStyle());
+    keys.setSample(4, Qt::NoPen, scoped_->scatterStyle());
 }
 
 void TrainGraphs::caption() const {
     auto& keys = strip_.caption();
-    keys.setKey(0, QObject::tr("commanded"));
-    keys.setKey(1, QObject::tr("delivered"));
-    keys.setKey(2, measuredAt_.isEmpty() ? QString() : QObject::tr("read back"));
-    keys.setKey(3, scoped_->data()->isEmpty() ? QString() : QObject::tr("oscilloscope"), QObject::tr("scope"));
-    keys.setKey(4, failedAt_.isEmpty() ? QString() : QObject::tr("not delivered"));
+    keys.setKey(0, QObject::tr("commanded"), QObject::tr("asked"));
+    keys.setKey(1, QObject::tr("delivered"), QObject::tr("given"));
+    // What went wrong before what confirms: the last ones go first where even the brief words have no room.
+    keys.setKey(2, failedAt_.isEmpty() ? QString() : QObject::tr("not delivered"), QObject::tr("not given"));
+    keys.setKey(3, measuredAt_.isEmpty() ? QString() : QObject::tr("read back"), QObject::tr("read"));
+    keys.setKey(4, scoped_->data()->isEmpty() ? QString() : QObject::tr("oscilloscope"), QObject::tr("scope"));
 }
 
 std::vector<double> TrainGraphs::shownTrains() const { return valuesOf(*delivered_->data()); }

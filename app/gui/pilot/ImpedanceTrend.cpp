@@ -8,6 +8,7 @@
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/ShownText.h"
 
 namespace tacto::gui {
 
@@ -37,8 +38,8 @@ ImpedanceTrend::ImpedanceTrend(QWidget* parent)
     plot_->axisRect()->setupFullAxesBox();
     for (auto* axis : {plot_->xAxis2, plot_->yAxis2}) axis->setTicks(false);
     for (auto* axis : {plot_->xAxis, plot_->yAxis}) axis->grid()->setVisible(false);
-    plot_->xAxis->setLabel(tr("trial of the test"));
-    plot_->yAxis->setLabel(tr("impedance (kΩ)"));
+    plot_->xAxis->setLabel(axisTitle(tr("Trial of the test")));
+    plot_->yAxis->setLabel(axisTitle(tr("Impedance"), tr("kΩ")));
     points_ = plot_->addGraph();
     points_->setLineStyle(QCPGraph::lsNone);
     band_ = new QCPItemRect(plot_);

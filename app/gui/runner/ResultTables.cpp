@@ -19,7 +19,7 @@ QStringList textsOf(const json& list) {
     QStringList texts;
     if (!list.is_array()) return texts;
     for (const auto& one : list) {
-        if (one.is_string()) texts << visible(QString::fromStdString(one.get<std::string>()));
+        if (one.is_string()) texts << withSigns(visible(QString::fromStdString(one.get<std::string>())));
     }
     return texts;
 }

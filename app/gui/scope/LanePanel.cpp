@@ -2,7 +2,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -11,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/scope/DivisionSpin.h"
 #include "app/gui/scope/LaneColours.h"
 #include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/scope/StepBox.h"
@@ -123,16 +123,10 @@ void LanePanel::addRow(const ScopeLane& lane, int row) {
             [this, key, box = its.scale] { model_.setLaneScale(key, box->currentData().toDouble()); });
     its.scale->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     its.scale->setMinimumContentsLength(9);
-    its.position = new QDoubleSpinBox(this);
+    its.position = new DivisionSpin(this);
     its.position->setAccessibleName(tr("Offset of %1").arg(lane.title));
     its.position->setToolTip(tr("Where its zero lies: divisions above the middle. Or drag its letter on the screen."));
-    its.position->setRange(-1000, 1000);
-    its.position->setDecimals(2);
-    its.position->setSingleStep(0.5);
-    its.position->setSuffix(tr(" div"));
-    its.position->setKeyboardTracking(false);
-    its.position->setAlignment(Qt::AlignRight);
-    connect(its.position, &QDoubleSpinBox::valueChanged, this,
+    connect(its.position, &DivisionSpin::valueChanged, this,
             [this, key](double value) { model_.setLanePosition(key, value); });
     grid_->addWidget(its.scale, 2 * row + 1, 0, 1, 2);
     grid_->addWidget(its.position, 2 * row + 1, 2);

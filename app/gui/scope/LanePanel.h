@@ -9,13 +9,13 @@
 class QButtonGroup;
 class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QGridLayout;
 class QPushButton;
 class QToolButton;
 
 namespace tacto::gui {
 
+class DivisionSpin;
 class ScopeModel;
 class ScopeScreen;
 struct ScopeLane;
@@ -30,9 +30,9 @@ private:
     struct Row {
         QToolButton* letter = nullptr;
         QCheckBox* shown = nullptr;
-        QComboBox* scale = nullptr;          ///< null for a reference
-        QDoubleSpinBox* position = nullptr;  ///< null for a reference
-        QToolButton* remove = nullptr;       ///< of a reference
+        QComboBox* scale = nullptr;        ///< null for a reference
+        DivisionSpin* position = nullptr;  ///< null for a reference
+        QToolButton* remove = nullptr;     ///< of a reference
     };
     void build();
     void addRow(const ScopeLane& lane, int row);

@@ -7,6 +7,7 @@
 #include "app/gui/scope/OverlayOf.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/ShownText.h"
 
 namespace tacto::gui {
 
@@ -253,7 +254,7 @@ void ScopeScreen::numberAxis(QCPAxis& axis, RoundTicker& ticker, const ScopeLane
     const auto scale = model_.scaleOf(*lane);
     const auto unit = axisUnit(scale.perDivision * kHalfUp, lane->unit);
     ticker.setQuantity(scale.position, scale.perDivision, unit.factor);
-    axis.setLabel(unit.unit.isEmpty() ? lane->title : tr("%1 (%2)").arg(lane->title, unit.unit));
+    axis.setLabel(axisTitle(lane->title, unit.unit));
     axis.setLabelColor(laneInk(model_, *lane));
     axis.setTickLabelColor(laneInk(model_, *lane));
 }

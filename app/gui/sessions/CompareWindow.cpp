@@ -10,6 +10,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
+#include "app/report/ShownText.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto::gui {

@@ -13,6 +13,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
+#include "app/report/ShownText.h"
 #include "core/base/JsonFields.h"
 #include "core/base/QuantityText.h"
 #include "core/dsp/RoughnessFlags.h"
@@ -269,7 +270,7 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         graph->setData(x, y, true);
         graph->setName(columnTitle(info.stream, c));
         const bool shared = !axis.label().isEmpty();
-        axis.setLabel(axisTitle(shared ? titled(qtext(info.stream.name)) : graph->name(), columnUnit(info.stream, c)));
+        axis.setLabel(axisTitle(shared ? qtext(info.stream.name) : graph->name(), columnUnit(info.stream, c)));
     }
     watermark_->setVisible(session_ && session_->about.simulated);
     plot_->legend->setVisible(columns > 1);

@@ -251,8 +251,4 @@ QString columnUnit(const SessionStream& stream, std::size_t column) {
     return own.isEmpty() ? qtext(writtenUnit(stream.unit)) : own;
 }
 
-QString axisTitle(const QString& title, const QString& unit) {
-    return unit.isEmpty() ? title : QString("%1 (%2)").arg(title, unit);
-}
-
 }  // namespace tacto::gui

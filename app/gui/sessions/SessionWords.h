@@ -44,7 +44,5 @@ struct SessionMoment {
 /// A column of a stream for reading, "Pressure" of "pressure_pa", and its unit: its own, or the stream's.
 [[nodiscard]] QString columnTitle(const SessionStream& stream, std::size_t column);
 [[nodiscard]] QString columnUnit(const SessionStream& stream, std::size_t column);
-/// "Force (N)"; without a unit the title alone.
-[[nodiscard]] QString axisTitle(const QString& title, const QString& unit);
 
 }  // namespace tacto::gui

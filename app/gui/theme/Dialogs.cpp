@@ -128,15 +128,22 @@ QDialog* openTwin(const QDialog& dialog) {
     return nullptr;
 }
 
-/// Room for the frame that a window manager puts above a window.
-constexpr int kTitleBar = 30;
+/// Room for the frame that a window manager puts above a window, and beside it.
+constexpr int kTitleBar = 30, kFrame = 4;
 
 /// With all that is in it in sight.
-int neededHeight(const QWidget& dialog) {
+int neededHeight(const QWidget& dialog, int width) {
     const auto* layout = dialog.layout();
     if (layout == nullptr) return dialog.minimumHeight();
-    return layout->hasHeightForWidth() ? layout->totalHeightForWidth(dialog.width())
-                                       : layout->totalMinimumSize().height();
+    return layout->hasHeightForWidth() ? layout->totalHeightForWidth(width) : layout->totalMinimumSize().height();
+}
+
+/// Narrower, with more lines of its words, where it would lie on STOP otherwise.
+void makeRoomForStop(QWidget& dialog, const QRect& room, int stopsLeft) {
+    const int beside = stopsLeft - kFrame - room.left();
+    const int least = std::max(dialog.minimumWidth(), dialog.minimumSizeHint().width());
+    if (dialog.width() > beside && least <= beside && neededHeight(dialog, beside) <= room.height())
+        dialog.resize(beside, dialog.height());
 }
 
 }  // namespace
@@ -152,12 +159,16 @@ void place(QWidget& dialog) {
         const int below = bar->mapToGlobal(QPoint(0, bar->height())).y() + kTitleBar;
         if (room.contains(room.left(), below)) room.setTop(below);
     }
-    const int needed = neededHeight(dialog);
+    int needed = neededHeight(dialog, dialog.width());
     if (needed > room.height()) {  // it takes of the bar what it needs, beside STOP as far as that goes
         const int title = dialog.isVisible() ? dialog.geometry().top() - dialog.frameGeometry().top() : kTitleBar;
         room = screen.adjusted(0, title, 0, 0);
-        if (const auto* stop = window->findChild<const QWidget*>("stopButton"); stop != nullptr)
-            room.setRight(std::max(stop->mapToGlobal(QPoint()).x() - 1, room.left() + dialog.width()));
+        if (const auto* stop = window->findChild<const QWidget*>("stopButton"); stop != nullptr) {
+            const int stopsLeft = stop->mapToGlobal(QPoint()).x();
+            makeRoomForStop(dialog, room, stopsLeft);
+            needed = neededHeight(dialog, dialog.width());
+            room.setRight(std::max(stopsLeft - 1, room.left() + dialog.width()));
+        }
         room.setTop(std::max(room.top(), room.bottom() - needed));
     }
     dialog.resize(dialog.size().expandedTo({0, needed}));

@@ -162,7 +162,7 @@ QString wordsText(As as, const json& value) {
         case As::LimitSet:
             return limitSetTitle(text);
         default:
-            return text.isEmpty() ? kNone : text;
+            return text.isEmpty() ? kNone : withSigns(text);
     }
 }
 

@@ -85,12 +85,11 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, 
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     line_ = new RecordingLine(controller_, *statusBar());
-    banner_ = new NoticeBanner(controller_, *line_, centre);
-    layout->addWidget(banner_);
     workspaces_ = new Workspaces(controller_, calibrations_, centre);
     layout->addWidget(workspaces_, 1);
+    banner_ = new NoticeBanner(controller_, *line_, *centre);
     setCentralWidget(centre);
-    mark_ = new MarkLine(controller_, *line_, *centre);
+    mark_ = new MarkLine(controller_, *line_, *centre, *banner_);
     connect(mark_, &MarkLine::refused, banner_, &NoticeBanner::complain);
     if (const auto resources = resourcesFolder(); !resources) banner_->complain(sentence(resources.error()));
     if (const auto added = addedLimitsText(controller_.limits()); !added.empty()) {

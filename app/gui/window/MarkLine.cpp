@@ -27,11 +27,12 @@ QString momentOf(Instant at) {
 
 }  // namespace
 
-MarkLine::MarkLine(BenchController& controller, RecordingLine& line, QWidget& over)
+MarkLine::MarkLine(BenchController& controller, RecordingLine& line, QWidget& over, QWidget& notice)
     : QFrame(&over),
       controller_(controller),
       line_(line),
       over_(over),
+      notice_(notice),
       when_(new QLabel(this)),
       word_(new QLineEdit(this)) {
     setObjectName("markLine");
@@ -60,7 +61,7 @@ MarkLine::MarkLine(BenchController& controller, RecordingLine& line, QWidget& ov
     makeQuiet(*close);
     connect(close, &QPushButton::clicked, this, &MarkLine::leave);
     row->addWidget(close);
-    over_.installEventFilter(this);
+    for (auto* each : {&over_, &notice_}) each->installEventFilter(this);
     hide();
 }
 
@@ -108,11 +109,13 @@ void MarkLine::leave() {
 void MarkLine::lieDown() {
     const int wide = std::min(over_.width() - 2 * kMarkGap, fontMetrics().averageCharWidth() * kMarkChars);
     const int high = sizeHint().height();
-    setGeometry(kMarkGap, over_.height() - high - kMarkGap, wide, high);
+    const int bottom = notice_.isVisible() ? notice_.y() : over_.height();
+    setGeometry(kMarkGap, bottom - high - kMarkGap, wide, high);
 }
 
 bool MarkLine::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == &over_ && event->type() == QEvent::Resize && isVisible()) lieDown();
+    const auto moved = {QEvent::Resize, QEvent::Move, QEvent::Show, QEvent::Hide};
+    if (isVisible() && std::ranges::find(moved, event->type()) != moved.end()) lieDown();
     return QFrame::eventFilter(watched, event);
 }
 

@@ -21,8 +21,8 @@ class RecordingLine;
 class MarkLine final : public QFrame {
     Q_OBJECT
 public:
-    /// `over`: the widget at whose lower edge it lies.
-    MarkLine(BenchController& controller, RecordingLine& line, QWidget& over);
+    /// `over`: the widget at whose lower edge it lies, above `notice` while that is there.
+    MarkLine(BenchController& controller, RecordingLine& line, QWidget& over, QWidget& notice);
     /// Takes this moment, and asks for its word; a line that is still open marks the moment before. Where nothing is
     /// recorded it says so by refused().
     void begin();
@@ -42,6 +42,7 @@ private:
     BenchController& controller_;
     RecordingLine& line_;
     QWidget& over_;
+    QWidget& notice_;
     QLabel* when_;
     QLineEdit* word_;
     Instant at_{0};

@@ -1,5 +1,6 @@
 #include "app/gui/window/NoticeBanner.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -19,10 +20,11 @@ constexpr int kFramesForReason = 10;  // a third of a second
 
 }  // namespace
 
-NoticeBanner::NoticeBanner(BenchController& controller, RecordingLine& line, QWidget* parent)
-    : QFrame(parent), controller_(controller), line_(line), text_(new QLabel(this)) {
+NoticeBanner::NoticeBanner(BenchController& controller, RecordingLine& line, QWidget& over)
+    : QFrame(&over), controller_(controller), line_(line), over_(over), text_(new QLabel(this)) {
     setObjectName("banner");
     setFrameShape(QFrame::StyledPanel);
+    setAutoFillBackground(true);
     auto* row = new QHBoxLayout(this);
     text_->setObjectName("bannerText");
     text_->setWordWrap(true);
@@ -32,6 +34,7 @@ NoticeBanner::NoticeBanner(BenchController& controller, RecordingLine& line, QWi
     dismiss->setAutoDefault(false);
     connect(dismiss, &QPushButton::clicked, this, &QWidget::hide);
     row->addWidget(dismiss);
+    over_.installEventFilter(this);
     hide();
     connect(&controller_, &BenchController::failed, this, &NoticeBanner::complain);
     connect(&controller_, &BenchController::changed, this, [this] {
@@ -105,7 +108,26 @@ void NoticeBanner::complain(const QString& what) {
     if (off && !text.contains(tr("Output is off"))) text += tr(" Output is off.");
     text_->setText("⚠  " + text);
     show();
+    raise();
+    lieDown();
     line_.say(text, true);
+}
+
+void NoticeBanner::lieDown() {
+    const int high = std::min(over_.height(), layout()->totalHeightForWidth(over_.width()));
+    setGeometry(0, over_.height() - high, over_.width(), high);
+}
+
+bool NoticeBanner::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == &over_ && event->type() == QEvent::Resize && !isHidden()) lieDown();
+    return QFrame::eventFilter(watched, event);
+}
+
+/// Its text needs another height in another size.
+bool NoticeBanner::event(QEvent* event) {
+    const bool done = QFrame::event(event);
+    if (event->type() == QEvent::LayoutRequest && !isHidden()) lieDown();
+    return done;
 }
 
 }  // namespace tacto::gui

@@ -104,7 +104,8 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
         return button != nullptr && button->visibleRegion() == QRegion(button->rect());
     };
     EXPECT_IN_TIME(comesTrue([&] { return inSight("Sign report…"); })) << "what comes next stands below the plot";
-    EXPECT_IN_TIME(comesTrue([&] { return errors->height() >= 300; })) << errors->height() << ", with it in sight";
+    const auto frame = [errors] { return errors->axisRect()->rect().height(); };
+    EXPECT_IN_TIME(comesTrue([&] { return frame() >= 300; })) << frame() << " px for the residuals, with it in sight";
     for (const auto* card : window.findChildren<gui::ToleranceCard*>()) {
         if (!card->isVisible()) continue;
         EXPECT_IN_TIME(comesTrue([&] { return card->wordedWidth() <= card->width(); }))

@@ -110,7 +110,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_TRUE(kind->isVisible());
     EXPECT_LT(kind->mapTo(&workspace, QPoint(0, kind->height())).y(), errors->mapTo(&workspace, QPoint()).y() - 60);
     const auto first = workspace.runner().findChild<QLabel*>("verdictWhy")->text().section(':', 0, 0);
-    EXPECT_EQ(errors->xAxis->label().section(" (", 0, 0), "commanded " + first.toLower())
+    EXPECT_EQ(errors->xAxis->label().section(" (", 0, 0), "Commanded " + first.toLower())
         << "the plot is of what the first reason is about";
     click(the<gui::StepButton>("Settings"));
     EXPECT_FALSE(kind->isVisible());

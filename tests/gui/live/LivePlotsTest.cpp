@@ -304,6 +304,38 @@ TEST_F(Plots, EveryTraceIsNamedInANarrowWindowToo) {
     shot(plots, "strips-narrow");
 }
 
+TEST_F(Plots, WhatConfirmsTheTrainsIsNamedInANarrowWindowToo) {
+    TrainReport train;
+    train.onset = toInstant(1);
+    train.amplitude = 20;
+    train.outcome = TrainOutcome::Delivered;
+    train.measured = 19.8;
+    tap.trains.push(train);
+    feel(2);
+    plots.addScopeReading(1, 19.9);
+    const auto written = [this] {
+        QStringList all;
+        for (const auto& word : wordsOf(plots)) all << word.text;
+        return all;
+    };
+    const std::pair<const char*, const char*> keys[] = {
+        {"commanded", "asked"}, {"delivered", "given"}, {"read back", "read"}, {"oscilloscope", "scope"}};
+    for (const int width : {900, 390}) {  // in a window of 1024 pixels with the docks open
+        plots.resize(width, 700);
+        draw();
+        const auto all = written();
+        for (const auto& [whole, brief] : keys)
+            EXPECT_TRUE(all.contains(whole) || (width < 900 && all.contains(brief)))
+                << width << ' ' << whole << ": " << all.join('|').toStdString();
+        EXPECT_EQ(plotWordFaults(plots).join('\n').toStdString(), "") << width;
+    }
+    shot(plots, "strips-narrow-confirmed");
+    gui::applyTheme(gui::Theme::Dark);
+    draw();
+    shot(plots, "strips-narrow-confirmed-dark");
+    gui::applyTheme(gui::Theme::Light);
+}
+
 TEST_F(Plots, NumbersOfALowStripDoNotLieOnEachOther) {
     feel(2);
     for (const int height : {1000, 700, 420, 330}) {

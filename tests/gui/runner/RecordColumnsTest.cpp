@@ -48,13 +48,15 @@ TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
                         {"set", "fda-pms"},
                         {"offset", 80.1807e-6},
                         {"gain", 0.5},
-                        {"flag", true}}};
+                        {"flag", true},
+                        {"reason", "off by -0.3 ± 1.2 % into 500 ohm"}}};
     const auto cell = [&](const RecordColumn& column) { return columnText(column, rows).cells.first().toStdString(); };
     EXPECT_EQ(cell({"V", "v", As::Number, "V"}), "40.12 ± 0.46");
     EXPECT_THAT(cell({"S", "share", As::Share}), HasSubstr("94.6"));
     EXPECT_EQ(cell({"V", "verdict", As::Verdict}), "○ not evaluated");
     EXPECT_EQ(cell({"L", "load", As::Load}), "200\u00a0Ω + 10\u00a0kΩ ∥ 50\u00a0nF");
     EXPECT_EQ(cell({"S", "set", As::LimitSet}), "FDA guidance");
+    EXPECT_EQ(cell({"R", "reason", As::Text}), "off by −0.3 ± 1.2 % into 500\u202fΩ");
     EXPECT_EQ(limitSetTitle("gate"), "this program");
     EXPECT_EQ(cell({"T", "offset", As::Tolerance, "A"}), "80\u202fµA") << "two digits of 80.1807 µA";
     EXPECT_EQ(cell({"T", "gain", As::Tolerance, "%"}), "0.5\u202f%");

@@ -58,6 +58,8 @@ TEST_F(Scope, WhatWasChosenIsThereAgainAtTheNextStart) {
     offset->selectAll();
     QTest::keyClicks(offset, "-2.5");
     QTest::keyClick(offset, Qt::Key_Return);
+    EXPECT_EQ(offset->value(), -2.5);
+    EXPECT_EQ(offset->text(), "−2.50 div") << "a minus sign, as in every number";
     chooseItem(scope, "Scale of Current", "20\u202fmA/div");
     auto* panels = scope.findChild<QSplitter*>();
     auto* handle = panels->handle(2);

@@ -12,6 +12,7 @@
 
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/ShownText.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/PlotLooks.h"
@@ -109,6 +110,15 @@ TEST_F(WalkOfPlots, FindsPaleWords) {
     item.setBrush(Qt::black);
     plot.replot();
     EXPECT_EQ(palePlotWords(window).join('\n').toStdString(), "") << "on a ground of its own";
+}
+
+TEST_F(WalkOfPlots, FindsTitlesOfAxesInSmallLetters) {
+    EXPECT_EQ(smallAxisTitles(window).join('\n').toStdString(), "");
+    plot.yAxis->setLabel("voltage (V)");
+    EXPECT_EQ(smallAxisTitles(window).size(), 1);
+    plot.yAxis->setLabel(axisTitle("voltage", "V"));
+    EXPECT_EQ(plot.yAxis->label(), "Voltage (V)");
+    EXPECT_EQ(smallAxisTitles(window).join('\n').toStdString(), "");
 }
 
 TEST_F(WalkOfPlots, FindsALegendOverData) {

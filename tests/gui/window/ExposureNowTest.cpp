@@ -161,10 +161,8 @@ TEST_F(ExposureInTheWindow, AfterAStopItSaysThatNothingIsDelivered) {
 
 TEST_F(ExposureInTheWindow, AfterAFaultTheBarsAndTheDriveSayWhatIsAndWhatWas) {
     RecordProperty("hazard", "H12");
-    openAndUnplugAfter2s();
-    arm();
-    window.controller().drive(DriveSource::Manual, 0.4, 0.6);
-    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    ASSERT_NO_FATAL_FAILURE(open());
+    ASSERT_NO_FATAL_FAILURE(unplugWhile(0.4, 0.6));
     const auto* says = window.findChild<QLabel*>("exposureNow");
     ASSERT_IN_TIME(comesTrue([&] { return says->text() == "Output is off: nothing is delivered."; }));
     const auto* drive = window.findChild<QLabel*>("driveSays");

@@ -64,7 +64,17 @@ TEST_F(Layout, TheOscilloscopesScreenHasTheRoomWithTheDocksOpen) {
     ASSERT_IN_TIME(comesTrue([&] { return screen->isVisible(); }));
     for (const auto& [size, share] : {std::pair(QSize(1280, 720), 0.55), {QSize(1920, 1080), 0.70}}) {
         window.resize(size);
-        letLive(100);
+        const bool besideTools = size.width() > 1500;
+        const auto captionBeside = [&] {
+            return window.findChild<QWidget*>("scopeStatus")->mapTo(&window, QPoint()).y() <
+                   screen->mapTo(&window, QPoint()).y() - 20;
+        };
+        // Docks and rows of tools share the room in turns of the event loop, and the axes follow with the next picture.
+        static_cast<void>(comesTrue([&] {
+            return dock("driveDock").isVisible() && shareOf(*screen) >= share && captionBeside() == besideTools &&
+                   screen->width() - screen->axisRect()->right() <= 66 &&
+                   screen->axisRect()->bottom() < screen->height();
+        }));
         ASSERT_TRUE(dock("driveDock").isVisible());
         EXPECT_GE(shareOf(*screen), share) << size.width() << ": the plot alone, without tools and caption";
         EXPECT_LE(screen->axisRect()->left(), 66) << "and little of it is for numbers";
@@ -73,10 +83,7 @@ TEST_F(Layout, TheOscilloscopesScreenHasTheRoomWithTheDocksOpen) {
         const double framed = double(frame.width()) * frame.height() / (double(size.width()) * size.height());
         EXPECT_GE(framed, size.width() < 1500 ? 0.425 : 0.6) << "within the axes";
         RecordProperty(QString("axes %1").arg(size.width()).toStdString(), std::to_string(framed));
-        EXPECT_EQ(window.findChild<QWidget*>("scopeStatus")->mapTo(&window, QPoint()).y() <
-                      screen->mapTo(&window, QPoint()).y() - 20,
-                  size.width() > 1500)
-            << "the caption stands beside the tools where there is room";
+        EXPECT_EQ(captionBeside(), besideTools) << "the caption stands beside the tools where there is room";
         shot(window, QString("scope-share-%1").arg(size.width()));
     }
 }
@@ -613,14 +620,14 @@ TEST_F(Layout, NoTwoThatAreSeenHaveTheSameMnemonic) {
 
 TEST_F(Layout, AFaultSaysCauseOutputAndNextStepAndMovesNothing) {
     RecordProperty("hazard", "H2");
-    ASSERT_NO_FATAL_FAILURE(openAndUnplugAfter2s());
+    ASSERT_NO_FATAL_FAILURE(open());
     arm();
+    deliver();
+    letLive(200);  // all that comes with a delivery stands where it will
     const auto stopAt = window.findChild<QPushButton*>("stopButton")->geometry();
     const auto resetAt = window.findChild<QPushButton*>("armButton")->geometry();
     const auto pagesAt = window.centralWidget()->geometry();
-    window.controller().drive(DriveSource::Manual, 1, 1);
-    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
-    ASSERT_IN_TIME(comesTrue([this] { return banner().startsWith("Fault: "); }));
+    ASSERT_NO_FATAL_FAILURE(unplug());
     const auto says = banner().toStdString();
     EXPECT_THAT(says, HasSubstr("unplugged."));
     EXPECT_THAT(says, HasSubstr("Output is off and stays off."));
@@ -628,6 +635,103 @@ TEST_F(Layout, AFaultSaysCauseOutputAndNextStepAndMovesNothing) {
     EXPECT_EQ(window.findChild<QPushButton*>("stopButton")->geometry(), stopAt);
     EXPECT_EQ(window.findChild<QPushButton*>("armButton")->geometry().size(), resetAt.size());
     EXPECT_EQ(window.centralWidget()->geometry(), pagesAt);
+}
+
+class LayoutUnderANotice : public Layout {
+protected:
+    using Places = std::map<const QWidget*, QRect>;
+    LayoutUnderANotice() : notice(*window.findChild<QFrame*>("banner")) { RecordProperty("hazard", "H12"); }
+    /// Where the page and all that is in it stand, docks, bars, STOP and "Arm…".
+    [[nodiscard]] Places places() {
+        Places all;
+        const auto add = [&](const QWidget& each) {
+            if (each.isVisible()) all[&each] = QRect(each.mapTo(&window, QPoint()), each.size());
+        };
+        for (const auto* each : page().findChildren<QWidget*>()) add(*each);
+        for (const auto* each : window.findChildren<QDockWidget*>()) add(*each);
+        for (const auto* each : window.findChildren<QToolBar*>()) add(*each);
+        for (const char* each : {"stopButton", "armButton"}) add(*window.findChild<QPushButton*>(each));
+        add(page());
+        return all;
+    }
+    [[nodiscard]] Places atRest() {
+        auto before = places();
+        EXPECT_IN_TIME(comesTrue([&] {
+            letLive(100);
+            return std::exchange(before, places()) == before;
+        }));
+        return before;
+    }
+    /// What has another place than before, by name.
+    [[nodiscard]] std::string movedSince(const Places& before) {
+        std::string moved;
+        const auto now = atRest();
+        for (const auto& [widget, place] : before)
+            if (const auto found = now.find(widget); found == now.end() || found->second != place)
+                moved += widgetName(*widget) + '\n';
+        return moved + (now.size() > before.size() ? "and more is there\n" : "");
+    }
+    void expectSaid(const char* what) {
+        ASSERT_IN_TIME(comesTrue([&] { return banner().contains(what); })) << banner().toStdString();
+        EXPECT_TRUE(window.rect().contains(QRect(notice.mapTo(&window, QPoint()), notice.size())));
+        EXPECT_EQ(notice.visibleRegion(), QRegion(notice.rect())) << "nothing lies over it";
+        EXPECT_EQ(cutTexts(notice).join('\n').toStdString(), "");
+    }
+    /// Another load than the one that is connected: refused once it is measured.
+    void armOnAnotherLoad(Places& before) {
+        click(*window.findChild<QPushButton*>("armButton"));
+        auto* second = window.findChild<QPushButton*>("armOutput");
+        ASSERT_NE(second, nullptr);
+        auto* load = second->window()->findChild<QLineEdit*>();
+        load->selectAll();
+        QTest::keyClicks(load, "5 kohm");
+        before = atRest();
+        click(*second);
+        ASSERT_NO_FATAL_FAILURE(expectSaid("Output is off"));
+    }
+    QFrame& notice;
+};
+
+TEST_F(LayoutUnderANotice, ARefusedArmingMovesNothing) {
+    for (const int workspace : {0, 2, 5}) {
+        window.showWorkspace(workspace);
+        const auto before = atRest();
+        window.askToArm();
+        ASSERT_NO_FATAL_FAILURE(expectSaid("Nothing to arm: no bench is open."));
+        EXPECT_EQ(movedSince(before), "") << "workspace " << workspace;
+        shot(window, QString("arming-refused-%1").arg(workspace));
+        click(*find<QPushButton>(notice, "Dismiss"));
+        EXPECT_EQ(movedSince(before), "") << "without it, too";
+    }
+}
+
+TEST_F(LayoutUnderANotice, AnArmingThatTheBenchRefusesMovesNothing) {
+    window.showWorkspace(0);
+    ASSERT_NO_FATAL_FAILURE(open());
+    Places before;
+    ASSERT_NO_FATAL_FAILURE(armOnAnotherLoad(before));
+    EXPECT_EQ(movedSince(before), "");
+}
+
+TEST_F(LayoutUnderANotice, ItStaysAtTheLowerEdgeBelowAMarksLine) {
+    window.showWorkspace(0);
+    ASSERT_NO_FATAL_FAILURE(open());
+    Places before;
+    ASSERT_NO_FATAL_FAILURE(armOnAnotherLoad(before));
+    window.resize(1280, 720);
+    const auto* centre = window.centralWidget();
+    EXPECT_IN_TIME(comesTrue(
+        [&] { return notice.width() == centre->width() && notice.geometry().bottom() == centre->rect().bottom(); }));
+    window.activateWindow();  // the arming dialog had the keys
+    ASSERT_IN_TIME(comesTrue([this] { return window.isActiveWindow(); }));
+    key(Qt::Key_M, Qt::ControlModifier);
+    const auto* mark = window.findChild<QFrame*>("markLine");
+    ASSERT_IN_TIME(comesTrue([&] { return mark->isVisible(); }));
+    EXPECT_FALSE(mark->geometry().intersects(notice.geometry())) << "both are read";
+    shot(window, "arming-refused-and-mark");
+    gui::applyTheme(gui::Theme::Dark);
+    shot(window, "arming-refused-and-mark-dark");
+    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Layout, ArmingSaysWhatTheFirstTrainIs) {

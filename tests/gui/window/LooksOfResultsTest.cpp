@@ -299,12 +299,9 @@ TEST_F(ResultsInTheWindow, ASessionThatIsChosenLooksRight) {
 }
 
 TEST_F(ResultsInTheWindow, AFaultLooksRight) {
-    ASSERT_NO_FATAL_FAILURE(openAndUnplugAfter2s());
+    ASSERT_NO_FATAL_FAILURE(open());
     window.showWorkspace(0);
-    arm();
-    window.controller().drive(DriveSource::Manual, 1, 1);
-    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
-    ASSERT_IN_TIME(comesTrue([this] { return banner().startsWith("Fault: "); }));
+    ASSERT_NO_FATAL_FAILURE(unplugWhile(1, 1));
     looksRight("faulted");
 }
 

@@ -294,6 +294,27 @@ TEST(WindowsStart, TheFrameFitsTheScreenToo) {
     window.close();
 }
 
+TEST(WindowsStart, AFrameThatComesLateFitsTheScreenToo) {
+    QSettings().clear();
+    gui::MainWindow window(simulatedRegistry);
+    const auto screen = window.screen()->availableGeometry();
+    window.setWindowFlag(Qt::FramelessWindowHint);
+    window.setGeometry(screen);
+    window.show();
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
+    letLive(100);
+    ASSERT_EQ(window.geometry(), screen);
+    ASSERT_EQ(window.frameGeometry(), screen) << "no frame yet";
+    // As a window manager does that was busy: a frame around the window, and the window moved into it.
+    window.windowHandle()->setFlag(Qt::FramelessWindowHint, false);
+    window.windowHandle()->setPosition(screen.topLeft() + QPoint(4, 4));
+    ASSERT_IN_TIME(comesTrue([&] { return window.frameGeometry() != window.geometry(); })) << "there is a frame";
+    EXPECT_IN_TIME(comesTrue([&] { return screen.contains(window.frameGeometry()); }))
+        << window.frameGeometry().right() << ", " << window.frameGeometry().bottom() << " of " << screen.right() << ", "
+        << screen.bottom();
+    window.close();
+}
+
 TEST_F(Window, KeysReachEveryWorkspace) {
     for (int page = 6; page >= 0; --page) {
         key(static_cast<Qt::Key>(Qt::Key_1 + page), Qt::ControlModifier);
@@ -304,10 +325,8 @@ TEST_F(Window, KeysReachEveryWorkspace) {
 
 TEST_F(Window, AnUnplugDuringDeliveryIsSaidWithWhatItMeans) {
     RecordProperty("hazard", "H2");
-    ASSERT_NO_FATAL_FAILURE(openAndUnplugAfter2s());
-    arm();
-    window.controller().drive(DriveSource::Manual, 1, 1);
-    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    ASSERT_NO_FATAL_FAILURE(open());
+    ASSERT_NO_FATAL_FAILURE(unplugWhile(1, 1));
     auto* word = window.findChild<QLabel*>("interlockState");
     EXPECT_IN_TIME(comesTrue([&] { return word->text() == "FAULTED"; }));
     click(*window.findChild<QPushButton*>("armButton"));  // Reset fault

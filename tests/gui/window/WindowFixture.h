@@ -17,13 +17,17 @@
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/RoomLooks.h"
+#include "tests/gui/window/Unpluggable.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
 
 class Window : public testing::Test {
 protected:
-    explicit Window(std::function<Registry()> makeRegistry = simulatedRegistry) : window(std::move(makeRegistry)) {
+    Window() : Window(nullptr) {}
+    /// nullptr: the simulated bench, whose stimulator unplug() takes away.
+    explicit Window(std::function<Registry()> makeRegistry)
+        : window(makeRegistry ? std::move(makeRegistry) : [plug = plug_] { return unpluggableRegistry(plug); }) {
         window.resize(1440, 900);
         window.show();
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
@@ -49,15 +53,22 @@ protected:
         ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
         letLive(80);  // the next frame enables the buttons
     }
-    /// The simulated bench, whose stimulator is unplugged two seconds later.
-    void openAndUnplugAfter2s() {
-        gui::LiveOrder order;
-        order.uris.push_back(*DeviceUri::parse("sim:stimulator?fault=unplug@2s"));
-        order.uris.push_back(*DeviceUri::parse("sim:"));
-        order.profile = window.controller().profile();
-        window.controller().openLive(order);
-        ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
-        letLive(80);
+    /// In the midst of delivery, as `drive` says, until the bench has faulted and says why.
+    void unplugWhile(double roughness, double pressure) {
+        arm();
+        window.controller().drive(DriveSource::Manual, roughness, pressure);
+        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
+        unplug();
+    }
+    /// The state is there at once, its reason and what to do with the control loop's next steps.
+    void unplug() {
+        *plug_ = false;
+        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
+        ASSERT_IN_TIME(comesTrue([this] {
+            const auto says = banner();
+            return says.startsWith("Fault: ") && !says.contains("The bench has faulted.") &&
+                   !says.contains("Fix the cause");
+        })) << banner().toStdString();
     }
     /// Both steps, as a person takes them.
     void arm() {
@@ -126,6 +137,11 @@ protected:
         gui::DockColumn* docks_;
         bool collapsed_;
     };
+
+private:
+    Plug plug_ = std::make_shared<std::atomic<bool>>(true);
+
+protected:
     gui::MainWindow window;
 };
 
