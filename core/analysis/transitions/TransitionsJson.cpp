@@ -1,7 +1,6 @@
 #include "core/analysis/transitions/TransitionsJson.h"
 
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/JsonFields.h"
 #include "core/base/RecordFields.h"
 
 namespace tacto {
@@ -47,16 +46,6 @@ nlohmann::json rowsOf(const std::vector<Group>& groups) {
 
 constexpr Word<ChangeKind> kChangeKinds[] = {{"step", ChangeKind::Step}, {"movement", ChangeKind::Movement}};
 constexpr std::size_t kMaxTrains = 100'000;
-
-/// A reading in a list, where null keeps the place of one that failed.
-ValueKind<double> readingKind() {
-    return codedKind<double>(
-        "a number or null",
-        [](const nlohmann::json& value) {
-            return value.is_number() || value.is_null() ? std::optional(numberOr(value)) : std::nullopt;
-        },
-        numberOrNull);
-}
 
 /// The bench knows no name: the script adds it.
 ValueKind<std::string> nameKind() {
