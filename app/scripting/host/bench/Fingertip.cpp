@@ -60,9 +60,10 @@ Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
         listening.takeInto(samples);
     }
     if (listening.dropped() > 0) {
-        return fail(ErrorCode::Device,
-                    "{} samples of the fingertip were lost here: this computer was too busy; none may be",
-                    listening.dropped());
+        return fail(
+            ErrorCode::Device,
+            "{} samples of the fingertip were lost because this computer was too busy; a reading needs all of them",
+            listening.dropped());
     }
     for (std::size_t s = 0; s < samples.streams.size(); ++s) {
         const auto& info = samples.streams[s];
