@@ -40,8 +40,8 @@ struct CapturedChange {
     std::string name = {};  ///< given by the script; empty: none yet
     ChangeKind kind = ChangeKind::Step;
     std::vector<CapturedTrain> trains = {};
-    double seconds = kNaN;  ///< of a movement: from one end to the other
-    // Of a step:
+    double seconds = kNaN;  ///< a movement takes from one end to the other
+    // A step alone has these:
     double at_s = kNaN;          ///< on the session's clock
     double sinceOnset_s = kNaN;  ///< from the train before it
     StepCourse measured = {};
