@@ -1,15 +1,14 @@
 #include "app/report/SessionReport.h"
 
-#include <QJsonDocument>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "app/report/NumberText.h"
+#include "app/report/QtJson.h"
 #include "app/report/Report.h"
 #include "app/report/ReportBasis.h"
 #include "app/report/TableContent.h"
-#include "core/base/JsonText.h"
 #include "core/dsp/RoughnessFlags.h"
 #include "core/session/Marks.h"
 #include "core/session/Origin.h"
@@ -20,12 +19,6 @@ namespace tacto {
 namespace {
 
 QString text(const std::string& value) { return QString::fromStdString(value); }
-
-/// Replaces what no JSON text can hold (a broken byte in a name) instead of throwing.
-QJsonObject objectOf(const nlohmann::json& json) {
-    const std::string dumped = dumpJson(json);
-    return QJsonDocument::fromJson(QByteArray::fromStdString(dumped)).object();
-}
 
 QString plainText(const QJsonValue& value) {
     if (value.isString()) return value.toString();
@@ -62,7 +55,7 @@ void fillAbout(const SessionReader& reader, const std::filesystem::path& file, R
         const QString option = " --device " + shellWord(text(device.uri));
         if (!command.contains(option)) command += option;
     }
-    const auto parameters = objectOf(about.parameters);
+    const auto parameters = qtObject(about.parameters);
     for (auto it = parameters.begin(); it != parameters.end(); ++it) {
         const QString value =
             it.value().isDouble() ? QString::number(it.value().toDouble(), 'g', 17) : plainText(it.value());
@@ -244,7 +237,7 @@ QString sentenceOf(const QJsonObject& body) {
 }
 
 void addEvent(ReportModel& model, const SessionRow& row) {
-    ReportEvent event{toSeconds(row.at), text(row.name), sentenceOf(objectOf(row.body))};
+    ReportEvent event{toSeconds(row.at), text(row.name), sentenceOf(qtObject(row.body))};
     if (!model.events.empty() && row.name != kOperatorMarkEvent) {  // each mark is a moment of its own
         auto& last = model.events.back();
         if (last.kind == event.kind && last.text == event.text) {
@@ -275,12 +268,12 @@ Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const 
     if (!verdicts->empty()) {
         model.verdict = verdictNamed(verdicts->back().verdict);
         for (const auto& reason : verdicts->back().reasons) model.reasons << text(reason);
-        readBasis(objectOf(verdicts->back().results), model);
+        readBasis(qtObject(verdicts->back().results), model);
     } else {
         for (const auto& event : events) {
             if (!endsARun(event.name)) continue;
             model.verdict = ReportVerdict::Stopped;
-            model.reasons = QStringList{sentenceOf(objectOf(event.body))};
+            model.reasons = QStringList{sentenceOf(qtObject(event.body))};
         }
     }
     if (!reader.closed()) {
@@ -309,7 +302,7 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     if (!measurements) return failure(measurements);
     for (const auto& row : *measurements) {
         if (row.name != kExposureMeasurement) continue;
-        QJsonObject body = objectOf(row.body);
+        QJsonObject body = qtObject(row.body);
         body["type"] = "exposure";
         const auto figure = parseFigure(body);
         if (!figure) return failure(figure);
@@ -319,7 +312,7 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     if (!items) return failure(items);
     readBasis({}, model);
     ItemReader itemReader(*reader, model);
-    for (const auto& row : *items) itemReader.take(objectOf(row.body));
+    for (const auto& row : *items) itemReader.take(qtObject(row.body));
 
     const auto labels = reader->labels();
     if (!labels) return failure(labels);
@@ -330,8 +323,8 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     Instant last{0};
     QString calibration;
     for (const auto& row : *events) {
-        if (row.name == "calibration") calibration = sentenceOf(objectOf(row.body));
-        if (row.name == kCertificateEvent) model.basis.certificate = sentenceOf(objectOf(row.body));
+        if (row.name == "calibration") calibration = sentenceOf(qtObject(row.body));
+        if (row.name == kCertificateEvent) model.basis.certificate = sentenceOf(qtObject(row.body));
         last = std::max(last, row.at);
         if (!isQuiet(row.name)) addEvent(model, row);
     }

@@ -1,6 +1,5 @@
 #include "app/run/KnownCalibration.h"
 
-#include <chrono>
 #include <fmt/format.h>
 #include <utility>
 
@@ -29,7 +28,7 @@ KnownCalibration knownCalibration(const DeviceSet& devices) {
     KnownCalibration known;
     const auto* last = store->proven(output, unit, device.simulated);
     if (last != nullptr) known.calibration = linesOf(*last);
-    const CalibrationDate today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+    const CalibrationDate today = utcToday();
     const auto found = store->valid(output, unit, today, device.simulated);
     known.holds = found.has_value();
     if (found) known.until = found->validUntil;

@@ -48,11 +48,7 @@ std::optional<LoadSafetyCheck> loadSafetyCheckOf(const ProtocolSource& script, c
 
 Result<void> keepCheck(const LoadSafetyCheck& check) {
     auto store = LoadSafetyStore::open(loadSafetyFile());
-    Result<void> kept;
-    if (store)
-        kept = store->add(check);
-    else
-        kept = failure(store);
+    const auto kept = store ? store->add(check) : Result<void>(failure(store));
     if (kept || check.simulated) return {};
     return fail(kept.error().code, "the load-safety check of stimulator {} cannot be kept: {}", check.serial,
                 kept.error().message);

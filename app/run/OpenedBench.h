@@ -32,8 +32,8 @@ struct BenchOrder {
     ShippedLimits limits = {};
     std::string out = {};  ///< folder, as prepareRunFiles() takes it
     RunNotes notes = {};
-    /// Whose stops end what was ordered, from the opening of the devices on; null: the bench's own. `asked` is when the
-    /// operator asked for it.
+    /// Their stops end this order, from the opening of the devices on; null: the bench's own. `asked`: the moment at
+    /// which the operator asked for it.
     std::shared_ptr<StopCounter> stops = nullptr;
     StopMark asked = {};
     std::function<bool()> watched = {};  ///< BenchConfig::watched

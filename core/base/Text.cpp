@@ -27,13 +27,20 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
 }
 
+// Not fast_float, which reads the millions of numbers of a capture: it makes infinity of 1e999, and 0 of 1e-400.
+std::optional<double> takeNumber(std::string_view& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{}) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return value;
+}
+
 std::optional<double> parseNumber(std::string_view text) {
     text = trimmed(text);
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
+    const auto value = takeNumber(text);
+    return text.empty() ? value : std::nullopt;
 }
 
 namespace {

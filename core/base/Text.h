@@ -10,6 +10,10 @@
 
 namespace tacto {
 
+/// Takes the number that `text` begins with off it ("1e-3", "-4"): of "2.5 kHz" " kHz" is left. Nothing, and `text` as
+/// it was, where none begins and where a double cannot hold it. Accepts "nan" and "inf".
+[[nodiscard]] std::optional<double> takeNumber(std::string_view& text);
+
 /// The whole of `text`, blanks trimmed, as a number ("1e-3", "-4"). Nothing for an empty text, trailing
 /// characters or a decimal comma. Accepts "nan" and "inf": whether those are welcome is the caller's rule.
 [[nodiscard]] std::optional<double> parseNumber(std::string_view text);

@@ -53,6 +53,7 @@ protocol({
 });
 
 const MARK = ", predicted, not measured";  // the report adds that it is simulated
+const OWN_RANGE = "A range of each participant's own";
 
 function predict(p, levels, label, changed) {
   const options = { participants: p.participants, trials: p.trials, levels: levels, source: p.source, guess: p.guess,
@@ -197,66 +198,126 @@ function remarks(p, found) {
   return out;
 }
 
-function run(p) {
-  const found = predict(p, p.levels, "Virtual participants");
-  const other = p.levels === "personal" ? "profile" : "personal";
-  const compared = predict(p, other, "Virtual participants, " + other + " amplitudes");
-  const fixed = p.levels === "profile" ? found : compared;
-  const personal = p.levels === "profile" ? compared : found;
-  const read = readings(p, fixed, personal);
-  const said = headline(p, fixed, personal);
-  const names = { personal: "A range of each participant's own", profile: fixedRange(fixed) };
-  const bench = analysis.uncertainBench({ source: p.source });
-
+// Who is served, before anything else that was found.
+function writeServed(p, fixed, personal, said) {
   report.text(said.join(" "));
-  table("Who is served of " + p.participants + MARK, [summary(names.profile, fixed),
-    summary(names.personal, personal)]);
+  table("Who is served of " + p.participants + MARK, [summary(fixedRange(fixed), fixed),
+    summary(OWN_RANGE, personal)]);
   report.figure("Thresholds and currents of the participants" + MARK, plot.predicted(fixed, "thresholds"));
   report.table(fixedRange(fixed) + " for everybody" + MARK, fixed.conditions,
     ["name", "presented", "not_felt", "counted", "draws_attention", "too_strong", "not_tolerated"]);
+}
+
+function writeComfort(p, read) {
   report.text("Where comfort ends is not known: somewhere from the attention to the intolerance threshold. The run " +
     "takes " + p.discomfort + " mA.");
-  table("Served, by what is too strong" + MARK, read.map((each) => ({ too_strong_from: each.too_strong_from,
-    median_ma: each.median_ma, fixed_range_serves: each.fixed_served, it_is_refused_to: each.fixed_refused,
-    its_lowest_not_felt_by: each.fixed_not_feeling, own_range_serves: each.personal_served,
-    "right_answers_of_these,_%": percent(each.accuracy) })));
-  remarks(p, found).forEach((each) => report.text(each));
-  table("What 3 to 5 people can show" + MARK, fewRows(found.pilots));
-  report.text(fewText(found));
+  table("Served, by what is too strong" + MARK, read.map((each) => ({
+    too_strong_from: each.too_strong_from,
+    median_ma: each.median_ma,
+    fixed_range_serves: each.fixed_served,
+    it_is_refused_to: each.fixed_refused,
+    its_lowest_not_felt_by: each.fixed_not_feeling,
+    own_range_serves: each.personal_served,
+    "right_answers_of_these,_%": percent(each.accuracy),
+  })));
+}
+
+function writePremises(found) {
   report.table("What the prediction rests on", found.premises, ["quantity", "value", "spread", "mark", "source"]);
   report.text("Source: the value is the source's. Choice: ours, to be replaced with the laboratory's own. Set: for " +
     "this run. Every spread (geometric standard deviation) is a choice.");
+}
+
+function writeConditions(found, amplitudes) {
   report.text("In what follows a value is the median, and in brackets stand 5 and 95 %, of participants or of " +
-    "benches. Accuracy, confusion and trials are those of: " + names[p.levels] + ".");
-  table("Conditions, " + names[p.levels].toLowerCase().replace(" v", " V") + MARK,
-    found.conditions.map((each) => ({ name: each.name,
-    presented: each.presented, refused: each.refused, not_felt: each.not_felt, counted: each.counted,
-    "current,_mA": spread(each.current_ma, 2, 1), "voltage,_V": spread(each.voltage_v, 1, 1) })));
-  table("Distance of the conditions in just-noticeable differences" + MARK,
-    found.separability.map((each) => ({ a: each.a, b: each.b,
-    participants: each.participants, together: spread(each.jnd, 1, 1), by_amplitude: spread(each.amplitude_jnd, 1, 1),
-    by_interval: spread(each.interval_jnd, 1, 1) })));
+    "benches. Accuracy, confusion and trials are those of: " + amplitudes + ".");
+  table("Conditions, " + amplitudes.toLowerCase().replace(" v", " V") + MARK, found.conditions.map((each) => ({
+    name: each.name,
+    presented: each.presented,
+    refused: each.refused,
+    not_felt: each.not_felt,
+    counted: each.counted,
+    "current,_mA": spread(each.current_ma, 2, 1),
+    "voltage,_V": spread(each.voltage_v, 1, 1),
+  })));
+  table("Distance of the conditions in just-noticeable differences" + MARK, found.separability.map((each) => ({
+    a: each.a,
+    b: each.b,
+    participants: each.participants,
+    together: spread(each.jnd, 1, 1),
+    by_amplitude: spread(each.amplitude_jnd, 1, 1),
+    by_interval: spread(each.interval_jnd, 1, 1),
+  })));
   report.figure("Confusion" + MARK, plot.predicted(found, "confusion"));
   report.figure("Accuracy of the served" + MARK, plot.predicted(found, "accuracy"));
   report.figure("Width of the interval" + MARK, plot.predicted(found, "width"));
-  table("Trials that a pilot of " + p.pilot + " needs" + MARK, pilotRows(found.trials_needed));
-  if (found.trials_needed !== null) report.text(found.trials_needed.assumptions);
-  table("Benches within their tolerances" + MARK, bench.conditions.map((each) => ({ name: each.name,
-    "amplitude,_V": spread(each.amplitude_v, 2, 1), "interval,_s": spread(each.interval_s, 4, 1) })));
-  table("Benches: distance of the conditions in just-noticeable differences" + MARK,
-    bench.pairs.map((each) => ({ a: each.a, b: each.b,
-    by_amplitude: spread(each.amplitude_jnd, 2, 1), by_interval: spread(each.interval_jnd, 2, 1) })));
+}
+
+function writeTrials(p, needed) {
+  table("Trials that a pilot of " + p.pilot + " needs" + MARK, pilotRows(needed));
+  if (needed !== null) report.text(needed.assumptions);
+}
+
+function writeBenches(benches) {
+  table("Benches within their tolerances" + MARK, benches.conditions.map((each) => ({
+    name: each.name,
+    "amplitude,_V": spread(each.amplitude_v, 2, 1),
+    "interval,_s": spread(each.interval_s, 4, 1),
+  })));
+  table("Benches: distance of the conditions in just-noticeable differences" + MARK, benches.pairs.map((each) => ({
+    a: each.a,
+    b: each.b,
+    by_amplitude: spread(each.amplitude_jnd, 2, 1),
+    by_interval: spread(each.interval_jnd, 2, 1),
+  })));
+}
+
+// What results keep of the amplitudes that the run did not choose.
+function comparedWith(levels, other) {
+  return {
+    levels: levels,
+    accuracy: other.accuracy,
+    complete: other.complete,
+    refused: other.refused,
+    not_felt: other.not_felt,
+    served: other.served,
+    participants_refused: other.participants_refused,
+    participants_not_feeling: other.participants_not_feeling,
+    participants_without_range: other.participants_without_range,
+    presented_accuracy: other.presented_accuracy,
+    conditions: other.conditions,
+    people: other.people,
+  };
+}
+
+function run(p) {
+  // The same participants get the chosen amplitudes and, to compare, the others.
+  const personalChosen = p.levels === "personal";
+  const other = personalChosen ? "profile" : "personal";
+  const found = predict(p, p.levels, "Virtual participants");
+  const compared = predict(p, other, "Virtual participants, " + other + " amplitudes");
+  const fixed = personalChosen ? compared : found;
+  const personal = personalChosen ? found : compared;
+
+  // What is too strong for a person is not known, and a bench is only as good as its tolerances.
+  const read = readings(p, fixed, personal);
+  const benches = analysis.uncertainBench({ source: p.source });
+
+  const said = headline(p, fixed, personal);
+  writeServed(p, fixed, personal, said);
+  writeComfort(p, read);
+  remarks(p, found).forEach((each) => report.text(each));
+  table("What 3 to 5 people can show" + MARK, fewRows(found.pilots));
+  report.text(fewText(found));
+  writePremises(found);
+  writeConditions(found, personalChosen ? OWN_RANGE : fixedRange(fixed));
+  writeTrials(p, found.trials_needed);
+  writeBenches(benches);
 
   const results = Object.assign({ verdict: null, reasons: said, headline: said.join(" "), levels: p.levels,
-    source: p.source,
-    profile_served: fixed.served, personal_served: personal.served, readings: read }, found);
-  results.other_levels = { levels: other, accuracy: compared.accuracy, complete: compared.complete,
-    refused: compared.refused,
-    not_felt: compared.not_felt, served: compared.served, participants_refused: compared.participants_refused,
-    participants_not_feeling: compared.participants_not_feeling,
-      participants_without_range: compared.participants_without_range,
-    presented_accuracy: compared.presented_accuracy, conditions: compared.conditions, people: compared.people };
-  results.bench = bench;
+    source: p.source, profile_served: fixed.served, personal_served: personal.served, readings: read }, found);
+  results.other_levels = comparedWith(other, compared);
+  results.bench = benches;
   verdict(results);
   return null;
 }

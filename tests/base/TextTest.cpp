@@ -11,7 +11,7 @@ TEST(ParseNumber, ReadsAWholeNumberAndNothingElse) {
     EXPECT_EQ(parseNumber("1e-3"), 1e-3);
     EXPECT_EQ(parseNumber("  -4\t"), -4.0);
     EXPECT_EQ(parseNumber("+2.5"), 2.5);
-    for (const char* bad : {"", "  ", "1,5", "1 2", "4x", "0x10", "--4", "+-4", "e3", "."}) {
+    for (const char* bad : {"", "  ", "1,5", "1 2", "4x", "0x10", "--4", "+-4", "e3", ".", "1e999", "1e-400"}) {
         EXPECT_FALSE(parseNumber(bad)) << '"' << bad << '"';
     }
 }
@@ -19,6 +19,14 @@ TEST(ParseNumber, ReadsAWholeNumberAndNothingElse) {
 TEST(ParseNumber, PassesNanAndInfinityOnToTheCaller) {
     EXPECT_TRUE(std::isnan(parseNumber("nan").value_or(0)));
     EXPECT_EQ(parseNumber("-inf"), -std::numeric_limits<double>::infinity());
+}
+
+TEST(TakeNumber, LeavesWhatFollows) {
+    std::string_view text = "2.5 kHz";
+    EXPECT_EQ(takeNumber(text), 2.5);
+    EXPECT_EQ(text, " kHz");
+    EXPECT_FALSE(takeNumber(text));
+    EXPECT_EQ(text, " kHz");
 }
 
 TEST(ParseQuantity, ReadsEngineeringPrefixes) {

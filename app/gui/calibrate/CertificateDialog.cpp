@@ -4,7 +4,6 @@
 #include <QEvent>
 #include <QGridLayout>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QVBoxLayout>
 
 #include "app/gui/theme/DayField.h"
@@ -17,47 +16,7 @@ namespace tacto::gui {
 
 namespace {
 
-enum CertificateColumn {
-    kStanding,
-    kDevice,
-    kSerial,
-    kNumber,
-    kLab,
-    kDate,
-    kDue,
-    kFirstU,
-    kCertificateColumns = kFirstU + 4
-};
-
-/// What goes first where there is no room for every column; the tool tip of a row tells all of it.
-constexpr std::array kDroppedFirst{int(kLab),    kFirstU + 3, kFirstU + 2, int(kDate),
-                                   int(kDevice), kFirstU + 1, int(kFirstU)};
 constexpr int kWide = 1020;  // all columns
-constexpr int kMaxRows = 8;  // in sight; more scroll
-constexpr int kIndexRole = Qt::UserRole;
-constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
-
-QString markOf(CertificateState state) {
-    switch (state) {
-        case CertificateState::Counts:
-            return "✔ ";
-        case CertificateState::Expired:
-        case CertificateState::NotYet:
-            return "⚠ ";
-        case CertificateState::Superseded:
-        case CertificateState::Withdrawn:
-            break;
-    }
-    return "– ";
-}
-
-Qt::Alignment alignmentOf(int column) {
-    return (column >= kFirstU ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter;
-}
-
-QString figureTitle(const CertificateFigure& figure) {
-    return QObject::tr("U %1 (%2)").arg(qtext(figure.title), qtext(figure.unit));
-}
 
 }  // namespace
 
@@ -77,35 +36,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     empty_ = new QLabel(tr("No certificate is entered."), this);
     setTone(*empty_, Tone::Quiet);
     column->addWidget(empty_);
-    table_ = new QTableWidget(0, kCertificateColumns, this);
-    table_->setObjectName("certificates");
-    table_->setAccessibleName(tr("Certificates"));
-    table_->setToolTip(
-        tr("Every certificate that was entered. The one with the latest date is in use; what is entered "
-           "cannot be changed without being noticed."));
-    QStringList titles{tr("State"),      tr("Instrument"), tr("Serial"), tr("Certificate"),
-                       tr("Laboratory"), tr("Date"),       tr("Due")};
-    for (const auto& figure : kCertificateFigures) titles << figureTitle(figure);
-    for (int c = kFirstU; c < kCertificateColumns; ++c) titles[c].replace(titles[c].indexOf(' ', 2), 1, '\n');
-    table_->setHorizontalHeaderLabels(titles);
-    for (int c = 0; c < kCertificateColumns; ++c) table_->horizontalHeaderItem(c)->setTextAlignment(alignmentOf(c));
-    setTextSize(*table_->horizontalHeader(), TextSize::Small);
-    // Two lines: a title and its unit.
-    table_->horizontalHeader()->setMinimumHeight(2 * QFontMetrics(textFont(TextSize::Small)).lineSpacing() +
-                                                 scaledPx(8));
-    // As high as its rows are, and no higher than a few.
-    table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
-    table_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
-    table_->setMaximumHeight(kMaxRows * table_->verticalHeader()->defaultSectionSize());
-    table_->verticalHeader()->hide();
-    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::SingleSelection);
-    table_->setAlternatingRowColors(true);
-    table_->setWordWrap(false);
-    table_->setTabKeyNavigation(false);
-    table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    table_->horizontalHeader()->setStretchLastSection(true);  // its lines reach the edge
+    table_ = new CertificateTable(this);
     column->addWidget(table_);
     withdraw_ = new ConfirmButton({}, this);
     withdraw_->setObjectName("withdrawCertificate");
@@ -158,18 +89,7 @@ void CertificateDialog::changeEvent(QEvent* event) {
 
 void CertificateDialog::resizeEvent(QResizeEvent* event) {
     QDialog::resizeEvent(event);
-    fitColumns();
-}
-
-void CertificateDialog::fitColumns() {
-    for (int column = 0; column < kCertificateColumns; ++column) table_->setColumnHidden(column, false);
-    table_->horizontalHeader()->setStretchLastSection(false);  // else it is as wide as the rest
-    table_->resizeColumnsToContents();
-    for (const int column : kDroppedFirst) {
-        if (table_->horizontalHeader()->length() <= table_->viewport()->width()) break;
-        table_->setColumnHidden(column, true);
-    }
-    table_->horizontalHeader()->setStretchLastSection(true);
+    table_->fitColumns();
 }
 
 QWidget* CertificateDialog::buildForm() {
@@ -268,23 +188,16 @@ void CertificateDialog::enter() {
     says_->setText(tr("Certificate %1 is entered.").arg(qtext(certificate->number)));
 }
 
-int CertificateDialog::chosen() const {
-    const auto rows = table_->selectionModel()->selectedRows();
-    if (rows.isEmpty()) return -1;
-    const auto* item = table_->item(rows.front().row(), 0);
-    return item->data(kStandsRole).toBool() ? item->data(kIndexRole).toInt() : -1;
-}
-
 void CertificateDialog::nameWithdraw() {
-    const int index = chosen();
+    const int index = table_->chosen();
     withdraw_->setEnabled(index >= 0);
     if (index < 0) asksWithdraw_ = false;
-    const auto number = index < 0 ? QString() : table_->item(table_->currentRow(), kNumber)->text();
-    withdraw_->setMeaning(asksWithdraw_ ? tr("Withdraw %1 for good").arg(number) : tr("&Withdraw…"), asksWithdraw_);
+    withdraw_->setMeaning(asksWithdraw_ ? tr("Withdraw %1 for good").arg(table_->chosenNumber()) : tr("&Withdraw…"),
+                          asksWithdraw_);
 }
 
 void CertificateDialog::withdraw() {
-    const int index = chosen();
+    const int index = table_->chosen();
     if (index < 0 || !withdraw_->listens()) return;
     if (!asksWithdraw_) {
         asksWithdraw_ = true;
@@ -311,39 +224,7 @@ void CertificateDialog::list() {
         empty_->setText(tr("%1 No certificate is used.").arg(sentence(store.error())));
         return;
     }
-    const auto today = utcToday();
-    for (std::size_t i = store->all().size(); i-- > 0;) {  // the newest entry first
-        const auto& [certificate, entered, withdrawn] = store->all()[i];
-        const auto state = store->state(i, today);
-        QStringList cells{markOf(state) + qtext(nameOf(state)),
-                          qtext(certificate.instrument),
-                          qtext(certificate.serial),
-                          qtext(certificate.number),
-                          qtext(certificate.by),
-                          qtext(dateText(certificate.date)),
-                          qtext(dateText(certificate.due))};
-        for (const auto& figure : kCertificateFigures) {
-            const auto& u = certificate.*figure.member;
-            cells << (u ? QString::number(*u, 'g', 6) : QString("–"));
-        }
-        QStringList whole;
-        for (int column = 0; column < kCertificateColumns; ++column)
-            whole << QString("%1: %2").arg(table_->horizontalHeaderItem(column)->text().simplified(), cells[column]);
-        const int row = table_->rowCount();
-        table_->insertRow(row);
-        for (int column = 0; column < kCertificateColumns; ++column) {
-            auto* item = new QTableWidgetItem(cells[column]);
-            item->setTextAlignment(alignmentOf(column));
-            // What is not used is greyed, and its state says so in words.
-            if (state != CertificateState::Counts) item->setForeground(palette().brush(QPalette::PlaceholderText));
-            item->setToolTip(whole.join('\n'));
-            item->setData(kIndexRole, int(i));
-            item->setData(kStandsRole, !withdrawn.has_value());
-            table_->setItem(row, column, item);
-        }
-    }
-    fitColumns();
-    table_->updateGeometry();
+    table_->show(*store, utcToday());
     nameWithdraw();
 }
 

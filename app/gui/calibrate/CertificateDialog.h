@@ -11,12 +11,11 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QTableWidget>
 #include <array>
 
+#include "app/gui/calibrate/CertificateTable.h"
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/theme/ConfirmButton.h"
-#include "core/calibration/CertificateStore.h"
 
 namespace tacto::gui {
 
@@ -39,16 +38,13 @@ private:
     void withdraw();
     void nameWithdraw();
     void list();
-    void fitColumns();
-    /// Index into the store of the row that is chosen; -1: none, or it is withdrawn.
-    [[nodiscard]] int chosen() const;
 
     std::array<QLineEdit*, kCertificateTexts.size()> texts_{};
     QLineEdit* date_ = nullptr;
     QLineEdit* due_ = nullptr;
     std::array<QLineEdit*, kCertificateFigures.size()> figures_{};
     QLabel* empty_;
-    QTableWidget* table_ = nullptr;
+    CertificateTable* table_ = nullptr;
     QLabel* says_;
     QPushButton* enter_ = nullptr;
     ConfirmButton* withdraw_ = nullptr;

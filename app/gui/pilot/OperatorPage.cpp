@@ -104,10 +104,7 @@ QWidget* OperatorPage::buildBar() {
     auto* both = new QVBoxLayout(bar);
     both->setContentsMargins(0, 0, 0, 0);
     both->setSpacing(0);
-    auto* edge = new QFrame(bar);
-    edge->setFrameShape(QFrame::HLine);
-    edge->setForegroundRole(QPalette::Mid);
-    both->addWidget(edge);
+    both->addWidget(lineAcross(bar));
     auto* row = new QHBoxLayout;
     row->setContentsMargins(kOperatorPad, kOperatorPad / 2 + 4, kOperatorPad, kOperatorPad / 2 + 4);
     row->setSpacing(8);

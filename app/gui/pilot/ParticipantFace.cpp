@@ -216,91 +216,123 @@ void ParticipantFace::show(const ParticipantView& view) {
     }
 }
 
+/// The picture's lengths at the size of the window.
+struct ParticipantFace::Picture {
+    double scale;  ///< of the picture
+    double text;   ///< of its text
+    int margin, column;
+    int stopLeft, stopTop, right;
+    int bottom;  ///< above the strip
+    int least;   ///< a target's side
+
+    [[nodiscard]] int px(double designed) const { return int(std::lround(designed * scale)); }
+    [[nodiscard]] int type(double designed) const { return int(designed * text); }
+};
+
+ParticipantFace::Picture ParticipantFace::picture() const {
+    Picture at{};
+    at.scale = std::min(width() / kWide, height() / kHigh);
+    at.text = at.scale * scaledPx(1000) / 1000.0;
+    at.margin = at.px(kMargin);
+    at.right = width() - at.margin;
+    at.stopLeft = int(std::lround(kStopLeft / kWide * width()));
+    at.column = std::min(int(std::lround(kColumn / kWide * width())), at.stopLeft - at.margin - at.px(kGap));
+    const int headHigh = QFontMetrics(withPixels(at.type(kHead_px))).height();
+    at.stopTop = std::max(at.px(kStopTop), at.px(kTop) + headHigh + at.px(12));
+    at.bottom = height() - (stripOpen() ? strip_->sizeHint().height() : 0);
+    at.least = pixelsOf(kTarget_mm, *this);
+    return at;
+}
+
+/// From the head: the question; from the foot: the time bar, and what is held. The targets have the rest.
 void ParticipantFace::arrange() {
-    const double s = std::min(width() / kWide, height() / kHigh);
-    const double text = s * scaledPx(1000) / 1000.0;
-    const auto px = [&](double designed) { return int(std::lround(designed * s)); };
-    const int margin = px(kMargin), right = width() - margin;
-    const int stopLeft = int(std::lround(kStopLeft / kWide * width()));
-    const int column = std::min(int(std::lround(kColumn / kWide * width())), stopLeft - margin - px(kGap));
-    const int foot = stripOpen() ? strip_->sizeHint().height() : 0;
-    if (stripOpen()) strip_->setGeometry(0, height() - foot, width(), foot);  // as high as what it asks needs
-    const int bottom = height() - foot;
-
-    const auto head = withPixels(int(kHead_px * text));
-    const int headHigh = QFontMetrics(head).height();
-    for (auto* label : {block_, note_, below_}) label->setFont(head);
-    const int top = px(kTop);
-    block_->setGeometry(margin, top, QFontMetrics(head).horizontalAdvance(block_->text()) + 2, headHigh);
-    const int barsLeft = block_->geometry().right() + px(kGap);
-    blocks_->setGeometry(barsLeft, top + headHigh / 2 - px(4), std::max(0, std::min(px(392), stopLeft - barsLeft)),
-                         std::max(4, px(8)));
-    const int noteWide = QFontMetrics(head).horizontalAdvance(note_->text()) + 2;
-    note_->setGeometry(right - noteWide, top, noteWide, headHigh);
-
-    const int stopTop = std::max(px(kStopTop), top + headHigh + px(12));
-    stopTarget_->setGeometry(stopLeft, stopTop, right - stopLeft, bottom - px(kStopBottom) - stopTop);
-    stopTarget_->setType(int(kStop_px * s), int(kHead_px * text));
-
-    // From the foot: the time bar, what is held; from the head: the question. The targets have the rest.
-    const auto small = withPixels(std::max(11, int(kSmall_px * text)));
-    const int smallHigh = QFontMetrics(small).height();
-    const int timeTop = bottom - px(kMargin);
-    timeWord_->setFont(small);
-    const int wordWide = QFontMetrics(small).horizontalAdvance(timeWord_->text()) + 2;
-    timeWord_->setGeometry(margin, timeTop - smallHigh / 2, wordWide, smallHigh);
-    time_->setGeometry(margin + wordWide + px(14), timeTop - px(4), column - wordWide - px(14), std::max(4, px(8)));
-    const int least = pixelsOf(kTarget_mm, *this);
-    int fieldBottom = bottom - px(kStopBottom) - px(12);
+    const auto at = picture();
+    if (stripOpen()) strip_->setGeometry(0, at.bottom, width(), height() - at.bottom);  // as high as what it asks needs
+    placeHead(at);
+    stopTarget_->setGeometry(at.stopLeft, at.stopTop, at.right - at.stopLeft,
+                             at.bottom - at.px(kStopBottom) - at.stopTop);
+    stopTarget_->setType(int(kStop_px * at.scale), at.type(kHead_px));
+    placeTime(at);
+    int fieldBottom = at.bottom - at.px(kStopBottom) - at.px(12);
     if (!hold_->isHidden()) {
-        hold_->setGeometry(margin, fieldBottom - least, column, least);
-        hold_->setType(int(kWords_px * text), int(kHead_px * text));
-        fieldBottom -= least + px(kGap);
+        hold_->setGeometry(at.margin, fieldBottom - at.least, at.column, at.least);
+        hold_->setType(at.type(kWords_px), at.type(kHead_px));
+        fieldBottom -= at.least + at.px(kGap);
     }
+    const int rows = rowsOfTargets();
+    const int fieldTop = placeQuestion(at, fieldBottom, rows * at.least + std::max(0, rows - 1) * at.px(kGap));
+    field_->setGeometry(at.margin, fieldTop, at.column, std::max(1, fieldBottom - fieldTop));
+    field_->setType(at.type(kWords_px), at.type(kHead_px), at.px(kGap));
+    line_->setFont(withPixels(at.type(kWords_px)));
+    line_->setGeometry(at.margin, fieldTop, at.column, at.least);
+    placeEnds(at, std::min(fieldTop + rows * pixelsOf(60, *this) + rows * at.px(kGap), fieldBottom));
+}
 
-    const int gap = px(kGap);
+/// How far the session is, and the note at the right.
+void ParticipantFace::placeHead(const Picture& at) {
+    const auto head = withPixels(at.type(kHead_px));
+    const QFontMetrics metrics(head);
+    const int high = metrics.height(), top = at.px(kTop);
+    for (auto* label : {block_, note_, below_, leastWord_, mostWord_}) label->setFont(head);
+    block_->setGeometry(at.margin, top, metrics.horizontalAdvance(block_->text()) + 2, high);
+    const int barsLeft = block_->geometry().right() + at.px(kGap);
+    blocks_->setGeometry(barsLeft, top + high / 2 - at.px(4), std::max(0, std::min(at.px(392), at.stopLeft - barsLeft)),
+                         std::max(4, at.px(8)));
+    const int noteWide = metrics.horizontalAdvance(note_->text()) + 2;
+    note_->setGeometry(at.right - noteWide, top, noteWide, high);
+}
+
+void ParticipantFace::placeTime(const Picture& at) {
+    const auto small = withPixels(std::max(11, at.type(kSmall_px)));
+    const QFontMetrics metrics(small);
+    const int high = metrics.height(), top = at.bottom - at.px(kMargin);
+    timeWord_->setFont(small);
+    const int wide = metrics.horizontalAdvance(timeWord_->text()) + 2;
+    timeWord_->setGeometry(at.margin, top - high / 2, wide, high);
+    time_->setGeometry(at.margin + wide + at.px(14), top - at.px(4), at.column - wide - at.px(14),
+                       std::max(4, at.px(8)));
+}
+
+int ParticipantFace::rowsOfTargets() const {
     const bool asks =
         asked_ && asked_->kind != PromptKind::Hold && asked_->kind != PromptKind::Text && !isStopTestPrompt(*asked_);
     const int count = asks ? targetCount(*asked_) : 0;
-    const int rows = count == 0                          ? 0
-                     : asked_->kind == PromptKind::Scale ? (count + 5) / 6
-                     : count <= 3                        ? 1
-                                                         : (count + fieldColumns(count) - 1) / fieldColumns(count);
-    const int wanted = rows * least + std::max(0, rows - 1) * gap;
-    int title_px = int(kTitle_px * text);
-    int fieldTop = 0;
-    bool hasBelow = text < kLargeText * s;  // with large text the targets take the room first
-    for (;;) {
-        const auto font = withPixels(title_px, QFont::Bold);
-        title_->setFont(font);
-        const int titleHigh = title_->heightForWidth(column);
-        title_->setGeometry(margin, stopTop, column, titleHigh);
-        const int belowHigh = hasBelow && !below_->text().isEmpty() ? below_->heightForWidth(column) : 0;
+    if (count == 0) return 0;
+    const int columns = asked_->kind == PromptKind::Scale ? 6 : count <= 3 ? count : fieldColumns(count);
+    return (count + columns - 1) / columns;
+}
+
+/// Where the targets begin, which need `wanted` pixels and come first: the second line goes, then the question gets
+/// smaller.
+int ParticipantFace::placeQuestion(const Picture& at, int fieldBottom, int wanted) {
+    bool hasBelow = at.text < kLargeText * at.scale;  // with large text the targets take the room first
+    for (int title_px = at.type(kTitle_px);;) {
+        title_->setFont(withPixels(title_px, QFont::Bold));
+        const int titleHigh = title_->heightForWidth(at.column);
+        title_->setGeometry(at.margin, at.stopTop, at.column, titleHigh);
+        const int belowHigh = hasBelow && !below_->text().isEmpty() ? below_->heightForWidth(at.column) : 0;
         below_->setVisible(belowHigh > 0);
-        below_->setGeometry(margin, stopTop + titleHigh + px(8), column, belowHigh);
-        fieldTop = stopTop + titleHigh + (belowHigh > 0 ? belowHigh + px(8) : 0) + px(36);
-        if (fieldBottom - fieldTop >= wanted) break;
-        // The targets come first: the second line goes, then the question gets smaller.
+        below_->setGeometry(at.margin, at.stopTop + titleHigh + at.px(8), at.column, belowHigh);
+        const int fieldTop = at.stopTop + titleHigh + (belowHigh > 0 ? belowHigh + at.px(8) : 0) + at.px(36);
+        if (fieldBottom - fieldTop >= wanted) return fieldTop;
         if (hasBelow)
             hasBelow = false;
-        else if (title_px > int(kHead_px * s))
+        else if (title_px > int(kHead_px * at.scale))
             title_px -= 2;
         else
-            break;
+            return fieldTop;
     }
-    field_->setGeometry(margin, fieldTop, column, std::max(1, fieldBottom - fieldTop));
-    field_->setType(int(kWords_px * text), int(kHead_px * text), gap);
-    line_->setFont(withPixels(int(kWords_px * text)));
-    line_->setGeometry(margin, fieldTop, column, least);
-    for (auto* end : {leastWord_, mostWord_}) end->setFont(head);
+}
+
+/// What the ends of a scale mean, below its targets.
+void ParticipantFace::placeEnds(const Picture& at, int top) {
     const bool ends = !leastWord_->text().isEmpty() || !mostWord_->text().isEmpty();
     leastWord_->setVisible(ends);
     mostWord_->setVisible(ends);
     if (!ends) return;
-    // Below the row of a scale's targets.
-    const int endsTop = std::min(fieldTop + rows * pixelsOf(60, *this) + rows * gap, fieldBottom);
-    leastWord_->setGeometry(margin, endsTop, column / 2, headHigh);
-    mostWord_->setGeometry(margin + column / 2, endsTop, column - column / 2, headHigh);
+    const int high = QFontMetrics(leastWord_->font()).height();
+    leastWord_->setGeometry(at.margin, top, at.column / 2, high);
+    mostWord_->setGeometry(at.margin + at.column / 2, top, at.column - at.column / 2, high);
     mostWord_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
 }
 

@@ -64,8 +64,15 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    struct Picture;
     void put(const QString& title, const QString& below);
+    [[nodiscard]] Picture picture() const;
     void arrange();
+    void placeHead(const Picture& at);
+    void placeTime(const Picture& at);
+    [[nodiscard]] int rowsOfTargets() const;
+    [[nodiscard]] int placeQuestion(const Picture& at, int fieldBottom, int wanted);
+    void placeEnds(const Picture& at, int top);
 
     std::optional<PilotPrompt> asked_;
     QLabel* block_;

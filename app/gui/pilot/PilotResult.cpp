@@ -9,6 +9,7 @@
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/PageFoot.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
@@ -20,8 +21,6 @@
 namespace tacto::gui {
 
 namespace {
-
-constexpr int kResultPad = 16;
 
 double numberIn(const nlohmann::json& record, const std::string& path) { return numberOr(memberAt(record, path)); }
 
@@ -102,7 +101,7 @@ PilotResult::PilotResult(QWidget* parent)
     all->setContentsMargins(0, 0, 0, 0);
     all->setSpacing(0);
     auto* column = new QVBoxLayout;
-    column->setContentsMargins(kResultPad, kResultPad, kResultPad, kResultPad / 2);
+    column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad / 2);
     column->setSpacing(8);
     head_->setObjectName("pilotHeadline");
     why_->setObjectName("pilotReason");
@@ -129,13 +128,7 @@ PilotResult::PilotResult(QWidget* parent)
     column->addWidget(note_);
     column->addStretch();
     all->addLayout(column, 1);
-    auto* edge = new QFrame(this);
-    edge->setFrameShape(QFrame::HLine);
-    edge->setForegroundRole(QPalette::Mid);
-    all->addWidget(edge);
-    auto* row = new QHBoxLayout;
-    row->setContentsMargins(kResultPad, 12, kResultPad, 12);
-    row->setSpacing(8);
+    auto* row = addPageFoot(*all, this);
     goOn_->setIcon(icon("run", Ink::Primary));
     makePrimary(*goOn_);
     goOn_->setToolTip(tr("Answered trials are not repeated; the order stays the same."));
@@ -147,7 +140,6 @@ PilotResult::PilotResult(QWidget* parent)
         row->addWidget(button);
     }
     row->addStretch();
-    all->addLayout(row);
     connect(goOn_, &QPushButton::clicked, this, &PilotResult::goOnWanted);
     connect(another_, &QPushButton::clicked, this, &PilotResult::anotherWanted);
     connect(back_, &QPushButton::clicked, this, &PilotResult::backWanted);
@@ -255,7 +247,7 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
 
 void PilotResult::layOutMatrix() {
     if (matrix_->columnCount() == 0) return;
-    const int room = std::max(1, widthInSight(*this) - 2 * (kResultPad + 1));
+    const int room = std::max(1, widthInSight(*this) - 2 * (kPagePad + 1));
     layOutRecordTable(*matrix_, room);
     if (matrix_->horizontalHeader()->length() <= room) return;
     // Six answers have no room in large text beside open docks: the matrix scrolls, not the page.

@@ -7,7 +7,6 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QWidget>
@@ -15,10 +14,12 @@
 
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SeatRows.h"
+#include "app/gui/theme/FolderRow.h"
 #include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
 
+class ProcedureRows;
 class UnfinishedOffer;
 
 class RehearsalPage final : public QWidget {
@@ -41,17 +42,20 @@ signals:
     void beginWanted();
 
 private:
+    void addStudyRows();
+    void addParticipantRows();
+    void addSessionRows();
     void judge();
+
     QLabel* title_;
     QFormLayout* rows_ = nullptr;
-    QLineEdit* folder_;
+    FolderRow* folder_;
     UnfinishedOffer* offer_;
     QComboBox* who_;
     QComboBox* pace_;
     QSpinBox* seed_;
     QComboBox* modality_;
-    QComboBox* protocol_;
-    QComboBox* method_;
+    ProcedureRows* procedure_;
     QSpinBox* blocks_;
     std::unique_ptr<SeatRows> seats_;
     TroubleLine* trouble_;

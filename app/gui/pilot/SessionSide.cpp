@@ -33,10 +33,7 @@ SessionSide::SessionSide(QWidget* parent) : QScrollArea(parent) {
     stops_ = new FactsCard(tr("Stops"), "hand", inside);
     for (auto* card : {who_, screen_, stops_}) {
         column->addWidget(card);
-        auto* line = new QFrame(inside);
-        line->setFrameShape(QFrame::HLine);
-        line->setForegroundRole(QPalette::Mid);
-        column->addWidget(line);
+        column->addWidget(lineAcross(inside));
     }
     column->addStretch();
     setWidget(inside);

@@ -1,15 +1,16 @@
 #include "app/gui/pilot/SessionStartPage.h"
 
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QRandomGenerator>
 #include <QVBoxLayout>
 
 #include "app/gui/pilot/DeviceRows.h"
 #include "app/gui/pilot/ExclusionChecklist.h"
+#include "app/gui/pilot/ProcedureRows.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/PageFoot.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -18,7 +19,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kStartPad = 16, kStartWide = 1200, kTwoColumns = 900;
+constexpr int kStartWide = 1200, kTwoColumns = 900;
 constexpr int kMaxPlanSeed = 1'000'000'000;
 }  // namespace
 
@@ -27,8 +28,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
       head_(new QLabel(this)),
       about_(new QLabel(this)),
       offer_(new UnfinishedOffer(this)),
-      protocol_(new QComboBox(this)),
-      method_(new QComboBox(this)),
+      procedure_(new ProcedureRows("session", *this)),
       trouble_(new TroubleLine("sessionTrouble", this)) {
     setObjectName("sessionStart");
     auto* whole = new QVBoxLayout(this);
@@ -38,7 +38,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     auto* inside = new QWidget(page->viewport());
     boundWidth(*inside, kStartWide);
     auto* column = new QVBoxLayout(inside);
-    column->setContentsMargins(kStartPad, kStartPad, kStartPad, kStartPad);
+    column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad);
     column->setSpacing(12);
     head_->setObjectName("sessionHead");
     setTextSize(*head_, TextSize::Large);
@@ -50,56 +50,22 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     column->addWidget(head_);
     column->addWidget(about_);
     column->addWidget(offer_);
-    auto* form = new QFormLayout;
-    form->setVerticalSpacing(8);
-    form->setRowWrapPolicy(QFormLayout::WrapLongRows);
-    protocol_->setObjectName("sessionProtocol");
-    protocol_->addItem(tr("the whole session"), "pilot-identification");
-    protocol_->addItem(tr("thresholds alone"), "pilot-thresholds");
-    form->addRow(tr("What is run"), protocol_);
-    method_->setObjectName("sessionMethod");
-    method_->addItem(tr("QUEST+"), "quest");
-    method_->addItem(tr("weighted staircase"), "staircase");
-    form->addRow(tr("Detection by"), method_);
-    devices_ = new DeviceRows(*form, *inside, watch);
-    seats_ = std::make_unique<SeatRows>(*form, *inside);
     // Tab goes from what is made first to what is made later: devices and seats, the checklist, then the buttons.
-    asks_ = new QWidget(this);
-    checklist_ = new ExclusionChecklist(asks_);
+    auto* form = buildForm(*inside, watch);
+    buildChecklist();
     begin_ = new QPushButton(tr("Begin the session"), this);
-    auto* left = new QVBoxLayout;
-    left->setSpacing(12);
-    left->addLayout(form);
-    left->addWidget(seats_->about());
-    left->addStretch();
     // The checklist stands beside the rest where there is room.
     auto* body = new TurningRow([] { return scaledPx(kTwoColumns); });
     body->setSpacing(scaledPx(32));
-    body->addLayout(left, 1);
+    body->addLayout(form, 1);
     body->addWidget(asks_, 1);
     column->addLayout(body);
-    auto* asks = new QVBoxLayout(asks_);
-    asks->setContentsMargins(0, 0, 0, 0);
-    asks->setSpacing(8);
-    auto* title = new QLabel(tr("Exclusion checklist: ask each, today"), asks_);
-    setTextSize(*title, TextSize::Body, true);
-    asks->addWidget(title);
-    asks->addWidget(
-        explanation(tr("A yes ends the day, whatever is answered later. Which one it was is sealed."), asks_));
-    asks->addWidget(checklist_);
-    asks->addStretch();
     column->addStretch();
     page->hold(inside);
     whole->addWidget(page, 1);
-    trouble_->setContentsMargins(kStartPad, 0, kStartPad, 8);
+    trouble_->setContentsMargins(kPagePad, 0, kPagePad, 8);
     whole->addWidget(trouble_);
-    auto* edge = new QFrame(this);
-    edge->setFrameShape(QFrame::HLine);
-    edge->setForegroundRole(QPalette::Mid);
-    whole->addWidget(edge);
-    auto* foot = new QHBoxLayout;
-    foot->setContentsMargins(kStartPad, 12, kStartPad, 12);
-    foot->setSpacing(8);
+    auto* foot = addPageFoot(*whole, this);
     begin_->setObjectName("beginSession");
     begin_->setIcon(icon("run", Ink::Primary));
     makePrimary(*begin_);
@@ -110,14 +76,44 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
         foot->addWidget(button);
     }
     foot->addStretch();
-    whole->addLayout(foot);
     connect(begin_, &QPushButton::clicked, this, &SessionStartPage::beginWanted);
     connect(back, &QPushButton::clicked, this, &SessionStartPage::backWanted);
-    connect(checklist_, &ExclusionChecklist::changed, this, &SessionStartPage::judge);
-    connect(devices_, &DeviceRows::changed, this, &SessionStartPage::judge);
     connect(offer_, &UnfinishedOffer::changed, this, &SessionStartPage::judge);
+}
+
+/// What is run, on what, and how both people sit.
+QLayout* SessionStartPage::buildForm(QWidget& parent, const DeviceWatch& watch) {
+    auto* form = new QFormLayout;
+    form->setVerticalSpacing(8);
+    form->setRowWrapPolicy(QFormLayout::WrapLongRows);
+    procedure_->addTo(*form);
+    devices_ = new DeviceRows(*form, parent, watch);
+    seats_ = std::make_unique<SeatRows>(*form, parent);
+    auto* column = new QVBoxLayout;
+    column->setSpacing(12);
+    column->addLayout(form);
+    column->addWidget(seats_->about());
+    column->addStretch();
+    connect(devices_, &DeviceRows::changed, this, &SessionStartPage::judge);
     connect(&seats_->inputs(), &InputRows::changed, this, &SessionStartPage::judge);
     connect(&seats_->markers(), &QLineEdit::textChanged, this, &SessionStartPage::judge);
+    return column;
+}
+
+void SessionStartPage::buildChecklist() {
+    asks_ = new QWidget(this);
+    checklist_ = new ExclusionChecklist(asks_);
+    auto* column = new QVBoxLayout(asks_);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(8);
+    auto* title = new QLabel(tr("Exclusion checklist: ask each, today"), asks_);
+    setTextSize(*title, TextSize::Body, true);
+    column->addWidget(title);
+    column->addWidget(
+        explanation(tr("A yes ends the day, whatever is answered later. Which one it was is sealed."), asks_));
+    column->addWidget(checklist_);
+    column->addStretch();
+    connect(checklist_, &ExclusionChecklist::changed, this, &SessionStartPage::judge);
 }
 
 void SessionStartPage::prepare(const Study& study, const Participant& participant) {
@@ -131,8 +127,7 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     seats_->setBlind(study.settings().blind);
     study_ = qtext(study.settings().id);
     seats_->recall(study_);
-    if (const auto& approved = study.settings().procedure)
-        method_->setCurrentIndex(method_->findData(qtext(nameOf(approved->method))));
+    if (const auto& approved = study.settings().procedure) procedure_->setMethod(qtext(nameOf(approved->method)));
     const auto unfinished = unfinishedOf(study, participant);
     say(unfinished ? QString() : sentence(unfinished.error()));
     offer_->offer(unfinished ? *unfinished : std::nullopt);
@@ -158,8 +153,7 @@ PilotStart SessionStartPage::start() const {
     made.confirmsCode = !virtual_;
     made.rehearsal = rehearsal_;
     if (!virtual_) made.exclusions = checklist_->answers();
-    made.protocol = protocol_->currentData().toString().toStdString();
-    made.method = method_->currentData().toString().toStdString();
+    procedure_->writeTo(made);
     made.unfinished = offer_->chosen();
     made.inputsOf = study_;
     made.seed = std::uint64_t(QRandomGenerator::system()->bounded(1, kMaxPlanSeed));
@@ -168,12 +162,10 @@ PilotStart SessionStartPage::start() const {
 }
 
 void SessionStartPage::judge() {
-    const bool goesOn = offer_->chosen() == "resume";
-    if (goesOn) protocol_->setCurrentIndex(protocol_->findData(qtext(offer_->offered()->protocol)));
-    for (auto* box : {protocol_, method_}) box->setEnabled(!goesOn);
+    procedure_->follow(*offer_);
     const auto open = checklist_->answers().size();
     const bool whole = virtual_ || checklist_->whole();
-    const bool chosen = !offer_->asks() || !offer_->chosen().empty();
+    const bool chosen = offer_->isSettled();
     auto lacks = devices_->missing();
     if (lacks.isEmpty()) lacks = seats_->missing(!virtual_);
     begin_->setEnabled(whole && chosen && lacks.isEmpty());
@@ -183,7 +175,7 @@ void SessionStartPage::judge() {
                                       .arg(open)
                                       .arg(exclusionItems().size())
                                 : tr("Every condition of the study is looked at first. Nothing is delivered before."));
-    begin_->setText(goesOn ? tr("Go on with the session") : tr("Begin the session"));
+    begin_->setText(offer_->goesOn() ? tr("Go on with the session") : tr("Begin the session"));
 }
 
 void SessionStartPage::say(const QString& what) { trouble_->say(what); }

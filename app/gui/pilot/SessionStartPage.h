@@ -5,7 +5,6 @@
 #pragma once
 
 #include <QBoxLayout>
-#include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QWidget>
@@ -20,6 +19,7 @@ namespace tacto::gui {
 class DeviceRows;
 class DeviceWatch;
 class ExclusionChecklist;
+class ProcedureRows;
 class UnfinishedOffer;
 
 class SessionStartPage final : public QWidget {
@@ -43,7 +43,10 @@ signals:
     void backWanted();
 
 private:
+    [[nodiscard]] QLayout* buildForm(QWidget& parent, const DeviceWatch& watch);
+    void buildChecklist();
     void judge();
+
     std::string code_;
     QString title_;  ///< of the study
     QString study_;  ///< its id
@@ -53,8 +56,7 @@ private:
     QLabel* head_;
     QLabel* about_;
     UnfinishedOffer* offer_;
-    QComboBox* protocol_;
-    QComboBox* method_;
+    ProcedureRows* procedure_;
     DeviceRows* devices_;
     std::unique_ptr<SeatRows> seats_;
     QWidget* asks_ = nullptr;

@@ -36,6 +36,9 @@ public:
     [[nodiscard]] bool asks() const { return offered_.has_value(); }
     /// "resume" or "end", as the protocol's setting; empty where nothing is offered or chosen.
     [[nodiscard]] std::string chosen() const;
+    [[nodiscard]] bool goesOn() const { return chosen() == "resume"; }
+    /// Whether a session can begin: nothing is offered, or a choice is made.
+    [[nodiscard]] bool isSettled() const { return !asks() || !chosen().empty(); }
     [[nodiscard]] const std::optional<Unfinished>& offered() const { return offered_; }
 
 signals:

@@ -1,8 +1,7 @@
 #include "app/gui/sessions/ReadSession.h"
 
-#include <QJsonDocument>
-
 #include "app/gui/theme/Text.h"
+#include "app/report/QtJson.h"
 #include "core/base/JsonFields.h"
 #include "core/session/Marks.h"
 #include "core/session/Origin.h"
@@ -12,10 +11,6 @@
 namespace tacto::gui {
 
 namespace {
-
-QJsonObject qtObject(const nlohmann::json& json) {
-    return QJsonDocument::fromJson(QByteArray::fromStdString(dumpJson(json))).object();
-}
 
 /// The report's figures are the script's: one that cannot be drawn is passed over.
 void takeItem(const nlohmann::json& item, const SessionReader& reader, ReadSession& session) {

@@ -1,6 +1,5 @@
 #include "app/gui/sessions/SessionWords.h"
 
-#include <QJsonDocument>
 #include <QLocale>
 #include <algorithm>
 #include <map>

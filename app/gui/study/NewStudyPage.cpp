@@ -8,7 +8,6 @@
 
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/PathField.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -22,8 +21,9 @@ constexpr int kNewPad = 16, kFormWide = 900;
 NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     : QWidget(parent),
       study_(study),
-      folder_(new PathField(
-          {}, tr("A new or empty folder. The study’s keys are kept elsewhere, in your own key folder."), this)),
+      folder_(new FolderRow({},
+                            tr("A new or empty folder. The study’s keys are kept elsewhere, in your own key folder."),
+                            tr("A new or empty folder for the study"), this)),
       form_(new StudyForm(this)),
       trouble_(new TroubleLine("newStudyTrouble", this)) {
     setObjectName("newStudy");
@@ -45,20 +45,11 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(8);
     auto* word = new QLabel(tr("&Folder"), place);
-    word->setBuddy(folder_);
-    folder_->setObjectName("newStudyFolder");
-    folder_->setAccessibleName(tr("Folder of the new study"));
-    auto* choose = new QPushButton(tr("Ch&oose…"), place);
-    choose->setAutoDefault(false);
-    connect(choose, &QPushButton::clicked, this, [this] {
-        FileQuestion question;
-        question.title = tr("A new or empty folder for the study");
-        question.wants = FileQuestion::Wants::NewFolder;
-        askForFile(*this, question, [this](const QString& path) { folder_->setText(path); });
-    });
+    word->setBuddy(&folder_->line());
+    folder_->line().setObjectName("newStudyFolder");
+    folder_->line().setAccessibleName(tr("Folder of the new study"));
     row->addWidget(word);
     row->addWidget(folder_, 1);
-    row->addWidget(choose);
     boundWidth(*place, kFormWide);
     column->addWidget(place);
     boundWidth(*form_, kFormWide);
@@ -97,14 +88,14 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
 
 void NewStudyPage::clear() {
     const QDir documents(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation));
-    folder_->setText(documents.filePath("Tactoscope/study"));
+    folder_->line().setText(documents.filePath("Tactoscope/study"));
     form_->clear();
     trouble_->hide();
 }
 
 void NewStudyPage::askForPassphrase() {
     const auto settings = form_->read(study_.profile());
-    const auto folder = folder_->text().trimmed();
+    const auto folder = folder_->folder();
     const auto why = !settings          ? sentence(settings.error())
                      : folder.isEmpty() ? tr("The folder is missing. A new or empty one is expected.")
                      : Study::isThere(folder.toStdString())

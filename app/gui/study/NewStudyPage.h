@@ -4,7 +4,6 @@
 #pragma once
 
 #include <QLabel>
-#include <QLineEdit>
 #include <QPointer>
 #include <QPushButton>
 #include <QWidget>
@@ -12,6 +11,7 @@
 #include "app/gui/study/OpenStudy.h"
 #include "app/gui/study/PassphraseDialog.h"
 #include "app/gui/study/StudyForm.h"
+#include "app/gui/theme/FolderRow.h"
 #include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
@@ -30,7 +30,7 @@ signals:
 private:
     void askForPassphrase();
     OpenStudy& study_;
-    QLineEdit* folder_;
+    FolderRow* folder_;
     StudyForm* form_;
     TroubleLine* trouble_;
     QPointer<PassphraseDialog> asks_;

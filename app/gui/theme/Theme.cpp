@@ -283,6 +283,13 @@ QWidget* heading(const QString& text, QWidget* parent) {
     return label;
 }
 
+QFrame* lineAcross(QWidget* parent) {
+    auto* line = new QFrame(parent);
+    line->setFrameShape(QFrame::HLine);
+    line->setForegroundRole(QPalette::Mid);
+    return line;
+}
+
 QWidget* explanation(const QString& text, QWidget* parent) {
     auto* label = new QLabel(text, parent);
     label->setWordWrap(true);

@@ -85,6 +85,8 @@ void showWatermark(QCPItemText& watermark, bool simulated);
 /// A heading, and a quiet line of explanation that wraps.
 [[nodiscard]] QWidget* heading(const QString& text, QWidget* parent = nullptr);
 [[nodiscard]] QWidget* explanation(const QString& text, QWidget* parent = nullptr);
+/// A line between what stands above and below it.
+[[nodiscard]] QFrame* lineAcross(QWidget* parent);
 
 /// An empty workspace: what it is for, and a button with the next step. `next` may be empty.
 class EmptyState : public QWidget {

@@ -38,4 +38,10 @@ Result<ArmRequest> confirmedArming(ScriptSession& session, const std::string& lo
     return request;
 }
 
+Result<void> armConfirmed(ScriptSession& session, const std::string& load) {
+    const auto request = confirmedArming(session, load);
+    if (!request) return failure(request);
+    return session.bench().arm(*request);
+}
+
 }  // namespace tacto

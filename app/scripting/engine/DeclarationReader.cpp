@@ -78,10 +78,6 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
     }
 }
 
-std::string fileOf(const ProtocolSource& source) {
-    return source.path.empty() ? source.name + ".js" : source.path.string();
-}
-
 Result<nlohmann::json> declareElsewhere(const ProtocolSource& source, std::chrono::milliseconds limit) {
     // Its start on a busy machine, and the time that a script may take to end when asked to.
     constexpr std::chrono::milliseconds kAround{10'000};

@@ -1,5 +1,5 @@
-// DeclarationReader.h - runs a script's top level and takes what it gives to protocol(). Other than readDeclaration()
-// it does so in this process, which a script can make the engine crash (nested regular expressions, circles of
+// DeclarationReader.h - runs a script's top level and takes what it gives to protocol(). Unlike
+// readDeclaration() it does so in this process, which a script can crash (nested regular expressions, circles of
 // proxies): for the program tactoscope-declare, and for scripts that come with the program (hazard H10).
 //
 // Thread-safety: pure function but for the thread that it runs the script on.

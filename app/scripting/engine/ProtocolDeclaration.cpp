@@ -59,6 +59,10 @@ Result<ProtocolView> readView(const Json& given, const ProtocolDeclaration& decl
 
 }  // namespace
 
+std::string fileOf(const ProtocolSource& source) {
+    return source.path.empty() ? source.name + ".js" : source.path.string();
+}
+
 std::string originOf(const ProtocolSource& source) {
     if (source.shipped) return "shipped with the program";
     return source.path.empty() ? "a text that lies in no file" : source.path.string();

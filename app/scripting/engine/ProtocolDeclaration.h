@@ -32,6 +32,8 @@ struct ProtocolSource {
     bool shipped = false;  ///< comes with the program: its bytes are those that the program was built with
 };
 
+/// What errors of a script begin with: its path, or "separability.js".
+[[nodiscard]] std::string fileOf(const ProtocolSource& source);
 /// Where a script comes from, for people: "shipped with the program", or its path.
 [[nodiscard]] std::string originOf(const ProtocolSource& source);
 

@@ -8,6 +8,7 @@
 #include "app/scripting/engine/DeclaredText.h"
 #include "app/scripting/engine/HostFunction.h"
 #include "core/base/JsonText.h"
+#include "core/base/NaN.h"
 #include "core/base/Text.h"
 #include "core/base/ValueKind.h"
 #include "core/base/Words.h"
@@ -56,7 +57,7 @@ Result<Json> accepted(const ProtocolParameter& parameter, const Json& value) {
     switch (parameter.type) {
         case ParameterType::Number:
         case ParameterType::Integer: {
-            const double x = value.is_number() ? value.get<double>() : std::nan("");
+            const double x = value.is_number() ? value.get<double>() : kNaN;
             if (!rangeOf(parameter).contain(x)) return refuse(rangeOf(parameter).text());
             if (parameter.type == ParameterType::Number) return value;
             if (!(std::abs(x) <= kMaxWholeNumber)) return refuse(rangeOf(parameter, kMaxWholeNumber).text());

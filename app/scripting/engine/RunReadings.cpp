@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-/// As a script is given it: what is not finite is null.
+/// Makes `value` what a script gets of it: NaN and the infinities are null.
 void noNaN(nlohmann::json& value) {
     if (value.is_number_float() && !std::isfinite(value.get<double>())) value = nullptr;
     if (value.is_structured()) std::for_each(value.begin(), value.end(), noNaN);

@@ -78,9 +78,7 @@ std::string ScriptError::text() const {
 
 struct Sandbox::Engine {
     Engine(HostPort& port, const ProtocolSource& from)
-        : source(from),
-          file(from.path.empty() ? from.name + ".js" : from.path.string()),
-          bridge(std::make_unique<HostBridge>(js, port, urlOf(file))) {
+        : source(from), file(fileOf(from)), bridge(std::make_unique<HostBridge>(js, port, urlOf(file))) {
         removeForeignGlobals();
         installHost();
     }

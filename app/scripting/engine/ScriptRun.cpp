@@ -65,7 +65,6 @@ struct ScriptRun::State final : HostPort {
     void execute(Sandbox& sandbox);
     [[nodiscard]] std::optional<ScriptError> checkDeclared();
     void writeAbout();
-    [[nodiscard]] std::string file() const;  // as errors name it
     void conclude(ScriptThread::End end);
     std::uint64_t faultsBefore = 0;  // of the bench, at the start
     void writeVerdict();
@@ -168,7 +167,7 @@ std::optional<ScriptError> ScriptRun::State::checkDeclared() {
                        fmt::format("when it runs the script declares {}; it must declare what it declared when it was "
                                    "read before",
                                    difference),
-                       file(), 1};
+                       fileOf(request.script), 1};
 }
 
 void ScriptRun::State::writeAbout() {
@@ -192,17 +191,13 @@ void ScriptRun::State::writeAbout() {
                                                       {"parameters", parameters}});
 }
 
-std::string ScriptRun::State::file() const {
-    return request.script.path.empty() ? request.script.name + ".js" : request.script.path.string();
-}
-
 std::string ScriptRun::State::stopText(int at) {
     std::string by;
     {
         const std::lock_guard lock(control);
         by = stoppedBy;
     }
-    return fmt::format("{}:{}: stopped by {}, at this line or after it", file(), at, by);
+    return fmt::format("{}:{}: stopped by {}, at this line or after it", fileOf(request.script), at, by);
 }
 
 void ScriptRun::State::conclude(ScriptThread::End end) {
@@ -219,7 +214,7 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
     }
     session.recordExposure();
     ScriptOutcome result;
-    result.file = file();
+    result.file = fileOf(request.script);
     if (end == ScriptThread::End::Abandoned && !ended) {
         abandoned = true;  // no host call of it does anything from here on
         request.bench->disarm();
@@ -310,7 +305,8 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     try {
         state->thread = std::make_unique<ScriptThread>(state, state->request.script,
                                                        [raw](Sandbox& sandbox) { raw->execute(sandbox); });
-        // From here on it stops the script where the guard gets no thread. The guard stops by the script's thread.
+        // If the guard gets no thread, `run` stops the script as it goes. The guard stops the script through its
+        // thread.
         std::unique_ptr<ScriptRun> run(new ScriptRun(state));
         state->memory =
             std::make_unique<MemoryGuard>([raw] { raw->stop("the program: the script takes too much memory"); },

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "app/scripting/engine/Arguments.h"
@@ -115,7 +114,7 @@ namespace {
 /// Whether the trains that a record shows were all programmed with the same amplitude and interval; where the encoder
 /// moves in steps from level to level, the train before them too. Else a reading has no known command: a mean over
 /// unlike trains would pass for an error of the stimulator (hazard H1).
-bool toldTheSame(const Capture& capture, const Telemetry& now, const EncodingProfile& encoding) {
+bool programmedAlike(const Capture& capture, const Telemetry& now, const EncodingProfile& encoding) {
     constexpr double kSame = 1e-3;    // relative
     constexpr double kNear_s = 0.05;  // from the planned onset to the trigger
     const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b)); };
@@ -144,19 +143,18 @@ bool toldTheSame(const Capture& capture, const Telemetry& now, const EncodingPro
 
 /// What was asked of the stimulator, on its own grid: that is what the gate judged and the device was programmed to.
 CapturedCommand ScriptSession::commandOf(const Capture& capture) const {
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     const auto& bench = *request_.bench;
     const Telemetry now = bench.telemetry();
     const PulseTrain& train = bench.profile().encoding.train;
     const auto& stimulator = request_.bench->devices().stimulator;
     const auto onGrid = [&](Micros time) {
-        return stimulator ? towardZero(time.count(), stimulator->traits().widthStep.count()) / 1e6 : kUnknown;
+        return stimulator ? towardZero(time.count(), stimulator->traits().widthStep.count()) / 1e6 : kNaN;
     };
-    const bool steady = toldTheSame(capture, now, bench.profile().encoding);
-    return {.amplitude = !steady                             ? kUnknown
+    const bool steady = programmedAlike(capture, now, bench.profile().encoding);
+    return {.amplitude = !steady                             ? kNaN
                          : std::isfinite(capture.programmed) ? capture.programmed
                                                              : now.trainAmplitude,
-            .interval_s = steady ? now.interval_s : kUnknown,
+            .interval_s = steady ? now.interval_s : kNaN,
             .width_s = onGrid(train.phaseWidth),
             .gap_s = onGrid(train.interPhaseGap),
             .calibrationApplied = bench.calibration().has_value(),
@@ -265,7 +263,7 @@ nlohmann::json ScriptSession::worstExposure() const {
         if (row.judged == JudgedAt::Ohm500) name += " into 500 ohm";
         nlohmann::json out = {{"name", name},
                               {"value", row.evaluated ? nlohmann::json(row.value) : nlohmann::json()},
-                              {"limit", std::isfinite(row.limit) ? nlohmann::json(row.limit) : nlohmann::json()},
+                              {"limit", numberOrNull(row.limit)},
                               {"unit", row.unit},
                               {"source", row.set.view()},
                               {"warning", row.action != LimitAction::Refuse}};

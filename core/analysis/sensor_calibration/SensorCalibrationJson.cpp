@@ -43,8 +43,9 @@ Json uncertaintyJson(const SensorCalibration& found) {
 
 std::size_t indexOf(SensorFeature feature) { return static_cast<std::size_t>(feature); }
 
+constexpr std::size_t kMaxTaxels = 100'000;
+
 RecordFields<SensorRest> buildRestFields() {
-    constexpr std::size_t kMaxTaxels = 100'000;
     RecordFields<SensorRest> all;
     all.list("taxel_baseline", in(&SensorRest::levels, &RestLevels::taxelBaseline), numberKind<double>({}), 0,
              kMaxTaxels)
@@ -60,6 +61,34 @@ RecordFields<SensorRest> buildRestFields() {
 
 const RecordFields<SensorRest>& restFields() {
     static const auto fields = buildRestFields();
+    return fields;
+}
+
+RecordFields<ForceInUse> forceFields() {
+    RecordFields<ForceInUse> all;
+    all.number("mean", &ForceInUse::mean);
+    all.word("unit", &ForceInUse::unit, kForceUnits);
+    all.takeNullAsMissing();
+    return all;
+}
+
+RecordFields<WeightReading> buildWeightFields() {
+    using W = WeightReading;
+    RecordFields<W> all;
+    all.number("mass_g", &W::mass_g, {.unit = "g"});
+    all.number("reference_n", &W::reference_n, {.unit = "N"}).required = true;
+    all.number("force", &W::force);
+    all.word("force_unit", &W::forceUnit, kForceUnits).leftOutIfEmpty = true;
+    all.list("taxels", &W::taxels, readingKind(), 0, kMaxTaxels);
+    all.word("taxel_unit", &W::taxelUnit, kTaxelUnits).leftOutIfEmpty = true;
+    all.record("force_in_use", &W::inUse, forceFields());
+    all.takeNullAsMissing();
+    all.passOverUnknownKeys();
+    return all;
+}
+
+const RecordFields<WeightReading>& weightFields() {
+    static const auto fields = buildWeightFields();
     return fields;
 }
 
@@ -141,6 +170,14 @@ Json toJson(const SlideReading& slide) {
         out[std::string(keyOf(feature))] = numberOrNull(valueOf(slide, feature));
     }
     return out;
+}
+
+Json toJson(const ForceInUse& force) { return forceFields().write(force); }
+
+Json toJson(const WeightReading& reading) { return weightFields().write(reading); }
+
+Result<WeightReading> weightReadingFrom(const Json& json) {
+    return weightFields().read(json, {.path = "reading"}).map_error(asInvalidArgument);
 }
 
 Result<SensorRest> sensorRestFrom(const Json& json) {

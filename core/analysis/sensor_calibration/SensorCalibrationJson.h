@@ -27,8 +27,14 @@ namespace tacto {
 /// {"h","h_abs","v_static","v_dynamic","force_n","sliding_frames","track": {"period_s","t_s","contact","sliding","h",
 /// "v"}}
 [[nodiscard]] nlohmann::json toJson(const SlideReading& slide);
-/// Reads what the two above wrote. Errors: InvalidArgument naming what is missing or has another type.
+/// {"mean","unit"}
+[[nodiscard]] nlohmann::json toJson(const ForceInUse& force);
+/// {"mass_g","reference_n","force","force_unit" (where there is a force sensor),"taxels","taxel_unit" (where there are
+/// taxels),"force_in_use": {"mean","unit"}|null}
+[[nodiscard]] nlohmann::json toJson(const WeightReading& reading);
+// Read what toJson() wrote. Errors: InvalidArgument naming what is missing or has another type.
 [[nodiscard]] Result<SensorRest> sensorRestFrom(const nlohmann::json& json);
 [[nodiscard]] Result<SlideReading> slideReadingFrom(const nlohmann::json& json);
+[[nodiscard]] Result<WeightReading> weightReadingFrom(const nlohmann::json& json);
 
 }  // namespace tacto

@@ -5,10 +5,11 @@
 // Thread-safety: values; pure functions.
 #pragma once
 
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/NaN.h"
 #include "core/base/Result.h"
 #include "core/base/Statistics.h"
 #include "core/base/Stream.h"
@@ -36,11 +37,11 @@ struct SensorRest {
 /// One slide over one surface. Features are arithmetic means over its frames (h over sliding frames, v over contact
 /// frames, as bench.measureReference() takes them); NaN: the rig does not measure it, or no frame has it.
 struct SlideReading {
-    double h = std::numeric_limits<double>::quiet_NaN();
-    double hAbs = std::numeric_limits<double>::quiet_NaN();  ///< (m/s2/N)2
-    double vStatic = std::numeric_limits<double>::quiet_NaN();
-    double vDynamic = std::numeric_limits<double>::quiet_NaN();
-    double force_n = std::numeric_limits<double>::quiet_NaN();  ///< in the force stream's unit; NaN without one
+    double h = kNaN;
+    double hAbs = kNaN;  ///< (m/s2/N)2
+    double vStatic = kNaN;
+    double vDynamic = kNaN;
+    double force_n = kNaN;  ///< in the force stream's unit; NaN without one
     std::size_t slidingFrames = 0;
     double framePeriod_s = 0;
     std::vector<RoughnessFrame> frames;  ///< with the features that the settings choose
@@ -49,6 +50,23 @@ struct SlideReading {
 /// Errors: as RoughnessChain::create(); Device when nothing was felt sliding or in contact.
 [[nodiscard]] Result<SlideReading> readSlide(const SensorSamples& samples, const RoughnessSettings& settings,
                                              const SensorRest& rest);
+
+/// The mean of a force as the profile in force scales it.
+struct ForceInUse {
+    double mean = kNaN;
+    StreamUnit unit = StreamUnit::Newton;
+};
+
+/// One weight on the resting fingertip: means over all samples, in the sensor's own units; NaN: not read.
+struct WeightReading {
+    double mass_g = kNaN;
+    double reference_n = kNaN;  ///< what it weighs
+    double force = kNaN;
+    std::optional<StreamUnit> forceUnit{};  ///< nothing: there is no force sensor
+    std::vector<double> taxels{};
+    std::optional<StreamUnit> taxelUnit{};  ///< nothing: there are no taxels
+    std::optional<ForceInUse> inUse{};      ///< nothing: there is no force sensor
+};
 
 /// Mean R of the slide's sliding frames under `settings`, smoothed as the bench does; NaN with no feature present.
 [[nodiscard]] double roughnessOf(const SlideReading& slide, const RoughnessSettings& settings);

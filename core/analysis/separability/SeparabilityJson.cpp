@@ -1,10 +1,44 @@
 #include "core/analysis/separability/SeparabilityJson.h"
 
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/NaN.h"
+#include "core/base/RecordFields.h"
 
 namespace tacto {
 
 using nlohmann::json;
+
+namespace {
+
+RecordFields<SeparabilityTrial> buildTrialFields() {
+    using T = SeparabilityTrial;
+    RecordFields<T> all;
+    all.text("condition", &T::condition, {.mayBeEmpty = true}).required = true;
+    all.number("amplitude_v", &T::amplitude, {.unit = "V"});
+    all.number("interval_s", &T::interval_s, {.unit = "s"});
+    all.number("amplitude_u_v", &T::amplitudeUncertainty, {.unit = "V"});
+    all.number("interval_u_s", &T::intervalUncertainty_s, {.unit = "s"});
+    all.number("time_base_u", &T::timeBase);
+    all.takeNullAsMissing();
+    all.passOverUnknownKeys();
+    return all;
+}
+
+const RecordFields<SeparabilityTrial>& trialFields() {
+    static const auto fields = buildTrialFields();
+    return fields;
+}
+
+}  // namespace
+
+Result<SeparabilityTrial> separabilityTrialFrom(const json& row) {
+    SeparabilityTrial trial{{}, kNaN, kNaN, kNaN, kNaN, kNaN};
+    if (auto read = trialFields().read(row, trial, {.path = "trial"}).map_error(asInvalidArgument); !read)
+        return failure(read);
+    return trial;
+}
+
+json toJson(const SeparabilityTrial& trial) { return trialFields().write(trial); }
 
 json toJson(const Separability& found) {
     json conditions = json::array();

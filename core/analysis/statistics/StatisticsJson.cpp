@@ -13,4 +13,13 @@ json toJson(const Estimate& e) {
     return {{"value", numberOrNull(e.value)}, {"low", numberOrNull(e.low)}, {"high", numberOrNull(e.high)}};
 }
 
+ValueKind<double> readingKind() {
+    return codedKind<double>(
+        "a number or null",
+        [](const json& value) {
+            return value.is_number() || value.is_null() ? std::optional(numberOr(value)) : std::nullopt;
+        },
+        [](double reading) { return numberOrNull(reading); });
+}
+
 }  // namespace tacto

@@ -9,6 +9,7 @@
 #include "core/analysis/statistics/Estimate.h"
 #include "core/base/JsonFields.h"
 #include "core/base/Statistics.h"
+#include "core/base/ValueKind.h"
 
 namespace tacto {
 
@@ -16,5 +17,7 @@ namespace tacto {
 [[nodiscard]] nlohmann::json toJson(const Statistics& statistics);
 /// {"value","low","high"}, 95 %
 [[nodiscard]] nlohmann::json toJson(const Estimate& estimate);
+/// A reading in a list, where null keeps the place of one that failed: NaN.
+[[nodiscard]] ValueKind<double> readingKind();
 
 }  // namespace tacto

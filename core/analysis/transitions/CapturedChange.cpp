@@ -46,12 +46,13 @@ void addTrains(ChangeGroup& group, const CapturedChange& change) {
         last_v = change.before_v.back();
         last_s = change.from_s;
     }
+    const bool movement = change.kind == ChangeKind::Movement;
     for (std::size_t k = 0; k < change.trains.size(); ++k) {
         const auto& train = change.trains[k];
         ++group.captured;
         // The first trains of a movement have none before them to be compared with.
-        if (!change.movement || k >= 1) takeStep(group.amplitude, train.amplitude_jnd, last_v, train.amplitude_v);
-        if (!change.movement || k >= 2) {
+        if (!movement || k >= 1) takeStep(group.amplitude, train.amplitude_jnd, last_v, train.amplitude_v);
+        if (!movement || k >= 2) {
             takeStep(group.interval, train.interval_jnd, last_s, train.interval_s);
             // Two intervals share the stamp between them: u² of ln(T2/T1) is at most 2 (2 u / T)².
             const double shorter_s = std::min(train.interval_s, std::isnan(last_s) ? train.interval_s : last_s);
@@ -67,7 +68,7 @@ void addTrains(ChangeGroup& group, const CapturedChange& change) {
 void addChange(ChangeGroup& group, const CapturedChange& change, const ChangeLimits& limits) {
     ++group.changes;
     addTrains(group, change);
-    if (change.movement) {
+    if (change.kind == ChangeKind::Movement) {
         group.completes = false;
         return;
     }
@@ -75,17 +76,18 @@ void addChange(ChangeGroup& group, const CapturedChange& change, const ChangeLim
     group.to_v = change.to_v;
     group.from_s = change.from_s;
     group.to_s = change.to_s;
-    if (std::isfinite(change.complete_s)) group.complete_s.push_back(change.complete_s);
-    if (std::isfinite(change.fastest_s)) group.fastest_s.push_back(change.fastest_s);
-    if (std::isfinite(change.trainsTaken)) group.trains.push_back(change.trainsTaken);
-    if (std::isfinite(change.fewestTrains)) group.fewest.push_back(change.fewestTrains);
-    if (change.complete_s <= limits.complete_s || std::isnan(change.complete_s)) return;
-    if (limits.secondsAlone || !(change.fastest_s > limits.complete_s)) {
+    const StepCourse &measured = change.measured, &fastest = change.fastest;
+    if (std::isfinite(measured.complete_s)) group.complete_s.push_back(measured.complete_s);
+    if (std::isfinite(fastest.complete_s)) group.fastest_s.push_back(fastest.complete_s);
+    if (std::isfinite(measured.trains)) group.trains.push_back(measured.trains);
+    if (std::isfinite(fastest.trains)) group.fewest.push_back(fastest.trains);
+    if (measured.complete_s <= limits.complete_s || std::isnan(measured.complete_s)) return;
+    if (limits.secondsAlone || !(fastest.complete_s > limits.complete_s)) {
         ++group.late;
         return;
     }
     ++group.outOfReach;
-    if (!(change.trainsTaken <= change.fewestTrains)) ++group.tooMany;
+    if (!(measured.trains <= fastest.trains)) ++group.tooMany;
 }
 
 /// What speaks against a pass, in sentences.

@@ -4,7 +4,7 @@
 // Thread-safety: pure functions.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,21 +17,40 @@ namespace tacto {
 
 /// A train as captured; NaN: not measured. The differences are against the train before.
 struct CapturedTrain {
+    double after_s = kNaN;  ///< since the change began
     double amplitude_v = kNaN, interval_s = kNaN;
     double onsetUncertainty_s = kNaN;  ///< standard
     double amplitude_jnd = kNaN, interval_jnd = kNaN;
 };
 
-/// A change from one command to another, or a movement through the plane, which has no end to wait for.
+/// How trains follow a step; NaN: not measured, or it did not come to that.
+struct StepCourse {
+    double latency_s = kNaN;   ///< from the step to the train that carries it
+    double trains = kNaN;      ///< until the step is complete
+    double complete_s = kNaN;  ///< from the step to the train with which it is complete
+};
+
+enum class ChangeKind {
+    Step,      ///< from one command to another
+    Movement,  ///< through the plane: it has no end to wait for
+};
+
+/// What bench.step() and bench.traverse() return.
 struct CapturedChange {
-    std::string name;
-    std::vector<double> before_v = {};  ///< amplitudes of the trains before it
+    std::string name = {};  ///< given by the script; empty: none yet
+    ChangeKind kind = ChangeKind::Step;
     std::vector<CapturedTrain> trains = {};
-    bool movement = false;
-    // Not of a movement:
+    double seconds = kNaN;  ///< a movement takes from one end to the other
+    // A step alone has these:
+    double at_s = kNaN;          ///< on the session's clock
+    double sinceOnset_s = kNaN;  ///< from the train before it
+    StepCourse measured = {};
+    StepCourse designed = {};
+    StepCourse designedFirst = {}, designedLast = {};  ///< what a measurement of the design may find
+    StepCourse fastest = {};                           ///< what no sequence of trains in the wanted steps can undercut
     double from_v = kNaN, to_v = kNaN, from_s = kNaN, to_s = kNaN;
-    double complete_s = kNaN, trainsTaken = kNaN;
-    double fastest_s = kNaN, fewestTrains = kNaN;  ///< what no sequence of trains in the wanted steps can undercut
+    std::vector<double> before_v = {};        ///< amplitudes of the trains before it
+    std::vector<std::int64_t> captures = {};  ///< of the train that carries it, and of the one before the step
 };
 
 struct ChangeLimits {

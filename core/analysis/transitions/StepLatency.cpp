@@ -18,20 +18,21 @@ struct MeasuredSteps {
     std::size_t slow = 0;  // took more trains than the design
 };
 
-void addStep(MeasuredSteps& group, const StepLatency& step) {
+void addStep(MeasuredSteps& group, const CapturedChange& step) {
     ++group.steps;
-    const double designed = step.designed_s;
-    if (std::isfinite(designed)) group.designed_s.push_back(designed);
-    if (std::isfinite(step.latency_s) && std::isfinite(designed)) {
-        group.latency_s.push_back(step.latency_s);
+    const StepCourse &measured = step.measured, &designed = step.designed;
+    if (std::isfinite(designed.latency_s)) group.designed_s.push_back(designed.latency_s);
+    if (std::isfinite(measured.latency_s) && std::isfinite(designed.latency_s)) {
+        group.latency_s.push_back(measured.latency_s);
         // Within what a measurement of the design may find, there is no difference.
-        const bool ranged = step.designedLow_s <= designed && designed <= step.designedHigh_s;
-        group.error_s.push_back(
-            step.latency_s - (ranged ? std::clamp(step.latency_s, step.designedLow_s, step.designedHigh_s) : designed));
+        const double low = step.designedFirst.latency_s, high = step.designedLast.latency_s;
+        const bool ranged = low <= designed.latency_s && designed.latency_s <= high;
+        group.error_s.push_back(measured.latency_s -
+                                (ranged ? std::clamp(measured.latency_s, low, high) : designed.latency_s));
     }
-    if (std::isfinite(step.trains)) group.trains.push_back(step.trains);
-    if (std::isfinite(step.designedTrains)) group.designedTrains.push_back(step.designedTrains);
-    if (step.trains > std::fmax(step.designedTrains, step.designedTrainsHigh)) ++group.slow;
+    if (std::isfinite(measured.trains)) group.trains.push_back(measured.trains);
+    if (std::isfinite(designed.trains)) group.designedTrains.push_back(designed.trains);
+    if (measured.trains > std::fmax(designed.trains, step.designedLast.trains)) ++group.slow;
 }
 
 Verdict judgeSteps(const MeasuredSteps& group, double tolerance_s, std::vector<std::string>& reasons) {
@@ -59,7 +60,7 @@ Verdict judgeSteps(const MeasuredSteps& group, double tolerance_s, std::vector<s
 
 }  // namespace
 
-LatencyJudgement judgeLatency(std::span<const StepLatency> steps, const std::vector<std::string>& names,
+LatencyJudgement judgeLatency(std::span<const CapturedChange> steps, const std::vector<std::string>& names,
                               double tolerance_s) {
     auto groups = groupsOf<MeasuredSteps>(names);
     for (const auto& step : steps) addStep(groupNamed(groups, step.name), step);

@@ -1,7 +1,7 @@
 #include "core/analysis/transitions/TransitionsJson.h"
 
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/JsonFields.h"
+#include "core/base/RecordFields.h"
 
 namespace tacto {
 
@@ -44,46 +44,93 @@ nlohmann::json rowsOf(const std::vector<Group>& groups) {
     return rows;
 }
 
-/// A row of a session from before rows said what they are: a step tells when it was complete.
-bool isMovement(const nlohmann::json& row) {
-    const auto type = row.find("type");
-    return type != row.end() ? *type == "movement" : !row.contains("complete_s");
+constexpr Word<ChangeKind> kChangeKinds[] = {{"step", ChangeKind::Step}, {"movement", ChangeKind::Movement}};
+constexpr std::size_t kMaxTrains = 100'000;
+
+/// The bench knows no name: the script adds it.
+ValueKind<std::string> nameKind() {
+    return codedKind<std::string>(
+        "a text",
+        [](const nlohmann::json& value) {
+            return value.is_string() ? std::optional(value.get<std::string>()) : std::nullopt;
+        },
+        [](const std::string& name) { return name.empty() ? nlohmann::json() : nlohmann::json(name); });
+}
+
+RecordFields<CapturedTrain> trainFields() {
+    using T = CapturedTrain;
+    RecordFields<T> all;
+    all.number("after_step_s", &T::after_s, {.unit = "s"});
+    all.number("amplitude_v", &T::amplitude_v, {.unit = "V"});
+    all.number("interval_s", &T::interval_s, {.unit = "s"});
+    all.number("onset_u_s", &T::onsetUncertainty_s, {.unit = "s"});
+    all.number("amplitude_jnd", &T::amplitude_jnd);
+    all.number("interval_jnd", &T::interval_jnd);
+    all.takeNullAsMissing();
+    all.passOverUnknownKeys();
+    return all;
+}
+
+/// What steps and movements have in common.
+RecordFields<CapturedChange> changeFields() {
+    using C = CapturedChange;
+    RecordFields<C> all;
+    auto& name = all.add("name", &C::name, nameKind());
+    name.required = name.leftOutIfEmpty = true;
+    all.word("type", &C::kind, kChangeKinds);
+    all.list("onsets", &C::trains, trainFields().kind(), 0, kMaxTrains);
+    all.takeNullAsMissing();
+    all.passOverUnknownKeys();
+    return all;
+}
+
+RecordFields<CapturedChange> movementFields() {
+    auto all = changeFields();
+    all.number("seconds", &CapturedChange::seconds, {.unit = "s"});
+    return all;
+}
+
+RecordFields<CapturedChange> stepFields() {
+    using C = CapturedChange;
+    using S = StepCourse;
+    auto all = changeFields();
+    const auto seconds = [&all](std::string_view key, auto member) { all.number(key, member, {.unit = "s"}); };
+    const auto volts = [&all](std::string_view key, auto member) { all.number(key, member, {.unit = "V"}); };
+    seconds("step_s", &C::at_s);
+    seconds("since_onset_s", &C::sinceOnset_s);
+    seconds("latency_s", in(&C::measured, &S::latency_s));
+    seconds("designed_latency_s", in(&C::designed, &S::latency_s));
+    seconds("designed_latency_low_s", in(&C::designedFirst, &S::latency_s));
+    seconds("designed_latency_high_s", in(&C::designedLast, &S::latency_s));
+    all.number("trains", in(&C::measured, &S::trains));
+    all.number("designed_trains", in(&C::designed, &S::trains));
+    all.number("designed_trains_high", in(&C::designedLast, &S::trains));
+    seconds("complete_s", in(&C::measured, &S::complete_s));
+    seconds("designed_complete_s", in(&C::designed, &S::complete_s));
+    seconds("fastest_complete_s", in(&C::fastest, &S::complete_s));
+    all.number("fewest_trains", in(&C::fastest, &S::trains));
+    volts("from_v", &C::from_v);
+    volts("to_v", &C::to_v);
+    seconds("from_s", &C::from_s);
+    seconds("to_s", &C::to_s);
+    all.list("before_v", &C::before_v, readingKind(), 0, kMaxTrains);
+    all.list("captures", &C::captures, numberKind<std::int64_t>({}), 0, kMaxTrains);
+    return all;
+}
+
+const RecordFields<CapturedChange>& fieldsOf(ChangeKind kind) {
+    static const auto step = stepFields(), movement = movementFields();
+    return kind == ChangeKind::Movement ? movement : step;
 }
 
 }  // namespace
 
-StepLatency stepLatencyFrom(const nlohmann::json& row) {
-    return {.name = row.at("name").get<std::string>(),
-            .latency_s = numberOr(row, "latency_s"),
-            .designed_s = numberOr(row, "designed_latency_s"),
-            .designedLow_s = numberOr(row, "designed_latency_low_s"),
-            .designedHigh_s = numberOr(row, "designed_latency_high_s"),
-            .trains = numberOr(row, "trains"),
-            .designedTrains = numberOr(row, "designed_trains"),
-            .designedTrainsHigh = numberOr(row, "designed_trains_high")};
+Result<CapturedChange> capturedChangeFrom(const nlohmann::json& row) {
+    const auto kind = valueFor(kChangeKinds, textOr(row, "type")).value_or(ChangeKind::Step);
+    return fieldsOf(kind).read(row, {.path = "change"}).map_error(asInvalidArgument);
 }
 
-CapturedChange capturedChangeFrom(const nlohmann::json& row) {
-    CapturedChange change{.name = row.at("name").get<std::string>(),
-                          .movement = isMovement(row),
-                          .from_v = numberOr(row, "from_v"),
-                          .to_v = numberOr(row, "to_v"),
-                          .from_s = numberOr(row, "from_s"),
-                          .to_s = numberOr(row, "to_s"),
-                          .complete_s = numberOr(row, "complete_s"),
-                          .trainsTaken = numberOr(row, "trains"),
-                          .fastest_s = numberOr(row, "fastest_complete_s"),
-                          .fewestTrains = numberOr(row, "fewest_trains")};
-    for (const auto& one : row.value("before_v", nlohmann::json::array())) change.before_v.push_back(numberOr(one));
-    for (const auto& train : row.at("onsets")) {
-        change.trains.push_back({.amplitude_v = numberOr(train, "amplitude_v"),
-                                 .interval_s = numberOr(train, "interval_s"),
-                                 .onsetUncertainty_s = numberOr(train, "onset_u_s"),
-                                 .amplitude_jnd = numberOr(train, "amplitude_jnd"),
-                                 .interval_jnd = numberOr(train, "interval_jnd")});
-    }
-    return change;
-}
+nlohmann::json toJson(const CapturedChange& change) { return fieldsOf(change.kind).write(change); }
 
 nlohmann::json toJson(const LatencyJudgement& judgement) {
     return {{"tolerance_s", judgement.tolerance_s},

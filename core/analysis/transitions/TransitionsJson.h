@@ -1,4 +1,5 @@
-// TransitionsJson.h - steps and changes as scripts hand them over, and what they were judged to be. NaN is null.
+// TransitionsJson.h - steps and movements as scripts carry them from the bench to their analysis, and what they
+// were judged to be. NaN is null.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -7,13 +8,15 @@
 
 #include "core/analysis/transitions/CapturedChange.h"
 #include "core/analysis/transitions/StepLatency.h"
+#include "core/base/Result.h"
 
 namespace tacto {
 
-/// A row of bench.step(), with a name. What is absent or no number was not measured.
-[[nodiscard]] StepLatency stepLatencyFrom(const nlohmann::json& row);
-/// A row of bench.step() or bench.traverse(), with a name.
-[[nodiscard]] CapturedChange capturedChangeFrom(const nlohmann::json& row);
+/// A row that a script hands back, with the name that it gave. Null and a missing key: not measured. Keys that are not
+/// known are the script's own. Errors: InvalidArgument for a row without a name and for values of another type.
+[[nodiscard]] Result<CapturedChange> capturedChangeFrom(const nlohmann::json& row);
+/// The row that bench.step() or bench.traverse() returns.
+[[nodiscard]] nlohmann::json toJson(const CapturedChange& change);
 
 [[nodiscard]] nlohmann::json toJson(const LatencyJudgement& judgement);
 [[nodiscard]] nlohmann::json toJson(const ChangeJudgement& judgement);

@@ -1,6 +1,5 @@
 #include "drivers/sigrok/session_file/SrLayout.h"
 
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -51,10 +50,9 @@ std::optional<std::uint64_t> numberIn(const Values& values, std::string_view key
 
 /// Whether libsigrok understands `text` as the frequency that a reader would: "1 MHz", "2.5 kHz", "44100".
 bool isFrequency(std::string_view text) {
-    double value = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (read.ec != std::errc() || !(value >= 0 && value <= 1e18) || std::signbit(value)) return false;
-    auto unit = trimmed(std::string_view(read.ptr, text.data() + text.size()));
+    const auto value = takeNumber(text);
+    if (!value || !(*value >= 0 && *value <= 1e18) || std::signbit(*value)) return false;
+    auto unit = trimmed(text);
     if (!unit.empty() && std::string_view("kKmMgGtT").find(unit.front()) != std::string_view::npos) {
         unit.remove_prefix(1);
     }

@@ -1,7 +1,9 @@
+#include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/separability/Separability.h"
+#include "core/analysis/separability/SeparabilityJson.h"
 #include "tests/analysis/SyntheticTrials.h"
 #include "tests/support/Figures.h"
 
@@ -135,6 +137,20 @@ TEST(Separability, RefusesValuesThatNoPulseHas) {
     auto unnamed = trialsOf({});
     unnamed[0].condition = "";
     EXPECT_FALSE(judgeSeparability(unnamed));
+}
+
+TEST(SeparabilityTrial, IsWrittenAsItWasReadAndRefusedWithoutItsCondition) {
+    const nlohmann::json row{{"condition", "rough-low"}, {"amplitude_v", 10},       {"interval_s", nullptr},
+                             {"amplitude_u_v", 0.1},     {"interval_u_s", nullptr}, {"time_base_u", 1e-5}};
+    const auto trial = separabilityTrialFrom(row);
+    ASSERT_TRUE(trial) << trial.error().message;
+    EXPECT_TRUE(std::isnan(trial->interval_s));
+    EXPECT_EQ(toJson(*trial), row);
+    const auto bare = separabilityTrialFrom({{"condition", ""}});
+    ASSERT_TRUE(bare);
+    EXPECT_TRUE(std::isnan(bare->amplitude));
+    EXPECT_FALSE(separabilityTrialFrom({{"amplitude_v", 10}}));
+    EXPECT_FALSE(separabilityTrialFrom({{"condition", "rough-low"}, {"amplitude_v", "10"}}));
 }
 
 }  // namespace

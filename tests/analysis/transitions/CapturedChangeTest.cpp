@@ -22,16 +22,14 @@ CapturedTrain trainOf(double amplitude_jnd) {
 
 CapturedChange changeOf(double amplitude_jnd, double complete_s) {
     return {.name = "up",
-            .before_v = {10, 10.01},
             .trains = {trainOf(amplitude_jnd), trainOf(0)},
+            .measured = {.trains = 2, .complete_s = complete_s},
+            .fastest = {.trains = 2, .complete_s = 1},
             .from_v = 10,
             .to_v = 20,
             .from_s = 0.5,
             .to_s = 0.5,
-            .complete_s = complete_s,
-            .trainsTaken = 2,
-            .fastest_s = 1,
-            .fewestTrains = 2};
+            .before_v = {10, 10.01}};
 }
 
 TEST(CapturedChange, PassesForSmallStepsThatAreCompleteInTime) {
@@ -51,7 +49,7 @@ TEST(CapturedChange, FailsForAStepThatIsTooLargeAndForOneThatIsLate) {
 
 TEST(CapturedChange, NotesWhatCannotBeCompleteInTimeAndPassesIt) {
     auto change = changeOf(1.5, 2.5);
-    change.fastest_s = 2.4;
+    change.fastest.complete_s = 2.4;
     const auto judged = judgeChanges(std::vector{change}, {}, kLimits);
     EXPECT_EQ(judged.verdict, Verdict::Pass);
     EXPECT_THAT(judged.notes, Contains(HasSubstr("2 s are out of reach")));
@@ -62,7 +60,7 @@ TEST(CapturedChange, NotesWhatCannotBeCompleteInTimeAndPassesIt) {
 
 TEST(CapturedChange, AMovementHasNoEndToWaitFor) {
     auto movement = changeOf(kNaN, kNaN);
-    movement.movement = true;
+    movement.kind = ChangeKind::Movement;
     movement.trains.push_back(trainOf(1));
     movement.trains.push_back(trainOf(1));
     movement.trains.erase(movement.trains.begin() + 1);

@@ -9,8 +9,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-StepLatency stepOf(const char* name, double latency_s, double trains) {
-    return {.name = name, .latency_s = latency_s, .designed_s = 0.2, .trains = trains, .designedTrains = 3};
+CapturedChange stepOf(const char* name, double latency_s, double trains) {
+    return {.name = name,
+            .measured = {.latency_s = latency_s, .trains = trains},
+            .designed = {.latency_s = 0.2, .trains = 3}};
 }
 
 TEST(StepLatency, PassesWithinTheToleranceOfTheDesign) {
@@ -30,8 +32,8 @@ TEST(StepLatency, FailsForATrainOffTheDesignAndForTooManyTrains) {
 
 TEST(StepLatency, WithinWhatAMeasurementOfTheDesignMayFindThereIsNoDifference) {
     auto step = stepOf("up", 0.25, 3);
-    step.designedLow_s = 0.15;
-    step.designedHigh_s = 0.3;
+    step.designedFirst.latency_s = 0.15;
+    step.designedLast.latency_s = 0.3;
     EXPECT_EQ(judgeLatency(std::vector{step}, {}, 0.02).verdict, Verdict::Pass);
 }
 

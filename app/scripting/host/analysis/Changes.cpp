@@ -7,31 +7,36 @@ namespace tacto::host::analysis {
 
 namespace {
 
-std::vector<std::string> namesAsked(const Arguments& arguments) { return arguments.list("options.names"); }
+Result<std::vector<CapturedChange>> changesIn(const Json& rows) {
+    std::vector<CapturedChange> changes;
+    for (const auto& row : rows) {
+        auto change = capturedChangeFrom(row);
+        if (!change) return failure(change);
+        changes.push_back(std::move(*change));
+    }
+    return changes;
+}
 
-bool isNamed(const Json& row) { return row.value("name", Json()).is_string(); }
+std::vector<std::string> namesAsked(const Arguments& arguments) { return arguments.list("options.names"); }
 
 }  // namespace
 
 Result<Json> latency(ScriptSession&, const Arguments& arguments) {
-    std::vector<StepLatency> steps;
-    for (const auto& row : arguments.list("steps")) {
-        if (!isNamed(row)) return arguments.wrong("a step", row, "what bench.step() returned, with a name,");
-        steps.push_back(stepLatencyFrom(row));
-    }
-    return toJson(judgeLatency(steps, namesAsked(arguments), arguments.number("options.tolerance_s")));
+    const auto steps = changesIn(arguments.list("steps"));
+    if (!steps) return failure(steps);
+    return toJson(judgeLatency(*steps, namesAsked(arguments), arguments.number("options.tolerance_s")));
 }
 
 Result<Json> changes(ScriptSession&, const Arguments& arguments) {
-    std::vector<CapturedChange> changes;
     for (const auto& row : arguments.list("changes")) {
-        if (!isNamed(row) || !row.value("onsets", Json()).is_array())
+        if (!row.contains("onsets"))
             return arguments.wrong("a change", row, "what bench.step() or bench.traverse() returned, with a name,");
-        changes.push_back(capturedChangeFrom(row));
     }
+    const auto changes = changesIn(arguments.list("changes"));
+    if (!changes) return failure(changes);
     const ChangeLimits limits{kWantedPerTrain, arguments.number("options.complete_s"),
                               arguments.flag("options.seconds_alone")};
-    return toJson(judgeChanges(changes, namesAsked(arguments), limits));
+    return toJson(judgeChanges(*changes, namesAsked(arguments), limits));
 }
 
 }  // namespace tacto::host::analysis

@@ -6,6 +6,7 @@
 #include "app/scripting/host/analysis/GivenReadings.h"
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::host::analysis {
 
@@ -24,9 +25,9 @@ struct Tolerances {
     }
 };
 
-/// One weight on the fingertip: a reading of bench.measureWeight() and the way it was reached.
+/// One weight on the fingertip, and the way it was reached.
 struct Weighed {
-    const Json* reading;
+    WeightReading reading;
     SweepDirection direction;
 };
 
@@ -41,19 +42,19 @@ Json evaluate(std::span<const CalibrationReading> readings, std::optional<double
 Json forceScale(const std::vector<Weighed>& weighed, const Tolerances& known) {
     const auto none = [](const char* reason) { return Json{{"scale", nullptr}, {"reason", reason}}; };
     if (weighed.empty()) return none("no weights were given; force was not evaluated");
-    if (!weighed.front().reading->contains("force_unit"))
-        return none("this fingertip has no force sensor; force was not evaluated");
+    const auto unit = weighed.front().reading.forceUnit;
+    if (!unit) return none("this fingertip has no force sensor; force was not evaluated");
     std::vector<CalibrationReading> readings;
     for (const auto& one : weighed) {
-        if (!one.reading->at("force").is_number()) {
+        if (std::isnan(one.reading.force)) {
             auto missing = none("a weight's force was not read; force was not evaluated");
             missing["asked"] = true;
             return missing;
         }
-        readings.push_back({one.reading->at("reference_n"), one.reading->at("force"), one.direction});
+        readings.push_back({one.reading.reference_n, one.reading.force, one.direction});
     }
     auto out = evaluate(readings, known.ofForce(), "force");
-    out["unit"] = weighed.front().reading->at("force_unit");
+    out["unit"] = symbolOf(*unit);
     return out;
 }
 
@@ -61,18 +62,16 @@ Json taxelScale(const std::vector<Weighed>& weighed, std::size_t taxel, double a
     const auto name = fmt::format("taxel {}", taxel + 1);
     Json found = {{"scale", nullptr}, {"reason", "the contact area is not known; no pressure to compare with"}};
     if (area_cm2 > 0) {
+        constexpr double kSquareMetres = 1e-4;  // per cm²
         std::vector<CalibrationReading> readings;
-        for (const auto& one : weighed) {
-            const auto& read = one.reading->at("taxels").at(taxel);
-            constexpr double kSquareMetres = 1e-4;  // per cm²
-            readings.push_back({one.reading->at("reference_n").get<double>() / (area_cm2 * kSquareMetres),
-                                read.is_number() ? read.get<double>() : std::nan(""), one.direction});
+        for (const auto& [reading, direction] : weighed) {
+            readings.push_back({reading.reference_n / (area_cm2 * kSquareMetres), reading.taxels.at(taxel), direction});
         }
         found = evaluate(readings, known.ofPressure(), name);
     }
     const auto of = [&found](const char* key) { return found.value(key, Json()); };
     Json out = {{"taxel", taxel + 1},
-                {"unit", weighed.front().reading->at("taxel_unit")},
+                {"unit", symbolOf(*weighed.front().reading.taxelUnit)},
                 {"scale", of("scale")},
                 {"scale_expanded_uncertainty", of("scale_expanded_uncertainty")},
                 {"offset_pa", of("offset")},
@@ -81,11 +80,6 @@ Json taxelScale(const std::vector<Weighed>& weighed, std::size_t taxel, double a
                 {"reason", of("reason")}};
     if (found.contains("follows")) out["follows"] = found["follows"];
     return out;
-}
-
-bool isReading(const Json& one) {
-    return one.is_object() && one.value("reference_n", Json()).is_number() && one.contains("force") &&
-           one.value("taxels", Json()).is_array();
 }
 
 }  // namespace
@@ -114,19 +108,21 @@ Result<Json> fingertipScales(ScriptSession& session, const Arguments& arguments)
     bool own = true;
     std::vector<Weighed> weighed;
     for (const auto& row : rows) {
-        if (!row.is_object() || !row.contains("reading") || !isReading(row["reading"]))
+        const auto given = valueOr(row, "reading");
+        auto reading = weightReadingFrom(given);
+        if (!reading)
             return arguments.wrong("a weighed row", row, "{ reading: from bench.measureWeight(), direction }");
-        const auto& reading = row["reading"];
         const auto direction = directionGiven("analysis.fingertipScales", row);
         if (!direction) return failure(direction);
-        weighed.push_back({&reading, *direction});
-        own = own && session.own().noted(reading);
-        if (reading["taxels"].size() != weighed.front().reading->at("taxels").size() ||
-            (!reading["taxels"].empty() && !reading.contains("taxel_unit")))
-            return arguments.wrong("a weighed row", reading, "readings of one fingertip");
+        weighed.push_back({std::move(*reading), *direction});
+        own = own && session.own().noted(given);
+        const auto& taxels = weighed.back().reading.taxels;
+        if (taxels.size() != weighed.front().reading.taxels.size() ||
+            (!taxels.empty() && !weighed.back().reading.taxelUnit))
+            return arguments.wrong("a weighed row", given, "readings of one fingertip");
     }
     Json out = {{"force", forceScale(weighed, known)}, {"taxels", Json::array()}};
-    const auto taxels = weighed.empty() ? 0 : weighed.front().reading->at("taxels").size();
+    const auto taxels = weighed.empty() ? 0 : weighed.front().reading.taxels.size();
     for (std::size_t k = 0; k < taxels; ++k) out["taxels"].push_back(taxelScale(weighed, k, area_cm2, known));
     if (own && !weighed.empty()) session.own().note(out);
     return out;

@@ -353,8 +353,7 @@ std::vector<HostFunction> benchFunctions() {
                  "and taxels.",
          .returns = "{ mass_g, reference_n, force, force_unit, taxels, taxel_unit, force_in_use }: means, in the "
                     "sensor's own units; force_in_use { mean, unit } as the profile scales it.",
-         .errors =
-             "Throws for an unknown surface, without an answer, when too few samples came, or when the run is stopped.",
+         .errors = "Throws without an answer, when too few samples came, or when the run is stopped.",
          .needs = Role::Sensor,
          .failsDisarmed = true,
          .call = host::bench::measureWeight},

@@ -10,6 +10,11 @@ namespace tacto::host::bench {
 
 using Json = nlohmann::json;
 
+/// Fits `load`: by itself on a simulated bench, else the operator does, asked `request` under the name `question`.
+/// Output that is on stays on.
+[[nodiscard]] Result<void> changeLoad(ScriptSession& session, const std::string& load, const char* question,
+                                      const std::string& request);
+
 HostCall arm, disarm, wait, drive, fitLoad;  // Output.cpp
 HostCall capture;                            // Captures.cpp
 HostCall loads, predict, attempt;            // Prediction.cpp

@@ -12,24 +12,16 @@ namespace {
 double given(double option, double usual) { return std::isfinite(option) ? option : usual; }
 
 ScopeSettings scopeSettings(Bench& bench, const CaptureOptions& options) {
-    const EncodingProfile& encoding = bench.profile().encoding;
-    const PulseTrain& train = encoding.train;
     const Telemetry now = bench.telemetry();
-    const double expected_v = std::isfinite(now.amplitude_v) ? now.amplitude_v : encoding.amplitudeMax.value();
-    const double load_ohm = std::isfinite(now.impedance_ohm) && now.impedance_ohm > 0 ? now.impedance_ohm : 1000;
+    const double expected_v =
+        std::isfinite(now.amplitude_v) ? now.amplitude_v : bench.profile().encoding.amplitudeMax.value();
     const double fastest_hz = bench.devices().oscilloscope->traits().maxRate.value();
-    const double rate_hz = given(options.rate_hz, std::min(1e6, fastest_hz));
-    // The whole train, with a tenth before it and a tail to see the charge run off.
-    const double train_s = (train.pulses - 1) / train.rate.value() + train.pulseDuration().count();
-    const double wanted = std::max(1.0, std::ceil((1.4 * train_s + 3e-4) * rate_hz));
-
-    ScopeSettings settings;
-    settings.sampleRate = Hertz(rate_hz);
-    settings.samples = options.samples > 0 ? options.samples : static_cast<std::size_t>(wanted);
-    settings.preTrigger = 0.15;
+    ScopeSettings settings = trainRecord(bench, Hertz(given(options.rate_hz, std::min(1e6, fastest_hz))));
+    if (options.samples > 0) settings.samples = options.samples;
     settings.triggerLevel = given(options.trigger_v, std::max(0.05, 0.2 * expected_v));
     settings.voltageRange = Volts(given(options.voltageRange_v, std::max(1.0, 1.3 * expected_v)));
-    settings.currentRange = Milliamps(given(options.currentRange_ma, std::max(1.0, 2e3 * expected_v / load_ohm)));
+    settings.currentRange =
+        Milliamps(given(options.currentRange_ma, std::max(1.0, 2e3 * expected_v / presentLoad(now).value())));
     return settings;
 }
 
@@ -50,6 +42,20 @@ Result<std::vector<Capture>> captureInOne(Bench& bench, int trains, ScopeSetting
 }
 
 }  // namespace
+
+ScopeSettings trainRecord(const Bench& bench, Hertz rate) {
+    const Seconds train = bench.profile().encoding.train.outputDuration();
+    ScopeSettings settings;
+    settings.sampleRate = rate;
+    settings.samples =
+        static_cast<std::size_t>(std::max(1.0, std::ceil((1.4 * train + kTrainTail).count() * rate.value())));
+    settings.preTrigger = kPreTrigger;
+    return settings;
+}
+
+Ohms presentLoad(const Telemetry& now) noexcept {
+    return Ohms(std::isfinite(now.impedance_ohm) && now.impedance_ohm > 0 ? now.impedance_ohm : 1000);
+}
 
 Result<std::vector<Capture>> captureTrains(ScriptSession& session, const CaptureOptions& options) {
     const ScopeSettings settings = scopeSettings(session.bench(), options);

@@ -60,9 +60,10 @@ Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
         listening.takeInto(samples);
     }
     if (listening.dropped() > 0) {
-        return fail(ErrorCode::Device,
-                    "{} samples of the fingertip were lost here: this computer was too busy; none may be",
-                    listening.dropped());
+        return fail(
+            ErrorCode::Device,
+            "{} samples of the fingertip were lost because this computer was too busy; a reading needs all of them",
+            listening.dropped());
     }
     for (std::size_t s = 0; s < samples.streams.size(); ++s) {
         const auto& info = samples.streams[s];
@@ -76,17 +77,16 @@ Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
     return samples;
 }
 
-/// The mean force as the profile in force turns it into N, and in which unit that is; null without a force sensor.
-Result<Json> forceInUse(ScriptSession& session, const SensorSamples& samples) {
+/// Nothing without a force sensor.
+Result<std::optional<ForceInUse>> forceInUse(ScriptSession& session, const SensorSamples& samples) {
     auto chain = RoughnessChain::create(samples.streams, session.bench().profile().roughness, {}, samples.serial);
     if (!chain) return failure(chain);
     for (std::size_t s = 0; s < samples.streams.size(); ++s) {
         if (samples.streams[s].kind != StreamKind::Force) continue;
         const double mean = levelOf(samples, StreamKind::Force).mean;
-        return Json{{"mean", numberOrNull((*chain)->inUse(s, 0, mean))},
-                    {"unit", symbolOf((*chain)->streams()[s].unit)}};
+        return std::optional(ForceInUse{(*chain)->inUse(s, 0, mean), (*chain)->streams()[s].unit});
     }
-    return Json();
+    return std::optional<ForceInUse>();
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ Result<Json> measureRest(ScriptSession& session, const Arguments& arguments) {
     out["force"] = toJson(levelOf(*samples, StreamKind::Force));
     auto used = forceInUse(session, *samples);
     if (!used) return failure(used);
-    out["force_in_use"] = std::move(*used);
+    out["force_in_use"] = *used ? toJson(**used) : Json();
     session.own().note(out);
     return out;
 }
@@ -165,20 +165,19 @@ Result<Json> measureWeight(ScriptSession& session, const Arguments& arguments) {
     if (auto waited = bench.wait(Seconds(1.5)); !waited) return failure(waited);
     auto samples = listenFor(session, duration);
     if (!samples) return failure(samples);
-    Json out = {{"mass_g", mass}, {"reference_n", force}, {"force", nullptr}, {"taxels", Json::array()}};
     auto used = forceInUse(session, *samples);
     if (!used) return failure(used);
-    out["force_in_use"] = std::move(*used);
+    WeightReading reading{.mass_g = mass, .reference_n = force, .inUse = std::move(*used)};
     if (const auto* info = streamOf(*samples, StreamKind::Force)) {
-        out["force"] = numberOrNull(levelOf(*samples, StreamKind::Force).mean);
-        out["force_unit"] = symbolOf(info->unit);
+        reading.force = levelOf(*samples, StreamKind::Force).mean;
+        reading.forceUnit = info->unit;
     }
     if (const auto* info = streamOf(*samples, StreamKind::Taxels)) {
-        out["taxel_unit"] = symbolOf(info->unit);
-        for (std::size_t c = 0; c < info->channels; ++c) {
-            out["taxels"].push_back(numberOrNull(levelOf(*samples, StreamKind::Taxels, c).mean));
-        }
+        reading.taxelUnit = info->unit;
+        for (std::size_t c = 0; c < info->channels; ++c)
+            reading.taxels.push_back(levelOf(*samples, StreamKind::Taxels, c).mean);
     }
+    const Json out = toJson(reading);
     session.own().note(out);
     return out;
 }

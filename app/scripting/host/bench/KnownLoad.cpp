@@ -9,9 +9,7 @@ namespace tacto::host::bench {
 
 Result<Json> readKnownLoad(ScriptSession& session, const Arguments& arguments) {
     const double load_ohm = arguments.number("load");
-    const auto request = confirmedArming(session, fmt::format("{} ohm", load_ohm));
-    if (!request) return failure(request);
-    if (auto armed = session.bench().arm(*request); !armed) return failure(armed);
+    if (auto armed = armConfirmed(session, fmt::format("{} ohm", load_ohm)); !armed) return failure(armed);
     if (auto driven = session.bench().drive(DriveSource::Manual, 1, 1); !driven) return failure(driven);
     auto captures = captureTrains(session, {});
     if (!captures) return failure(captures);

@@ -6,9 +6,7 @@
 namespace tacto::host::bench {
 
 Result<Json> arm(ScriptSession& session, const Arguments& arguments) {
-    const auto request = confirmedArming(session, arguments.load("options.load"));
-    if (!request) return failure(request);
-    return done(session.bench().arm(*request));
+    return done(armConfirmed(session, arguments.load("options.load")));
 }
 
 Result<Json> disarm(ScriptSession& session, const Arguments&) {
@@ -29,15 +27,17 @@ Result<Json> drive(ScriptSession& session, const Arguments& arguments) {
         session.bench().drive(driven, arguments.number("options.roughness"), arguments.number("options.pressure")));
 }
 
+Result<void> changeLoad(ScriptSession& session, const std::string& load, const char* question,
+                        const std::string& request) {
+    session.forgetConfirmed();
+    if (auto& fitter = session.bench().devices().load) return fitter->fitLoad(load);
+    return session.askTo(question, request);
+}
+
 Result<Json> fitLoad(ScriptSession& session, const Arguments& arguments) {
     const auto load = arguments.load("load");
     session.bench().disarm();
-    session.forgetConfirmed();
-    if (auto& fitter = session.bench().devices().load) return done(fitter->fitLoad(load));
-    OperatorQuestion question;
-    question.name = "fit-load";
-    question.text = fmt::format("Fit the load {}", load);
-    return done(session.ask(question));
+    return done(changeLoad(session, load, "fit-load", fmt::format("Fit the load {}", load)));
 }
 
 }  // namespace tacto::host::bench

@@ -16,12 +16,12 @@ namespace tacto::host::bench {
 
 namespace {
 
-constexpr double kRecordMargin_s = 3e-4;
-
-constexpr double kPreTrigger = 0.15;  // as bench.capture() sets it
 constexpr double kHeadroom = 1.5;     // of the range over the expected peak: an output that is too large still shows
 constexpr double kTimeConstants = 8;  // of tail: what is left is 0.03 %
 constexpr double kLongestTail_s = 0.02;
+
+/// V, or mA.
+double inItsUnit(const Amplitude& amplitude) { return siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1); }
 
 /// The first row that forbids it, with the figure on the load as it is declared beside the worst case.
 std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
@@ -40,21 +40,20 @@ std::string forbidsCheck(const GateSetup& setup) {
     const PulseTrain check = checkTrainOf(setup);
     const auto why = forbids(setup, check, std::max(kCheckInterval, check.duration()));
     if (why.empty()) return {};
-    return fmt::format("impedance check of {:.3g} {}: {}",
-                       siValue(check.amplitude) * (isCurrent(check.amplitude) ? 1e3 : 1),
+    return fmt::format("impedance check of {:.3g} {}: {}", inItsUnit(check.amplitude),
                        isCurrent(check.amplitude) ? "mA" : "V", why);
 }
 
 /// Settings that show the whole train with its tail, and twice the peak that is expected.
-Json captureFor(Bench& bench, const PulseTrain& train, const TrainExposure& most, const Load& load, bool opens) {
+CaptureOptions captureFor(Bench& bench, const PulseTrain& train, const TrainExposure& most, const Load& load,
+                          bool opens) {
     const auto* scope = bench.devices().oscilloscope.get();
     double tail_s = 0;
     if (load.kind == LoadKind::SkinEquivalent) {
         const double ohm = opens ? load.parallel.value() : 1 / (1 / load.parallel.value() + 1 / load.series.value());
         tail_s = std::min(kLongestTail_s, kTimeConstants * ohm * load.capacitance.value() * 1e-9);
     }
-    const double train_s = (train.pulses - 1) / train.rate.value() + train.pulseDuration().count();
-    const double record_s = (train_s + tail_s + kRecordMargin_s) / (1 - kPreTrigger);
+    const double record_s = (train.outputDuration().count() + tail_s + kTrainTail.count()) / (1 - kPreTrigger);
     double rate = 10e6;
     double depth = 1e6;
     if (scope != nullptr) {
@@ -63,11 +62,11 @@ Json captureFor(Bench& bench, const PulseTrain& train, const TrainExposure& most
     }
     if (record_s * rate > depth) rate = depth / record_s;
     const double volts = kHeadroom * most.at(Quantity::PeakVoltage);
-    return {{"rate_hz", rate},
-            {"samples", std::floor(record_s * rate)},
-            {"voltage_range_v", volts},
-            {"current_range_ma", kHeadroom * most.at(Quantity::PeakCurrent)},
-            {"trigger_v", 0.2 * volts / kHeadroom}};
+    return {.rate_hz = rate,
+            .samples = static_cast<std::size_t>(record_s * rate),
+            .voltageRange_v = volts,
+            .currentRange_ma = kHeadroom * most.at(Quantity::PeakCurrent),
+            .trigger_v = 0.2 * volts / kHeadroom};
 }
 
 }  // namespace
@@ -84,7 +83,35 @@ Result<Json> loads(ScriptSession&, const Arguments&) {
     return out;
 }
 
-Result<Json> predictCommand(ScriptSession& session, const std::string& name, double strength) {
+Json toJson(const PredictedCommand& command) {
+    Json out = {{"load", command.load},
+                {"strength", command.strength},
+                {"roughness", command.roughness},
+                {"pressure", command.pressure},
+                {"command_v", command.command_v},
+                {"interval_s", command.interval_s},
+                {"nominal_ohm", numberOrNull(command.nominal_ohm)},
+                {"check_forbidden", command.checkForbidden},
+                {"forbidden", !command.forbidden.empty()},
+                {"predicted", command.forbidden},
+                {"not_applicable", nullptr}};
+    if (!command.notApplicable.empty()) {
+        out["not_applicable"] = command.notApplicable;
+        return out;
+    }
+    out["amplitude"] = command.amplitude;
+    out["rms_5s_ma"] = numberOrNull(command.rms5s_ma);
+    out["peak_ma"] = numberOrNull(command.peak_ma);
+    out["fine_range_ma"] = numberOrNull(command.fineRange_ma);
+    out["capture"] = {{"rate_hz", command.capture.rate_hz},
+                      {"samples", command.capture.samples},
+                      {"voltage_range_v", command.capture.voltageRange_v},
+                      {"current_range_ma", command.capture.currentRange_ma},
+                      {"trigger_v", command.capture.trigger_v}};
+    return out;
+}
+
+Result<PredictedCommand> predictCommand(ScriptSession& session, const std::string& name, double strength) {
     Bench& bench = session.bench();
     const auto load = parseLoad(name);
     if (!load) return failure(load);
@@ -99,38 +126,33 @@ Result<Json> predictCommand(ScriptSession& session, const std::string& name, dou
     const Ohms ohms = impedanceOf(*load, encoding.train, source);
     const auto wanted = trainFor(source.drive, encoding, command->amplitude, ohms);
     if (!wanted) return failure(wanted);
-    Json out = {{"load", name},
-                {"strength", strength},
-                {"roughness", R},
-                {"pressure", P},
-                {"command_v", command->amplitude.value()},
-                {"interval_s", command->interval.count()},
-                {"nominal_ohm", numberOrNull(ohms.value())},
-                {"forbidden", false},
-                {"predicted", ""},
-                {"not_applicable", nullptr}};
     const GateSetup setup = bench.setupFor(*load);
-    out["check_forbidden"] = forbidsCheck(setup);
+    PredictedCommand out{.load = name,
+                         .strength = strength,
+                         .roughness = R,
+                         .pressure = P,
+                         .command_v = command->amplitude.value(),
+                         .interval_s = command->interval.count(),
+                         .nominal_ohm = ohms.value(),
+                         .checkForbidden = forbidsCheck(setup)};
     const auto rounded = roundToDevice(*wanted, gridOf(source));
     if (!rounded) {
-        out["not_applicable"] = fmt::format("{} cannot be driven with {:.4g} V: {}", name, command->amplitude.value(),
-                                            rounded.error().message);
+        out.notApplicable =
+            fmt::format("{} cannot be driven with {:.4g} V: {}", name, out.command_v, rounded.error().message);
         return out;
     }
     const auto& train = rounded->train;
-    const auto why = forbids(setup, train, command->interval);
-    out["forbidden"] = !why.empty();
-    out["predicted"] = why;
-    const double area = setup.electrodeArea ? setup.electrodeArea->value() : std::nan("");
+    out.forbidden = forbids(setup, train, command->interval);
+    const double area = setup.electrodeArea ? setup.electrodeArea->value() : kNaN;
     const auto most = exposureOf(train, command->interval, *load, source, area);
-    out["amplitude"] = siValue(train.amplitude) * (isCurrent(train.amplitude) ? 1e3 : 1);
-    out["rms_5s_ma"] = numberOrNull(most.at(Quantity::RmsCurrent5s));
-    out["peak_ma"] = numberOrNull(most.at(Quantity::PeakCurrent));
+    out.amplitude = inItsUnit(train.amplitude);
+    out.rms5s_ma = most.at(Quantity::RmsCurrent5s);
+    out.peak_ma = most.at(Quantity::PeakCurrent);
     // Where a skin equivalent's current has settled it is far below its charging spike: a range of its own for it.
     constexpr double kOverTheEnd = 5e3;  // mA per A
     const bool spikes = load->kind == LoadKind::SkinEquivalent && source.drive == Drive::Voltage;
-    out["fine_range_ma"] = spikes ? numberOrNull(kOverTheEnd * command->amplitude.value() / ohms.value()) : Json();
-    out["capture"] = captureFor(bench, train, most, *load, source.gap == GapState::HighImpedance);
+    if (spikes) out.fineRange_ma = kOverTheEnd * out.command_v / ohms.value();
+    out.capture = captureFor(bench, train, most, *load, source.gap == GapState::HighImpedance);
     return out;
 }
 
@@ -140,7 +162,9 @@ Result<Json> predict(ScriptSession& session, const Arguments& arguments) {
     if (!load) return failure(load);
     if (load->kind == LoadKind::Open || load->kind == LoadKind::Short)
         return arguments.wrong("load", name, "a resistor or a skin equivalent");
-    return predictCommand(session, name, arguments.number("strength"));
+    const auto command = predictCommand(session, name, arguments.number("strength"));
+    if (!command) return failure(command);
+    return toJson(*command);
 }
 
 Result<Attempt> attemptCommand(Bench& bench, double R, double P) {

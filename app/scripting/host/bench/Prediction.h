@@ -8,12 +8,33 @@
 #include <string>
 
 #include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/bench/TrainCaptures.h"
 
 namespace tacto::host::bench {
 
-/// As bench.predict() returns it; nothing is delivered. `strength`: 0 the weakest amplitude to 1 the strongest, at the
-/// shortest interval. Errors: InvalidArgument for a load that cannot be read; as Encoder::encode().
-[[nodiscard]] Result<nlohmann::json> predictCommand(ScriptSession& session, const std::string& load, double strength);
+/// NaN: not known.
+struct PredictedCommand {
+    std::string load;
+    double strength = 0;  ///< 0 the weakest amplitude to 1 the strongest
+    double roughness = 0, pressure = 0;
+    double command_v = 0, interval_s = 0;
+    double nominal_ohm = kNaN;
+    std::string checkForbidden{};  ///< what forbids the impedance check, and so arming; empty: nothing
+    std::string notApplicable{};   ///< why the device cannot give it; empty: it can, and the rest is stated
+    std::string forbidden{};       ///< the limit that forbids it; empty: none does
+    double amplitude = kNaN;       ///< V or mA, by the source
+    double rms5s_ma = kNaN, peak_ma = kNaN;
+    double fineRange_ma = kNaN;  ///< for current that settles far below a charging spike; NaN: there is none
+    CaptureOptions capture{};    ///< that show the whole train
+
+    [[nodiscard]] bool mayBeGiven() const { return notApplicable.empty() && forbidden.empty(); }
+};
+/// As bench.predict() returns it.
+[[nodiscard]] nlohmann::json toJson(const PredictedCommand& command);
+
+/// What a command at the shortest interval would be on a load; nothing is delivered. Errors: InvalidArgument for a load
+/// that cannot be read; as Encoder::encode().
+[[nodiscard]] Result<PredictedCommand> predictCommand(ScriptSession& session, const std::string& load, double strength);
 
 struct Attempt {
     bool refused = false;

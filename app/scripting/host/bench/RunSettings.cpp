@@ -13,7 +13,6 @@ namespace tacto::host::bench {
 
 namespace {
 
-using record::today;
 using record::unitOf;
 
 Json lineJson(const StoredLine& line, std::string_view unit) {
@@ -84,7 +83,7 @@ Result<Json> storedCalibration(ScriptSession& session, const Arguments&) {
     auto store = CalibrationStore::open(calibrationFile());
     if (!store) return failure(store);
     const auto found =
-        store->valid(calibratedOutput(device.serial, device.uri), unitOf(stimulator), today(), device.simulated);
+        store->valid(calibratedOutput(device.serial, device.uri), unitOf(stimulator), utcToday(), device.simulated);
     if (!found) return Json{{"calibrated", false}, {"text", found.error().message}};
     Json out = {{"calibrated", true},
                 {"text", fmt::format("stimulator {} was calibrated on {} and that holds until {}", found->serial,

@@ -6,7 +6,7 @@
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/bench/BenchObject.h"
 #include "app/scripting/host/bench/TrainRecording.h"
-#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/analysis/transitions/TransitionsJson.h"
 #include "core/base/NaN.h"
 #include "core/encoding/StepPace.h"
 #include "core/encoding/Transitions.h"
@@ -38,67 +38,53 @@ std::vector<StepTrain> after(const std::vector<SeenTrain>& seen, double step_s, 
     return out;
 }
 
-/// Train `k` and how far it steps from the one before, in just-noticeable differences; null where that was not
-/// measured.
-Json stepOf(const std::vector<SeenTrain>& seen, std::size_t k) {
+/// Train `k` of a change that began at `begin_s`, and how far it steps from the one before.
+CapturedTrain trainOf(const std::vector<SeenTrain>& seen, std::size_t k, double begin_s) {
     const auto intervalTo = [&](std::size_t i) { return i == 0 ? kNaN : seen[i].onset_s - seen[i - 1].onset_s; };
     const double interval_s = intervalTo(k);
     const double amplitude =
         k == 0 ? kNaN : amplitudeDistance(Volts(seen[k].amplitude_v), Volts(seen[k - 1].amplitude_v));
     const double interval = k < 2 ? kNaN : intervalDistance(Seconds(interval_s), Seconds(intervalTo(k - 1)));
-    return {{"amplitude_v", numberOrNull(seen[k].amplitude_v)},
-            {"interval_s", numberOrNull(interval_s)},
-            {"onset_u_s", numberOrNull(seen[k].onsetUncertainty_s)},
-            {"amplitude_jnd", numberOrNull(amplitude)},
-            {"interval_jnd", numberOrNull(interval)}};
+    return {seen[k].onset_s - begin_s,  seen[k].amplitude_v, interval_s,
+            seen[k].onsetUncertainty_s, amplitude,           interval};
 }
 
-Json answer(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s, const StepEnds& ends,
-            const StepResponse& measured, std::span<const StepTrain> design) {
-    const auto inSeconds = [](const std::optional<Seconds>& time) { return time ? Json(time->count()) : Json(); };
-    const auto count = [](const std::optional<int>& trains) { return trains ? Json(*trains) : Json(); };
-    const StepResponse designed = respond(ends, design);
+StepCourse courseOf(const StepResponse& response) {
+    const auto seconds = [](const std::optional<Seconds>& time) { return time ? time->count() : kNaN; };
+    return {seconds(response.latency), response.trains ? *response.trains : kNaN, seconds(response.complete)};
+}
+
+/// What was seen of the step, beside its design; the captures of the train that carries it and of the one before are
+/// kept.
+CapturedChange changeOf(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s, const StepEnds& ends,
+                        const StepResponse& measured, std::span<const StepTrain> design) {
     const ResponseRange range = rangeOf(ends, design);
-    Json trains = Json::array(), before = Json::array();
+    const StepPace pace = fastestPace(ends, kWantedPerTrain);
+    CapturedChange change{.at_s = step_s,
+                          .sinceOnset_s = ends.sinceOnset.count(),
+                          .measured = courseOf(measured),
+                          .designed = courseOf(respond(ends, design)),
+                          .designedFirst = courseOf(range.first),
+                          .designedLast = courseOf(range.last),
+                          .fastest = {.trains = static_cast<double>(pace.trains), .complete_s = pace.complete.count()},
+                          .from_v = ends.before.amplitude.value(),
+                          .to_v = ends.after.amplitude.value(),
+                          .from_s = ends.before.interval.count(),
+                          .to_s = ends.after.interval.count()};
     std::vector<Capture> kept;  // the train that carries it, then the one before
     for (std::size_t k = 0; k < seen.size(); ++k) {
         const bool isBefore = seen[k].onset_s < step_s;
-        const double after_s = seen[k].onset_s - step_s;
         if (isBefore) {
-            before.push_back(numberOrNull(seen[k].amplitude_v));
+            change.before_v.push_back(seen[k].amplitude_v);
             kept.clear();
         } else {
-            Json row = stepOf(seen, k);
-            row["after_step_s"] = after_s;
-            trains.push_back(std::move(row));
+            change.trains.push_back(trainOf(seen, k, step_s));
         }
-        const bool carries = measured.latency && after_s == measured.latency->count();
+        const bool carries = measured.latency && seen[k].onset_s - step_s == measured.latency->count();
         if (isBefore || carries) kept.insert(kept.begin(), std::move(seen[k].capture));
     }
-    const StepPace pace = fastestPace(ends, kWantedPerTrain);
-    Json ids = Json::array();
-    for (const auto& handle : session.hold(std::move(kept))) ids.push_back(handle["capture"]);
-    return {{"type", "step"},
-            {"step_s", step_s},
-            {"since_onset_s", ends.sinceOnset.count()},
-            {"latency_s", inSeconds(measured.latency)},
-            {"designed_latency_s", inSeconds(designed.latency)},
-            {"designed_latency_low_s", inSeconds(range.first.latency)},
-            {"designed_latency_high_s", inSeconds(range.last.latency)},
-            {"trains", count(measured.trains)},
-            {"designed_trains", count(designed.trains)},
-            {"designed_trains_high", count(range.last.trains)},
-            {"complete_s", inSeconds(measured.complete)},
-            {"designed_complete_s", inSeconds(designed.complete)},
-            {"fastest_complete_s", pace.complete.count()},
-            {"fewest_trains", pace.trains},
-            {"from_v", ends.before.amplitude.value()},
-            {"to_v", ends.after.amplitude.value()},
-            {"from_s", ends.before.interval.count()},
-            {"to_s", ends.after.interval.count()},
-            {"before_v", before},
-            {"onsets", trains},
-            {"captures", ids}};
+    for (const auto& handle : session.hold(std::move(kept))) change.captures.push_back(handle["capture"]);
+    return change;
 }
 
 }  // namespace
@@ -153,7 +139,7 @@ Result<Json> step(ScriptSession& session, const Arguments& arguments) {
     const auto finished = recording.watch(longest, ready);
     if (!finished) return failure(finished);
     const auto trains = after(seen, step_s, gain);
-    return answer(session, seen, step_s, ends, respond(ends, trains), *design);
+    return toJson(changeOf(session, seen, step_s, ends, respond(ends, trains), *design));
 }
 
 /// The finger moves to `to` and back at an even pace while the oscilloscope looks at every train.
@@ -188,13 +174,9 @@ Result<Json> traverse(ScriptSession& session, const Arguments& arguments) {
     }
     const auto finished = recording.watch(2 * bench.profile().encoding.intervalMax, [] { return false; });
     if (!finished) return failure(finished);
-    Json trains = Json::array();
-    for (std::size_t k = 0; k < seen.size(); ++k) {
-        Json row = stepOf(seen, k);
-        row["after_step_s"] = seen[k].onset_s - begin_s;
-        trains.push_back(std::move(row));
-    }
-    return Json{{"type", "movement"}, {"seconds", seconds}, {"onsets", trains}};
+    CapturedChange change{.kind = ChangeKind::Movement, .seconds = seconds};
+    for (std::size_t k = 0; k < seen.size(); ++k) change.trains.push_back(trainOf(seen, k, begin_s));
+    return toJson(change);
 }
 
 }  // namespace tacto::host::bench

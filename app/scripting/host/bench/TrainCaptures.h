@@ -14,6 +14,16 @@ namespace tacto::host::bench {
 /// Trains in one record, where it is to hold their intervals.
 inline constexpr int kMinTrainsInOne = 2, kMaxTrainsInOne = 8;
 
+/// How much of a record lies before a train's onset.
+inline constexpr double kPreTrigger = 0.15;
+/// After the last pulse of a train: the charge runs off.
+inline constexpr Seconds kTrainTail{3e-4};
+
+/// A record of one whole train of the bench's encoding and its tail: rate, length and place of the trigger.
+[[nodiscard]] ScopeSettings trainRecord(const Bench& bench, Hertz rate);
+/// |Z| of now; until it was measured, 1 kΩ.
+[[nodiscard]] Ohms presentLoad(const Telemetry& now) noexcept;
+
 /// How the records are taken. NaN, and 0 samples: as the command, the train and |Z| of now suggest.
 struct CaptureOptions {
     int trains = 1;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/scripting/host/bench/TrainCaptures.h"
 #include "app/scripting/host/measure/CaptureClock.h"
 #include "app/scripting/host/measure/GivenCaptures.h"
 #include "core/bench/ScopeSession.h"
@@ -9,18 +10,11 @@
 namespace tacto::host::bench {
 
 ScopeSettings trainSettings(Bench& bench, double rate_hz, const Command& a, const Command& b) {
-    const PulseTrain& train = bench.profile().encoding.train;
-    const Telemetry now = bench.telemetry();
-    const double load_ohm = std::isfinite(now.impedance_ohm) && now.impedance_ohm > 0 ? now.impedance_ohm : 1000;
     const double most_v = std::max(a.amplitude, b.amplitude).value();
-    const double train_s = (train.pulses - 1) / train.rate.value() + train.pulseDuration().count();
-    ScopeSettings settings;
-    settings.sampleRate = Hertz(rate_hz);
-    settings.samples = static_cast<std::size_t>(std::ceil((1.4 * train_s + 3e-4) * rate_hz));
-    settings.preTrigger = 0.15;
+    ScopeSettings settings = trainRecord(bench, Hertz(rate_hz));
     settings.triggerLevel = std::max(0.05, 0.4 * std::min(a.amplitude, b.amplitude).value());
     settings.voltageRange = Volts(std::max(1.0, 1.3 * most_v));
-    settings.currentRange = Milliamps(std::max(1.0, 2e3 * most_v / load_ohm));
+    settings.currentRange = Milliamps(std::max(1.0, 2e3 * most_v / presentLoad(bench.telemetry()).value()));
     return settings;
 }
 
@@ -37,8 +31,7 @@ Result<void> TrainRecording::take() {
     const MeasureOptions options = measure::optionsFor(bench_.profile().encoding.train);
     for (auto& capture : *captures) {
         const double sampling_s = 1 / (capture.rate_hz * std::sqrt(6.0));
-        SeenTrain train{
-            capture.trigger_s, std::hypot(measure::stampUncertainty_s(capture), sampling_s), std::nan(""), {}};
+        SeenTrain train{capture.trigger_s, std::hypot(measure::stampUncertainty_s(capture), sampling_s), kNaN, {}};
         auto voltage = measureTrains(std::span(&capture, 1), "voltage", options);
         if (!voltage) return failure(voltage);
         if (!voltage->trains.empty()) {

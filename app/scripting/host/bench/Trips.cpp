@@ -6,6 +6,7 @@
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/bench/BenchObject.h"
+#include "app/scripting/host/bench/TrainCaptures.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/bench/ScopeSession.h"
 
@@ -28,11 +29,9 @@ bool canTell(Bench& bench) {
 constexpr std::string_view kNoReadBack =
     "this stimulator does not read back, so only the operator can notice that the load changed";
 
-/// Changes the load without ending the output first: itself on a simulated bench, else by the operator's hands.
+/// Without ending the output first.
 Result<void> change(ScriptSession& session, const std::string& to, const std::string& request) {
-    session.forgetConfirmed();
-    if (auto& fitter = session.bench().devices().load) return fitter->fitLoad(to);
-    return session.askTo("change-load", request);
+    return changeLoad(session, to, "change-load", request);
 }
 
 /// The bench is in a fault that was provoked: counted, and its cause taken away.
@@ -75,12 +74,7 @@ Result<void> watchOpenCircuit(Bench& bench) {
     const auto& source = bench.devices().stimulator->traits();
     const auto& encoding = bench.profile().encoding;
     const double reach_v = source.drive == Drive::Current ? source.compliance.value() : encoding.amplitudeMax.value();
-    const double train_s =
-        (encoding.train.pulses - 1) / encoding.train.rate.value() + encoding.train.pulseDuration().count();
-    ScopeSettings settings;
-    settings.sampleRate = std::min(Hertz(2e6), bench.devices().oscilloscope->traits().maxRate);
-    settings.samples = static_cast<std::size_t>(std::ceil((1.4 * train_s + 3e-4) * settings.sampleRate.value()));
-    settings.preTrigger = 0.15;
+    ScopeSettings settings = trainRecord(bench, std::min(Hertz(2e6), bench.devices().oscilloscope->traits().maxRate));
     settings.triggerLevel = 0.2 * encoding.amplitudeMin.value();
     settings.voltageRange = Volts(1.25 * reach_v);
     return bench.requestCaptures(static_cast<int>(ScopeSession::kMaxCaptures), settings);
@@ -103,7 +97,7 @@ Result<Json> inChecking(ScriptSession& session, const Arguments& arguments) {
     const auto becomes = arguments.text("load");
     const auto declared = arguments.text("declared");
     Bench& bench = session.bench();
-    if (!canTell(bench)) return trial(becomes, false, false, std::nan(""), kNoReadBack);
+    if (!canTell(bench)) return trial(becomes, false, false, kNaN, kNoReadBack);
     bench.disarm();
     if (auto fitted = change(session, becomes, fmt::format("Fit {} in place of the load, then confirm", becomes));
         !fitted) {
@@ -116,7 +110,7 @@ Result<Json> inChecking(ScriptSession& session, const Arguments& arguments) {
     const auto armed = bench.arm(*request);
     const double after_s = toSeconds(session.now() - begun);
     bench.disarm();
-    if (armed) return trial(becomes, true, false, std::nan(""), "the output was armed into it");
+    if (armed) return trial(becomes, true, false, kNaN, "the output was armed into it");
     // Refused for its load; any other failure is a failure of the run.
     const auto code = armed.error().code;
     if (code != ErrorCode::NotArmed && code != ErrorCode::LimitExceeded) return failure(armed);
@@ -131,7 +125,7 @@ Result<Json> whileDelivering(ScriptSession& session, const Arguments& arguments)
     const auto strength = arguments.number("strength");
     const std::string name = becomes == "intermittent" ? "intermittent contact" : becomes + " while delivering";
     Bench& bench = session.bench();
-    if (!canTell(bench)) return trial(name, false, false, std::nan(""), kNoReadBack);
+    if (!canTell(bench)) return trial(name, false, false, kNaN, kNoReadBack);
     bench.disarm();
     if (auto fitted = change(session, load, fmt::format("Fit the load {}, then confirm", load)); !fitted) {
         return failure(fitted);
@@ -193,7 +187,7 @@ Result<Json> bySilence(ScriptSession& session, const Arguments& arguments) {
     const auto seen = bench.telemetry();
     if (waited) {
         bench.disarm();
-        return trial("dead-man", true, false, std::nan(""), "output went on after the silence");
+        return trial("dead-man", true, false, kNaN, "output went on after the silence");
     }
     if (waited.error().code == ErrorCode::Stopped || !bench.faultPersists(FaultCause::LoopSilent)) {
         return failure(waited);
@@ -202,8 +196,7 @@ Result<Json> bySilence(ScriptSession& session, const Arguments& arguments) {
     if (auto reset = bench.resetFault(); !reset) return failure(reset);
     const bool quiet = seen.trainsDelivered <= delivered + 1;  // one may have been under way
     const auto after = bench.silencedAfter();
-    return trial("dead-man", true, quiet && after.has_value(), after ? after->count() : std::nan(""),
-                 seen.reason.view());
+    return trial("dead-man", true, quiet && after.has_value(), after ? after->count() : kNaN, seen.reason.view());
 }
 
 }  // namespace tacto::host::bench

@@ -3,6 +3,8 @@
 
 #include "app/scripting/host/calibration/CalibrationObject.h"
 #include "app/scripting/host/report/Cells.h"
+#include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::host::calibration {
 
@@ -11,12 +13,6 @@ namespace {
 using report::digitsOf;
 
 constexpr double kStandsOut = 5;  // standard deviations at rest
-
-/// The mean of what a reading gives as the profile scales it; null where there is none.
-Json meanInUse(const Json& reading) {
-    const Json used = reading.value("force_in_use", Json());
-    return used.is_object() ? used.value("mean", Json()) : Json();
-}
 
 std::string toldApart(const Json& results) {
     const Json& surfaces = results.at("surfaces");
@@ -56,19 +52,18 @@ Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
     Json check = {{"mass_g", nullptr},        {"reference_n", nullptr},       {"measured", nullptr},
                   {"deviation_pct", nullptr}, {"allowed_pct", tolerance_pct}, {"passed", nullptr}};
     if (reading.is_null()) return Json{{"check", check}, {"reason", ""}};
-    if (!reading.is_object() || !reading.value("reference_n", Json()).is_number())
-        return arguments.wrong("reading", reading, "what bench.measureWeight() returned");
-    check["mass_g"] = reading.at("mass_g");
-    check["reference_n"] = reading.at("reference_n");
-    const Json used = reading.value("force_in_use", Json());
-    check["unit"] = used.is_object() ? used.value("unit", Json()) : Json();
-    const Json under = meanInUse(reading), idle = meanInUse(rest);
+    const auto weight = weightReadingFrom(reading);
+    if (!weight) return arguments.wrong("reading", reading, "what bench.measureWeight() returned");
+    check["mass_g"] = numberOrNull(weight->mass_g);
+    check["reference_n"] = weight->reference_n;
+    check["unit"] = weight->inUse ? Json(symbolOf(weight->inUse->unit)) : Json();
+    const double measured =
+        weight->inUse ? weight->inUse->mean - numberOr(valueOr(rest, "force_in_use"), "mean") : kNaN;
     bool passed = false;
-    if (under.is_number() && idle.is_number()) {
-        const double measured = under.get<double>() - idle.get<double>();
+    if (std::isfinite(measured)) {
         check["measured"] = measured;
-        if (check["unit"] == "N") {
-            const double off_pct = 100 * std::abs(measured / check["reference_n"].get<double>() - 1);
+        if (weight->inUse->unit == StreamUnit::Newton) {
+            const double off_pct = 100 * std::abs(measured / weight->reference_n - 1);
             check["deviation_pct"] = off_pct;
             passed = off_pct <= tolerance_pct;
         } else {
@@ -77,12 +72,10 @@ Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
     }
     check["passed"] = passed;
     if (passed) return Json{{"check", check}, {"reason", ""}};
-    const auto read = check["measured"].is_null()
-                          ? std::string("nothing")
-                          : digitsOf(numberOr(check, "measured"), 4) + " " +
-                                (check["unit"].is_string() ? check["unit"].get<std::string>() : std::string("null"));
+    const auto read = std::isnan(measured) ? std::string("nothing")
+                                           : fmt::format("{} {}", digitsOf(measured, 4), symbolOf(weight->inUse->unit));
     const auto reason = fmt::format("the known-reference check failed: {} was read under {} N; nothing was calibrated",
-                                    read, digitsOf(numberOr(check, "reference_n"), 4));
+                                    read, digitsOf(weight->reference_n, 4));
     return Json{{"check", check}, {"reason", reason}};
 }
 

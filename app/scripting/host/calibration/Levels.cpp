@@ -47,9 +47,7 @@ Json encodingOver(const LevelSettings& settings) {
 }
 
 Result<void> armOn(ScriptSession& session, double load_ohm) {
-    const auto request = confirmedArming(session, fmt::format("{} ohm", load_ohm));
-    if (!request) return failure(request);
-    return session.bench().arm(*request);
+    return armConfirmed(session, fmt::format("{} ohm", load_ohm));
 }
 
 Result<void> driveAt(ScriptSession& session, double roughness, double pressure) {

@@ -30,7 +30,7 @@ Result<Json> arm(ScriptSession& session, const Arguments& arguments) {
 Result<Json> askToArm(ScriptSession& session, const Arguments& arguments) {
     const auto load = arguments.text("command.load");
     const auto weakest = bench::predictCommand(session, load, 0);
-    if (!weakest) return weakest;
+    if (!weakest) return failure(weakest);
     const auto problem = tryToArm(session, load);
     if (!problem) return failure(problem);
     session.bench().disarm();
@@ -38,7 +38,7 @@ Result<Json> askToArm(ScriptSession& session, const Arguments& arguments) {
     return Json{{"refusals", Json::array({{{"what", "arming"},
                                            {"forbidden", true},
                                            {"refused", problem->has_value()},
-                                           {"predicted", weakest->at("check_forbidden")},
+                                           {"predicted", weakest->checkForbidden},
                                            {"reason", *problem ? (*problem)->message : ""}}})}};
 }
 

@@ -4,22 +4,34 @@
 
 namespace tacto::host::loads {
 
-Result<Json> commands(ScriptSession& session, const Arguments& arguments) {
+namespace {
+
+Result<std::vector<bench::PredictedCommand>> predicted(ScriptSession& session, const Arguments& arguments) {
     const int count = arguments.whole("count");
-    Json out = Json::array();
+    std::vector<bench::PredictedCommand> all;
     for (int i = 0; i < count; ++i) {
         auto command = bench::predictCommand(session, arguments.text("load"), static_cast<double>(i) / (count - 1));
-        if (!command) return command;
-        out.push_back(std::move(*command));
+        if (!command) return failure(command);
+        all.push_back(std::move(*command));
     }
+    return all;
+}
+
+}  // namespace
+
+Result<Json> commands(ScriptSession& session, const Arguments& arguments) {
+    const auto all = predicted(session, arguments);
+    if (!all) return failure(all);
+    Json out = Json::array();
+    for (const auto& command : *all) out.push_back(toJson(command));
     return out;
 }
 
 Result<Json> strongest(ScriptSession& session, const Arguments& arguments) {
-    const auto all = commands(session, arguments);
-    if (!all) return all;
+    const auto all = predicted(session, arguments);
+    if (!all) return failure(all);
     for (auto command = all->rbegin(); command != all->rend(); ++command) {
-        if (command->at("not_applicable").is_null() && !command->at("forbidden")) return *command;
+        if (command->mayBeGiven()) return toJson(*command);
     }
     return Json();
 }

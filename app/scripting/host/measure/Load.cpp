@@ -7,6 +7,7 @@
 #include "app/scripting/host/measure/LoadReadings.h"
 #include "app/scripting/host/measure/MeasureObject.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
+#include "core/base/NaN.h"
 
 namespace tacto::host::measure {
 
@@ -21,7 +22,7 @@ double settledAt(const Telemetry& now, std::size_t captures) {
     const bool same = captures < programmed.size() && std::ranges::all_of(last, [&](const auto& train) {
                           return train.amplitude == last.front().amplitude;
                       });
-    return same ? last.front().amplitude : std::nan("");
+    return same ? last.front().amplitude : kNaN;
 }
 
 }  // namespace

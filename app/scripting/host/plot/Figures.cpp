@@ -7,6 +7,7 @@
 #include "app/scripting/host/plot/PlotObject.h"
 #include "app/scripting/host/plot/TracingsFigure.h"
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/NaN.h"
 
 namespace tacto::host::plot {
 
@@ -45,11 +46,11 @@ Json withCapture(Json entry, const ScriptSession::Exemplar& exemplar) {
 /// The condition as captured: where its trains begin and how far each reaches, and the samples of the first.
 void addLane(Json& condition, const std::vector<Capture>& captures) {
     Json trains = Json::array();
-    double first_s = std::nan("");
+    double first_s = kNaN;
     for (const auto& capture : captures) {
         const auto voltage = std::ranges::find(capture.channels, "V", &CaptureChannel::unit);
         if (voltage == capture.channels.end() || !std::isfinite(capture.trigger_s)) continue;
-        double low = std::nan(""), high = std::nan("");
+        double low = kNaN, high = kNaN;
         for (const float sample : voltage->samples) {
             low = std::fmin(low, sample);
             high = std::fmax(high, sample);

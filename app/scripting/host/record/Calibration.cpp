@@ -5,6 +5,8 @@
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/record/CalibratedOutput.h"
 #include "app/scripting/host/record/RecordObject.h"
+#include "core/base/JsonFields.h"
+#include "core/base/NaN.h"
 #include "core/calibration/CalibrationStore.h"
 #include "core/devices/DeviceUri.h"
 #include "core/session/SessionWriter.h"
@@ -25,9 +27,9 @@ Result<std::optional<CalibrationDate>> dueDate(const Arguments& arguments) {
 double worstUncertainty_pct(const Json& levels) {
     double worst = 0;
     for (const auto& level : levels) {
-        const Json u = level.value("expanded_uncertainty", Json()), at = level.value("commanded", Json());
-        if (!u.is_number() || !at.is_number()) return std::nan("");
-        worst = std::max(worst, 100 * u.get<double>() / std::abs(at.get<double>()));
+        const double u_pct = 100 * numberOr(level, "expanded_uncertainty") / std::abs(numberOr(level, "commanded"));
+        if (std::isnan(u_pct)) return kNaN;
+        worst = std::max(worst, u_pct);
     }
     return worst;
 }
@@ -36,9 +38,9 @@ double worstUncertainty_pct(const Json& levels) {
 double largestResidual(const Json& levels) {
     double largest = 0;
     for (const auto& level : levels) {
-        const Json residual = level.value("residual", Json());
-        if (!residual.is_number()) return std::nan("");
-        largest = std::max(largest, std::abs(residual.get<double>()));
+        const double residual = numberOr(level, "residual");
+        if (std::isnan(residual)) return kNaN;
+        largest = std::max(largest, std::abs(residual));
     }
     return largest;
 }
@@ -82,13 +84,13 @@ Result<StoredLine> lineFound(const Arguments& arguments, const Json& one, std::s
                     quantity);
     }
     StoredLine line;
-    line.gain = one.value("gain", std::nan(""));
-    line.offset = one.value("offset", std::nan(""));
+    line.gain = numberOr(one, "gain");
+    line.offset = numberOr(one, "offset");
     const Json& levels = one.at("levels");
     line.uncertainty_pct = worstUncertainty_pct(levels);
     line.residual = largestResidual(levels);
-    line.lowest = levels.front().value("commanded", std::nan(""));
-    line.highest = levels.back().value("commanded", std::nan(""));
+    line.lowest = numberOr(levels.front(), "commanded");
+    line.highest = numberOr(levels.back(), "commanded");
     return line;
 }
 
@@ -125,7 +127,7 @@ Result<Json> keepCalibration(ScriptSession& session, const Arguments& arguments)
     made.device = device.name;
     made.unit = (*amplitude)->found.value("unit", "");
     if (made.unit != unitOf(stimulator)) return arguments.wrong("unit", made.unit, unitOf(stimulator));
-    made.made = today();
+    made.made = utcToday();
     made.validUntil = std::chrono::sys_days(made.made) + std::chrono::days(days);
     for (const auto& each : session.bench().devices().identities()) {
         made.simulated = made.simulated || each.simulated;

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/record/CalibratedOutput.h"
 #include "app/scripting/host/record/RecordObject.h"
 #include "core/base/JsonText.h"
 #include "core/calibration/CalibrationStore.h"
@@ -68,7 +67,7 @@ Result<Json> keepProfile(ScriptSession& session, const Arguments& arguments) {
         roughness->sensor.emplace();
         roughness->sensor->fingertip = identity.serial;
     }
-    const auto day = dateText(today());
+    const auto day = dateText(utcToday());
 
     Profile inForce = session.bench().profile();
     inForce.roughness = *roughness;

@@ -5,6 +5,7 @@
 
 #include "app/scripting/host/report/Cells.h"
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
 #include "core/encoding/CalibratedQuantity.h"
 
@@ -53,7 +54,7 @@ Json budget(const Json& found, const std::string& title, const std::string& unit
         const double freedom = numberOr(row, "degrees_of_freedom");
         rows.push_back({{"contribution", name},
                         {"distribution", row.at("distribution")},
-                        {"at_the_smallest", plain(small.contains(name) ? small[name] : std::nan(""), unit)},
+                        {"at_the_smallest", plain(small.contains(name) ? small[name] : kNaN, unit)},
                         {"at_the_largest", plain(numberOr(row, "contribution"), unit)},
                         {"degrees_of_freedom", std::isnan(freedom) ? "∞" : fmt::format("{:.0f}", freedom)}});
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/scripting/host/report/Cells.h"
+#include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
 
 namespace tacto::host::report {
@@ -102,7 +103,7 @@ Json closest(const Json& limits) {
 /// An open or a short circuit is judged by its trip alone and has nothing to measure.
 Json loadsMatrix(const Json& found) {
     std::vector<const Json*> loads;
-    double fewest = std::nan("");  // trains
+    double fewest = kNaN;  // trains
     for (const auto& load : listIn(found, "loads")) {
         if (!(numberOr(load, "commands_delivered") > 0) && !(numberOr(load, "commands_refused") > 0)) continue;
         loads.push_back(&load);
