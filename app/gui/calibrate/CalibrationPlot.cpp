@@ -14,7 +14,7 @@ namespace {
 constexpr double kMargin = 0.06;
 constexpr int kTicks = 5;
 constexpr int kEdge = 4, kEdgeAbove = 1;         // pixels around the axes
-constexpr int kBelowTicks = 2, kBelowTitle = 1;  // and around the title below them: a small window has few to spare
+constexpr int kBelowTicks = 2, kBelowTitle = 0;  // and around the title below them: a small window has few to spare
 constexpr int kMinChars = 24;
 constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;

@@ -22,7 +22,7 @@ namespace {
 constexpr double kPlotShare = 0.82;  // of its height the plot has: with the page's edges 80 % of their column
 constexpr int kCardFrom = 104;       // the width from which a card has room beside others
 constexpr int kCardsApart = 8, kCardsBelow = 0;
-constexpr int kToolHigh = 26;  // the line of the title is no higher: a small window's plot wants the rest
+constexpr int kToolHigh = 24;  // the line of the title is no higher: a small window's plot wants the rest
 
 }  // namespace
 

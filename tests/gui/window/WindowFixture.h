@@ -57,7 +57,8 @@ protected:
     void unplugWhile(double roughness, double pressure) {
         arm();
         window.controller().drive(DriveSource::Manual, roughness, pressure);
-        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
+        const auto* word = window.findChild<QLabel*>("interlockState");
+        ASSERT_IN_TIME(comesTrue([&] { return word->text() == "DELIVERING"; })) << "the window has seen it";
         unplug();
     }
     /// The state is there at once, its reason and what to do with the control loop's next steps.
