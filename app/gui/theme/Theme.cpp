@@ -89,6 +89,8 @@ void makeActionBar(QWidget& bar) {
     setStyled(bar, "role", "actions");
 }
 
+bool isActionBar(const QWidget& widget) { return widget.property("role") == "actions"; }
+
 ConditionStyle conditionInTheme(const QString& name, int index) {
     static const std::map<QString, QColor> onDark{
         {"smooth-low", "#8CCBF0"}, {"smooth-high", "#56B4E9"}, {"rough-low", "#F0AE1D"}, {"rough-high", "#F07F2E"}};

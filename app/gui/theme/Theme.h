@@ -47,6 +47,7 @@ void makePrimary(QPushButton& button, bool primary = true);
 void makeQuiet(QPushButton& button);
 /// The bar below a page that holds what can be done with it.
 void makeActionBar(QWidget& bar);
+[[nodiscard]] bool isActionBar(const QWidget& widget);
 
 /// The condition's style in the current theme ("smooth-low", ...).
 [[nodiscard]] ConditionStyle conditionInTheme(const QString& name, int index = 0);

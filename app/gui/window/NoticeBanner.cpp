@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/StateWords.h"
 #include "app/report/NumberText.h"
@@ -69,6 +70,7 @@ void NoticeBanner::sayEnd(const std::shared_ptr<const FinishedRun>& run) {
 void NoticeBanner::refresh(const Telemetry& telemetry) {
     sayState(telemetry);
     sayFault(telemetry);
+    if (isVisible()) lieDown();
 }
 
 /// The last message must not say "Armed." when that is over. The state is there at once, its reason with the control
@@ -113,9 +115,21 @@ void NoticeBanner::complain(const QString& what) {
     line_.say(text, true);
 }
 
+QRect NoticeBanner::room() const {
+    auto room = over_.rect();
+    for (const auto* each : over_.findChildren<QWidget*>()) {
+        if (!each->isVisible()) continue;
+        const QRect at(each->mapTo(&over_, QPoint()), each->size());
+        if (each->objectName() == "path") room.setLeft(std::max(room.left(), at.right() + 1));
+        if (isActionBar(*each)) room.setBottom(std::min(room.bottom(), at.top() - 1));
+    }
+    return room;
+}
+
 void NoticeBanner::lieDown() {
-    const int high = std::min(over_.height(), layout()->totalHeightForWidth(over_.width()));
-    setGeometry(0, over_.height() - high, over_.width(), high);
+    auto place = room();
+    place.setTop(std::max(place.top(), place.bottom() + 1 - layout()->totalHeightForWidth(place.width())));
+    setGeometry(place);
 }
 
 bool NoticeBanner::eventFilter(QObject* watched, QEvent* event) {

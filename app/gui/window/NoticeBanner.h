@@ -1,7 +1,8 @@
 // NoticeBanner.h - what went wrong, until it is dismissed or over, with what it means for the output; the line at the
 // bottom says it too, and keeps it.
 //
-// It lies over the lower edge of the workspace, so that nothing moves.
+// It lies over the lower edge of the workspace, so that nothing moves, beside a procedure's path with its Run and above
+// what can be done with a result.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -30,6 +31,8 @@ protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+    /// Of the workspace, what it may lie over: its page may be another with each frame.
+    [[nodiscard]] QRect room() const;
     void lieDown();
     void sayState(const Telemetry& telemetry);
     void sayFault(const Telemetry& telemetry);

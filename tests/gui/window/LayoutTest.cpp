@@ -676,6 +676,11 @@ protected:
         EXPECT_TRUE(window.rect().contains(QRect(notice.mapTo(&window, QPoint()), notice.size())));
         EXPECT_EQ(notice.visibleRegion(), QRegion(notice.rect())) << "nothing lies over it";
         EXPECT_EQ(cutTexts(notice).join('\n').toStdString(), "");
+        const QRect covered(notice.mapTo(&window, QPoint()), notice.size());
+        for (const auto* each : page().findChildren<QAbstractButton*>()) {
+            if (!each->isVisible() || each->visibleRegion().isEmpty()) continue;
+            EXPECT_FALSE(covered.intersects(QRect(each->mapTo(&window, QPoint()), each->size()))) << widgetName(*each);
+        }
     }
     /// Another load than the one that is connected: refused once it is measured.
     void armOnAnotherLoad(Places& before) {
