@@ -60,7 +60,8 @@ std::map<std::string, int> placesThatOpenDialogs() {
 }
 
 /// Dialogs that share a place, by the name of their opening: each but the first of them.
-constexpr std::string_view kShareAPlace[] = {"Study: exportWithAbout", "Study: noteAdverseEvent", "Study: noteNextDay"};
+constexpr std::string_view kShareAPlace[] = {"Study: exportWithAbout", "Study: noteAdverseEvent", "Study: noteNextDay",
+                                              "Folder of a new study"};
 /// Places that no opening of their own tries, by their file and what is asked there.
 constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
     {"CloseQuestion", "whether a run is to end: the same box as for a script that is not saved"}};
@@ -372,9 +373,9 @@ protected:
                  pilot.findChild<gui::TabbedPage*>()->setCurrentIndex(0);
                  press(window, "Choose…");
              },
-             "RehearsalPage"},
+             "FolderRow"},
             {"Folder of a study", [this] { press(studies(), "Open a study…"); }, "StudyPage"},
-            {"Folder of a new study", [this] { press(newStudy(), "Choose…"); }, "NewStudyPage"},
+            {"Folder of a new study", [this] { press(newStudy(), "Choose…"); }, "FolderRow"},
             {"Passphrase of a new study", [this] { press(newStudy(), "Create the study…"); }, "NewStudyPage"},
             {"Passphrase of a study",
              [this] {

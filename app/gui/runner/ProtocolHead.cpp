@@ -72,7 +72,7 @@ void ProtocolHead::setAcross(bool across) {
 }
 
 void ProtocolHead::showWords() {
-    title_->setVisible(!across_);
+    title_->setVisible(!across_ && chooser_ == nullptr);  // which names it
     purpose_->setVisible(!across_ && !purpose_->text().isEmpty());
     line_->setText(title_->text());
     line_->setToolTip(

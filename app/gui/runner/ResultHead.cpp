@@ -1,7 +1,9 @@
 #include "app/gui/runner/ResultHead.h"
 
 #include <QHBoxLayout>
+#include <QScrollBar>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -137,8 +139,22 @@ void ResultHead::giveRoom() {
     row.setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     row.setSpacing(below ? kBesideBlock / 2 : kBesideBlock);
     row.setAlignment(area_, below ? Qt::Alignment() : Qt::AlignTop);
-    const int needed = area_->widget()->layout()->totalHeightForWidth(below ? width() : beside);
-    area_->setFixedHeight(std::clamp(needed, below ? 1 : block, (below ? kMaxBlocks - 1 : kMaxBlocks) * block));
+    const int wide = below ? width() : beside;
+    const int needed = area_->widget()->layout()->totalHeightForWidth(wide);
+    const int most = !roomy_ ? block * 3 / 2 : (below ? kMaxBlocks - 1 : kMaxBlocks) * block;
+    area_->setFixedHeight(needed > most ? wholeLines(wide, most) : std::max(needed, below ? 1 : block));
+}
+
+/// As much of that height as shows no part of a line.
+int ResultHead::wholeLines(int wide, int most) const {
+    const int strong = why_->fontMetrics().lineSpacing(), plain = more_->fontMetrics().lineSpacing();
+    const int first = why_->heightForWidth(wide);
+    area_->verticalScrollBar()->setSingleStep(plain);
+    return first < most ? first + (most - first) / plain * plain : std::max(most / strong, 1) * strong;
+}
+
+void ResultHead::setRoomy(bool roomy) {
+    if (std::exchange(roomy_, roomy) != roomy) giveRoom();
 }
 
 }  // namespace tacto::gui

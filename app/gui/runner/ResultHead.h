@@ -21,6 +21,8 @@ public:
     void show(const FinishedRun& run);
     /// "PASS", as it stands there.
     [[nodiscard]] QString word() const { return word_; }
+    /// Whether reasons may be much higher than the verdict's word: in a low window the plot below needs the room.
+    void setRoomy(bool roomy);
 
 signals:
     void scriptErrorChosen(int line, const QString& why);  ///< the operator wants to see the line
@@ -30,6 +32,7 @@ protected:
 
 private:
     void giveRoom();
+    [[nodiscard]] int wholeLines(int wide, int most) const;
 
     VerdictBlock* verdict_;
     ScrollingPage* area_;
@@ -39,6 +42,7 @@ private:
     QString word_;
     QString error_;
     int errorLine_ = 0;
+    bool roomy_ = true;
 };
 
 }  // namespace tacto::gui

@@ -26,7 +26,7 @@ constexpr int kDisclosedFromChars = 120;  // the outputs stand beside the tracin
 constexpr int kTracedFromChars = 165;     // and the tracing beside the limits from this one
 constexpr double kTracingShare = 0.18;    // of their height it has below them: the limits keep 80 % of the column
 constexpr int kRoomyLines = 34;           // of less height the bar below is as low as its buttons let it
-constexpr int kPageGap = 6, kViewSide = 16, kViewTop = 4, kBarPad = 12, kBarPadLow = 6;
+constexpr int kPageGap = 4, kViewSide = 16, kViewTop = 4, kBarPad = 12, kBarPadLow = 4;
 
 TrialPlane::Features featuresOf(RunViews::Plot plot) {
     return plot == RunViews::Plot::Slides ? TrialPlane::Features::Slides : TrialPlane::Features::Trains;
@@ -191,10 +191,11 @@ void RunViews::placeTracing(bool judged) {
 /// One main plot. The waveform stands beside it where there is room, else it is a view of its own; a calibration wants
 /// the whole width. Nowhere in a run without an oscilloscope. A safety check that was judged has its tracing instead.
 void RunViews::arrange() {
-    const bool roomyBar = height() >= fontMetrics().height() * kRoomyLines;
-    const int pad = roomyBar ? kBarPad : kBarPadLow;
-    body_->setContentsMargins(kViewSide, kViewTop, kViewSide, roomyBar ? kViewTop * 2 : kViewTop);
+    const bool tall = height() >= fontMetrics().height() * kRoomyLines;
+    const int pad = tall ? kBarPad : kBarPadLow;
+    body_->setContentsMargins(kViewSide, kViewTop, kViewSide, tall ? kViewTop * 2 : kViewTop);
     bar_->setContentsMargins(kViewSide, pad, kViewSide, pad);
+    head_->setRoomy(tall);
     const bool judged = showsLimits();
     plane_->setVisible(plot_ == Plot::Trials || plot_ == Plot::Slides);
     calibration_->setVisible(plot_ == Plot::Calibration);

@@ -150,7 +150,7 @@ QWidget* SessionsWorkspace::buildSessionActions() {
                                 [this] { makeReport(); });
     report->setIcon(icon("report", Ink::Primary));
     makePrimary(*report);
-    replay_ = actions_.add(*row, "run", tr("&Replay"), tr("Its fingertip, replayed into the simulated stimulator."),
+    replay_ = actions_.add(*row, "run", tr("Replay"), tr("Its fingertip, replayed into the simulated stimulator."),
                            [this] { replay(); });
     capture_ = actions_.add(*row, "single", tr("Open &capture"),
                             tr("The capture chosen under Captures, in the oscilloscope."), [this] {

@@ -41,6 +41,8 @@ QPushButton[role="primary"] { background: @primary; color: @primaryText; border-
 QPushButton[role="primary"]:hover { background: @frame; }
 QPushButton[role="primary"]:disabled { background: @sunken; color: @edge; border-color: @line; }
 QPushButton[role="primary"]:focus { border: 2px solid @voltage; }
+*[yields="true"] QPushButton[role="primary"]:enabled { background: @base; color: @text; border-color: @edge; }
+*[yields="true"] QPushButton[role="primary"]:enabled:hover { background: @sunken; }
 QPushButton[role="quiet"] { background: transparent; border-color: transparent; }
 QPushButton[role="quiet"]:hover { background: @sunken; }
 QPushButton[role="quiet"]:focus { border-color: @text; }

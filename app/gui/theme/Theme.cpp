@@ -84,6 +84,16 @@ void makePrimary(QPushButton& button, bool primary) { setStyled(button, "role", 
 
 void makeQuiet(QPushButton& button) { setStyled(button, "role", "quiet"); }
 
+void letYield(QWidget& page, bool yields) {
+    if (page.property("yields").toBool() == yields) return;
+    page.setProperty("yields", yields);
+    for (auto* button : page.findChildren<QPushButton*>()) {
+        if (button->property("role") != "primary") continue;
+        button->style()->unpolish(button);
+        button->style()->polish(button);
+    }
+}
+
 void makeActionBar(QWidget& bar) {
     bar.setAttribute(Qt::WA_StyledBackground);
     setStyled(bar, "role", "actions");

@@ -45,6 +45,8 @@ void setTone(QLabel& label, Tone tone);
 /// The filled button of a screen; one that has no edge until the pointer is over it. See StyleSheet.h.
 void makePrimary(QPushButton& button, bool primary = true);
 void makeQuiet(QPushButton& button);
+/// While a page yields, its filled button looks as the others do: what comes next is elsewhere.
+void letYield(QWidget& page, bool yields);
 /// The bar below a page that holds what can be done with it.
 void makeActionBar(QWidget& bar);
 [[nodiscard]] bool isActionBar(const QWidget& widget);

@@ -59,12 +59,12 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     nameOpen();
     auto* flaws = new QPushButton(tr("Faults…"), body);
     flaws->setToolTip(tr("A simulated bench with a source, a load and a fault of your choice."));
-    auto* recording = new QPushButton(tr("Re&cording…"), body);
+    auto* recording = new QPushButton(tr("Recording…"), body);
     recording->setToolTip(tr("Replays a recorded fingertip into the simulated stimulator."));
-    check_ = new QPushButton(tr("&Impedance"), body);
+    check_ = new QPushButton(tr("Impedance"), body);
     check_->setObjectName("impedanceButton");
     check_->setToolTip(tr("One small pulse into the declared load, then disarmed again."));
-    close_ = new QPushButton(tr("C&lose"), body);
+    close_ = new QPushButton(tr("Close"), body);
     close_->setToolTip(tr("Output off; the session file is finished and closed."));
     auto* buttons = new QGridLayout;
     buttons->addWidget(open_, 0, 0, 1, 2);
@@ -249,7 +249,7 @@ void DeviceDock::choose(QTreeWidgetItem* item) {
 
 void DeviceDock::nameOpen() {
     const auto ticked = chosen().size();
-    open_->setText(ticked == 0 ? tr("Open &simulated bench") : tr("&Open what is ticked (%1)").arg(ticked));
+    open_->setText(ticked == 0 ? tr("Open &simulated bench") : tr("Open what is ticked (%1)").arg(ticked));
     open_->setToolTip(ticked == 0 ? tr("Opens a fingertip, a stimulator on 1 kΩ and an oscilloscope, all simulated.")
                                   : tr("Opens the ticked devices as one bench. No output before the bench is armed."));
 }

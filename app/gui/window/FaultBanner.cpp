@@ -57,7 +57,7 @@ FaultBanner::FaultBanner(QWidget* parent)
     setAccessibleName(tr("Fault"));
     cause_->setObjectName("faultText");
     auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(scaledPx(16), 2, scaledPx(8), 2);
+    column->setContentsMargins(scaledPx(16), 0, scaledPx(8), 0);
     column->setSpacing(0);
     column->addStretch();
     for (auto* line : {cause_, output_, next_}) {

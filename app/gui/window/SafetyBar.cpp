@@ -358,7 +358,7 @@ void SafetyBar::showButtons(InterlockState state) {
     const bool runs = controller_.activity() == Activity::Running;
     paused_ =
         pauseInstead_ ? pauseInstead_->paused() : state == InterlockState::Paused || (runs && controller_.paused());
-    pause_->setMeaning(paused_ ? tr("Res&ume") : tr("&Pause"), paused_);
+    pause_->setMeaning(paused_ ? tr("Resume") : tr("&Pause"), paused_);
     pause_->setEnabled(pauseInstead_.has_value() || runs || state == InterlockState::Delivering || paused_);
     pause_->setVisible(state != InterlockState::Faulted);
     details_->setVisible(state == InterlockState::Faulted);

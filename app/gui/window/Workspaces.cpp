@@ -11,6 +11,7 @@
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/RecentFiles.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/CaptureFormatsList.h"
@@ -138,6 +139,7 @@ void Workspaces::showPlotOnly(bool only) {
 }
 
 void Workspaces::refresh(const Telemetry& telemetry, bool measured) {
+    letYield(*this, telemetry.state == InterlockState::Faulted);  // to Reset
     live_->refresh(telemetry, currentIndex() == kLive && !showsScope());
     if (measured || showsScope()) scope_->refresh(telemetry);
     if (!isComplete()) return;  // nothing runs where there is no page for it

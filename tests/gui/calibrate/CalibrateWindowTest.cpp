@@ -1,4 +1,6 @@
 // The safety bar's word on calibration, in the whole window.
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QTreeWidget>
 #include <gmock/gmock.h>
 
@@ -106,6 +108,20 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
     EXPECT_IN_TIME(comesTrue([&] { return inSight("Sign report…"); })) << "what comes next stands below the plot";
     const auto frame = [errors] { return errors->axisRect()->rect().height(); };
     EXPECT_IN_TIME(comesTrue([&] { return frame() >= 300; })) << frame() << " px for the residuals, with it in sight";
+    // However much there is to say, and no line of it is cut.
+    auto* more = find<QLabel>(window, "verdictMore");
+    const auto before = more->text();
+    more->setText(QStringList(12, "Not evaluated: the width, whose uncertainty is not known.").join('\n'));
+    window.resize(1280, 721);
+    window.resize(1281, 720);
+    EXPECT_IN_TIME(comesTrue([&] { return window.width() == 1281 && frame() >= 300; })) << frame() << " px beside it";
+    const auto* reasons = find<QScrollArea>(window, "verdictReasons");
+    const int rest = reasons->viewport()->height() - find<QLabel>(window, "verdictWhy")->height();
+    EXPECT_EQ(rest % more->fontMetrics().lineSpacing(), 0) << rest;
+    EXPECT_TRUE(reasons->verticalScrollBar()->isVisible());
+    shot(window, "calibrate_window_1280_much_to_say");
+    more->setText(before);
+    window.resize(1280, 720);
     for (const auto* card : window.findChildren<gui::ToleranceCard*>()) {
         if (!card->isVisible()) continue;
         EXPECT_IN_TIME(comesTrue([&] { return card->wordedWidth() <= card->width(); }))

@@ -230,6 +230,12 @@ TEST_P(InTheme, TextHasAContrastOfFourAndAHalf) {
     const auto& c = gui::colours();
     for (const auto& words : {c.text, c.quiet, c.amberText, c.fault, c.passText, c.currentText})
         EXPECT_GE(contrast(words, c.base), 4.5) << words.name().toStdString();
+    // What delegates paint: cells near and beyond their limit, those within it, chosen rows.
+    const std::pair<QColor, QColor> cells[] = {
+        {c.text, c.passCell}, {c.passText, c.passCell}, {c.text, c.amberCell}, {c.amberText, c.amberCell},
+        {c.failText, c.fail}, {c.amberInk, c.amber},    {c.text, c.selection}};
+    for (const auto& [ink, paper] : cells)
+        EXPECT_GE(contrast(ink, paper), 4.5) << ink.name().toStdString() << " on " << paper.name().toStdString();
     const auto palette = QApplication::palette();
     using P = QPalette;
     const std::pair<P::ColorRole, P::ColorRole> pairs[] = {

@@ -43,6 +43,22 @@ using testing::HasSubstr;
 class Layout : public Window {
 protected:
     ~Layout() override { QSettings().clear(); }
+    void checkMnemonics(const std::string& where) {
+        std::map<QString, QStringList> keys;
+        const auto note = [&keys](const QString& text) {
+            const auto key = QKeySequence::mnemonic(text).toString();
+            if (!key.isEmpty()) keys[key] << text;
+        };
+        for (const auto* action : window.menuBar()->actions()) note(action->text());
+        for (const auto* button : window.findChildren<QAbstractButton*>())
+            if (button->isVisible()) note(button->text());
+        for (const auto* label : window.findChildren<QLabel*>())
+            if (label->isVisible() && label->buddy() != nullptr) note(label->text());
+        for (const auto* bar : window.findChildren<QTabBar*>())
+            for (int tab = 0; bar->isVisible() && tab < bar->count(); ++tab) note(bar->tabText(tab));
+        for (const auto& [key, texts] : keys)
+            EXPECT_EQ(texts.size(), 1) << where << ", " << key.toStdString() << ": " << texts.join(" / ").toStdString();
+    }
     gui::FoldingDock& dock(const char* name) { return *window.findChild<gui::FoldingDock*>(name); }
     /// The workspace that is shown.
     [[nodiscard]] QWidget& page() {
@@ -591,31 +607,34 @@ TEST_F(Layout, AKeyThatShowsAWorkspaceTakesTheFocusThereAndNotIntoAText) {
 
 TEST_F(Layout, NoTwoThatAreSeenHaveTheSameMnemonic) {
     open();
-    const auto check = [this](const std::string& where) {
-        std::map<QString, QStringList> keys;
-        const auto note = [&keys](const QString& text) {
-            const auto key = QKeySequence::mnemonic(text).toString();
-            if (!key.isEmpty()) keys[key] << text;
-        };
-        for (const auto* action : window.menuBar()->actions()) note(action->text());
-        for (const auto* button : window.findChildren<QAbstractButton*>())
-            if (button->isVisible()) note(button->text());
-        for (const auto* label : window.findChildren<QLabel*>())
-            if (label->isVisible() && label->buddy() != nullptr) note(label->text());
-        for (const auto* bar : window.findChildren<QTabBar*>())
-            for (int tab = 0; bar->isVisible() && tab < bar->count(); ++tab) note(bar->tabText(tab));
-        for (const auto& [key, texts] : keys)
-            EXPECT_EQ(texts.size(), 1) << where << ", " << key.toStdString() << ": " << texts.join(" / ").toStdString();
+    const auto checkEachPage = [&](const std::string& when) {
+        for (int page = 0; page < 8; ++page) {
+            window.showWorkspace(page % 7);
+            window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page / 7);
+            window.findChild<gui::DockColumn*>()->setCollapsed(false);
+            for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
+            letLive(50);
+            checkMnemonics(fmt::format("{}, page {}", when, page));
+        }
     };
-    for (int page = 0; page < 7; ++page) {
-        window.showWorkspace(page);
-        letLive(50);
-        check(fmt::format("workspace {}", page));
-    }
-    window.showWorkspace(0);
-    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
-    letLive(50);
-    check("oscilloscope");
+    checkEachPage("open");
+    ASSERT_NO_FATAL_FAILURE(arm());
+    ASSERT_NO_FATAL_FAILURE(deliver());
+    checkEachPage("delivering");
+    window.controller().pause();
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Paused; }));
+    checkEachPage("paused");
+    window.controller().resume();
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
+    ASSERT_NO_FATAL_FAILURE(unplug());
+    checkEachPage("faulted");
+}
+
+TEST_F(Layout, NoTwoThatAreSeenHaveTheSameMnemonicWhileDevicesAreTicked) {
+    auto* list = window.findChild<QTreeWidget*>();
+    ASSERT_IN_TIME(comesTrue([&] { return list->topLevelItemCount() >= 3; }));
+    list->topLevelItem(0)->setCheckState(0, Qt::Checked);
+    checkMnemonics("ticked");
 }
 
 TEST_F(Layout, AFaultSaysCauseOutputAndNextStepAndMovesNothing) {
