@@ -10,15 +10,18 @@
 #include <vector>
 
 #include "core/devices/Registry.h"
+#include "core/devices/StatesCalibration.h"
 #include "core/devices/Stimulator.h"
 #include "drivers/replay/ReplayDrivers.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "drivers/simulated/World.h"
 
 namespace tacto::test {
 
 using Plug = std::shared_ptr<std::atomic<bool>>;  ///< true: it is in
 
-class UnpluggableStimulator final : public Stimulator {
+/// The twin, with all that others ask a simulated stimulator for.
+class UnpluggableStimulator final : public Stimulator, public StatesCalibration, public sim::WorldMember {
 public:
     UnpluggableStimulator(std::unique_ptr<Stimulator> twin, Plug plug)
         : twin_(std::move(twin)), plug_(std::move(plug)) {}
@@ -28,6 +31,12 @@ public:
     Result<StimulatorStatus> status() override { return *plug_ ? twin_->status() : out(); }
     Result<void> keepAlive() override { return *plug_ ? twin_->keepAlive() : out(); }
     void forceOff() noexcept override { twin_->forceOff(); }
+    const KnownLines& statedCalibration() const noexcept override {
+        return dynamic_cast<const StatesCalibration&>(*twin_).statedCalibration();
+    }
+    const std::shared_ptr<sim::World>& world() const noexcept override {
+        return dynamic_cast<const sim::WorldMember&>(*twin_).world();
+    }
 
 private:
     static tl::unexpected<Error> out() { return fail(ErrorCode::Device, "the simulated stimulator is unplugged"); }
