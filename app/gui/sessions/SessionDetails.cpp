@@ -12,6 +12,7 @@
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Verdict.h"
 #include "app/report/FigureDrawing.h"
 #include "app/report/ShownText.h"
 #include "core/base/JsonFields.h"
@@ -43,6 +44,27 @@ using nlohmann::json;
 void fill(QTableWidget& table, const std::vector<RecordColumn>& columns, const json& records) {
     fillRecordTable(table, columns, records);
     table.resizeColumnsToContents();
+}
+
+/// A setting in words: a list one after the other, a record as "rows 3, columns 4". Never JSON.
+QString settingWords(const json& value, const QString& unit) {
+    if (value.is_number()) return settingText(value.get<double>(), unit);
+    if (value.is_boolean()) return value.get<bool>() ? SessionDetails::tr("yes") : SessionDetails::tr("no");
+    if (value.is_string()) return withOhmSigns(qtext(value.get<std::string>()));
+    QStringList parts;
+    for (const auto& [key, member] : value.items()) {
+        const auto column = value.is_array() ? ColumnName{{}, unit} : columnName(qtext(key));
+        const auto words = settingWords(member, column.unit);
+        const auto within = member.is_structured() ? '(' + words + ')' : words;
+        parts << (column.title.isEmpty() ? within : column.title.toLower() + ' ' + within);
+    }
+    return parts.isEmpty() ? QString("–") : parts.join(", ");
+}
+
+/// As the list of sessions has it.
+QString beganWords(const std::string& wallStart) {
+    const auto began = QDateTime::fromString(qtext(wallStart), Qt::ISODate).toLocalTime();
+    return began.isValid() ? beganText(began) : QString("–");
 }
 
 std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::string("–") : writtenUnit(unit); }
@@ -126,9 +148,10 @@ QString SessionDetails::aboutHtml() const {
     QString html = QString("<h3>%1</h3>").arg(qtext(session_->path.filename().string()).toHtmlEscaped());
     if (about.simulated) html += "<p><b>" + tr("SIMULATED") + "</b></p>";
     for (const auto& verdict : session_->verdicts) {
+        const auto found = verdict.verdict == "none" ? tr("no verdict") : qtext(verdict.verdict);
         html += QString("<p><b>%1: %2</b>")
-                    .arg(qtext(verdict.subject).toHtmlEscaped(), qtext(verdict.verdict).toHtmlEscaped());
-        for (const auto& reason : verdict.reasons) html += "<br>" + qtext(reason).toHtmlEscaped();
+                    .arg(procedureText(verdict.subject).toHtmlEscaped(), verdictText(found).toHtmlEscaped());
+        for (const auto& reason : verdict.reasons) html += "<br>" + sentence(qtext(reason)).toHtmlEscaped();
         html += "</p>";
     }
     QStringList marks;
@@ -139,7 +162,7 @@ QString SessionDetails::aboutHtml() const {
         html += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(name, value.toHtmlEscaped());
     };
     row(tr("Procedure"), procedureText(about.protocol));
-    row(tr("Began"), qtext(about.wallStart));
+    row(tr("Began"), beganWords(about.wallStart));
     row(tr("Ended"), session_->closed ? tr("in order") : tr("not in order: a crash, or still being recorded"));
     for (const auto& [key, value] : about.parameters.items()) {
         const auto declared = session_->settings.find(key);
@@ -148,11 +171,7 @@ QString SessionDetails::aboutHtml() const {
         const auto unit = known ? qtext(textOr(declared->second, "unit")) : column.unit;
         const auto shown = known ? qtext(textOr(declared->second, "shown")) : QString();  // of a choice
         row(known ? qtext(textOr(declared->second, "label")) : column.title,
-            !shown.isEmpty()     ? shown
-            : value.is_number()  ? settingText(value.get<double>(), unit)
-            : value.is_boolean() ? (value.get<bool>() ? tr("yes") : tr("no"))
-            : value.is_string()  ? withOhmSigns(qtext(value.get<std::string>()))
-                                 : qtext(dumpJson(value)));
+            shown.isEmpty() ? settingWords(value, unit) : shown);
     }
     row(tr("Seed"), QString::number(about.seed));
     row(tr("Output mode"), qtext(about.mode));

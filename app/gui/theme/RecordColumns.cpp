@@ -164,6 +164,7 @@ QString wordsText(As as, const json& value) {
     const auto text = textOf(value);
     switch (as) {
         case As::Verdict:
+            if (value.is_boolean()) return verdictText(value.get<bool>() ? "pass" : "fail");
             return text.isEmpty() || text == kNone ? kNone : verdictText(text);
         case As::Load:
             return loadText(text);

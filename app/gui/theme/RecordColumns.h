@@ -27,9 +27,9 @@ struct RecordColumn {
 /// A column as it is written: the header with its unit, a cell for each record, "–" for what is missing. A tolerance
 /// has two digits at most, for more are not known, and its unit in the cell. A spread (a standard deviation, a
 /// deviation without its U) is a number of two digits; of a tolerance or a limit the share used is "32 %". A statistic
-/// {"mean","sd"} is "40.12 ± 0.46", an estimate {"value","low","high"} "1.50 (1.20 to 1.80)". All have the
-/// prefix of the largest; numbers more than ten thousand times apart (a thousand, where each has its uncertainty) carry
-/// one each, in their cells.
+/// {"mean","sd"} is "40.12 ± 0.46", an estimate {"value","low","high"} "1.50 (1.20 to 1.80)". A verdict may be given as
+/// true or false. All have the prefix of the largest; numbers more than ten thousand times apart (a
+/// thousand, where each has its uncertainty) carry one each, in their cells.
 struct ColumnText {
     QString header;
     QStringList cells;

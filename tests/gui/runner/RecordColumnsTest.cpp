@@ -54,6 +54,8 @@ TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
     EXPECT_EQ(cell({"V", "v", As::Number, "V"}), "40.12 ± 0.46");
     EXPECT_THAT(cell({"S", "share", As::Share}), HasSubstr("94.6"));
     EXPECT_EQ(cell({"V", "verdict", As::Verdict}), "○ not evaluated");
+    EXPECT_EQ(cell({"V", "flag", As::Verdict}), "✔ pass");
+    EXPECT_EQ(columnText({"V", "passed", As::Verdict}, Json{{{"passed", false}}}).cells, QStringList{"✖ fail"});
     EXPECT_EQ(cell({"L", "load", As::Load}), "200\u00a0Ω + 10\u00a0kΩ ∥ 50\u00a0nF");
     EXPECT_EQ(cell({"S", "set", As::LimitSet}), "FDA guidance");
     EXPECT_EQ(cell({"R", "reason", As::Text}), "off by −0.3 ± 1.2 % into 500\u202fΩ");
