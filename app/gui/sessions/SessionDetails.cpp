@@ -2,6 +2,7 @@
 
 #include <QHeaderView>
 #include <QSplitter>
+#include <map>
 
 #include "app/gui/sessions/SessionOverview.h"
 #include "app/gui/sessions/SessionWords.h"
@@ -14,6 +15,8 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/FigureDrawing.h"
+#include "app/report/NumberText.h"
+#include "app/report/Reach.h"
 #include "app/report/ShownText.h"
 #include "core/base/JsonFields.h"
 #include "core/base/QuantityText.h"
@@ -65,6 +68,19 @@ QString settingWords(const json& value, const QString& unit) {
 QString beganWords(const std::string& wallStart) {
     const auto began = QDateTime::fromString(qtext(wallStart), Qt::ISODate).toLocalTime();
     return began.isValid() ? beganText(began) : QString("–");
+}
+
+/// Of each unit, the prefix that suits all its columns: they share an axis.
+std::map<QString, AxisUnit> axisUnitsOf(const SessionStream& stream, const SampleBlock& samples) {
+    std::map<QString, Reach> reached;
+    const auto columns = stream.columns.size();
+    for (std::size_t c = 0; c < columns; ++c) {
+        auto& reach = reached[columnUnit(stream, c)];
+        for (std::size_t i = 0; i < samples.samples(); ++i) reach.include(samples.values[i * columns + c]);
+    }
+    std::map<QString, AxisUnit> units;
+    for (const auto& [unit, reach] : reached) units[unit] = axisUnit(reach.magnitude(), unit);
+    return units;
 }
 
 std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::string("–") : writtenUnit(unit); }
@@ -276,9 +292,11 @@ void SessionDetails::removeAxes() {
 void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock& samples) {
     clearStream();
     const auto columns = info.stream.columns.size();
+    const auto units = axisUnitsOf(info.stream, samples);
     for (std::size_t c = 0; c < columns; ++c) {
+        const auto& unit = units.at(columnUnit(info.stream, c));
         std::vector<double> values(samples.samples());
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = samples.values[i * columns + c];
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = unit.factor * samples.values[i * columns + c];
         QVector<double> x, y;
         for (const auto i : visiblePoints(values, kDetailPoints)) {
             x << samples.t_s[i];
@@ -289,7 +307,7 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         graph->setData(x, y, true);
         graph->setName(columnTitle(info.stream, c));
         const bool shared = !axis.label().isEmpty();
-        axis.setLabel(axisTitle(shared ? qtext(info.stream.name) : graph->name(), columnUnit(info.stream, c)));
+        axis.setLabel(axisTitle(shared ? qtext(info.stream.name) : graph->name(), unit.unit));
     }
     watermark_->setVisible(session_ && session_->about.simulated);
     plot_->legend->setVisible(columns > 1);
