@@ -67,6 +67,25 @@ QString uncertainText(double value, double expanded, const QString& unit) {
     return onPage(measuredText(value, expanded, unit.toStdString()), !unit.isEmpty());
 }
 
+QString intervalText(const Estimate& estimate, const QString& unit) {
+    const auto [value, low, high] = estimate;
+    const double half = (high - low) / 2;
+    if (!std::isfinite(value) || !std::isfinite(half)) return quantityText(value, unit);
+    const QString shown = shownUnit(unit);
+    const Split split = splitUnit(shown);
+    const double most = std::max({std::abs(value), std::abs(low), std::abs(high)}) * split.factor;
+    const bool writtenOut = !split.base.isEmpty() || (most >= 1e-4 && most < 1e7);
+    if (!(half > 0) || !writtenOut)
+        return QString("%1 (%2 to %3)")
+            .arg(quantityText(value, unit), quantityText(low, unit), quantityText(high, unit));
+    const int last = decimalExponent(half * split.factor, 2) - 1;  // place of the last digit, at or behind the point
+    const auto prefix = split.base.isEmpty() ? UnitPrefix{} : prefixOf(std::max(decimalExponent(most, 4), last + 2));
+    const double scale = split.factor * std::pow(10.0, -prefix.exponent);
+    const auto number = [&](double one) { return onPage(decimalText(one * scale, prefix.exponent - last), false); };
+    const QString inUnit = split.base.isEmpty() ? shown : prefix.symbol + split.base;
+    return QString("%1 (%2 to %3)").arg(withUnit(number(value), inUnit), number(low), withUnit(number(high), inUnit));
+}
+
 QString settingText(double value, const QString& unit) {
     return onPage(exactText(value, unit.toStdString()), !unit.isEmpty());
 }
@@ -272,13 +291,9 @@ QString cellText(const QJsonValue& value, const QString& unit) {
             return quantityText(object["value"].toDouble(kUnknown), object["unit"].toString());
         }
         if (object.contains("value")) {
-            QString text = quantityText(object["value"].toDouble(kUnknown), unit);
-            const double low = object["low"].toDouble(kUnknown);
-            const double high = object["high"].toDouble(kUnknown);
-            if (std::isfinite(low) && std::isfinite(high)) {
-                text += QString(" (%1 to %2)").arg(quantityText(low, unit), quantityText(high, unit));
-            }
-            return text;
+            return intervalText({object["value"].toDouble(kUnknown), object["low"].toDouble(kUnknown),
+                                 object["high"].toDouble(kUnknown)},
+                                unit);
         }
     }
     return kMissing;

@@ -25,6 +25,10 @@ namespace tacto {
 /// known is said to be unknown (hazard H9).
 [[nodiscard]] QString uncertainText(double value, double expanded, const QString& unit);
 
+/// An estimate and its interval, to two significant digits of half the interval (GUM 7.2.6): "1.00 (0.63 to 1.00)",
+/// "1.50 V (1.20 to 1.80 V)". The value alone where the bounds are not known.
+[[nodiscard]] QString intervalText(const Estimate& estimate, const QString& unit);
+
 /// A setting, without padding zeros: "1 kΩ", "25", "0.15 N".
 [[nodiscard]] QString settingText(double value, const QString& unit);
 

@@ -101,8 +101,19 @@ TEST(NumberText, ReadsUnitsFromAColumnsKey) {
 TEST(NumberText, WritesStatisticsAndEstimatesInCells) {
     EXPECT_EQ(plain(cellText(QJsonObject{{"mean", 40.123}, {"sd", 0.4567}}, "V")), "40.12 ± 0.46 V");
     EXPECT_EQ(plain(cellText(QJsonObject{{"value", 1.5}, {"low", 1.2}, {"high", 1.8}}, "V")),
-              "1.500 V (1.200 V to 1.800 V)");
+              "1.50 V (1.20 to 1.80 V)");
     EXPECT_EQ(cellText(true, ""), "yes");
+}
+
+TEST(NumberText, AnIntervalHasTwoDigitsOfItsHalfAndItsValueTheSamePlace) {
+    EXPECT_EQ(plain(intervalText({273.9, 143.0, 405.5}, "")), "270 (140 to 410)");
+    EXPECT_EQ(plain(intervalText({1, 0.6317, 1}, "")), "1.00 (0.63 to 1.00)");
+    EXPECT_EQ(plain(intervalText({-0.3, -1.21, 0.6}, "%")), "−0.30 % (−1.21 to 0.60 %)");
+    EXPECT_EQ(plain(intervalText({0.01234, 0.01201, 0.01267}, "A")), "12.34 mA (12.01 to 12.67 mA)");
+    EXPECT_EQ(plain(intervalText({0.457, 0.337, 0.577}, "V")), "0.46 V (0.34 to 0.58 V)") << "no zero says nothing";
+    EXPECT_EQ(plain(intervalText({1.5, kUnknown, 1.8}, "V")), "1.500 V");
+    EXPECT_EQ(plain(intervalText({1.5, 1.5, 1.5}, "V")), "1.500 V (1.500 V to 1.500 V)");
+    EXPECT_EQ(plain(intervalText({kUnknown, 1, 2}, "V")), "–");
 }
 
 TEST(NumberText, GivesComparableColumnsOneFormat) {

@@ -6,6 +6,7 @@
 #include "app/report/PlotSheet.h"
 #include "app/report/Reach.h"
 #include "app/report/ShownText.h"
+#include "app/report/TableContent.h"
 
 namespace tacto::gui {
 
@@ -222,7 +223,7 @@ void CalibrationPlot::nameNearest(const CalibrationReadings& of, const AxisUnit&
     nearestText_->setText(tr("%1: %2 of ± %3, %4 used")
                               .arg(settingText(use->commanded, of.unit),
                                    uncertainText(use->error, use->expanded, of.unit),
-                                   settingText(use->tolerance, of.unit), quantityText(100 * use->share(), "%", 2)));
+                                   settingText(use->tolerance, of.unit), limitShareText(100 * use->share())));
     // Below the frame, on the side where there is room.
     const bool left = at < xAxis->range().center();
     const auto side = left ? Qt::AlignLeft : Qt::AlignRight;

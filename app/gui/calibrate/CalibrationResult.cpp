@@ -112,10 +112,10 @@ void CalibrationResult::addLevels(const json& levels) {
               {tr("n"), "n", As::Number},
               {tr("Mean, going up"), "mean_up", As::Number, unit_},
               {tr("Mean, going down"), "mean_down", As::Number, unit_},
-              {tr("s"), "s", As::Number, unit_},
+              {tr("s"), "s", As::Spread, unit_},
               {tr("Error ± U"), "judged_error", As::Number, unit_, "judged_u"},
               {tr("Tolerance, ±"), "tolerance", As::Number, unit_},
-              {tr("Tolerance used"), "used", As::Share}},
+              {tr("Tolerance used"), "used", As::Used}},
              rows);
 }
 

@@ -7,6 +7,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
+#include "app/report/TableContent.h"
 
 namespace tacto::gui {
 
@@ -39,7 +40,7 @@ void ToleranceCard::show(const CalibrationReadings& of) {
     verdict_ = of.verdict;
     const auto* use = of.nearest();
     share_ = use != nullptr ? use->share() : 0;
-    large_ = use != nullptr ? quantityText(100 * share_, "%", 2) : QString::number(of.readings.size());
+    large_ = use != nullptr ? limitShareText(100 * share_) : QString::number(of.readings.size());
     beside_ = use != nullptr ? tr("of the tolerance used") : tr("readings");
     where_ = use != nullptr
                  ? tr("at %1: %2")

@@ -22,6 +22,9 @@ RecordColumn text(const char* title, const char* at) { return {word(title), at, 
 RecordColumn number(const char* title, const char* at, const char* unit = "", const char* uncertainty = "") {
     return {word(title), at, As::Number, QString::fromUtf8(unit), uncertainty};
 }
+RecordColumn spread(const char* title, const char* at, const char* unit) {
+    return {word(title), at, As::Spread, QString::fromUtf8(unit), {}};
+}
 RecordColumn tolerance(const char* title, const char* at, const char* unit) {
     return {word(title), at, As::Tolerance, QString::fromUtf8(unit), {}};
 }
@@ -41,10 +44,10 @@ Tables basis() {
         facts("Known reference", "reference",
               {number("Known load", "load_ohm", "ohm"), number("Read as", "measured_ohm", "ohm", "expanded_ohm"),
                number("Deviation", "deviation_pct", "%", "expanded_uncertainty_pct"),
-               number("Allowed, ±", "allowed_pct", "%"), as(As::YesNo, "Passed", "passed"), text("Reason", "reason")}),
+               number("Allowed, ±", "allowed_pct", "%"), verdict("passed"), text("Reason", "reason")}),
         facts("Absolute reference", "absolute",
               {number("Deviation", "deviation_pct", "%", "expanded_uncertainty_pct"),
-               number("Allowed, ±", "allowed_pct", "%"), as(As::YesNo, "Passed", "passed"), text("It read", "text")}),
+               number("Allowed, ±", "allowed_pct", "%"), verdict(), text("It read", "text")}),
         rows("Instruments", "instruments",
              {text("Role", "role"), text("Instrument", "name"), text("Serial", "serial"), text("Channel", "channel"),
               tolerance("Gain, ±", "gain_pct", "%"), tolerance("Probe, ±", "probe_pct", "%"),
@@ -204,8 +207,8 @@ Tables sensorCalibration() {
                    text("Profile", "profile.name"), text("Known limit", "known_limit")}),
             facts("Known reference", "reference",
                   {number("Mass", "mass_g", "g"), number("Weight", "reference_n", "N"),
-                   number("Read as", "measured", "@unit"), number("Deviation", "deviation_pct", "%"),
-                   number("Allowed, ±", "allowed_pct", "%"), as(As::YesNo, "Passed", "passed")}),
+                   number("Read as", "measured", "@unit"), spread("Deviation", "deviation_pct", "%"),
+                   number("Allowed, ±", "allowed_pct", "%"), verdict("passed")}),
             rows("Surfaces", "surfaces",
                  {text("Surface", "name"), number("Ra", "ra_um", "um"), number("Rz", "rz_um", "um"),
                   number("R", "R", "", "R_expanded_uncertainty"), number("Vibration h", "h"), number("Taxels v", "v"),
@@ -213,18 +216,18 @@ Tables sensorCalibration() {
             facts("Force", "force",
                   {number("Scale", "scale", "", "scale_expanded_uncertainty"),
                    number("Offset", "offset", "@unit", "offset_expanded_uncertainty"),
-                   number("Repeatability", "repeatability_pct_fs", "% FS"),
-                   number("Hysteresis", "hysteresis_pct_fs", "% FS"),
-                   number("Largest residual", "residual_max_pct_fs", "% FS"), number("Readings", "n"),
+                   spread("Repeatability", "repeatability_pct_fs", "% FS"),
+                   spread("Hysteresis", "hysteresis_pct_fs", "% FS"),
+                   spread("Largest residual", "residual_max_pct_fs", "% FS"), number("Readings", "n"),
                    number("Standing out, marked and kept", "outliers"), text("Reason", "reason")}),
             rows("Force, weight by weight", "force.levels",
                  {number("Weight", "commanded", "N"), number("n", "n"), number("Mean", "mean", "N"),
                   number("Mean, going up", "mean_up", "N"), number("Mean, going down", "mean_down", "N"),
-                  number("s", "s", "N"), number("Residual", "residual", "N")}),
+                  spread("s", "s", "N"), number("Residual", "residual", "N")}),
             rows("Taxels", "taxels",
                  {number("Taxel", "taxel"), number("Scale", "scale", "", "scale_expanded_uncertainty"),
                   number("Offset", "offset_pa", "Pa", "offset_expanded_uncertainty_pa"),
-                  number("Largest residual", "residual_max_pct_fs", "% FS"), text("Reason", "reason")}),
+                  spread("Largest residual", "residual_max_pct_fs", "% FS"), text("Reason", "reason")}),
             rows("Slides", "slides",
                  {text("Surface", "material"), number("Vibration h", "h"), number("Vibration, absolute", "h_abs"),
                   number("Taxels, static", "v_static"), number("Taxels, dynamic", "v_dynamic"),

@@ -2,6 +2,7 @@
 
 #include <QTextBrowser>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "app/gui/sessions/Differences.h"
 #include "app/gui/sessions/SessionWords.h"
@@ -10,6 +11,8 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
+#include "app/report/NumberText.h"
+#include "app/report/Reach.h"
 #include "app/report/ShownText.h"
 #include "core/session/SessionReader.h"
 
@@ -85,7 +88,7 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
             const auto title = columnTitle(info.stream, c);
             const bool only = info.stream.columns.size() == 1;
             stream_->addItem(only ? name : QString("%1: %2").arg(name, title), QVariant::fromValue(drawn_.size()));
-            drawn_.push_back({info.stream, c, axisTitle(only ? name : title, columnUnit(info.stream, c))});
+            drawn_.push_back({info.stream, c, only ? name : title, columnUnit(info.stream, c)});
         }
     }
     column->addWidget(stream_);
@@ -205,7 +208,11 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Dr
         return values;
     };
     if (a.samples() == 0 || b.samples() == 0) return;
-    const auto va = column(a), vb = column(b);
+    auto va = column(a), vb = column(b);
+    Reach reach;
+    for (const auto* values : {&va, &vb}) std::ranges::for_each(*values, [&](double v) { reach.include(v); });
+    const auto unit = axisUnit(reach.magnitude(), drawn.unit);
+    for (auto* values : {&va, &vb}) std::ranges::for_each(*values, [&](double& v) { v *= unit.factor; });
     shown(a.t_s, va, tr("first"), QPen(colours().voltage));
     shown(b.t_s, vb, tr("second"), QPen(colours().current, 1, Qt::DashLine));
     std::vector<double> t, difference;
@@ -224,7 +231,7 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Dr
     streams_->legend->setVisible(true);
     fitLegend(*streams_);
     streams_->xAxis->setLabel(tr("Time from the first sample (s)"));
-    streams_->yAxis->setLabel(drawn.label);
+    streams_->yAxis->setLabel(axisTitle(drawn.title, unit.unit));
     begins_s_ = {a.t_s.front(), b.t_s.front()};
     streams_->rescaleAxes();
     drawMarks();

@@ -27,11 +27,12 @@ private:
     void drawTrials();
     void drawStream();
     void drawMarks();
-    /// A column of a stream that both have, and what its axis says.
+    /// A column of a stream that both have, and what its axis says before the prefix is known.
     struct Drawn {
         SessionStream stream;
         std::size_t column = 0;
-        QString label;
+        QString title;
+        QString unit;
     };
     void overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn);
     std::shared_ptr<const ReadSession> sessions_[2];

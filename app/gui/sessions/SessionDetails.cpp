@@ -2,6 +2,7 @@
 
 #include <QHeaderView>
 #include <QSplitter>
+#include <map>
 
 #include "app/gui/sessions/SessionOverview.h"
 #include "app/gui/sessions/SessionWords.h"
@@ -12,7 +13,10 @@
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Verdict.h"
 #include "app/report/FigureDrawing.h"
+#include "app/report/NumberText.h"
+#include "app/report/Reach.h"
 #include "app/report/ShownText.h"
 #include "core/base/JsonFields.h"
 #include "core/base/QuantityText.h"
@@ -43,6 +47,40 @@ using nlohmann::json;
 void fill(QTableWidget& table, const std::vector<RecordColumn>& columns, const json& records) {
     fillRecordTable(table, columns, records);
     table.resizeColumnsToContents();
+}
+
+/// A setting in words: a list one after the other, a record as "rows 3, columns 4". Never JSON.
+QString settingWords(const json& value, const QString& unit) {
+    if (value.is_number()) return settingText(value.get<double>(), unit);
+    if (value.is_boolean()) return value.get<bool>() ? SessionDetails::tr("yes") : SessionDetails::tr("no");
+    if (value.is_string()) return withOhmSigns(qtext(value.get<std::string>()));
+    QStringList parts;
+    for (const auto& [key, member] : value.items()) {
+        const auto column = value.is_array() ? ColumnName{{}, unit} : columnName(qtext(key));
+        const auto words = settingWords(member, column.unit);
+        const auto within = member.is_structured() ? '(' + words + ')' : words;
+        parts << (column.title.isEmpty() ? within : column.title.toLower() + ' ' + within);
+    }
+    return parts.isEmpty() ? QString("–") : parts.join(", ");
+}
+
+/// As the list of sessions has it.
+QString beganWords(const std::string& wallStart) {
+    const auto began = QDateTime::fromString(qtext(wallStart), Qt::ISODate).toLocalTime();
+    return began.isValid() ? beganText(began) : QString("–");
+}
+
+/// Of each unit, the prefix that suits all its columns: they share an axis.
+std::map<QString, AxisUnit> axisUnitsOf(const SessionStream& stream, const SampleBlock& samples) {
+    std::map<QString, Reach> reached;
+    const auto columns = stream.columns.size();
+    for (std::size_t c = 0; c < columns; ++c) {
+        auto& reach = reached[columnUnit(stream, c)];
+        for (std::size_t i = 0; i < samples.samples(); ++i) reach.include(samples.values[i * columns + c]);
+    }
+    std::map<QString, AxisUnit> units;
+    for (const auto& [unit, reach] : reached) units[unit] = axisUnit(reach.magnitude(), unit);
+    return units;
 }
 
 std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::string("–") : writtenUnit(unit); }
@@ -126,9 +164,10 @@ QString SessionDetails::aboutHtml() const {
     QString html = QString("<h3>%1</h3>").arg(qtext(session_->path.filename().string()).toHtmlEscaped());
     if (about.simulated) html += "<p><b>" + tr("SIMULATED") + "</b></p>";
     for (const auto& verdict : session_->verdicts) {
+        const auto found = verdict.verdict == "none" ? tr("no verdict") : qtext(verdict.verdict);
         html += QString("<p><b>%1: %2</b>")
-                    .arg(qtext(verdict.subject).toHtmlEscaped(), qtext(verdict.verdict).toHtmlEscaped());
-        for (const auto& reason : verdict.reasons) html += "<br>" + qtext(reason).toHtmlEscaped();
+                    .arg(procedureText(verdict.subject).toHtmlEscaped(), verdictText(found).toHtmlEscaped());
+        for (const auto& reason : verdict.reasons) html += "<br>" + sentence(qtext(reason)).toHtmlEscaped();
         html += "</p>";
     }
     QStringList marks;
@@ -139,7 +178,7 @@ QString SessionDetails::aboutHtml() const {
         html += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(name, value.toHtmlEscaped());
     };
     row(tr("Procedure"), procedureText(about.protocol));
-    row(tr("Began"), qtext(about.wallStart));
+    row(tr("Began"), beganWords(about.wallStart));
     row(tr("Ended"), session_->closed ? tr("in order") : tr("not in order: a crash, or still being recorded"));
     for (const auto& [key, value] : about.parameters.items()) {
         const auto declared = session_->settings.find(key);
@@ -148,11 +187,7 @@ QString SessionDetails::aboutHtml() const {
         const auto unit = known ? qtext(textOr(declared->second, "unit")) : column.unit;
         const auto shown = known ? qtext(textOr(declared->second, "shown")) : QString();  // of a choice
         row(known ? qtext(textOr(declared->second, "label")) : column.title,
-            !shown.isEmpty()     ? shown
-            : value.is_number()  ? settingText(value.get<double>(), unit)
-            : value.is_boolean() ? (value.get<bool>() ? tr("yes") : tr("no"))
-            : value.is_string()  ? withOhmSigns(qtext(value.get<std::string>()))
-                                 : qtext(dumpJson(value)));
+            shown.isEmpty() ? settingWords(value, unit) : shown);
     }
     row(tr("Seed"), QString::number(about.seed));
     row(tr("Output mode"), qtext(about.mode));
@@ -257,9 +292,11 @@ void SessionDetails::removeAxes() {
 void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock& samples) {
     clearStream();
     const auto columns = info.stream.columns.size();
+    const auto units = axisUnitsOf(info.stream, samples);
     for (std::size_t c = 0; c < columns; ++c) {
+        const auto& unit = units.at(columnUnit(info.stream, c));
         std::vector<double> values(samples.samples());
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = samples.values[i * columns + c];
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = unit.factor * samples.values[i * columns + c];
         QVector<double> x, y;
         for (const auto i : visiblePoints(values, kDetailPoints)) {
             x << samples.t_s[i];
@@ -270,7 +307,7 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         graph->setData(x, y, true);
         graph->setName(columnTitle(info.stream, c));
         const bool shared = !axis.label().isEmpty();
-        axis.setLabel(axisTitle(shared ? qtext(info.stream.name) : graph->name(), columnUnit(info.stream, c)));
+        axis.setLabel(axisTitle(shared ? qtext(info.stream.name) : graph->name(), unit.unit));
     }
     watermark_->setVisible(session_ && session_->about.simulated);
     plot_->legend->setVisible(columns > 1);

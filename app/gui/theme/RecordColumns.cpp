@@ -21,6 +21,7 @@ using As = RecordColumn::As;
 
 constexpr double kOnePrefix = 1e4;        // numbers further apart than this have a prefix each
 constexpr double kOnePrefixWithU = 1000;  // and those with all the decimals of an uncertainty
+constexpr int kDigits = 4, kSpreadDigits = 2;
 constexpr int kHeaderPad = 10;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
 constexpr int kMinText = 10;      // and where numbers need the room
@@ -66,14 +67,13 @@ Known knownOf(const RecordColumn& column, const json& record) {
 }
 
 /// The text of one number in `unit`; with `spread` the second one is a standard deviation, and may be unknown.
-QString numberText(const Known& known, const QString& unit, bool isU) {
+QString numberText(const Known& known, const QString& unit, bool isU, int digits = kDigits) {
     if (!std::isfinite(known.value)) return kNone;
     if (known.hasAround)
         return isU ? uncertainText(known.value, known.around, unit) : quantityText(known.value, known.around, unit);
-    auto text = quantityText(known.value, unit);
     if (std::isfinite(known.low) && std::isfinite(known.high))
-        text += QObject::tr(" (%1 to %2)").arg(quantityText(known.low, unit), quantityText(known.high, unit));
-    return text;
+        return intervalText({known.value, known.low, known.high}, unit);
+    return quantityText(known.value, unit, digits);
 }
 
 /// The unit below the title, also where it is the title's own word: "Smallest pair (JND)".
@@ -106,6 +106,7 @@ ColumnText sharesText(const RecordColumn& column, const json& records) {
 ColumnText numbersText(const RecordColumn& column, const json& records) {
     ColumnText out{column.title, {}, true};
     const bool isU = !column.uncertainty.empty();
+    const int digits = column.as == As::Spread ? kSpreadDigits : kDigits;
     std::vector<Known> all;
     std::vector<double> values;
     double least = 0, most = 0;
@@ -128,17 +129,24 @@ ColumnText numbersText(const RecordColumn& column, const json& records) {
     for (std::size_t row = 0; row < all.size(); ++row) {
         auto& known = all[row];
         if (own) {
-            out.cells << numberText(known, textOf(memberAt(records[row], column.unit.mid(1).toStdString())), isU);
+            const auto unit = textOf(memberAt(records[row], column.unit.mid(1).toStdString()));
+            out.cells << numberText(known, unit, isU, digits);
         } else if (apart && !column.unit.isEmpty()) {
-            out.cells << numberText(known, column.unit, isU);
-        } else if (!around && format && std::isfinite(known.value)) {
+            out.cells << numberText(known, column.unit, isU, digits);
+        } else if (!around && digits == kDigits && format && std::isfinite(known.value)) {
             out.cells << quantityText(known.value, column.unit, *format).section(QChar(0x202f), 0, 0);
         } else {
             scale(known, axis.factor);
-            out.cells << numberText(known, {}, isU);
+            out.cells << numberText(known, {}, isU, digits);
         }
     }
     out.header = !own && !apart && !axis.unit.isEmpty() ? withUnit(column.title, axis.unit) : onTwoLines(column.title);
+    return out;
+}
+
+ColumnText usedText(const RecordColumn& column, const json& records) {
+    ColumnText out{column.title, {}, true};
+    for (const auto& record : records) out.cells << limitShareText(100 * numberOr(memberAt(record, column.at)));
     return out;
 }
 
@@ -156,6 +164,7 @@ QString wordsText(As as, const json& value) {
     const auto text = textOf(value);
     switch (as) {
         case As::Verdict:
+            if (value.is_boolean()) return verdictText(value.get<bool>() ? "pass" : "fail");
             return text.isEmpty() || text == kNone ? kNone : verdictText(text);
         case As::Load:
             return loadText(text);
@@ -247,7 +256,8 @@ const json& memberAt(const json& record, const std::string& path) {
 
 ColumnText columnText(const RecordColumn& column, const json& records) {
     if (column.as == As::Share) return sharesText(column, records);
-    if (column.as == As::Number) return numbersText(column, records);
+    if (column.as == As::Used) return usedText(column, records);
+    if (column.as == As::Number || column.as == As::Spread) return numbersText(column, records);
     if (column.as == As::Tolerance) return tolerancesText(column, records);
     ColumnText out{column.title, {}, false};
     for (const auto& record : records) out.cells << wordsText(column.as, memberAt(record, column.at));

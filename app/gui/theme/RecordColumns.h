@@ -13,7 +13,7 @@
 namespace tacto::gui {
 
 struct RecordColumn {
-    enum class As { Text, Number, Tolerance, Share, YesNo, Verdict, Load, LimitSet };
+    enum class As { Text, Number, Spread, Tolerance, Share, Used, YesNo, Verdict, Load, LimitSet };
     QString title;
     std::string at;  ///< the member; "a.b" for a member of a member
     As as = As::Text;
@@ -25,10 +25,11 @@ struct RecordColumn {
 [[nodiscard]] const nlohmann::json& memberAt(const nlohmann::json& record, const std::string& path);
 
 /// A column as it is written: the header with its unit, a cell for each record, "–" for what is missing. A tolerance
-/// has two digits at most, for more are not known, and its unit in the cell. A statistic
-/// {"mean","sd"} is "40.12 ± 0.46", an estimate {"value","low","high"} "99.0 (94.6 to 99.8)". All have the
-/// prefix of the largest; numbers more than ten thousand times apart (a thousand, where each has its uncertainty) carry
-/// one each, in their cells.
+/// has two digits at most, for more are not known, and its unit in the cell. A spread (a standard deviation, a
+/// deviation without its U) is a number of two digits; of a tolerance or a limit the share used is "32 %". A statistic
+/// {"mean","sd"} is "40.12 ± 0.46", an estimate {"value","low","high"} "1.50 (1.20 to 1.80)". A verdict may be given as
+/// true or false. All have the prefix of the largest; numbers more than ten thousand times apart (a
+/// thousand, where each has its uncertainty) carry one each, in their cells.
 struct ColumnText {
     QString header;
     QStringList cells;

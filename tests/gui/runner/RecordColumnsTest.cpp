@@ -54,6 +54,8 @@ TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
     EXPECT_EQ(cell({"V", "v", As::Number, "V"}), "40.12 ± 0.46");
     EXPECT_THAT(cell({"S", "share", As::Share}), HasSubstr("94.6"));
     EXPECT_EQ(cell({"V", "verdict", As::Verdict}), "○ not evaluated");
+    EXPECT_EQ(cell({"V", "flag", As::Verdict}), "✔ pass");
+    EXPECT_EQ(columnText({"V", "passed", As::Verdict}, Json{{{"passed", false}}}).cells, QStringList{"✖ fail"});
     EXPECT_EQ(cell({"L", "load", As::Load}), "200\u00a0Ω + 10\u00a0kΩ ∥ 50\u00a0nF");
     EXPECT_EQ(cell({"S", "set", As::LimitSet}), "FDA guidance");
     EXPECT_EQ(cell({"R", "reason", As::Text}), "off by −0.3 ± 1.2 % into 500\u202fΩ");
@@ -67,13 +69,28 @@ TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
     EXPECT_THAT(unknown.cells.first().toStdString(), HasSubstr("U unknown"));
 }
 
+TEST(RecordColumns, HaveNoMoreDigitsThanAreKnown) {
+    const Json rows = {{{"s", 580.6e-6}, {"used", 0.317}, {"d", {{"value", 273.9}, {"low", 143.0}, {"high", 405.5}}}},
+                       {{"s", 1.2345e-3}, {"used", 1.0531}, {"d", {{"value", 1}, {"low", 0.6317}, {"high", 1}}}}};
+    const auto spreads = columnText({"s", "s", As::Spread, "V"}, rows);
+    EXPECT_EQ(spreads.header, "s\n(mV)");
+    EXPECT_EQ(spreads.cells, (QStringList{"0.58", "1.2"}));
+    EXPECT_EQ(columnText({"s", "s", As::Spread, "V"}, Json::array({rows[0]})).cells, QStringList{"580"});
+    const auto used = columnText({"Used", "used", As::Used}, rows);
+    EXPECT_EQ(used.cells, (QStringList{"32\u202f%", "105\u202f%"}));
+    EXPECT_TRUE(used.right);
+    EXPECT_EQ(columnText({"Used", "none", As::Used}, Json::array({rows[0]})).cells, QStringList{"–"});
+    EXPECT_EQ(columnText({"d′", "d", As::Number}, rows).cells,
+              (QStringList{"270 (140 to 410)", "1.00 (0.63 to 1.00)"}));
+}
+
 TEST(RecordColumns, ANumberIsNeverCutAndWordsGiveWayFirst) {
     RecordProperty("hazard", "H9");
     gui::applyTheme(gui::Theme::Light);
     std::vector<RecordColumn> columns{{"Condition", "words", As::Text}, {"Load", "words", As::Text}};
     Json row{{"words", "a surface of many words that go on for longer than any column has room"},
-             {"many", {{"value", 123456.7}, {"low", -123456.7}, {"high", 123456.7}}},
-             {"far", {{"value", 1e-6}, {"low", -1e-6}, {"high", 1e-6}}}};
+             {"many", {{"value", 123456.7}, {"low", 123456.6}, {"high", 123456.8}}},
+             {"far", {{"value", 1e-6}, {"low", 0.999999e-6}, {"high", 1.000001e-6}}}};
     columns.push_back({"Far", "many", As::Number, "ohm"});  // longer than words may be
     for (int i = 0; i < 2; ++i) {
         row["v" + std::to_string(i)] = {{"mean", 40.12}, {"sd", 0.46}};

@@ -89,6 +89,25 @@ TEST(ResultTables, OfALabsOwnKindHaveTheWordsOfTheirKeysAndNoTree) {
     EXPECT_TRUE(tables.findChildren<QTreeWidget*>().isEmpty());
 }
 
+TEST(ResultTables, OfAReferenceSayItsVerdictAsShapeAndWord) {
+    RecordProperty("hazard", "H9");
+    const auto of = [](const char* kind, const char* check, const nlohmann::json& found) {
+        gui::ResultTables tables;
+        tables.show({{"kind", kind}, {check, found}});
+        QStringList texts;
+        for (const auto& text : textsIn(tables)) texts << text;
+        return texts;
+    };
+    using testing::Contains;
+    EXPECT_THAT(of("load-safety", "reference", {{"load_ohm", 1000}, {"passed", true}}), Contains(QString("✔ pass")));
+    EXPECT_THAT(of("load-safety", "reference", {{"load_ohm", 1000}, {"passed", false}}), Contains(QString("✖ fail")));
+    EXPECT_THAT(of("sensor-calibration", "reference", {{"mass_g", 100}, {"passed", true}}),
+                Contains(QString("✔ pass")));
+    const auto unknown = of("load-safety", "absolute", {{"passed", false}, {"verdict", "not evaluated"}});
+    EXPECT_THAT(unknown, Contains(QString("○ not evaluated"))) << "and not that it failed";
+    EXPECT_THAT(unknown, testing::Not(Contains(QString("✖ fail"))));
+}
+
 gui::FinishedRun finished(const nlohmann::json& results, ScriptVerdict verdict) {
     gui::FinishedRun run;
     run.result.outcome.results = results;

@@ -16,6 +16,7 @@
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/sessions/SessionModel.h"
+#include "app/gui/sessions/SessionWords.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/Digest.h"
@@ -273,6 +274,12 @@ TEST_F(Sessions, AChoiceIsSaidInTheWordsOfItsProtocol) {
     EXPECT_THAT(says.toStdString(), Not(HasSubstr("1M")));
     EXPECT_THAT(says.toStdString(), HasSubstr("yes")) << "keep, which no declaration names";
     EXPECT_THAT(says.toStdString(), HasSubstr("Stimulator"));
+    EXPECT_THAT(says.toStdString(), HasSubstr("Separability: ✔ pass\n98 of 100 told apart."));
+    const auto began = QDateTime::fromString("2026-11-20T10:02:05Z", Qt::ISODate).toLocalTime();
+    EXPECT_THAT(says.toStdString(), HasSubstr(gui::beganText(began).toStdString()));
+    EXPECT_THAT(says.toStdString(), Not(HasSubstr("T10:02"))) << "as the list says it";
+    EXPECT_THAT(says.toStdString(), HasSubstr("rows 3, steps (5\u202fV, 10\u202fV)"));
+    EXPECT_THAT(says.toStdString(), Not(HasSubstr("{")));
     shot(workspace, "sessions-about");
 }
 

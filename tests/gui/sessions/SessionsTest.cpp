@@ -269,7 +269,7 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
         const auto plots = both->findChildren<QCustomPlot*>();
         return std::any_of(plots.begin(), plots.end(), [&](const auto* plot) { return plot->yAxis->label() == label; });
     };
-    EXPECT_IN_TIME(comesTrue([&] { return axisSays("Pressure (Pa)"); }));
+    EXPECT_IN_TIME(comesTrue([&] { return axisSays("Pressure (kPa)"); })) << "as in Live";
     both->close();
 }
 
@@ -296,7 +296,9 @@ TEST_F(Recorded, AStreamOfASimulatedSessionSaysSoAndNamesItsTraces) {
             const auto* graph = plot->graph(g);
             EXPECT_FALSE(graph->name().contains('_')) << graph->name().toStdString();
             const bool pressure = graph->name() == "Pressure";
-            EXPECT_EQ(pressure, graph->valueAxis()->label() == "Pressure (Pa)") << graph->name().toStdString();
+            EXPECT_EQ(pressure, graph->valueAxis()->label() == "Pressure (kPa)") << graph->name().toStdString();
+            const auto most = graph->valueAxis()->range().upper;
+            EXPECT_TRUE(!pressure || (most >= 1 && most < 1000)) << most << ": in the unit that the axis names";
             EXPECT_EQ(pressure, graph->valueAxis() != plot->yAxis) << "no pascal on the axis of 0 to 1";
         }
     }

@@ -43,7 +43,8 @@ public:
         SessionAbout about;
         about.programVersion = "1.5.0";
         about.protocol = wanted.protocol;
-        about.parameters = {{"repeats", 25}, {"rate", "1M"}, {"keep", true}};
+        about.parameters = {
+            {"repeats", 25}, {"rate", "1M"}, {"keep", true}, {"grid", {{"rows", 3}, {"steps_v", {5, 10}}}}};
         about.seed = 7;
         about.devices = {{"sim:stimulator", "stimulator", "simulated stimulator", "SIM-1", "1", wanted.simulated}};
         about.profileJson = R"({"encoding": {"A_max_v": 40}})";
