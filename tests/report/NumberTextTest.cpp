@@ -113,6 +113,7 @@ TEST(NumberText, AnIntervalHasTwoDigitsOfItsHalfAndItsValueTheSamePlace) {
     EXPECT_EQ(plain(intervalText({0.457, 0.337, 0.577}, "V")), "0.46 V (0.34 to 0.58 V)") << "no zero says nothing";
     EXPECT_EQ(plain(intervalText({1.5, kUnknown, 1.8}, "V")), "1.500 V");
     EXPECT_EQ(plain(intervalText({1.5, 1.5, 1.5}, "V")), "1.500 V (1.500 V to 1.500 V)");
+    EXPECT_EQ(plain(intervalText({2.5, 2.5, 2.5 + 1e-12}, "")), "2.500 (2.500 to 2.500)");
     EXPECT_EQ(plain(intervalText({kUnknown, 1, 2}, "V")), "–");
 }
 

@@ -152,7 +152,7 @@ void LanePanel::follow() {
         if (its.scale == nullptr) continue;
         const auto scale = model_.scaleOf(lane);
         offerScales(*its.scale, scale.perDivision, lane.unit);
-        its.position->setMinimumWidth(fontMetrics().horizontalAdvance("−0.00 div") + 32);
+        its.position->setMinimumWidth(fontMetrics().horizontalAdvance("−0.00 div") + 36);
         const QSignalBlocker quiet(its.position);
         if (!its.position->hasFocus() || std::abs(its.position->value() - scale.position) > 5e-3) {
             its.position->setValue(scale.position);

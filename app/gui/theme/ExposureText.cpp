@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/gui/theme/Text.h"
+#include "app/report/NumberText.h"
 #include "core/safety/TrainExposure.h"
 
 namespace tacto::gui {
