@@ -16,7 +16,7 @@ namespace {
 const QString kMissing = QStringLiteral("–");
 const QString kSpace = QStringLiteral("\u202f");  // narrow and unbreakable
 const QString kMinus = QStringLiteral("−");
-constexpr double kLeastInterval = 1e-6;  // of the value
+constexpr double kMinInterval = 1e-6;  // of the value
 
 QString shownUnit(const QString& unit) { return QString::fromStdString(writtenUnit(unit.toStdString())); }
 
@@ -77,7 +77,7 @@ QString intervalText(const Estimate& estimate, const QString& unit) {
     const double most = std::max({std::abs(value), std::abs(low), std::abs(high)}) * split.factor;
     const bool writtenOut = !split.base.isEmpty() || (most >= 1e-4 && most < 1e7);
     // An interval of rounding errors is none.
-    if (!(half * split.factor > kLeastInterval * most) || !writtenOut)
+    if (!(half * split.factor > kMinInterval * most) || !writtenOut)
         return QString("%1 (%2 to %3)")
             .arg(quantityText(value, unit), quantityText(low, unit), quantityText(high, unit));
     const int last = decimalExponent(half * split.factor, 2) - 1;  // place of the last digit, at or behind the point

@@ -195,7 +195,7 @@ void RunViews::arrange() {
     const int pad = tall ? kBarPad : kBarPadLow;
     body_->setContentsMargins(kViewSide, kViewTop, kViewSide, tall ? kViewTop * 2 : kViewTop);
     bar_->setContentsMargins(kViewSide, pad, kViewSide, pad);
-    head_->setRoomy(tall);
+    head_->setRoomy(tall || plot_ != Plot::Calibration);  // its residuals want 300 px
     const bool judged = showsLimits();
     plane_->setVisible(plot_ == Plot::Trials || plot_ == Plot::Slides);
     calibration_->setVisible(plot_ == Plot::Calibration);

@@ -70,7 +70,7 @@ QString beganWords(const std::string& wallStart) {
     return began.isValid() ? beganText(began) : QString("–");
 }
 
-/// Of each unit, the prefix that suits all its columns: they share an axis.
+/// For each unit, the prefix that suits all its columns: they share an axis.
 std::map<QString, AxisUnit> axisUnitsOf(const SessionStream& stream, const SampleBlock& samples) {
     std::map<QString, Reach> reached;
     const auto columns = stream.columns.size();

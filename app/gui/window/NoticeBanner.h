@@ -31,7 +31,7 @@ protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    /// Of the workspace, what it may lie over: its page may be another with each frame.
+    /// The part of the workspace that it may lie over: the page may be another with each frame.
     [[nodiscard]] QRect room() const;
     void lieDown();
     void sayState(const Telemetry& telemetry);
