@@ -10,10 +10,10 @@
 #include "core/bench/BenchCalibration.h"
 #include "core/bench/BenchLevels.h"
 #include "core/bench/BenchNotes.h"
-#include "core/bench/BenchOrder.h"
 #include "core/bench/BenchOutput.h"
 #include "core/bench/BenchTime.h"
 #include "core/bench/ScopeSession.h"
+#include "core/bench/StandingOrder.h"
 #include "core/safety/Heartbeat.h"
 #include "core/safety/SafetyGate.h"
 #include "core/safety/UnitRecord.h"
@@ -66,7 +66,7 @@ struct Bench::State {
     std::unique_ptr<ScopeSession> scope;
     std::unique_ptr<ControlLoop> loop;
 
-    BenchOrder order;
+    StandingOrder order;
     std::atomic<DriveSource> driving{DriveSource::Off};
     std::uint64_t refusalsSeen = 0;  // by the caller of drive(), wait() and capture()
 

@@ -9,19 +9,19 @@
 #include <functional>
 #include <memory>
 
-#include "core/bench/BenchOrder.h"
 #include "core/bench/BenchOutput.h"
 #include "core/bench/ControlLoop.h"
 #include "core/bench/DeviceThread.h"
 #include "core/bench/ScopeSession.h"
 #include "core/bench/SensorSession.h"
+#include "core/bench/StandingOrder.h"
 
 namespace tacto {
 
 class BenchTime {
 public:
     /// All outlive this.
-    BenchTime(Clock& clock, BenchOutput& output, BenchOrder& order) noexcept
+    BenchTime(Clock& clock, BenchOutput& output, StandingOrder& order) noexcept
         : clock_(clock), virtual_(dynamic_cast<VirtualClock*>(&clock)), output_(output), order_(order) {}
 
     [[nodiscard]] bool isVirtual() const noexcept { return virtual_ != nullptr; }
@@ -59,7 +59,7 @@ private:
     Clock& clock_;
     VirtualClock* const virtual_;  // null on the steady clock
     BenchOutput& output_;
-    BenchOrder& order_;
+    StandingOrder& order_;
     ControlLoop* loop_ = nullptr;
     SensorSession* sensor_ = nullptr;
     ScopeSession* scope_ = nullptr;

@@ -2,6 +2,7 @@
 // where the user's data lie in one place.
 #include <fstream>
 #include <gmock/gmock.h>
+#include <map>
 #include <regex>
 
 #include "tests/support/Support.h"
@@ -64,6 +65,22 @@ TEST(Sources, ALimitIsNamedByMinOrMax) {
             EXPECT_FALSE(std::regex_search(text, found, other)) << file << ": " << found.str();
         }
     });
+}
+
+// Two types of one name in one program are one to the linker, which keeps either's functions: lists overrun.
+TEST(Sources, TwoTypesOfANamespaceHaveTwoNames) {
+    static const std::regex within("(?:^|\n)namespace ([\\w:]+) \\{");
+    static const std::regex type("\n(?:struct|class) (\\w+)(?: final)?(?: :[^{;]*)? \\{");
+    std::map<std::string, fs::path> known;
+    forSources({"app", "core", "drivers"}, [&](const fs::path& file, const std::string& text) {
+        std::smatch space;
+        if (file.extension() != ".h" || !std::regex_search(text, space, within)) return;
+        for (std::sregex_iterator each(text.begin(), text.end(), type), end; each != end; ++each) {
+            const auto [other, isNew] = known.try_emplace(space.str(1) + "::" + each->str(1), file);
+            EXPECT_TRUE(isNew) << other->first << " in " << other->second << " and " << file;
+        }
+    });
+    EXPECT_GT(known.size(), 500U);
 }
 
 TEST(Sources, TheUsersDataLieWhereOneFunctionSays) {

@@ -203,7 +203,7 @@ Result<Identification> analysed(std::span<const IdentificationTrial> trials, std
         for (const auto& row : out.confusion) given += row[j];
         out.shares.push_back({out.columns[j], given, wilsonInterval(given, out.all.n)});
     }
-    std::vector<TrendPoint> points;
+    std::vector<LogisticPoint> points;
     for (const auto& block : out.blocks) points.push_back({static_cast<double>(block.block), block.n, block.hits});
     out.learning = logisticSlope(points);
     return out;

@@ -18,7 +18,7 @@ constexpr int kHalvings = 200;
 /// Logistic model over x from 0 to 1, its intercept always the best for the slope.
 class SlopeProfile {
 public:
-    explicit SlopeProfile(std::vector<TrendPoint> points) : points_(std::move(points)) {
+    explicit SlopeProfile(std::vector<LogisticPoint> points) : points_(std::move(points)) {
         for (const auto& point : points_) right_ += static_cast<double>(point.hits);
     }
 
@@ -61,7 +61,7 @@ private:
         return low + (high - low) / 2;
     }
 
-    std::vector<TrendPoint> points_;
+    std::vector<LogisticPoint> points_;
     double right_ = 0;
 };
 
@@ -77,8 +77,8 @@ double turnOf(double inside, double outside, Above&& above) {
 
 }  // namespace
 
-Estimate logisticSlope(std::span<const TrendPoint> points) {
-    std::vector<TrendPoint> used;
+Estimate logisticSlope(std::span<const LogisticPoint> points) {
+    std::vector<LogisticPoint> used;
     double least = 0, most = 0;
     std::size_t n = 0, hits = 0;
     for (const auto& point : points) {

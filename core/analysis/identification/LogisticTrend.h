@@ -11,7 +11,7 @@
 namespace tacto {
 
 /// `hits` of `n` right at `x`.
-struct TrendPoint {
+struct LogisticPoint {
     double x = 0;
     std::size_t n = 0;
     std::size_t hits = 0;
@@ -21,6 +21,6 @@ struct TrendPoint {
 /// the least (profile likelihood, 95 %). An end that the data leave open is infinite, and so is a slope that every
 /// answer agrees with (all wrong up to some x, all right from there). NaN for fewer than two different x with trials,
 /// and where all answers are right, or all wrong.
-[[nodiscard]] Estimate logisticSlope(std::span<const TrendPoint> points);
+[[nodiscard]] Estimate logisticSlope(std::span<const LogisticPoint> points);
 
 }  // namespace tacto

@@ -73,7 +73,7 @@ double smallestChange(std::size_t n, double accuracy) noexcept {
 Result<OverSessions> compareSessions(std::vector<SessionFigures> sessions) {
     if (auto sane = checkSessions(sessions); !sane) return failure(sane);
     OverSessions out;
-    std::vector<TrendPoint> points;
+    std::vector<LogisticPoint> points;
     std::size_t n = 0, hits = 0, least = 0;
     for (const auto& session : sessions) {
         if (session.n > 0) points.push_back({session.days, session.n, session.hits});

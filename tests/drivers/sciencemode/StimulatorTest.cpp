@@ -201,8 +201,8 @@ TEST(ScienceModeDeliver, AHostThatIsALittleLateNeverHurriesAfterwards) {
 
 TEST(ScienceModeDeliver, APulseHeldUpOnItsWayToTheWireIsNotFollowedTooFast) {
     RecordProperty("hazard", "H1");
+    int writes = 0;  // the bench writes to its end
     ScienceModeBench bench;
-    int writes = 0;
     bench.line->onWrite([&] {
         if (++writes % 2 == 0) bench.clock.advanceTo(bench.clock.now() + milliseconds(4));
     });

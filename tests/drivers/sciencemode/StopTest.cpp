@@ -74,8 +74,8 @@ TEST(ScienceModeStop, CutsThePulseThatIsBeingPutOut) {
 
 TEST(ScienceModeStop, IsRepeatedAfterAWriteThatWasInFlight) {
     RecordProperty("hazard", "H2");
+    int writes = 0;  // the bench writes to its end
     ScienceModeBench bench;
-    int writes = 0;
     bench.line->onWrite([&] {
         // The stop overtakes the pulse that is already being handed over.
         if (++writes == 1) bench.stimulator->forceOff();

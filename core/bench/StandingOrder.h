@@ -1,4 +1,4 @@
-// BenchOrder.h - the order of the operator for which a bench does everything, and how those who wait for the bench
+// StandingOrder.h - the order of the operator for which a bench does everything, and how those who wait for the bench
 // learn of its end: a stop ends it for good, a pause holds it up.
 //
 // Thread-safety: any thread.
@@ -14,10 +14,10 @@
 
 namespace tacto {
 
-class BenchOrder {
+class StandingOrder {
 public:
     /// The first order, given at `asked`, a mark of `stops`. Without `stops` the bench has its own, and that is now.
-    BenchOrder(const std::shared_ptr<StopCounter>& stops, StopMark asked)
+    StandingOrder(const std::shared_ptr<StopCounter>& stops, StopMark asked)
         : stops_(stops ? stops : std::make_shared<StopCounter>()), asked_(stops ? asked : stops_->mark()) {}
 
     [[nodiscard]] StopCounter& stops() noexcept { return *stops_; }
