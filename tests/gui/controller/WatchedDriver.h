@@ -9,8 +9,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/devices/Registry.h"
-#include "drivers/simulated/SimulatedDriver.h"
+#include "tests/support/WrappedTwin.h"
 
 namespace tacto::test {
 
@@ -24,31 +23,30 @@ struct Watch {
     std::function<void()> onOff;
 };
 
-class WatchedStimulator final : public Stimulator {
+class WatchedStimulator final : public WrappedStimulator {
 public:
-    WatchedStimulator(std::unique_ptr<Stimulator> inner, std::shared_ptr<Watch> watch)
-        : inner_(std::move(inner)), watch_(std::move(watch)) {}
+    WatchedStimulator(std::unique_ptr<Stimulator> twin, std::shared_ptr<Watch> watch)
+        : WrappedStimulator(std::move(twin)), watch_(std::move(watch)) {}
     const DeviceIdentity& identity() const noexcept override {
         called();
-        return inner_->identity();
+        return WrappedStimulator::identity();
     }
-    const SourceTraits& traits() const noexcept override { return inner_->traits(); }
     Result<void> deliver(ApprovedTrain&& train) override {
         called();
         ++watch_->trains;
-        return inner_->deliver(std::move(train));
+        return WrappedStimulator::deliver(std::move(train));
     }
     Result<StimulatorStatus> status() override {
         called();
-        return inner_->status();
+        return WrappedStimulator::status();
     }
     Result<void> keepAlive() override {
         called();
-        return inner_->keepAlive();
+        return WrappedStimulator::keepAlive();
     }
     void forceOff() noexcept override {
         ++watch_->offs;
-        inner_->forceOff();
+        WrappedStimulator::forceOff();
         if (watch_->onOff) watch_->onOff();
     }
 
@@ -57,39 +55,20 @@ private:
         const int number = ++watch_->calls;
         if (watch_->onCall) watch_->onCall(number);
     }
-    const std::unique_ptr<Stimulator> inner_;
     const std::shared_ptr<Watch> watch_;
 };
 
-class WatchedDriver final : public Driver {
-public:
-    /// `virtualTime`: as sim: itself; else the bench runs on the steady clock.
-    explicit WatchedDriver(std::shared_ptr<Watch> watch, bool virtualTime = true)
-        : watch_(std::move(watch)), virtualTime_(virtualTime) {}
-    std::string_view scheme() const noexcept override { return inner_->scheme(); }
-    std::vector<DeviceIdentity> list() const override { return inner_->list(); }
-    bool runsOnVirtualClock() const noexcept override { return virtualTime_; }
-    Result<void> open(const DeviceUri& uri, const std::set<Role>& wanted, const OpenContext& context,
-                      DeviceSet& into) override {
-        const bool had = into.stimulator != nullptr;
-        auto opened = inner_->open(uri, wanted, context, into);
-        if (had || !into.stimulator) return opened;
-        into.stimulator = std::make_unique<WatchedStimulator>(std::move(into.stimulator), watch_);
-        if (watch_->onOpen) watch_->onOpen(context);
-        return opened;
-    }
-
-private:
-    const std::unique_ptr<Driver> inner_ = makeSimulatedDriver();
-    const std::shared_ptr<Watch> watch_;
-    const bool virtualTime_;
-};
-
+/// `virtualTime`: as sim: itself; else the bench runs on the steady clock.
 [[nodiscard]] inline std::function<Registry()> watchedRegistry(const std::shared_ptr<Watch>& watch,
                                                                bool virtualTime = true) {
     return [watch, virtualTime] {
+        const auto wrap = [watch](std::unique_ptr<Stimulator> twin, const OpenContext& context) {
+            auto watched = std::make_unique<WatchedStimulator>(std::move(twin), watch);
+            if (watch->onOpen) watch->onOpen(context);
+            return watched;
+        };
         std::vector<std::unique_ptr<Driver>> drivers;
-        drivers.push_back(std::make_unique<WatchedDriver>(watch, virtualTime));
+        drivers.push_back(std::make_unique<WrappedBench>(wrap, virtualTime));
         return Registry(std::move(drivers));
     };
 }

@@ -17,8 +17,8 @@
 
 #include "app/gui/window/MainWindow.h"
 #include "core/base/Random.h"
-#include "drivers/simulated/SimulatedDriver.h"
 #include "tests/perf/window/WindowPerf.h"
+#include "tests/support/WrappedTwin.h"
 
 namespace tacto::perf {
 
@@ -33,44 +33,21 @@ std::atomic<std::int64_t> offAt_ns{0};
 std::int64_t now_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
 /// The simulated stimulator, with a clock at its forceOff().
-class TimedStimulator final : public Stimulator {
+class TimedStimulator final : public test::WrappedStimulator {
 public:
-    explicit TimedStimulator(std::unique_ptr<Stimulator> inner) : inner_(std::move(inner)) {}
-    const DeviceIdentity& identity() const noexcept override { return inner_->identity(); }
-    const SourceTraits& traits() const noexcept override { return inner_->traits(); }
-    Result<void> deliver(ApprovedTrain&& train) override { return inner_->deliver(std::move(train)); }
-    Result<StimulatorStatus> status() override { return inner_->status(); }
-    Result<void> keepAlive() override { return inner_->keepAlive(); }
+    using WrappedStimulator::WrappedStimulator;
     void forceOff() noexcept override {
-        inner_->forceOff();
+        WrappedStimulator::forceOff();
         std::int64_t none = 0;  // the first one counts
         offAt_ns.compare_exchange_strong(none, now_ns());
     }
-
-private:
-    std::unique_ptr<Stimulator> inner_;
-};
-
-class TimedDriver final : public Driver {
-public:
-    std::string_view scheme() const noexcept override { return inner_->scheme(); }
-    std::vector<DeviceIdentity> list() const override { return inner_->list(); }
-    bool runsOnVirtualClock() const noexcept override { return inner_->runsOnVirtualClock(); }
-    Result<void> open(const DeviceUri& uri, const std::set<Role>& wanted, const OpenContext& context,
-                      DeviceSet& into) override {
-        const bool had = into.stimulator != nullptr;
-        auto opened = inner_->open(uri, wanted, context, into);
-        if (!had && into.stimulator) into.stimulator = std::make_unique<TimedStimulator>(std::move(into.stimulator));
-        return opened;
-    }
-
-private:
-    std::unique_ptr<Driver> inner_ = makeSimulatedDriver();
 };
 
 Registry timedRegistry() {
     std::vector<std::unique_ptr<Driver>> drivers;
-    drivers.push_back(std::make_unique<TimedDriver>());
+    drivers.push_back(std::make_unique<test::WrappedBench>([](std::unique_ptr<Stimulator> twin, const OpenContext&) {
+        return std::make_unique<TimedStimulator>(std::move(twin));
+    }));
     return Registry(std::move(drivers));
 }
 

@@ -1,0 +1,66 @@
+// WrappedTwin.h - the simulated bench with something of a test's own around its stimulator.
+//
+// Thread-safety: as Driver and Stimulator.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/devices/Registry.h"
+#include "core/devices/StatesCalibration.h"
+#include "core/devices/Stimulator.h"
+#include "drivers/simulated/SimulatedDriver.h"
+#include "drivers/simulated/World.h"
+
+namespace tacto::test {
+
+/// Passes on all that the bench and other twins ask a simulated stimulator for.
+class WrappedStimulator : public Stimulator, public StatesCalibration, public sim::WorldMember {
+public:
+    explicit WrappedStimulator(std::unique_ptr<Stimulator> twin) : twin_(std::move(twin)) {}
+    const DeviceIdentity& identity() const noexcept override { return twin_->identity(); }
+    const SourceTraits& traits() const noexcept override { return twin_->traits(); }
+    Result<void> deliver(ApprovedTrain&& train) override { return twin_->deliver(std::move(train)); }
+    Result<StimulatorStatus> status() override { return twin_->status(); }
+    Result<void> keepAlive() override { return twin_->keepAlive(); }
+    void forceOff() noexcept override { twin_->forceOff(); }
+    const KnownLines& statedCalibration() const noexcept override {
+        return dynamic_cast<const StatesCalibration&>(*twin_).statedCalibration();
+    }
+    const std::shared_ptr<sim::World>& world() const noexcept override {
+        return dynamic_cast<const sim::WorldMember&>(*twin_).world();
+    }
+
+private:
+    const std::unique_ptr<Stimulator> twin_;
+};
+
+class WrappedBench final : public Driver {
+public:
+    /// Called while the driver opens its stimulator.
+    using Wrap = std::function<std::unique_ptr<Stimulator>(std::unique_ptr<Stimulator>, const OpenContext&)>;
+
+    /// `virtualTime`: whether it runs on the virtual clock; nothing: as sim: itself.
+    explicit WrappedBench(Wrap wrap, std::optional<bool> virtualTime = {})
+        : wrap_(std::move(wrap)), virtualTime_(virtualTime.value_or(twin_->runsOnVirtualClock())) {}
+    std::string_view scheme() const noexcept override { return twin_->scheme(); }
+    std::vector<DeviceIdentity> list() const override { return twin_->list(); }
+    bool runsOnVirtualClock() const noexcept override { return virtualTime_; }
+    Result<void> open(const DeviceUri& uri, const std::set<Role>& wanted, const OpenContext& context,
+                      DeviceSet& into) override {
+        const bool had = into.stimulator != nullptr;
+        auto opened = twin_->open(uri, wanted, context, into);
+        if (!had && into.stimulator) into.stimulator = wrap_(std::move(into.stimulator), context);
+        return opened;
+    }
+
+private:
+    const std::unique_ptr<Driver> twin_ = makeSimulatedDriver();
+    const Wrap wrap_;
+    const bool virtualTime_;
+};
+
+}  // namespace tacto::test
