@@ -148,7 +148,7 @@ void BM_CsvCapture(benchmark::State& state) {
         std::ranges::sort(times);
         return times[times.size() / 2];
     };
-    state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * fs::file_size(table.path())));
+    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(fs::file_size(table.path())));
     state.counters["peak_MB"] = megabytes;  // the samples are 80 of them
     if (pandas.empty()) {
         state.SetLabel("not compared: no python3 with pandas and pyarrow");
