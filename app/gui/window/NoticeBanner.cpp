@@ -120,8 +120,10 @@ QRect NoticeBanner::room() const {
     for (const auto* each : over_.findChildren<QWidget*>()) {
         if (!each->isVisible()) continue;
         const QRect at(each->mapTo(&over_, QPoint()), each->size());
-        if (each->objectName() == "path") room.setLeft(std::max(room.left(), at.right() + 1));
-        if (isActionBar(*each)) room.setBottom(std::min(room.bottom(), at.top() - 1));
+        const bool isColumn = at.width() < over_.width() / 2;  // else the path lies on top
+        if (each->objectName() == "path" && isColumn) room.setLeft(std::max(room.left(), at.right() + 1));
+        const bool isBelow = at.top() > over_.height() / 2;
+        if (isActionBar(*each) && isBelow) room.setBottom(std::min(room.bottom(), at.top() - 1));
     }
     return room;
 }

@@ -693,6 +693,8 @@ protected:
     void expectSaid(const char* what) {
         ASSERT_IN_TIME(comesTrue([&] { return banner().contains(what); })) << banner().toStdString();
         EXPECT_TRUE(window.rect().contains(QRect(notice.mapTo(&window, QPoint()), notice.size())));
+        EXPECT_GE(notice.width(), 400);
+        EXPECT_GE(notice.height(), notice.layout()->totalHeightForWidth(notice.width()));
         EXPECT_EQ(notice.visibleRegion(), QRegion(notice.rect())) << "nothing lies over it";
         EXPECT_EQ(cutTexts(notice).join('\n').toStdString(), "");
         const QRect covered(notice.mapTo(&window, QPoint()), notice.size());
@@ -726,6 +728,21 @@ TEST_F(LayoutUnderANotice, ARefusedArmingMovesNothing) {
         shot(window, QString("arming-refused-%1").arg(workspace));
         click(*find<QPushButton>(notice, "Dismiss"));
         EXPECT_EQ(movedSince(before), "") << "without it, too";
+    }
+}
+
+TEST_F(LayoutUnderANotice, InLargeTextItIsReadWhole) {
+    const LargeBesideDocks large(*this);
+    for (int workspace = 0; workspace < 7; ++workspace) {
+        window.showWorkspace(workspace);
+        window.askToArm();
+        letLive(100);
+        SCOPED_TRACE(workspace);
+        EXPECT_THAT(banner().toStdString(), HasSubstr("Nothing to arm: no bench is open."));
+        EXPECT_GE(notice.width(), 400);
+        EXPECT_GE(notice.height(), notice.layout()->totalHeightForWidth(notice.width()));
+        EXPECT_EQ(cutTexts(notice).join('\n').toStdString(), "");
+        shot(window, QString("arming-refused-large-%1").arg(workspace));
     }
 }
 
