@@ -50,6 +50,9 @@ void applyTextSize(int percent) {
     // A style sheet keeps the fonts it met: without it for a moment, widgets take the new one.
     qApp->setStyleSheet({});
     QApplication::setFont(font);
+    // Those that were made but never polished, on a page that was not shown yet, would keep the old one for good.
+    for (auto* widget : QApplication::allWidgets())
+        if (!widget->testAttribute(Qt::WA_SetFont)) widget->setFont(QFont());
     applySheet();
 }
 
