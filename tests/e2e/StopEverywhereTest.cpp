@@ -61,7 +61,7 @@ std::map<std::string, int> placesThatOpenDialogs() {
 
 /// Dialogs that share a place, by the name of their opening: each but the first of them.
 constexpr std::string_view kShareAPlace[] = {"Study: exportWithAbout", "Study: noteAdverseEvent", "Study: noteNextDay",
-                                              "Folder of a new study"};
+                                             "Folder of a new study"};
 /// Places that no opening of their own tries, by their file and what is asked there.
 constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
     {"CloseQuestion", "whether a run is to end: the same box as for a script that is not saved"}};

@@ -3,7 +3,6 @@
 #include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <chrono>
 
 #include "app/gui/controller/FirstOutput.h"
@@ -28,69 +27,14 @@ constexpr std::chrono::seconds kAnswerWithin =
 
 ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString& load, QWidget* parent)
     : QDialog(parent), controller_(controller), purpose_(purpose), asked_(controller.mark()) {
-    const bool check = purpose == Purpose::CheckImpedance;
-    setWindowTitle(check ? tr("Check the impedance") : tr("Arm the output"));
     const auto open = controller.open();
     readsBack_ = !open || !open->source || open->source->readsBack;  // or nothing is to be read
-
-    auto* layout = new QVBoxLayout(this);
     massager_ = open && !open->source;
-    layout->addWidget(heading(check       ? tr("Check the impedance of a bench load")
-                              : massager_ ? tr("Arm the massager")
-                                          : tr("Arm the output on a bench load"),
-                              this));
-    layout->addWidget(explanation(
-        check ? tr("One small pulse measures the load. Nothing else is delivered, and the output stays disarmed. Esc "
-                   "stops at any time.")
-        : massager_ ? tr("There is no load to measure. Once armed, the massager vibrates as the drive says. Esc stops "
-                         "at any time.")
-                    : tr("One small pulse measures the load first. Then trains are delivered as the drive says, "
-                         "each judged "
-                         "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
-        this));
-    auto* form = new QFormLayout;
-    form->setHorizontalSpacing(12);
-    static const QRegularExpression close("(\\d)([kM]?ohm)");  // as addresses have it: "1kohm"
-    load_ = new QLineEdit(withOhmSigns(QString(load).replace(close, "\\1 \\2")), this);
-    load_->setPlaceholderText(tr("what is connected, such as 1 kΩ"));
-    load_->setToolTip(tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”."));
-    form->addRow(tr("Declared &load"), load_);
-    layout->addLayout(form);
-    form->setRowVisible(load_, !massager_);
-    confirmed_ = new QLabel(this);
-    confirmed_->setObjectName("armingText");
-    confirmed_->setWordWrap(true);
-    setTextSize(*confirmed_, TextSize::Body, true);
-    layout->addWidget(confirmed_);
-    QStringList sets;
-    for (const auto& set : controller.limits().sets) sets << QString::fromStdString(set.title);
-    layout->addWidget(explanation(
-        tr("Encoding profile: %1. Limits: %2.").arg(QString::fromStdString(controller.profile().name), sets.join("; ")),
-        this));
-    first_ = new QLabel(this);
-    first_->setObjectName("firstOutput");
-    first_->setWordWrap(true);
-    first_->setVisible(!check);
-    layout->addWidget(first_);
-    trouble_ = new QLabel(this);
-    trouble_->setWordWrap(true);
-    setTone(*trouble_, Tone::Warning);
-    layout->addWidget(trouble_);
-    connected_ = new QCheckBox(tr("I checked that this load is connected"), this);
-    connected_->setToolTip(tr("This stimulator cannot measure its load: your confirmation replaces the reading."));
-    connected_->setVisible(!readsBack_);
-    layout->addWidget(connected_);
-
-    auto* buttons = new QDialogButtonBox(this);
-    arm_ = new ConfirmButton(check ? tr("Check impedance") : tr("Arm output"), this);
-    buttons->addButton(arm_, QDialogButtonBox::ActionRole);
-    arm_->setObjectName(check ? "checkImpedance" : "armOutput");
-    arm_->setToolTip(check ? tr("Second step: measures the load and ends disarmed.")
-                           : tr("Second step: measures the load and arms."));
-    auto* cancel = buttons->addButton(QDialogButtonBox::Cancel);
-    cancel->setAutoDefault(false);
-    cancel->setDefault(false);
-    layout->addWidget(buttons);
+    auto* layout = new QVBoxLayout(this);
+    addPurpose(*layout);
+    addLoad(*layout, load);
+    addWhatIsArmed(*layout);
+    auto* cancel = addButtons(*layout);
     // A stop between the two steps voids the first, and so does waiting.
     auto* look = new QTimer(this);
     connect(look, &QTimer::timeout, this, [this] {
@@ -99,10 +43,6 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
     });
     look->start(kPollInterval_ms);
     QTimer::singleShot(kAnswerWithin, this, &QDialog::reject);
-    connect(arm_, &QPushButton::clicked, this, &ArmDialog::confirm);
-    connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
-    connect(load_, &QLineEdit::textChanged, this, &ArmDialog::judge);
-    connect(connected_, &QCheckBox::toggled, this, &ArmDialog::judge);
     if (load.isEmpty() && !massager_)
         load_->setFocus();
     else
@@ -112,6 +52,79 @@ ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString
     const int wide = fontMetrics().averageCharWidth() * kArmChars;
     resize(wide, layout->totalHeightForWidth(wide));
     growWithContent(*this);
+}
+
+void ArmDialog::addPurpose(QVBoxLayout& layout) {
+    const bool check = purpose_ == Purpose::CheckImpedance;
+    setWindowTitle(check ? tr("Check the impedance") : tr("Arm the output"));
+    layout.addWidget(heading(check       ? tr("Check the impedance of a bench load")
+                             : massager_ ? tr("Arm the massager")
+                                         : tr("Arm the output on a bench load"),
+                             this));
+    layout.addWidget(explanation(
+        check ? tr("One small pulse measures the load. Nothing else is delivered, and the output stays disarmed. Esc "
+                   "stops at any time.")
+        : massager_ ? tr("There is no load to measure. Once armed, the massager vibrates as the drive says. Esc stops "
+                         "at any time.")
+                    : tr("One small pulse measures the load first. Then trains are delivered as the drive says, each "
+                         "judged against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
+        this));
+}
+
+void ArmDialog::addLoad(QVBoxLayout& layout, const QString& load) {
+    auto* form = new QFormLayout;
+    form->setHorizontalSpacing(12);
+    static const QRegularExpression close("(\\d)([kM]?ohm)");  // as addresses have it: "1kohm"
+    load_ = new QLineEdit(withOhmSigns(QString(load).replace(close, "\\1 \\2")), this);
+    load_->setPlaceholderText(tr("what is connected, such as 1 kΩ"));
+    load_->setToolTip(tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”."));
+    connect(load_, &QLineEdit::textChanged, this, &ArmDialog::judge);
+    form->addRow(tr("Declared &load"), load_);
+    layout.addLayout(form);
+    form->setRowVisible(load_, !massager_);
+}
+
+void ArmDialog::addWhatIsArmed(QVBoxLayout& layout) {
+    const auto line = [&](const char* name) {
+        auto* label = new QLabel(this);
+        label->setObjectName(name);
+        label->setWordWrap(true);
+        layout.addWidget(label);
+        return label;
+    };
+    confirmed_ = line("armingText");
+    setTextSize(*confirmed_, TextSize::Body, true);
+    QStringList sets;
+    for (const auto& set : controller_.limits().sets) sets << QString::fromStdString(set.title);
+    layout.addWidget(explanation(tr("Encoding profile: %1. Limits: %2.")
+                                     .arg(QString::fromStdString(controller_.profile().name), sets.join("; ")),
+                                 this));
+    first_ = line("firstOutput");
+    first_->setVisible(purpose_ == Purpose::Arm);
+    trouble_ = line("armingTrouble");
+    setTone(*trouble_, Tone::Warning);
+    connected_ = new QCheckBox(tr("I checked that this load is connected"), this);
+    connected_->setToolTip(tr("This stimulator cannot measure its load: your confirmation replaces the reading."));
+    connected_->setVisible(!readsBack_);
+    connect(connected_, &QCheckBox::toggled, this, &ArmDialog::judge);
+    layout.addWidget(connected_);
+}
+
+QPushButton* ArmDialog::addButtons(QVBoxLayout& layout) {
+    const bool check = purpose_ == Purpose::CheckImpedance;
+    auto* buttons = new QDialogButtonBox(this);
+    arm_ = new ConfirmButton(check ? tr("Check impedance") : tr("Arm output"), this);
+    buttons->addButton(arm_, QDialogButtonBox::ActionRole);
+    arm_->setObjectName(check ? "checkImpedance" : "armOutput");
+    arm_->setToolTip(check ? tr("Second step: measures the load and ends disarmed.")
+                           : tr("Second step: measures the load and arms."));
+    connect(arm_, &QPushButton::clicked, this, &ArmDialog::confirm);
+    auto* cancel = buttons->addButton(QDialogButtonBox::Cancel);
+    cancel->setAutoDefault(false);
+    cancel->setDefault(false);
+    connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
+    layout.addWidget(buttons);
+    return cancel;
 }
 
 void ArmDialog::judge() {

@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QVBoxLayout>
 
 #include "app/gui/controller/BenchController.h"
 
@@ -24,6 +25,10 @@ public:
     [[nodiscard]] QString load() const { return load_->text(); }
 
 private:
+    void addPurpose(QVBoxLayout& layout);
+    void addLoad(QVBoxLayout& layout, const QString& load);
+    void addWhatIsArmed(QVBoxLayout& layout);
+    QPushButton* addButtons(QVBoxLayout& layout);
     void judge();
     void confirm();
     void sayFirst();
