@@ -124,11 +124,12 @@ Result<std::optional<OwnSeries>> ownSeries(ScriptSession& session, const Json& r
 
 }  // namespace
 
-Result<Json> calibrationOf(ScriptSession& session, const Json& rows, CalibrationAsked asked) {
+Result<Json> calibrationOf(ScriptSession& session, const Json& rows, const CalibrationAsked& asked) {
     auto readings = readingsGiven("analysis.calibration", rows);
     if (!readings) return failure(readings);
-    auto& [quantity, tolerance_pct, fit, errors] = asked;
-    auto own = ownSeries(session, rows, quantity);
+    auto fit = asked.fit;
+    auto errors = asked.errors;
+    auto own = ownSeries(session, rows, asked.quantity);
     if (!own) return failure(own);
     if (*own) {
         if (fit.sameLevel > kWidestLevel)
@@ -142,11 +143,11 @@ Result<Json> calibrationOf(ScriptSession& session, const Json& rows, Calibration
     if (!found) return failure(found);
     BudgetOptions budget;
     budget.seed = session.request().seed;
-    auto judged = judgeCalibration(std::move(*found), errors, tolerance_pct, budget);
+    auto judged = judgeCalibration(std::move(*found), errors, asked.tolerance_pct, budget);
     if (!judged) return failure(judged);
     constexpr double kIec_pct = 20;  // IEC 60601-2-10: output within ± 20 % of what is set
     Json out = toJson(*judged);
-    out["quantity"] = quantity;
+    out["quantity"] = asked.quantity;
     out["unit"] = errors.unit;
     out["verdict_iec"] = nameOf(verdictAt(*judged, kIec_pct));
     out["calibration"] = *own ? Json((*own)->keep(out)) : Json();
@@ -170,7 +171,7 @@ Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
     errors.loadTolerance = stated("options.load_tolerance", errors.loadTolerance);
     errors.loadSensitivity = stated("options.load_sensitivity", errors.loadSensitivity);
     errors.samplingStep = stated("options.sampling_step", errors.samplingStep);
-    return calibrationOf(session, arguments.list("readings"), std::move(asked));
+    return calibrationOf(session, arguments.list("readings"), asked);
 }
 
 }  // namespace tacto::host::analysis

@@ -23,6 +23,6 @@ struct CalibrationAsked {
 /// As analysis.calibration() returns it; `readings` as it takes them. Errors: InvalidArgument for a reading that is
 /// none; as fitCalibration().
 [[nodiscard]] Result<nlohmann::json> calibrationOf(ScriptSession& session, const nlohmann::json& readings,
-                                                   CalibrationAsked asked);
+                                                   const CalibrationAsked& asked);
 
 }  // namespace tacto::host::analysis

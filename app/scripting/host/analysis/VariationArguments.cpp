@@ -63,7 +63,7 @@ Result<VariationOptions> variationOptionsFrom(ScriptSession& session, const Argu
     to.belowDiscomfort = arguments.number("options.below_discomfort");
     auto population = populationFrom(arguments);
     if (!population) return failure(population);
-    out.population = std::move(*population);
+    out.population = *population;
     const auto levels = amplitudeLevelsFrom(arguments.text("options.levels"));
     if (!levels) return failure(levels);
     to.levels = *levels;

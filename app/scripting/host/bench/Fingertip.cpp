@@ -167,7 +167,7 @@ Result<Json> measureWeight(ScriptSession& session, const Arguments& arguments) {
     if (!samples) return failure(samples);
     auto used = forceInUse(session, *samples);
     if (!used) return failure(used);
-    WeightReading reading{.mass_g = mass, .reference_n = force, .inUse = std::move(*used)};
+    WeightReading reading{.mass_g = mass, .reference_n = force, .inUse = *used};
     if (const auto* info = streamOf(*samples, StreamKind::Force)) {
         reading.force = levelOf(*samples, StreamKind::Force).mean;
         reading.forceUnit = info->unit;

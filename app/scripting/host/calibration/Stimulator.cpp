@@ -77,7 +77,7 @@ Result<Json> judge(ScriptSession& session, const Arguments& arguments) {
         const bool drivesCurrent = session.bench().devices().stimulator->traits().drive == Drive::Current;
         if (drivesCurrent) asked.fit.sameLevel = 0.02;
     }
-    return analysis::calibrationOf(session, arguments.list("rows"), std::move(asked));
+    return analysis::calibrationOf(session, arguments.list("rows"), asked);
 }
 
 Result<Json> timeBase(ScriptSession&, const Arguments& arguments) {
