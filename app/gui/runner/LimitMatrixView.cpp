@@ -204,6 +204,7 @@ LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
 }
 
 void LimitMatrixView::show(const json& matrix) {
+    shown_ = matrix;
     clear();
     loads_.clear();
     loadKeys_.clear();
@@ -227,6 +228,17 @@ void LimitMatrixView::show(const json& matrix) {
     setRowCount(int(lines.size()));
     for (int row = 0; row < rowCount(); ++row) addLine(row, lines[std::size_t(row)]);
     fitColumns();
+}
+
+Still LimitMatrixView::picture(PictureCaption caption) const {
+    LimitMatrixView whole;
+    whole.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    whole.show(shown_);
+    whole.ensurePolished();
+    whole.resize(width(), whole.heightOf(rowCount()));
+    caption.lines << tr(
+        "Share of each limit used, with U. ✔ inside, ? indeterminate, ✖ exceeded, n. e. not evaluated.");
+    return {whole, std::move(caption)};
 }
 
 int LimitMatrixView::heightOf(int rows) const {
