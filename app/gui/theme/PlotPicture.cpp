@@ -20,7 +20,7 @@ constexpr double kPictureScale = 2;  // sharp on paper and on a screen of twice 
 constexpr const char* kCaption = "pictureCaption";
 using CaptionOf = std::function<PictureCaption()>;
 
-/// Of the layout: what is drawn stays vectors, and words stay as large as on the screen.
+/// The resolution of the layout: what is drawn stays vectors, and words stay as large as on the screen.
 int pixelsPerInch() { return QPicture().logicalDpiX(); }
 
 std::function<void(QCPPainter&)> replaying(const QPicture& picture) {
