@@ -23,6 +23,7 @@ QString shownUnit(const QString& unit) { return QString::fromStdString(writtenUn
 struct Split {
     double factor = 1;  // from the given unit to SI
     QString base;
+    [[nodiscard]] UnitPrefix prefixFor(int exponent) const { return tacto::prefixFor(base.toStdString(), exponent); }
 };
 
 /// "mA" → A and 1e-3; "mA/cm²" likewise. Units that take no prefix have an empty `base`.
@@ -81,7 +82,8 @@ QString intervalText(const Estimate& estimate, const QString& unit) {
         return QString("%1 (%2 to %3)")
             .arg(quantityText(value, unit), quantityText(low, unit), quantityText(high, unit));
     const int last = decimalExponent(half * split.factor, 2) - 1;  // place of the last digit, at or behind the point
-    const auto prefix = split.base.isEmpty() ? UnitPrefix{} : prefixOf(std::max(decimalExponent(most, 4), last + 2));
+    const auto prefix =
+        split.base.isEmpty() ? UnitPrefix{} : split.prefixFor(std::max(decimalExponent(most, 4), last + 2));
     const double scale = split.factor * std::pow(10.0, -prefix.exponent);
     const auto number = [&](double one) { return onPage(decimalText(one * scale, prefix.exponent - last), false); };
     const QString inUnit = split.base.isEmpty() ? shown : prefix.symbol + split.base;
@@ -119,7 +121,7 @@ AxisUnit axisUnit(double maxAbs, const QString& unit) {
     const QString shown = shownUnit(unit);
     const Split split = splitUnit(shown);
     if (!(maxAbs > 0) || !std::isfinite(maxAbs) || split.base.isEmpty()) return {1, shown};
-    const UnitPrefix prefix = prefixOf(decimalExponent(maxAbs * split.factor, 4));
+    const UnitPrefix prefix = split.prefixFor(decimalExponent(maxAbs * split.factor, 4));
     return {split.factor * std::pow(10.0, -prefix.exponent), prefix.symbol + split.base};
 }
 
@@ -185,7 +187,7 @@ std::optional<ColumnFormat> columnFormat(const std::vector<double>& values, cons
     if (most == 0 || most > 1000 * least || (whole && split.base.isEmpty())) return std::nullopt;
     if (split.base.isEmpty() && (most >= 1e7 || most < 1e-3)) return std::nullopt;
     const int exponent = decimalExponent(most, 4);
-    const int prefix = split.base.isEmpty() ? 0 : prefixOf(exponent).exponent;
+    const int prefix = split.base.isEmpty() ? 0 : split.prefixFor(exponent).exponent;
     // The smallest keeps at least two digits; the largest has four.
     const int decimals = std::max(3 - (exponent - prefix), 1 - (decimalExponent(least, 2) - prefix));
     return ColumnFormat{prefix, std::clamp(decimals, 0, 6)};

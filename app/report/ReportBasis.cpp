@@ -7,6 +7,7 @@
 
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
+#include "core/analysis/statistics/Verdict.h"
 #include "core/session/ResultKind.h"
 
 namespace tacto {
@@ -94,12 +95,24 @@ void readInstruments(const QJsonObject& results, ReportModel& model) {
     }
 }
 
+/// Sessions of older versions say no more than whether the check passed; one that did not may have been open, which its
+/// numbers tell.
+QString referenceVerdict(const QJsonObject& check) {
+    if (check.value("verdict").isString()) return check.value("verdict").toString();
+    const auto passed = check.value("passed");
+    if (!passed.isBool()) return "not evaluated";
+    if (passed.toBool()) return "pass";
+    if (!check.contains("load_ohm")) return check.value("measured").isDouble() ? "fail" : "not evaluated";
+    const auto number = [&](const char* key) { return check.value(QLatin1String(key)).toDouble(kUnknown); };
+    const auto name =
+        guardBandedName(number("deviation_pct"), number("expanded_uncertainty_pct"), number("allowed_pct"));
+    return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+}
+
 void addReference(const QJsonObject& results, ReportBasis& basis) {
     const auto check = results.value("reference").toObject();
     const auto number = [&](const char* key) { return check.value(QLatin1String(key)).toDouble(kUnknown); };
-    const QString outcome = !check.value("passed").isBool()  ? QString("not evaluated")
-                            : check.value("passed").toBool() ? QString("passed")
-                                                             : QString("failed");
+    const QString outcome = referenceVerdict(check);
     if (check.contains("load_ohm")) {
         const QString read = std::isfinite(number("measured_ohm"))
                                  ? uncertainText(number("measured_ohm"), number("expanded_ohm"), "ohm")

@@ -106,7 +106,9 @@ MatrixBlock::Cell judgedCell(const QJsonObject& cell, const QString& unit) {
     using State = MatrixBlock::State;
     const double used = 100 - numberOf(cell, "margin_pct");
     const QString verdict = cell.value("verdict").toString();
-    const QString measured = uncertainText(numberOf(cell, "value"), numberOf(cell, "expanded_uncertainty"), unit);
+    const double value = numberOf(cell, "value"), expanded = numberOf(cell, "expanded_uncertainty");
+    const bool timed = std::isfinite(used) && !std::isfinite(expanded);  // how soon the output ended, at most
+    const QString measured = timed ? "≤ " + quantityText(value, unit, 2) : uncertainText(value, expanded, unit);
     if (verdict == "not evaluated") return {"–", "not evaluated", State::Open};
     if (verdict == "not applicable") return {"–", measured + "\nnot judged", State::Plain};
     if (!std::isfinite(used)) {  // no limit to be within: it happened or it did not

@@ -75,6 +75,11 @@ UnitPrefix prefixOf(int exponent) noexcept {
     return kPrefixOf[static_cast<std::size_t>((std::clamp(group, -12, 9) + 12) / 3)];
 }
 
+UnitPrefix prefixFor(std::string_view base, int exponent) noexcept {
+    constexpr int kNewtonsFrom = -2;
+    return prefixOf(base == "N" && exponent >= kNewtonsFrom && exponent < 0 ? 0 : exponent);
+}
+
 int decimalExponent(double value, int digits) {
     if (value == 0 || !std::isfinite(value)) return 0;
     const std::string rounded = fmt::format("{:.{}e}", std::abs(value), digits - 1);
@@ -99,7 +104,7 @@ std::string scaledText(double value, std::string_view unit, int digits) {
     const double si = value * parts.factor;
     if (std::abs(si) < 5e-16) return withUnit("0", parts.base);
     const int exponent = decimalExponent(si, digits);
-    const auto prefix = prefixOf(exponent);
+    const auto prefix = prefixFor(parts.base, exponent);
     return withUnit(fixedText(si * std::pow(10.0, -prefix.exponent), digits - 1 - (exponent - prefix.exponent)),
                     prefix.symbol + parts.base);
 }
@@ -130,7 +135,7 @@ std::string measuredText(double value, double expanded, std::string_view unit) {
     const int last = first - (farBelow && leading >= 2.95 ? 0 : 1);  // place of the last digit
     const int largest = value == 0 ? first : std::max(decimalExponent(value * factor, 4), first);
     // The last digit is at or behind the point: "0.46 ± 0.12 V" and not "460 ± 120 mV", whose zeros say nothing.
-    const auto prefix = parts.base.empty() ? UnitPrefix{} : prefixOf(std::max(largest, last + 2));
+    const auto prefix = parts.base.empty() ? UnitPrefix{} : prefixFor(parts.base, std::max(largest, last + 2));
     const int power = parts.base.empty() && !isWrittenOut(largest) ? largest : prefix.exponent;
     const double scale = factor * std::pow(10.0, -power);
     const double v = value * scale, u = expanded * scale;

@@ -44,6 +44,8 @@ struct UnitPrefix {
 };
 /// The prefix for numbers of 10^exponent and up, p to G.
 [[nodiscard]] UnitPrefix prefixOf(int exponent) noexcept;
+/// The same for numbers in the unit `base`: forces are read in N down to 0.01 N, on axes and in words alike.
+[[nodiscard]] UnitPrefix prefixFor(std::string_view base, int exponent) noexcept;
 /// The decimal exponent of `value` rounded to `digits` significant digits: 999.96 with four is 3. 0 for 0.
 [[nodiscard]] int decimalExponent(double value, int digits);
 

@@ -146,7 +146,8 @@ function checkReference(p, rest, masses) {
   const reading = weighs ? bench.measureWeight(Math.max(...masses), { gravity_m_s2: p.gravity_m_s2 }) : null;
   const known = calibration.knownWeight(reading, rest, p.reference_tolerance_pct);
   if (weighs) record.measurement("known-reference check", known.check);
-  report.table("Known-reference check", [known.check]);
+  const columns = ["mass_g", "reference_n", "measured", "unit", "deviation_pct", "allowed_pct", "verdict"];
+  report.table("Known-reference check", [known.check], columns);
   return known;
 }
 

@@ -61,6 +61,20 @@ TEST(NumberText, GivesAnAxisAPrefixOnlyWhereItsUnitTakesOne) {
     EXPECT_DOUBLE_EQ(axisUnit(0.004, "mA").factor, 1000);
 }
 
+TEST(NumberText, AnAxisHasTheUnitOfItsReadings) {
+    for (const auto* unit : {"N", "V", "mA", "s", "Pa", "uC", "Hz"}) {
+        for (const double most : {0.004, 0.012, 0.15, 0.5, 0.9999, 1.5, 40.0, 2e3}) {
+            const auto reading = plain(quantityText(most, unit));
+            EXPECT_EQ(reading.substr(reading.find(' ') + 1), axisUnit(most, unit).unit.toStdString()) << reading;
+        }
+    }
+    EXPECT_EQ(axisUnit(0.5, "N").unit, "N") << "as Touch reads a weak force";
+    EXPECT_EQ(axisUnit(0.5, "N").factor, 1);
+    EXPECT_EQ(axisUnit(0.004, "N").unit, "mN");
+    EXPECT_EQ(plain(uncertainText(0.153, 0.012, "N")), "0.153 ± 0.012 N");
+    EXPECT_EQ(plain(quantityText(0.12, "N", *columnFormat({0.12, 0.15}, "N"))), "0.1200 N");
+}
+
 TEST(NumberText, SaysUnknownAsADash) {
     EXPECT_EQ(quantityText(kUnknown, "V"), QString("–"));
     EXPECT_EQ(quantityText(kUnknown, 1, "V"), QString("–"));
@@ -86,7 +100,7 @@ TEST(NumberText, WritesWhatRoundsToZeroWithoutAMinus) {
 TEST(NumberText, KeepsSettingsAsTheyWereSet) {
     EXPECT_EQ(plain(settingText(1000, "ohm")), "1 kΩ");
     EXPECT_EQ(plain(settingText(25, "")), "25");
-    EXPECT_EQ(plain(settingText(0.15, "N")), "150 mN");
+    EXPECT_EQ(plain(settingText(0.15, "N")), "0.15 N");
 }
 
 TEST(NumberText, ReadsUnitsFromAColumnsKey) {

@@ -372,6 +372,30 @@ TEST_F(Report, WhatIsNotEvaluatedOnSeveralLoadsForOneReasonIsOneSentence) {
     EXPECT_EQ(model.basis.notEvaluated[1], withSigns("net charge into 100 ohm: it was not captured"));
 }
 
+/// How the reference of these results is judged, as the report has it.
+std::string referenceJudged(const QJsonObject& check) {
+    ReportModel model;
+    readBasis({{"kind", "stimulator-calibration"}, {"reference", check}}, model);
+    if (model.basis.restsOn.empty()) return {};
+    return model.basis.restsOn.front().value.section(": ", -1).toStdString();
+}
+
+TEST_F(Report, AReferenceThatWasLeftOpenDidNotFail) {
+    RecordProperty("hazard", "H9");
+    QJsonObject check{{"load_ohm", 1000}, {"measured_ohm", 1045},          {"expanded_ohm", 20}, {"deviation_pct", 4.5},
+                      {"allowed_pct", 5}, {"expanded_uncertainty_pct", 2}, {"passed", false}};
+    EXPECT_EQ(referenceJudged(check), "indeterminate") << "of a session from before the verdict was recorded";
+    check["deviation_pct"] = 20;
+    EXPECT_EQ(referenceJudged(check), "fail");
+    check["expanded_uncertainty_pct"] = QJsonValue::Null;
+    EXPECT_EQ(referenceJudged(check), "not evaluated");
+    check["verdict"] = "indeterminate";
+    EXPECT_EQ(referenceJudged(check), "indeterminate") << "as it was recorded";
+    EXPECT_EQ(referenceJudged({{"load_ohm", 1000}, {"passed", true}}), "pass");
+    EXPECT_EQ(referenceJudged({{"mass_g", 100}, {"measured", 1.2}, {"passed", false}}), "fail");
+    EXPECT_EQ(referenceJudged({{"mass_g", 100}, {"passed", false}}), "not evaluated") << "nothing was read";
+}
+
 TEST_F(Report, ANameThatWasNotGivenIsALineToSignOnPaper) {
     if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
     auto model = separabilityModel(true);

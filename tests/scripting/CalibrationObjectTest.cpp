@@ -32,6 +32,12 @@ TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
     EXPECT_EQ(results["lost"]["check"]["passed"], false);
     EXPECT_THAT(results["nothing"]["reason"].get<std::string>(), testing::HasSubstr("nothing was read under"));
     EXPECT_TRUE(results["none"]["check"]["passed"].is_null());
+    const auto verdictOf = [&](const char* which) { return results[which]["check"]["verdict"]; };
+    EXPECT_EQ(verdictOf("right"), "pass");
+    EXPECT_EQ(verdictOf("wrong"), "fail");
+    EXPECT_EQ(verdictOf("lost"), "fail");
+    EXPECT_EQ(verdictOf("nothing"), "not evaluated") << "what was not read did not fail";
+    EXPECT_EQ(verdictOf("none"), "not evaluated");
 }
 
 TEST(KnownCalibrationRanges, AreNarrowedToWhatIsStoredAndTheTimeBaseIsJudgedWithItsUncertainty) {

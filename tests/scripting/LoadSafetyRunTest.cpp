@@ -84,6 +84,20 @@ TEST(LoadSafetyRun, OpenShortLooseContactAndSilenceTrip) {
     EXPECT_GT(silence_s, 0.1) << "measured, and more than the silence that is waited for";
     EXPECT_LT(silence_s, 0.15);
     EXPECT_EQ(trips, 6U);
+    // How soon, as a share of the time to the next train.
+    std::size_t timed = 0;
+    for (const auto& line : outcome.results["matrix"]["lines"]) {
+        if (line["item"] != "trip") continue;
+        for (const auto& cell : line["cells"]) {
+            if (cell.is_null()) continue;
+            ++timed;
+            ASSERT_TRUE(cell["margin_pct"].is_number()) << cell.dump();
+            EXPECT_GT(cell["margin_pct"].get<double>(), 90) << cell.dump();
+            EXPECT_LT(cell["margin_pct"].get<double>(), 100) << cell.dump();
+            EXPECT_LT(cell["value"].get<double>(), 0.05) << cell.dump();
+        }
+    }
+    EXPECT_EQ(timed, 2U) << "an open and a short circuit";
     EXPECT_EQ(outcome.expectedFaults, 4U) << "open, short, loose contact, silence; arming is refused without a fault";
 }
 

@@ -54,7 +54,7 @@ TEST(KnownReference, OfAnotherLoadOrOfNoneFailsWithItsReason) {
     RunBench rig;
     const auto reasonOf = [&](const std::string& call) {
         const auto outcome =
-            rig.run(withRun(std::string(kRead) + "return verdict(Object.assign({ verdict: null }, " + call + "));"));
+            rig.run(withRun(std::string(kRead) + "return verdict(Object.assign(" + call + ", { verdict: null }));"));
         EXPECT_FALSE(outcome.error) << outcome.error->message;
         EXPECT_EQ(outcome.results["passed"], false) << call;
         return outcome.results["reason"].is_string() ? outcome.results["reason"].get<std::string>() : "none";
@@ -68,6 +68,33 @@ TEST(KnownReference, OfAnotherLoadOrOfNoneFailsWithItsReason) {
     const auto refused = rig.run(withRun("record.reference({}, 0, 1)"));
     ASSERT_TRUE(refused.error);
     EXPECT_THAT(refused.error->message, testing::HasSubstr("load is 0"));
+}
+
+TEST(KnownReference, WhatItsUncertaintyLeavesOpenIsNoFailure) {
+    RecordProperty("hazard", "H9");
+    RunBench rig(true, "sim:", 3, true);
+    const auto outcome = rig.run(withRun(R"(
+        const of = (ohm, u) => record.reference({ load_ohm: ohm, load_expanded_ohm: u }, 1000, 5);
+        return verdict({ verdict: null, inside: of(1020, 20), open: of(1045, 20), outside: of(1200, 20),
+            unknown: of(1045, null), none: of(null, null) });)"));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto says = [&](const char* which) {
+        const auto& check = outcome.results[which];
+        EXPECT_EQ(check["passed"], check["verdict"] == "pass") << which;
+        EXPECT_EQ(check["reason"].is_null(), check["verdict"] == "pass") << which;
+        return check["verdict"].get<std::string>() + "; " + check["reason"].dump();
+    };
+    EXPECT_THAT(says("inside"), testing::StartsWith("pass"));
+    EXPECT_THAT(says("open"), testing::MatchesRegex("indeterminate; .*check is indeterminate: .*"));
+    EXPECT_THAT(says("outside"), testing::MatchesRegex("fail; .*check failed: .*"));
+    EXPECT_THAT(says("unknown"), testing::MatchesRegex("not evaluated; .*check was not evaluated: .*"));
+    EXPECT_THAT(says("none"), testing::MatchesRegex("not evaluated; .*check was not evaluated: nothing .*"));
+    rig.closeBench();
+    ASSERT_TRUE(rig.writer().close());
+    std::vector<std::string> reportedVerdicts;
+    for (const auto& table : reported(rig, "table")) reportedVerdicts.push_back(table["rows"][0]["verdict"]);
+    EXPECT_THAT(reportedVerdicts,
+                testing::ElementsAre("pass", "indeterminate", "fail", "not evaluated", "not evaluated"));
 }
 
 TEST(KnownReference, ReadAndJudgedInOneCallLeavesTheOutputArmedUnlessItFails) {

@@ -1,6 +1,5 @@
 #include "app/gui/calibrate/CalibrationView.h"
 
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -8,10 +7,9 @@
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/ToleranceCard.h"
 #include "app/gui/theme/ElidedLabel.h"
-#include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PageStack.h"
-#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/PictureTools.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -78,27 +76,28 @@ QWidget* CalibrationView::buildHead() {
     return head;
 }
 
-/// As on the oscilloscope.
 void CalibrationView::addTools(QBoxLayout& row) {
-    const auto add = [&](const QString& name, const QString& tip, const QString& iconName, auto task) {
-        auto* tool = new QToolButton(this);
-        tool->setAccessibleName(name);
-        tool->setToolTip(tip);
-        tool->setIcon(icon(iconName));
-        tool->setAutoRaise(true);
-        tool->setFocusPolicy(Qt::StrongFocus);
+    auto* pictures = new PictureTools(this);
+    pictures->addTo(row);
+    pictures->takeFrom([this] { return Still(plot()); }, "calibration");
+    connect(pictures, &PictureTools::plotOnlyWanted, this, &CalibrationView::plotOnlyWanted);
+    for (auto* tool : pictures->buttons()) {
         const auto fit = [tool] { tool->setFixedHeight(scaledPx(kToolHigh)); };
         onFontChange(*tool, fit);
         fit();
-        connect(tool, &QToolButton::clicked, this, task);
-        row.addWidget(tool);
-    };
-    const auto plot = [this]() -> QCustomPlot& { return *static_cast<QCustomPlot*>(plots_->currentWidget()); };
-    add(tr("Save the plot"), tr("Saves the plot as a picture: PNG, SVG or PDF."), "save",
-        [plot] { askSavePicture(plot(), "calibration"); });
-    add(tr("Copy the plot"), tr("Copies the plot as a picture."), "copy", [plot] { copyPicture(plot()); });
-    add(tr("Plot only"), tr("F11: the safety bar and the plot alone; F11 again brings the rest back."), "plot-only",
-        [this] { emit plotOnlyWanted(); });
+    }
+}
+
+QCustomPlot& CalibrationView::plot() const { return *static_cast<QCustomPlot*>(plots_->currentWidget()); }
+
+void CalibrationView::captionPicturesBy(const std::function<PictureCaption()>& caption) {
+    for (auto* each : {errors_, measured_}) {
+        captionPictures(*each, [this, each, caption] {
+            auto whole = caption();
+            whole.lines << title_->text() << says_->text() << axesText(*each);
+            return whole;
+        });
+    }
 }
 
 void CalibrationView::begin(const nlohmann::json& parameters) {

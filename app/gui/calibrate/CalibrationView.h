@@ -8,9 +8,11 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QWidget>
+#include <functional>
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationReadings.h"
+#include "app/gui/theme/PictureCaption.h"
 
 namespace tacto::gui {
 
@@ -35,6 +37,8 @@ public:
     [[nodiscard]] QString quantityShown() const;
     /// Residuals or measured, in the line above the plot; or wherever its owner puts it: it is visible with the plot.
     [[nodiscard]] QComboBox& plotKind() noexcept { return *kind_; }
+    /// Pictures of a plot say `caption`, and then what stands above the plot.
+    void captionPicturesBy(const std::function<PictureCaption()>& caption);
 
 signals:
     /// The plot without what is around it, or back.
@@ -48,6 +52,7 @@ protected:
 private:
     [[nodiscard]] QWidget* buildHead();
     void addTools(QBoxLayout& row);
+    [[nodiscard]] QCustomPlot& plot() const;
     [[nodiscard]] CalibrationReadings& of(const std::string& quantity);
     void choose(int index);
     [[nodiscard]] int nearest() const;

@@ -20,7 +20,7 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/PictureTools.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
@@ -212,23 +212,34 @@ void LiveWorkspace::buildTools() {
     health_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setTone(*health_, Tone::Quiet);
     setTextSize(*health_, TextSize::Small);
-    health_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // it gives way to the tools
     row->addWidget(freeze_);
     row->addWidget(window);
-    auto* tools = new QWidget(tools_);
-    addPlotTools(*new ToolRow(tools));
-    row->addWidget(tools);
-    row->addWidget(health_, 1);
+    auto* holder = new QWidget(tools_);
+    auto* tools = new ToolRow(holder);
+    addViewTools(*tools);
+    tools->addBetween(health_);
+    auto* pictures = new PictureTools(holder);
+    pictures->addTo(*tools);
+    pictures->takeFrom([this] { return Still(*strips_); }, "live");
+    connect(pictures, &PictureTools::plotOnlyWanted, this, &LiveWorkspace::plotOnlyWanted);
+    captionPictures(*strips_, [this] { return caption(); });
+    row->addWidget(holder, 1);
 }
 
-void LiveWorkspace::addPlotTools(ToolRow& row) {
+PictureCaption LiveWorkspace::caption() const {
+    PictureCaption caption;
+    const auto open = controller_.open();
+    caption.title = pictureTitle(tr("Touch"), open && open->simulated());
+    caption.date = pictureDate(strips_->takenAt());
+    if (open) caption.lines << deviceNames(open->about.devices);
+    caption.lines << strips_->scalesText() << strips_->readingsText();
+    if (!strips_->frozen()) caption.lines << health_->text();  // of now
+    return caption;
+}
+
+void LiveWorkspace::addViewTools(ToolRow& row) {
     const auto tool = [&](const QString& name, const QString& tip, const char* picture, auto&& does) {
-        auto* button = new QToolButton(tools_);
-        button->setAccessibleName(name);
-        button->setIcon(icon(picture));
-        button->setToolTip(tip);
-        button->setAutoRaise(true);
-        button->setFocusPolicy(Qt::StrongFocus);
+        auto* button = makeTool(name, tip, picture, tools_);
         connect(button, &QToolButton::clicked, this, does);
         row.addWidget(button);
         return button;
@@ -240,10 +251,6 @@ void LiveWorkspace::addPlotTools(ToolRow& row) {
                       [this] { strips_->undoZoom(); });
     tool(tr("Mark"), tr("Ctrl+M: marks this moment of the recording, with a word."), "mark",
          [this] { emit markWanted(); });
-    tool(tr("Save picture"), tr("Saves the plots as PNG, SVG or PDF."), "save",
-         [this] { askSavePicture(*strips_, "live"); });
-    tool(tr("Copy picture"), tr("Copies the plots to the clipboard, as a picture."), "copy",
-         [this] { copyPicture(*strips_); });
     const auto enable = [this, fit, undo] {
         fit->setEnabled(strips_->frozen());
         undo->setEnabled(strips_->canUndo());

@@ -14,11 +14,13 @@
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/live/LiveHistory.h"
+#include "app/gui/theme/PictureCaption.h"
 
 namespace tacto::gui {
 
 class CommandPanel;
 class ElidedLabel;
+class PictureTools;
 class RigPanel;
 class StripPlots;
 class TactilePlane;
@@ -47,6 +49,8 @@ signals:
     void refusedRecording(const QString& why);
     /// This moment is to be marked in the recording.
     void markWanted();
+    /// The plots without what is around them, or back.
+    void plotOnlyWanted();
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -57,7 +61,8 @@ private:
     [[nodiscard]] QWidget* buildBench();
     void fillSide();
     void buildTools();
-    void addPlotTools(ToolRow& row);
+    void addViewTools(ToolRow& row);
+    [[nodiscard]] PictureCaption caption() const;
     void fit();
     void begin();
     [[nodiscard]] Telemetry asDriven(Telemetry telemetry) const;

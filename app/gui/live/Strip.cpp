@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/NumberText.h"
 #include "core/acquisition/StreamHealth.h"
 
 namespace tacto::gui {
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double kAroundNothing = 0.5;  // of an axis on which all values are one
 constexpr double kUnderZero = 0.06;     // of the height, so that a trace at zero is seen
+constexpr double kRoomBelow = 0.1;      // of an axis from zero there is less than that below it
 
 /// The next of 1, 2, 5 times a power of ten at or above `value`.
 double stepAbove(double value) {
@@ -75,6 +78,15 @@ Strip::Strip(QCustomPlot& plot, int row, const QString& title, const StripAxis& 
     fault_->setLayer("axes");  // over what it ended
     fault_->setVisible(false);
     caption_ = new StripCaption(*axes_);
+}
+
+QString Strip::scaleText() const {
+    constexpr int kDigits = 2;
+    const auto range = values().range();
+    const bool up = axis_.fromZero && range.lower > -kRoomBelow * range.upper;
+    return QObject::tr("%1 %2 to %3")
+        .arg(axisTitle(title_, unit_), quantityText(up ? 0 : range.lower, {}, kDigits),
+             quantityText(range.upper, {}, kDigits));
 }
 
 void Strip::layOut() {

@@ -53,6 +53,8 @@ public:
     [[nodiscard]] bool present() const { return present_; }
     void setSimulated(bool simulated) { simulated_ = simulated; }
     void setFromZero(bool fromZero) { axis_.fromZero = fromZero; }
+    /// "Force (N) 0 to 2": what the value axis shows; one from zero has a little room below it.
+    [[nodiscard]] QString scaleText() const;
     void setUnit(const QString& unit) { unit_ = unit; }
     [[nodiscard]] const QString& unit() const { return unit_; }
 

@@ -25,6 +25,7 @@ public:
     void setTitle(const QString& text);
     /// Digits have equal widths, so that the value does not jump. A value that describes the picture is drawn fainter.
     void setValue(const QString& text, bool describes = false);
+    [[nodiscard]] QString value() const { return value_.text.text(); }
     /// An empty key takes no room. `brief` stands for it where there is no room for all keys.
     void setKey(std::size_t index, const QString& text, const QString& brief = {});
     /// What is drawn beside the key: a piece of the line, and the mark in its middle.

@@ -189,6 +189,7 @@ void StripPlots::setWindow(double seconds) {
 void StripPlots::setFrozen(bool frozen) {
     if (frozen == (frozen_ != nullptr)) return;
     frozen_ = frozen ? std::make_unique<LiveHistory>(history_) : nullptr;
+    frozenAt_ = QDateTime::currentDateTime();
     setInteraction(QCP::iRangeDrag, frozen);
     setInteraction(QCP::iRangeZoom, frozen);
     strips_.back().time().setLabel(frozen ? tr("Seconds before the picture was frozen") : tr("Seconds before now"));
@@ -319,6 +320,31 @@ QString StripPlots::taxelText(const Series& taxels) const {
     const auto unit = strips_[kTaxels].unit() == "kPa" ? QString("Pa") : strips_[kTaxels].unit();
     return tr("%1 taxels, mean %2").arg(taxels.channels()).arg(quantityText(sum / double(taxels.channels()), unit, 2));
 }
+
+QString StripPlots::scalesText() const {
+    const auto time = shownTime();
+    const double ago_s = shown().now_s() - time.upper;
+    QStringList parts{ago_s < time.size() / 100
+                          ? tr("last %1").arg(settingText(time.size(), "s"))
+                          : tr("%1, up to %2 before").arg(quantityText(time.size(), "s"), quantityText(ago_s, "s"))};
+    for (const auto& strip : strips_)
+        if (strip.present()) parts << strip.scaleText();
+    return parts.join(QStringLiteral(" · "));
+}
+
+QString StripPlots::readingsText() const {
+    QStringList parts;
+    const auto add = [&](StripIndex strip, const QString& before) {
+        const auto value = strips_[strip].caption().value();
+        if (strips_[strip].present() && !value.isEmpty()) parts << before + value;
+    };
+    add(kForce, tr("Force "));
+    add(kTaxels, {});
+    add(kIndices, {});
+    return parts.join(QStringLiteral(" · "));
+}
+
+QDateTime StripPlots::takenAt() const { return frozen_ ? frozenAt_ : QDateTime::currentDateTime(); }
 
 }  // namespace tacto::gui
 

@@ -40,6 +40,11 @@ public:
     /// An amplitude that the oscilloscope measured, in the source's unit.
     void addScopeReading(double t_s, double amplitude);
     void redraw();
+    /// "last 10 s · Force (N) 0 to 2 · …", and "Force 1.00 N · …": what is shown, as a line each.
+    [[nodiscard]] QString scalesText() const;
+    [[nodiscard]] QString readingsText() const;
+    /// When a frozen picture was frozen, else now.
+    [[nodiscard]] QDateTime takenAt() const;
 
     [[nodiscard]] QCPRange shownTime() const;
     /// True when the strip of this kind is there, and when it is hatched as stale.
@@ -69,8 +74,9 @@ private:
 
     const LiveHistory& history_;
     std::unique_ptr<LiveHistory> frozen_;  // while the picture stands still
-    QCPRange whole_;                       // of it
-    std::vector<QCPRange> views_;          // before each drag and zoom of it, the latest last
+    QDateTime frozenAt_;
+    QCPRange whole_;               // of it
+    std::vector<QCPRange> views_;  // before each drag and zoom of it, the latest last
     double window_s_ = 10;
     bool sharing_ = false;
     int frame_ = 0;

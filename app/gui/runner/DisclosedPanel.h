@@ -37,6 +37,7 @@ public:
     [[nodiscard]] int leastHeight() const;
     /// In place of the strongest output, under `title`.
     void showTracing(const std::shared_ptr<const Capture>& capture, const QString& title);
+    [[nodiscard]] CaptureStrip& tracing() const { return *wave_; }
 
 private:
     QBoxLayout* layout_;

@@ -204,6 +204,7 @@ LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
 }
 
 void LimitMatrixView::show(const json& matrix) {
+    shown_ = matrix;
     clear();
     loads_.clear();
     loadKeys_.clear();
@@ -227,6 +228,17 @@ void LimitMatrixView::show(const json& matrix) {
     setRowCount(int(lines.size()));
     for (int row = 0; row < rowCount(); ++row) addLine(row, lines[std::size_t(row)]);
     fitColumns();
+}
+
+Still LimitMatrixView::picture(PictureCaption caption) const {
+    LimitMatrixView whole;
+    whole.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    whole.show(shown_);
+    whole.ensurePolished();
+    whole.resize(width(), whole.heightOf(rowCount()));
+    caption.lines << tr(
+        "Share of each limit used, with U. ✔ inside, ? indeterminate, ✖ exceeded, n. e. not evaluated.");
+    return {whole, std::move(caption)};
 }
 
 int LimitMatrixView::heightOf(int rows) const {
@@ -270,22 +282,26 @@ void LimitMatrixView::addLine(int row, const json& line) {
         const auto judged = wordsOf(memberAt(cell, "verdict"));
         const double used = 100 - numberOr(memberAt(cell, "margin_pct"));
         const double value = numberOr(memberAt(cell, "value"));
-        const auto share = judged == "not evaluated"    ? tr("n. e.")
-                           : judged == "not applicable" ? QString("–")
-                           : std::isfinite(most)        ? limitShareText(used)
-                           : !std::isfinite(value)      ? (judged == "fail" ? tr("no") : QString("–"))
-                                                        : decimalText(value, 2) + " " + unit;
+        const auto share = judged == "not evaluated"         ? tr("n. e.")
+                           : judged == "not applicable"      ? QString("–")
+                           : hasLimit || std::isfinite(used) ? limitShareText(used)
+                           : !std::isfinite(value)           ? (judged == "fail" ? tr("no") : QString("–"))
+                                                             : decimalText(value, 2) + " " + unit;
         item->setText(verdictStyle(judged).shape + " " + share);
         item->setData(kCellVerdict, judged);
         item->setData(kCellShare, share);
         item->setData(kCellNear, used >= kNear_pct);
         const auto measured = uncertainText(value, numberOr(memberAt(cell, "expanded_uncertainty")), unit);
-        QStringList says{
-            std::isfinite(most) ? tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)
-            : judged == "pass"  ? tr("%1 on %2: after %3, %4.").arg(title, loads_[at], quantityText(value, unit), limit)
-                                : tr("%1 on %2: not shown to be %3.").arg(title, loads_[at], limit)};
-        if (std::isfinite(used)) says << tr("%1 used, with its uncertainty.").arg(share);
-        says << tr("Verdict: %1.").arg(judged) << wordsOf(memberAt(cell, "note"));
+        const auto note = wordsOf(memberAt(cell, "note"));
+        const bool timed = !hasLimit && std::isfinite(used);
+        QStringList says{hasLimit ? tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)
+                         : timed  ? tr("%1 on %2: %3.").arg(title, loads_[at], note)
+                         : judged == "pass"
+                             ? tr("%1 on %2: after %3, %4.").arg(title, loads_[at], quantityText(value, unit), limit)
+                             : tr("%1 on %2: not shown to be %3.").arg(title, loads_[at], limit)};
+        if (std::isfinite(used))
+            says << (timed ? tr("At most %1 of that time.") : tr("%1 used, with its uncertainty.")).arg(share);
+        says << tr("Verdict: %1.").arg(judged) << (timed ? QString() : note);
         item->setToolTip(says.join(' ').trimmed());
         item->setData(Qt::AccessibleTextRole, item->toolTip());
     }

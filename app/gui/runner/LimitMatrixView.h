@@ -8,6 +8,8 @@
 #include <QTableWidget>
 #include <nlohmann/json.hpp>
 
+#include "app/gui/theme/PlotPicture.h"
+
 class QPainter;
 
 namespace tacto::gui {
@@ -23,6 +25,8 @@ public:
     /// `matrix` as toJson(LimitMatrix); anything else empties it.
     void show(const nlohmann::json& matrix);
     [[nodiscard]] bool empty() const { return rowCount() == 0; }
+    /// Its picture shows all limits, those too that are scrolled out of sight.
+    [[nodiscard]] Still picture(PictureCaption caption) const;
     /// With its header and that many limits in sight.
     [[nodiscard]] int heightOf(int rows) const;
     /// Its rows share all the height that it is given; else it is no higher than they need.
@@ -43,6 +47,7 @@ private:
     void fitRows();
     void fitColumns();
     void choose(int row, int column);
+    nlohmann::json shown_;
     bool fillsHeight_ = false;
     std::vector<QString> loads_;     // as people write them
     std::vector<QString> loadKeys_;  // as the results do

@@ -66,7 +66,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
         previewLater_.start();
         const auto open = controller_.open();
         showBench();
-        if (running_ && open) pages_->views().setSimulated(open->simulated());
+        if (running_ && open) pages_->views().setDevices(open->about.devices, open->simulated());
     });
     connect(&controller_.windowOperator(), &WindowOperator::asked, this, [this](const OperatorQuestion& question) {
         if (!running_) return;  // the other workspace's run
@@ -282,7 +282,8 @@ void ProtocolWorkspace::runNow() {
         return panel_->say(tr("The question was answered after a stop or after 30 s. Press Run again."));
     running_ = true;
     last_.reset();
-    pages_->views().begin(declaration_->view, asked_.order().settings.parameters);
+    pages_->views().begin(declaration_->view, QString::fromStdString(declaration_->title),
+                          asked_.order().settings.parameters);
     pages_->sign().clear();
     path_->showRun();
     showStep(kRun);

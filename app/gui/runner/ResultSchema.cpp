@@ -29,7 +29,7 @@ RecordColumn tolerance(const char* title, const char* at, const char* unit) {
     return {word(title), at, As::Tolerance, QString::fromUtf8(unit), {}};
 }
 RecordColumn as(As as, const char* title, const char* at) { return {word(title), at, as, {}, {}}; }
-RecordColumn verdict(const char* at = "verdict") { return as(As::Verdict, "Verdict", at); }
+RecordColumn verdict() { return as(As::Verdict, "Verdict", "verdict"); }
 
 ResultTable facts(const char* title, const char* at, Columns columns) {
     return {word(title), at, Shape::Facts, std::move(columns), {}};
@@ -44,7 +44,7 @@ Tables basis() {
         facts("Known reference", "reference",
               {number("Known load", "load_ohm", "ohm"), number("Read as", "measured_ohm", "ohm", "expanded_ohm"),
                number("Deviation", "deviation_pct", "%", "expanded_uncertainty_pct"),
-               number("Allowed, ±", "allowed_pct", "%"), verdict("passed"), text("Reason", "reason")}),
+               number("Allowed, ±", "allowed_pct", "%"), verdict(), text("Reason", "reason")}),
         facts("Absolute reference", "absolute",
               {number("Deviation", "deviation_pct", "%", "expanded_uncertainty_pct"),
                number("Allowed, ±", "allowed_pct", "%"), verdict(), text("It read", "text")}),
@@ -208,7 +208,7 @@ Tables sensorCalibration() {
             facts("Known reference", "reference",
                   {number("Mass", "mass_g", "g"), number("Weight", "reference_n", "N"),
                    number("Read as", "measured", "@unit"), spread("Deviation", "deviation_pct", "%"),
-                   number("Allowed, ±", "allowed_pct", "%"), verdict("passed")}),
+                   number("Allowed, ±", "allowed_pct", "%"), verdict()}),
             rows("Surfaces", "surfaces",
                  {text("Surface", "name"), number("Ra", "ra_um", "um"), number("Rz", "rz_um", "um"),
                   number("R", "R", "", "R_expanded_uncertainty"), number("Vibration h", "h"), number("Taxels v", "v"),

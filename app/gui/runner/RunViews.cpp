@@ -12,8 +12,10 @@
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/ResultHead.h"
 #include "app/gui/runner/ResultTables.h"
+#include "app/gui/theme/PictureTools.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/ToolRow.h"
 #include "app/report/TableContent.h"
 
 namespace tacto::gui {
@@ -121,6 +123,7 @@ QWidget* RunViews::buildBar() {
     auto* row = new QHBoxLayout(viewRow_);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(0);
+    addPictureTools(*row);
     choices_ = new QButtonGroup(this);
     const std::pair<QString, QString> views[] = {
         {tr("Plot"), tr("The main plot of this protocol.")},
@@ -143,9 +146,62 @@ QWidget* RunViews::buildBar() {
     return holder;
 }
 
+/// As in Touch and on the oscilloscope; a calibration has them beside its title, where its plot is chosen.
+void RunViews::addPictureTools(QBoxLayout& row) {
+    toolRow_ = new QWidget(viewRow_);
+    auto* tools = new ToolRow(toolRow_);
+    pictures_ = new PictureTools(toolRow_);
+    pictures_->addTo(*tools);
+    tools->addGap();
+    pictures_->takeFrom([this] { return picture(); }, "result");
+    connect(pictures_, &PictureTools::plotOnlyWanted, this, &RunViews::plotOnlyWanted);
+    row.addWidget(toolRow_);
+    for (QCustomPlot* plot : {static_cast<QCustomPlot*>(plane_), static_cast<QCustomPlot*>(wave_),
+                              static_cast<QCustomPlot*>(&disclosed_->tracing())}) {
+        captionPictures(*plot, [this, plot] {
+            auto whole = caption();
+            whole.lines << axesText(*plot);
+            return whole;
+        });
+    }
+    calibration_->captionPicturesBy([this] { return caption(); });
+}
+
+PictureCaption RunViews::caption() const {
+    PictureCaption caption;
+    const auto word = head_->word();
+    caption.title = pictureTitle(word.isEmpty() ? title_ : title_ + QStringLiteral(" · ") + word, simulated_);
+    caption.date = pictureDate(ended_.isValid() ? ended_ : QDateTime::currentDateTime());
+    caption.lines << devices_;
+    if (!word.isEmpty()) caption.lines << head_->reasons();
+    return caption;
+}
+
+QWidget* RunViews::pictured() const {
+    const bool judged = showsLimits();
+    if (views_->currentIndex() == kWaveform)
+        return judged ? static_cast<QWidget*>(&disclosed_->tracing()) : static_cast<QWidget*>(wave_);
+    if (views_->currentIndex() != kPlot || plot_ == Plot::None) return nullptr;
+    if (plot_ == Plot::Loads) return judged ? static_cast<QWidget*>(matrix_) : static_cast<QWidget*>(loads_);
+    return plane_;
+}
+
+Still RunViews::picture() const {
+    auto* shown = pictured();
+    if (shown == matrix_) return matrix_->picture(caption());
+    if (auto* plot = qobject_cast<QCustomPlot*>(shown)) return *plot;
+    return {*shown, caption()};
+}
+
+void RunViews::showPictureTools() {
+    toolRow_->setVisible(plot_ != Plot::Calibration);
+    for (auto* tool : {&pictures_->save(), &pictures_->copy()}) tool->setEnabled(pictured() != nullptr);
+}
+
 void RunViews::showView(View view) {
     views_->setCurrentIndex(view);
     choices_->button(view)->setChecked(true);
+    showPictureTools();
 }
 
 void RunViews::showPlot(Plot plot) {
@@ -220,7 +276,9 @@ void RunViews::arrange() {
     choices_->button(kWaveform)->setText(judged ? tr("Tracing") : tr("Waveform"));
     choices_->button(kWaveform)->setVisible(ownView);
     if (!ownView && views_->currentIndex() == kWaveform) showView(kPlot);
-    const int across = 2 * kViewSide + next_->sizeHint().width() + viewRow_->sizeHint().width() + bar_->spacing();
+    showPictureTools();
+    const int across =
+        2 * kViewSide + next_->sizeHint().width() + viewRow_->minimumSizeHint().width() + bar_->spacing();
     bar_->setDirection(width() >= across ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
 }
 
@@ -241,7 +299,9 @@ bool RunViews::showsLimits() const { return showsResult_ && plot_ == Plot::Loads
 
 QWidget& RunViews::plotKind() { return calibration_->plotKind(); }
 
-void RunViews::begin(Plot plot, const nlohmann::json& parameters) {
+void RunViews::begin(Plot plot, const QString& title, const nlohmann::json& parameters) {
+    title_ = title;
+    ended_ = {};
     head_->clear();
     next_->show({});
     tables_->show({});
@@ -253,13 +313,15 @@ void RunViews::begin(Plot plot, const nlohmann::json& parameters) {
     plane_->begin(false, featuresOf(plot));
     loads_->begin();
     calibration_->begin(parameters);
-    calibration_->setSimulated(false);
+    setDevices({}, false);
     wave_->show(nullptr);
     showPlot(plot);
     showView(plot == Plot::None ? kLog : kPlot);
 }
 
-void RunViews::setSimulated(bool simulated) {
+void RunViews::setDevices(const std::vector<SessionDevice>& devices, bool simulated) {
+    devices_ = deviceNames(devices);
+    simulated_ = simulated;
     plane_->setSimulated(simulated);
     calibration_->setSimulated(simulated);
 }
@@ -303,7 +365,8 @@ void RunViews::trace(const QString& limit, const QString& load, const QString& u
 QString RunViews::end(const FinishedRun& run) {
     log_->setPlaceholderText(tr("The script said nothing in this run."));
     session_ = run.result.session;
-    setSimulated(run.result.simulated);
+    ended_ = QDateTime::currentDateTime();
+    setDevices(run.result.devices, run.result.simulated);
     QString odd;
     const auto shows = [&odd](auto&& show) {
         try {

@@ -15,6 +15,7 @@
 #include "app/gui/controller/SideWork.h"
 #include "app/gui/runner/NextSteps.h"
 #include "app/gui/runner/TrialPlane.h"
+#include "app/gui/theme/PlotPicture.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
 class QSplitter;
@@ -26,6 +27,7 @@ class CaptureStrip;
 class DisclosedPanel;
 class LimitMatrixView;
 class LoadRows;
+class PictureTools;
 class ResultHead;
 class ResultTables;
 
@@ -41,9 +43,10 @@ public:
     void showResult(bool result);
     void showView(View view);
 
-    /// Empty, for a run with these parameters.
-    void begin(Plot plot, const nlohmann::json& parameters);
-    void setSimulated(bool simulated);
+    /// Empty, for a run of the protocol of that title with these parameters.
+    void begin(Plot plot, const QString& title, const nlohmann::json& parameters);
+    /// What the run is on, for its pictures and watermarks.
+    void setDevices(const std::vector<SessionDevice>& devices, bool simulated);
     void take(const RunFeed& feed);
     /// Results may have any shape: where they do not have the one that a view shows, the sentence says so; else empty.
     [[nodiscard]] QString end(const FinishedRun& run);
@@ -66,6 +69,12 @@ protected:
 private:
     [[nodiscard]] QWidget* buildPlots();
     [[nodiscard]] QWidget* buildBar();
+    void addPictureTools(QBoxLayout& row);
+    [[nodiscard]] PictureCaption caption() const;
+    /// The view that is a picture; none of tables and words.
+    [[nodiscard]] QWidget* pictured() const;
+    [[nodiscard]] Still picture() const;
+    void showPictureTools();
     void arrange();
     /// Where the tracing of a safety check stands.
     enum class Tracing { Beside, Below, OwnView };
@@ -74,6 +83,10 @@ private:
     void trace(const QString& limit, const QString& load, const QString& unit);
 
     Plot plot_ = Plot::Trials;
+    QString title_;                  // of the protocol
+    QString devices_;                // their names
+    bool simulated_ = false;         // what they are
+    QDateTime ended_;                // invalid while it runs
     std::filesystem::path session_;  // of the run that ended
     bool showsResult_ = false;
     QVBoxLayout* body_ = nullptr;  // head and views, above the bar
@@ -94,6 +107,8 @@ private:
     QBoxLayout* bar_ = nullptr;  // what comes next, and which view
     NextStepBar* next_ = nullptr;
     QWidget* viewRow_ = nullptr;
+    QWidget* toolRow_ = nullptr;
+    PictureTools* pictures_ = nullptr;
     QButtonGroup* choices_ = nullptr;
     SideWork reading_;
 };

@@ -40,7 +40,7 @@ ScopeFiles::ScopeFiles(CapturePipe& pipe, ScopeModel& model, QWidget& window)
             [this](const QString& path) { emit told(tr("Saved to %1.").arg(path), {}); });
 }
 
-void ScopeFiles::show(ScopeScreen& screen, MeasurementTable& table, std::function<ScopeCaption()> caption) {
+void ScopeFiles::show(ScopeScreen& screen, MeasurementTable& table, std::function<PictureCaption()> caption) {
     caption_ = std::move(caption);
     screen_ = &screen;
     table_ = &table;

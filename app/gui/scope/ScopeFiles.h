@@ -24,7 +24,7 @@ public:
     /// `window` is the parent of menu and dialogs.
     ScopeFiles(CapturePipe& pipe, ScopeModel& model, QWidget& window);
     /// Set before the menu is used; both outlive this. `caption` says what a picture shows.
-    void show(ScopeScreen& screen, MeasurementTable& table, std::function<ScopeCaption()> caption);
+    void show(ScopeScreen& screen, MeasurementTable& table, std::function<PictureCaption()> caption);
     [[nodiscard]] QMenu* menu() const noexcept { return menu_; }
 
     /// "*.csv *.sr …": the files that can be opened, for a dialog's filter.
@@ -53,7 +53,7 @@ private:
     QMenu* menu_;
     ScopeScreen* screen_ = nullptr;
     MeasurementTable* table_ = nullptr;
-    std::function<ScopeCaption()> caption_;
+    std::function<PictureCaption()> caption_;
 };
 
 }  // namespace tacto::gui

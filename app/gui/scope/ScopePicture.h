@@ -8,10 +8,10 @@
 #include <QImage>
 #include <QSize>
 #include <QString>
-#include <QStringList>
 #include <memory>
 #include <optional>
 
+#include "app/gui/theme/PictureCaption.h"
 #include "core/measure/CaptureMask.h"
 #include "core/session/SessionTypes.h"
 
@@ -21,13 +21,6 @@ class ScopeModel;
 struct ScopeLane;
 class ScopeScreen;
 
-/// What stands beside the plot; empty lines are left out.
-struct ScopeCaption {
-    QString title;      ///< "Oscilloscope · simulated"
-    QString date;       ///< "2026-11-26 16:59:39 UTC+01:00"
-    QStringList lines;  ///< devices, scales, trigger, cursors, readings, mask
-};
-
 /// "V 20 V/div".
 [[nodiscard]] QString laneScaleText(const ScopeModel& model, const ScopeLane& lane);
 
@@ -35,7 +28,7 @@ struct ScopeCaption {
 [[nodiscard]] QString scalesText(const ScopeModel& model);
 
 /// Title, date, the devices of the bench or the file's name, scales, then `more`. `bench` may be null.
-[[nodiscard]] ScopeCaption captionOf(const ScopeModel& model, const SessionAbout* bench, const QStringList& more);
+[[nodiscard]] PictureCaption captionOf(const ScopeModel& model, const SessionAbout* bench, const QStringList& more);
 
 /// What is on the screen at a moment: it is saved as it was then, however long a dialog asks for the file's name.
 struct ScopeStill {
@@ -43,10 +36,10 @@ struct ScopeStill {
     std::shared_ptr<const CaptureMask> mask;
     QString alarm;
     QSize size;  ///< of the screen
-    ScopeCaption caption;
+    PictureCaption caption;
     QDateTime taken;  ///< when the capture came from the bench, or this was made of a file's
 };
-[[nodiscard]] ScopeStill stillOf(const ScopeModel& model, const ScopeScreen& screen, const ScopeCaption& caption);
+[[nodiscard]] ScopeStill stillOf(const ScopeModel& model, const ScopeScreen& screen, const PictureCaption& caption);
 
 /// By the path's ending: .png (twice the screen's resolution), .svg or .pdf, as large as the screen and its caption.
 /// Returns what went wrong, as a sentence.

@@ -8,6 +8,7 @@
 
 #include "app/gui/scope/Steps.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/PictureTools.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
 
@@ -24,7 +25,10 @@ void opensMenu(QToolButton& button) {
 }  // namespace
 
 ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
-    : QWidget(parent), run_(new QPushButton(tr("Run"), this)), modes_(new QActionGroup(this)) {
+    : QWidget(parent),
+      run_(new QPushButton(tr("Run"), this)),
+      pictures_(new PictureTools(this)),
+      modes_(new QActionGroup(this)) {
     auto* row = new ToolRow(this);
     run_->setToolTip(tr("R: Run takes captures; Hold keeps the picture. Neither touches the output: STOP does."));
     connect(run_, &QPushButton::clicked, this, &ScopeTools::runClicked);
@@ -39,22 +43,18 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     connect(mark, &QToolButton::clicked, this, &ScopeTools::markClicked);
     row->addWidget(mark);
     row->addGap();
-    auto* save =
-        tool(tr("Save"), tr("Copies and saves the picture and its data, opens captures. Ctrl+S saves."), false, "save");
-    save->setPopupMode(QToolButton::InstantPopup);
-    save->setMenu(files);
-    row->addWidget(save);
-    auto* copy = tool(tr("Copy picture"), tr("Copies the picture of the screen to the clipboard."), false, "copy");
-    connect(copy, &QToolButton::clicked, this, &ScopeTools::copyClicked);
-    row->addWidget(copy);
+    auto& save = pictures_->save();
+    save.setAccessibleName(tr("Save"));
+    save.setToolTip(tr("Copies and saves the picture and its data, opens captures. Ctrl+S saves."));
+    save.setPopupMode(QToolButton::InstantPopup);
+    save.setMenu(files);
+    row->addWidget(&save);
+    row->addWidget(&pictures_->copy());
     controls_ =
         tool(tr("Controls"), tr("Lanes, view, mask, trigger and record, in a column at the right."), true, "settings");
     connect(controls_, &QToolButton::clicked, this, &ScopeTools::controlsClicked);
     row->addWidget(controls_);
-    auto* only = tool(tr("Plot only"), tr("F11: the safety bar and the plot alone; F11 again brings the rest back."),
-                      false, "plot-only");
-    connect(only, &QToolButton::clicked, this, &ScopeTools::plotOnlyClicked);
-    row->addWidget(only);
+    row->addWidget(&pictures_->plotOnly());
 }
 
 /// Its icon and its tip say it where a word would put other tools away.
@@ -155,17 +155,10 @@ void ScopeTools::addPanels(ToolRow& row) {
 }
 
 QToolButton* ScopeTools::tool(const QString& text, const QString& tip, bool checkable, const QString& iconName) {
-    auto* button = new QToolButton(this);
+    auto* button = makeTool(text, tip, iconName, this);
     button->setText(text);
-    button->setAccessibleName(text);
-    if (!iconName.isEmpty()) {
-        button->setIcon(icon(iconName));
-        button->setToolButtonStyle(Qt::ToolButtonIconOnly);
-    }
-    button->setToolTip(tip);
+    if (!iconName.isEmpty()) button->setToolButtonStyle(Qt::ToolButtonIconOnly);
     button->setCheckable(checkable);
-    button->setAutoRaise(true);
-    button->setFocusPolicy(Qt::StrongFocus);
     return button;
 }
 

@@ -14,13 +14,16 @@ class QToolButton;
 
 namespace tacto::gui {
 
+class PictureTools;
 class ToolRow;
 
 class ScopeTools final : public QWidget {
     Q_OBJECT
 public:
-    /// `files` is the menu of the button "Save".
+    /// `files` is the menu of the button that saves.
     ScopeTools(QMenu* files, QWidget* parent);
+    /// Save opens `files`; what Copy and Plot only do is the owner's.
+    [[nodiscard]] PictureTools& pictures() const { return *pictures_; }
     void showMode(ScopeMode mode);
     void showRunning(bool running, bool possible);
     /// Those below `least_s` cannot be chosen.
@@ -52,9 +55,7 @@ signals:
     void spectrumClicked(bool on);
     void tableClicked(bool on);
     void controlsClicked(bool on);
-    void copyClicked();
     void markClicked();
-    void plotOnlyClicked();
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -68,6 +69,7 @@ private:
     void markTimeBase();
 
     QPushButton* run_;
+    PictureTools* pictures_;
     QToolButton* single_ = nullptr;
     QToolButton* mode_ = nullptr;
     QActionGroup* modes_;

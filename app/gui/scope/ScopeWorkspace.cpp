@@ -19,6 +19,7 @@
 #include "app/gui/scope/ScopeStatus.h"
 #include "app/gui/scope/ScopeTools.h"
 #include "app/gui/scope/SpectrumPanel.h"
+#include "app/gui/theme/PictureTools.h"
 #include "app/gui/theme/Theme.h"
 #include "app/run/CaptureFormatsList.h"
 #include "core/base/Words.h"
@@ -106,9 +107,9 @@ void ScopeWorkspace::connectTools() {
     connect(status_, &ScopeStatus::cancelClicked, &pipe_, &CapturePipe::cancelOpen);
     connect(files_.get(), &ScopeFiles::openWanted, this, &ScopeWorkspace::openCaptureFile);
     connect(files_.get(), &ScopeFiles::told, this, &ScopeWorkspace::tell);
-    connect(tools_, &ScopeTools::copyClicked, files_.get(), &ScopeFiles::copyPicture);
+    connect(&tools_->pictures().copy(), &QToolButton::clicked, files_.get(), &ScopeFiles::copyPicture);
     connect(tools_, &ScopeTools::markClicked, this, &ScopeWorkspace::markWanted);
-    connect(tools_, &ScopeTools::plotOnlyClicked, this, &ScopeWorkspace::plotOnlyWanted);
+    connect(&tools_->pictures(), &PictureTools::plotOnlyWanted, this, &ScopeWorkspace::plotOnlyWanted);
     addScopeKeys(*this, *tools_, *files_);
 }
 
@@ -382,7 +383,7 @@ void ScopeWorkspace::average() {
     if (std::exchange(averages_, captures) != captures) table_->clear();
 }
 
-ScopeCaption ScopeWorkspace::caption() const {
+PictureCaption ScopeWorkspace::caption() const {
     const auto& shown = model_.shown();
     const auto open = controller_.open();
     QStringList more{readoutText(model_.readout(), shown ? shown->capture->rate_hz : 0)};

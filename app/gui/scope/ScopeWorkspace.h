@@ -30,7 +30,7 @@ class ScopeScreen;
 class ScopeStatus;
 class ScopeTools;
 class SpectrumPanel;
-struct ScopeCaption;
+struct PictureCaption;
 
 class ScopeWorkspace final : public QWidget {
     Q_OBJECT
@@ -102,7 +102,7 @@ private:
     void take(const ShownPtr& shown);
     void applyMode(ScopeMode mode);
     void average();
-    [[nodiscard]] ScopeCaption caption() const;
+    [[nodiscard]] PictureCaption caption() const;
     void tell(const QString& done, const QString& problem);
     void save() const;
     void restore();

@@ -14,14 +14,17 @@ namespace {
 
 constexpr int kBetweenTools = 0, kBetweenGroups = 8;
 
-/// Also of one that is hidden.
-QSize wishOf(const QLayoutItem& item) {
-    auto* part = const_cast<QLayoutItem&>(item).widget();
-    if (part == nullptr) return item.sizeHint();
-    return part->sizeHint().expandedTo(part->minimumSize()).boundedTo(part->maximumSize());
-}
-
 }  // namespace
+
+QToolButton* makeTool(const QString& name, const QString& tip, const QString& iconName, QWidget* parent) {
+    auto* button = new QToolButton(parent);
+    button->setAccessibleName(name);
+    button->setToolTip(tip);
+    if (!iconName.isEmpty()) button->setIcon(icon(iconName));
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    return button;
+}
 
 ToolRow::ToolRow(QWidget* parent) : QLayout(parent), more_(new QToolButton(parent)) {
     setContentsMargins(0, 0, 0, 0);
@@ -46,6 +49,24 @@ ToolRow::~ToolRow() = default;
 void ToolRow::addGap() {
     items_.push_back(std::make_unique<QSpacerItem>(kBetweenGroups, 0, QSizePolicy::Fixed, QSizePolicy::Fixed));
     invalidate();
+}
+
+void ToolRow::addBetween(QWidget* part) {
+    addWidget(part);
+    between_ = part;
+    addGap();
+}
+
+Qt::Orientations ToolRow::expandingDirections() const {
+    return between_ != nullptr ? Qt::Horizontal : Qt::Orientations();
+}
+
+/// Also of one that is hidden.
+QSize ToolRow::wishOf(const QLayoutItem& item) const {
+    auto* part = const_cast<QLayoutItem&>(item).widget();
+    if (part == nullptr) return item.sizeHint();
+    if (part == between_) return {0, part->sizeHint().height()};
+    return part->sizeHint().expandedTo(part->minimumSize()).boundedTo(part->maximumSize());
 }
 
 void ToolRow::addItem(QLayoutItem* item) { items_.emplace_back(item); }
@@ -96,9 +117,11 @@ void ToolRow::setGeometry(const QRect& area) {
         x += size.width() + spacing();
         return at;
     };
+    const int left = fits < items_.size() ? 0 : std::max(0, area.width() - sizeHint().width());
     for (std::size_t i = 0; i < items_.size(); ++i) {
+        const QSize more(between_ != nullptr && items_[i]->widget() == between_ ? left : 0, 0);
         if (i < fits)
-            items_[i]->setGeometry(next(wishOf(*items_[i])));
+            items_[i]->setGeometry(next(wishOf(*items_[i]) + more));
         else
             items_[i]->setGeometry(QRect(area.topLeft(), QSize(0, 0)));
     }

@@ -10,25 +10,33 @@
 
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 constexpr int kLogLines = 2000;
-}
+constexpr int kRecordingChars = 12;  // "● recording" is left where the message is long
+}  // namespace
 
 RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
     : QObject(&bar), controller_(controller), bar_(bar) {
     recording_ = new ElidedLabel(&bar);
     recording_->setObjectName("recording");
+    recording_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // it gives way to the message
     bar.addWidget(recording_, 1);
     message_ = new QToolButton(&bar);
+    message_->setObjectName("lastMessage");
     message_->setAutoRaise(true);
+    message_->setMinimumWidth(1);  // a long message does not keep the window wide
+    message_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
     message_->setToolTip(tr("The last message. Click for the log."));
     message_->setText(tr("No messages"));
     connect(message_, &QToolButton::clicked, this, &RecordingLine::showLog);
     bar.addPermanentWidget(message_);
+    bar.installEventFilter(this);
+    afterLookChange(bar, [this] { fitMessage(); });
     sayRecording(tr("Nothing is being recorded"));
     refresh();
 }
@@ -76,13 +84,30 @@ void RecordingLine::sayRecorded(const std::filesystem::path& session) {
 }
 
 void RecordingLine::say(const QString& text, bool isError) {
-    log_ << QString("%1  %2").arg(QDateTime::currentDateTime().toString("HH:mm:ss"), text);
+    const auto time = QDateTime::currentDateTime().toString("HH:mm:ss");
+    log_ << QString("%1  %2").arg(time, text);
     while (log_.size() > kLogLines) log_.removeFirst();
-    message_->setText(message_->fontMetrics().elidedText(text, Qt::ElideRight, bar_.width() / 2));
+    said_ = time + ' ' + text;
+    fitMessage();
     message_->setToolTip(text + tr("\nClick for the log."));
     auto colour = message_->palette();
     colour.setColor(QPalette::ButtonText, isError ? colours().amberText : bar_.palette().color(QPalette::WindowText));
     message_->setPalette(colour);
+}
+
+void RecordingLine::fitMessage() {
+    if (said_.isEmpty()) return;
+    const auto metrics = message_->fontMetrics();
+    int room = bar_.width() - metrics.averageCharWidth() * kRecordingChars -
+               (message_->sizeHint().width() - metrics.horizontalAdvance(message_->text()));
+    for (const auto* part : bar_.findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
+        if (part != message_ && part != recording_ && !part->isHidden()) room -= part->sizeHint().width();
+    message_->setText(metrics.elidedText(said_, Qt::ElideRight, room));
+}
+
+bool RecordingLine::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == &bar_ && event->type() == QEvent::Resize) fitMessage();
+    return QObject::eventFilter(watched, event);
 }
 
 void RecordingLine::showLog() {

@@ -1,4 +1,5 @@
-// RecordingLine.h - the bottom line: what is being recorded, how much, how safe it is; the last message, click for all.
+// RecordingLine.h - the bottom line: what is being recorded, how much, how safe it is; the last message with its time,
+// click for all.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -21,16 +22,20 @@ public:
     /// Shows a message and keeps it in the log.
     void say(const QString& text, bool isError = false);
     void showLog();
+    /// The message has the room that it needs; what is being recorded is elided before it.
+    bool eventFilter(QObject* watched, QEvent* event) override;
     [[nodiscard]] const QStringList& log() const { return log_; }
 
 private:
     void sayRecording(const QString& text);
     void sayRecorded(const std::filesystem::path& session);
+    void fitMessage();
 
     BenchController& controller_;
     QStatusBar& bar_;
     QLabel* recording_;
     QToolButton* message_;
+    QString said_;  // with its time
     QStringList log_;
     QElapsedTimer since_;
     QElapsedTimer looked_;

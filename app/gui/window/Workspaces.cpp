@@ -53,6 +53,7 @@ Workspaces::Workspaces(BenchController& controller, CalibrationBook& calibration
     connect(livePage_, &TabbedPage::currentChanged, this, &Workspaces::shown);
     connect(live_, &LiveWorkspace::refusedRecording, this, &Workspaces::complained);
     connect(live_, &LiveWorkspace::markWanted, this, &Workspaces::markWanted);
+    connect(live_, &LiveWorkspace::plotOnlyWanted, this, &Workspaces::plotOnlyWanted);
     connect(scope_, &ScopeWorkspace::markWanted, this, &Workspaces::markWanted);
     connect(scope_, &ScopeWorkspace::plotOnlyWanted, this, &Workspaces::plotOnlyWanted);
     connect(scope_, &ScopeWorkspace::openBenchWanted, this, &Workspaces::simulatedBenchWanted);

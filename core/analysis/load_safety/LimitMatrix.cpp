@@ -21,17 +21,24 @@ bool isShown(const SafetyRow& row) {
 
 LimitCell cellOf(const SafetyRow& row) {
     LimitCell cell{row.value, row.expanded, std::nan(""), row.verdict, row.note};
+    if (std::isfinite(row.stop_s)) {
+        cell.value = row.stop_s;
+        cell.margin_pct = 100 * (1 - row.stop_s / row.allowed_s);
+    }
     if (row.basis == RowBasis::Commanded) cell.expanded = 0;  // a command is what it was
     if (std::isfinite(row.limit) && std::isfinite(cell.value) && cell.expanded >= 0)
         cell.margin_pct = 100 * (row.limit - cell.value - cell.expanded) / row.limit;
     return cell;
 }
 
-/// Output must end by itself whether or not trains run when the circuit opens: the longer time, the worse verdict.
+/// Output must end by itself whether or not trains run when the circuit opens: the worse verdict, and the longer time
+/// unless one of them is timed against the next train.
 LimitCell worseOf(const LimitCell& a, const LimitCell& b) {
-    auto worse = a;
-    worse.value = std::fmax(a.value, b.value);
+    const bool timed = std::isfinite(a.margin_pct) || std::isfinite(b.margin_pct);
+    auto worse = std::isfinite(b.margin_pct) ? b : a;
+    if (!timed) worse.value = std::fmax(a.value, b.value);
     worse.verdict = summaryOf({a.verdict, b.verdict});
+    if (worse.verdict != RowVerdict::Pass) worse.margin_pct = kNaN;
     return worse;
 }
 
@@ -120,7 +127,7 @@ LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& 
         summarise(line);
     }
     const auto order = [](const LimitLine& line) {
-        // Whether the output ended has no margin: it stands first of its rank, others without one last.
+        // An end of output that was not timed has no margin: it stands first of its rank, others without one last.
         const double without = line.item == "trip" ? -1e9 : 1e9;
         return std::tuple(rankOf(line.verdict), std::isfinite(line.margin_pct) ? line.margin_pct : without);
     };

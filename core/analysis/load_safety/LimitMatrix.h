@@ -16,9 +16,11 @@ namespace tacto {
 inline constexpr const char* kExtrapolatedColumn = "worst case";
 
 struct LimitCell {
+    /// For a trip the time to the end of output: from the train that found it where known, else from the change.
     double value = std::numeric_limits<double>::quiet_NaN();
-    double expanded = std::numeric_limits<double>::quiet_NaN();    ///< U, in the value's unit
-    double margin_pct = std::numeric_limits<double>::quiet_NaN();  ///< (limit - value - U) / limit; below 0: not kept
+    double expanded = std::numeric_limits<double>::quiet_NaN();  ///< U, in the value's unit
+    /// (limit - value - U) / limit; below 0: not kept. For a trip what was left of the time to the next train.
+    double margin_pct = std::numeric_limits<double>::quiet_NaN();
     RowVerdict verdict = RowVerdict::NotEvaluated;
     std::string note{};  ///< of the row: what was measured beside a command
 };

@@ -54,7 +54,8 @@ struct SafetyRow {
     RowVerdict verdict = RowVerdict::NotEvaluated;
     std::string reason;  ///< a sentence unless it passed
     RowBasis basis = RowBasis::Measured;
-    std::string note{};  ///< what is to be known beside it, as a sentence; may be empty
+    std::string note{};                      ///< what is to be known beside it, as a sentence; may be empty
+    double stop_s = kNaN, allowed_s = kNaN;  ///< of a trip, as TripTrial has them
 };
 
 /// A command that was delivered and measured. Commands, not measurements, apart from `reading`.
@@ -102,6 +103,8 @@ struct TripTrial {
     bool tripped = false;
     double after_s = std::numeric_limits<double>::quiet_NaN();  ///< from the change to the end of output
     std::string reason;                                         ///< the trip's sentence, or why it was not evaluated
+    double stop_s = kNaN;     ///< from the onset of the train that found the change to the end of output; at most
+    double allowed_s = kNaN;  ///< from that onset to when the next train was due
 };
 /// Those that a full check holds.
 inline constexpr std::array<std::string_view, 6> kRequiredTrips = {

@@ -111,6 +111,8 @@ RecordFields<TripTrial> buildTripFields() {
     all.flag("evaluated", &TripTrial::evaluated);
     all.flag("tripped", &TripTrial::tripped);
     all.number("after_s", &TripTrial::after_s);
+    all.number("stop_s", &TripTrial::stop_s);
+    all.number("allowed_s", &TripTrial::allowed_s);
     all.text("reason", &TripTrial::reason, kAnyWords);
     return scripted(std::move(all));
 }

@@ -28,7 +28,7 @@ namespace tacto {
 [[nodiscard]] Result<LoadRecord> loadRecordFrom(const nlohmann::json& json);
 /// {"reference_v", "deviation_pct", "expanded_uncertainty_pct", "allowed_pct"}, judged again.
 [[nodiscard]] Result<SafetyRow> absoluteRowFrom(const nlohmann::json& json);
-/// {"name", "evaluated", "tripped", "after_s", "reason"}
+/// {"name", "evaluated", "tripped", "after_s", "stop_s", "allowed_s", "reason"}
 [[nodiscard]] Result<TripTrial> tripTrialFrom(const nlohmann::json& json);
 
 }  // namespace tacto

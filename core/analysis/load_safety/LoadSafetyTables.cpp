@@ -188,6 +188,12 @@ std::vector<SafetyRow> tripRows(const LoadSafetyInput& input) {
             row.unit = std::isfinite(made->after_s) ? "s" : "";
             row.verdict = made->tripped ? RowVerdict::Pass : RowVerdict::Fail;
             if (!made->tripped) row.reason = fmt::format("\"{}\" did not end the output: {}", name, made->reason);
+            if (made->tripped && std::isfinite(made->stop_s) && made->allowed_s > 0) {
+                row.stop_s = made->stop_s;
+                row.allowed_s = made->allowed_s;
+                row.note = fmt::format("ended within {} of the train that found it; the next was due after {}",
+                                       scaledText(made->stop_s, "s", 2), scaledText(made->allowed_s, "s", 3));
+            }
         }
         rows.push_back(std::move(row));
     }

@@ -20,6 +20,11 @@ Verdict guardBanded(double error, double expandedUncertainty, double tolerance) 
     return Verdict::Indeterminate;
 }
 
+std::string_view guardBandedName(double error, double expandedUncertainty, double tolerance) noexcept {
+    if (std::isnan(error) || std::isnan(expandedUncertainty)) return "not evaluated";
+    return nameOf(guardBanded(error, expandedUncertainty, tolerance));
+}
+
 Verdict worseOf(Verdict a, Verdict b) noexcept {
     if (a == Verdict::Fail || b == Verdict::Fail) return Verdict::Fail;
     if (a == Verdict::Indeterminate || b == Verdict::Indeterminate) return Verdict::Indeterminate;

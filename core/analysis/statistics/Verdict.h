@@ -16,6 +16,8 @@ enum class Verdict { Pass, Fail, Indeterminate };
 /// Pass when |error| + U ≤ tolerance, fail when |error| - U > tolerance, else indeterminate. What is NaN, a negative U
 /// or a tolerance that is not above 0 can prove nothing: indeterminate (hazard H9).
 [[nodiscard]] Verdict guardBanded(double error, double expandedUncertainty, double tolerance) noexcept;
+/// The name of guardBanded(); "not evaluated" where the error or its uncertainty is NaN.
+[[nodiscard]] std::string_view guardBandedName(double error, double expandedUncertainty, double tolerance) noexcept;
 
 /// Fail if either fails, else indeterminate if either is, else pass.
 [[nodiscard]] Verdict worseOf(Verdict a, Verdict b) noexcept;

@@ -111,6 +111,25 @@ TEST_F(LoadSafetyTrips, AreALineOfTheMatrixWithTheLongerTime) {
     EXPECT_TRUE(toJson(matrix)["lines"].front()["limit"].is_null());
 }
 
+TEST_F(LoadSafetyTrips, OneThatWasTimedSaysHowMuchOfTheTimeToTheNextTrainItTook) {
+    trip("open while delivering").stop_s = 0.02;
+    trip("open while delivering").allowed_s = 0.5;
+    trip("open while delivering").after_s = 0.49;
+    EXPECT_NEAR(cell("open").margin_pct, 96, 1e-9);
+    EXPECT_EQ(cell("open").value, 0.02) << "from the train that found it";
+    EXPECT_TRUE(std::isnan(cell("short").margin_pct)) << "not timed";
+    EXPECT_NEAR(line().margin_pct, 96, 1e-9);
+    EXPECT_TRUE(std::isnan(line().limit)) << "the rule is the next train, not a number of seconds";
+    const auto found = judgeLoadSafety(input);
+    const auto row = std::ranges::find(found.rows, "trip: open while delivering", &SafetyRow::title);
+    EXPECT_EQ(row->value, 0.49) << "from the change, as ever";
+    EXPECT_EQ(row->note, "ended within 20 ms of the train that found it; the next was due after 500 ms");
+    // A time says nothing where the output did not end.
+    trip("open").tripped = false;
+    EXPECT_EQ(cell("open").verdict, RowVerdict::Fail);
+    EXPECT_TRUE(std::isnan(cell("open").margin_pct));
+}
+
 TEST_F(LoadSafetyTrips, OneThatDidNotEndTheOutputFailsItsLoadAndStandsFirst) {
     RecordProperty("hazard", "H3");
     for (const auto* name : {"short", "short while delivering"}) {

@@ -137,6 +137,10 @@ TEST(GuardBand, PassesAndFailsOnlyWhereTheUncertaintyCannotTurnIt) {
     EXPECT_EQ(guardBanded(0.8, 0.25, 1), Verdict::Indeterminate);
     EXPECT_EQ(guardBanded(-1.25, 0.25, 1), Verdict::Indeterminate);  // |error| - U = tolerance
     EXPECT_EQ(guardBanded(1.3, 0.25, 1), Verdict::Fail);
+    EXPECT_EQ(guardBandedName(1.3, 0.25, 1), "fail");
+    EXPECT_EQ(guardBandedName(0.8, 0.25, 1), "indeterminate");
+    EXPECT_EQ(guardBandedName(1.3, std::nan(""), 1), "not evaluated");
+    EXPECT_EQ(guardBandedName(std::nan(""), 0.25, 1), "not evaluated");
     EXPECT_EQ(guardBanded(-1.3, 0.25, 1), Verdict::Fail);
     EXPECT_EQ(guardBanded(kNaN, 0.25, 1), Verdict::Indeterminate);
     EXPECT_EQ(guardBanded(0, kNaN, 1), Verdict::Indeterminate);

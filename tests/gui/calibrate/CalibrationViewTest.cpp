@@ -85,11 +85,11 @@ TEST_F(View, NoLegendCoversAReadingOrAMean) {
 TEST_F(View, ThePlotThatIsShownIsCopiedAndSavedByButtons) {
     sweep();
     QGuiApplication::clipboard()->clear();
-    auto* copy = find<QToolButton>(view, "Copy the plot");
+    auto* copy = find<QToolButton>(view, "Copy picture");
     ASSERT_NE(copy, nullptr);
     click(*copy);
     EXPECT_FALSE(QGuiApplication::clipboard()->image().isNull());
-    EXPECT_NE(find<QToolButton>(view, "Save the plot"), nullptr);
+    EXPECT_NE(find<QToolButton>(view, "Save picture"), nullptr);
     auto* only = find<QToolButton>(view, "Plot only");
     ASSERT_NE(only, nullptr);
     QSignalSpy wanted(&view, &gui::CalibrationView::plotOnlyWanted);

@@ -351,6 +351,40 @@ TEST_F(LiveBench, AFrozenPictureIsZoomedFittedSavedCopiedAndMarked) {
     if (asks != nullptr) asks->close();
 }
 
+TEST_F(LiveBench, ASavedPictureIsOfTheMomentAndSaysWhatItShows) {
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(passes(1));
+    click(*find<QToolButton>(live, "Copy picture"));
+    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
+        QApplication::clipboard()->image().save(shots + "/live_picture.png");
+    click(*find<QToolButton>(live, "Save picture"));
+    auto* dialog = live.findChild<QFileDialog*>("fileChooser");
+    ASSERT_NE(dialog, nullptr);
+    const auto before = live.plots().readingsText();
+    const auto scales = live.plots().scalesText();
+    ASSERT_IN_TIME(passes(1));
+    const QTemporaryDir folder;
+    const auto path = folder.filePath("live.svg");
+    dialog->findChild<QLineEdit*>("fileNameEdit")->setText(path);
+    static_cast<QDialog*>(dialog)->accept();
+    QFile file(path);
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    const auto drawing = QString::fromUtf8(file.readAll());
+    for (const auto& said : {QString("Touch · simulated"), QString(" UTC"), QString("SIM-1"), QString("Force (N)"),
+                             QString("SIMULATED"), QString("last 10")})
+        EXPECT_TRUE(drawing.contains(said)) << said.toStdString();
+    // Words that have no room go on in another line; a minus comes from another face.
+    for (const auto& part : before.split(" · ") + scales.split(" · ").filter(QRegularExpression("^[^−]*$")))
+        EXPECT_TRUE(drawing.contains(part)) << part.toStdString() << ", though the bench went on";
+    int alone = 0;
+    QObject::connect(&live, &gui::LiveWorkspace::plotOnlyWanted, [&] { ++alone; });
+    click(*find<QToolButton>(live, "Plot only"));
+    EXPECT_EQ(alone, 1);
+    const auto* save = find<QToolButton>(live, "Save picture");
+    const auto* health = find<QLabel>(live, "sensorHealth");
+    EXPECT_GT(save->mapTo(&live, QPoint()).x(), health->mapTo(&live, QPoint()).x()) << "at the right end";
+}
+
 TEST_F(LiveBench, OldSamplesAreSaidAndMarked) {
     RecordProperty("hazard", "H7");
     ASSERT_IN_TIME(openSimulated("sim:finger?fault=unplug@2s", 4)) << complaints.join(" ").toStdString();

@@ -99,9 +99,15 @@ TEST(ResultTables, OfAReferenceSayItsVerdictAsShapeAndWord) {
         return texts;
     };
     using testing::Contains;
-    EXPECT_THAT(of("load-safety", "reference", {{"load_ohm", 1000}, {"passed", true}}), Contains(QString("✔ pass")));
-    EXPECT_THAT(of("load-safety", "reference", {{"load_ohm", 1000}, {"passed", false}}), Contains(QString("✖ fail")));
-    EXPECT_THAT(of("sensor-calibration", "reference", {{"mass_g", 100}, {"passed", true}}),
+    const auto load = [&](bool passed, const char* verdict) {
+        return of("stimulator-calibration", "reference",
+                  {{"load_ohm", 1000}, {"passed", passed}, {"verdict", verdict}});
+    };
+    EXPECT_THAT(load(true, "pass"), Contains(QString("✔ pass")));
+    EXPECT_THAT(load(false, "fail"), Contains(QString("✖ fail")));
+    EXPECT_THAT(load(false, "indeterminate"), Contains(QString("? indeterminate")));
+    EXPECT_THAT(load(false, "indeterminate"), testing::Not(Contains(QString("✖ fail")))) << "unknown is not a failure";
+    EXPECT_THAT(of("sensor-calibration", "reference", {{"mass_g", 100}, {"passed", true}, {"verdict", "pass"}}),
                 Contains(QString("✔ pass")));
     const auto unknown = of("load-safety", "absolute", {{"passed", false}, {"verdict", "not evaluated"}});
     EXPECT_THAT(unknown, Contains(QString("○ not evaluated"))) << "and not that it failed";

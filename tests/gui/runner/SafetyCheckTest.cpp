@@ -1,6 +1,10 @@
 // The safety check in its workspace: the electrode's area first, loads as rows that turn to verdicts, limits x loads.
+#include <QClipboard>
+#include <QFileDialog>
 #include <QHeaderView>
 #include <QScrollArea>
+#include <QTemporaryDir>
+#include <QToolButton>
 #include <gmock/gmock.h>
 
 #include "app/gui/runner/CaptureStrip.h"
@@ -20,6 +24,18 @@ using testing::HasSubstr;
 class SafetyCheck : public Lab {
 protected:
     ~SafetyCheck() override { gui::applyTheme(gui::Theme::Light); }
+    /// Saves what is shown by the tool and the dialog; what is in the file then.
+    std::string savedPicture(const QString& path) {
+        click(the<QToolButton>("Save picture"));
+        auto* dialog = workspace->findChild<QFileDialog*>("fileChooser");
+        EXPECT_NE(dialog, nullptr);
+        if (dialog == nullptr) return {};
+        dialog->findChild<QLineEdit*>("fileNameEdit")->setText(path);
+        static_cast<QDialog*>(dialog)->accept();
+        QFile file(path);
+        EXPECT_TRUE(file.open(QIODevice::ReadOnly)) << path.toStdString();
+        return QString::fromUtf8(file.readAll()).replace("&quot;", "\"").toStdString();
+    }
     std::string verdictOf(const char* load) { return the<gui::LoadRows>("loadRows").verdictOf(load).toStdString(); }
 };
 
@@ -55,14 +71,31 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
             EXPECT_FALSE(cell->text().isEmpty());
             EXPECT_FALSE(cell->toolTip().contains('_')) << cell->toolTip().toStdString();
             judged += cell->text().startsWith("✔") ? 1 : 0;
-            endsItself +=
-                row == trips.first()->row() && cell->text().startsWith("✔") && cell->text().endsWith("s") ? 1 : 0;
+            const bool ends = row == trips.first()->row() && cell->text().startsWith("✔");
+            endsItself += ends && cell->text().endsWith("%") && cell->toolTip().contains("the train that found it");
         }
     }
     EXPECT_GT(judged, 50);
     EXPECT_EQ(endsItself, 2) << "on an open and on a short circuit";
     EXPECT_THAT(primaries(), testing::ElementsAre("Sign report…"));
     shot(*workspace, "safety_result");
+    // A picture has all limits, those too that are scrolled out of sight, and says what it is of.
+    click(the<QToolButton>("Copy picture"));
+    EXPECT_GT(QGuiApplication::clipboard()->image().height(), 2 * matrix.heightOf(matrix.rowCount()));
+    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
+        QGuiApplication::clipboard()->image().save(shots + "/safety_picture.png");
+    const QTemporaryDir folder;
+    const auto drawing = savedPicture(folder.filePath("limits.svg"));
+    for (const auto* said : {"Resistor-load safety check · PASS · simulated", "checks on 9 loads passed", "SIM-1",
+                             " UTC", "Share of each limit used"})
+        EXPECT_THAT(drawing, HasSubstr(said));
+    for (int row = 0; row < matrix.rowCount(); ++row)
+        EXPECT_THAT(drawing, HasSubstr(matrix.item(row, 0)->text().toStdString()));
+    EXPECT_THAT(drawing, testing::Not(HasSubstr("<image x=\"0\" y=\"0\""))) << "a drawing";
+    int alone = 0;
+    QObject::connect(workspace.get(), &gui::ProtocolWorkspace::plotOnlyWanted, [&] { ++alone; });
+    click(the<QToolButton>("Plot only"));
+    EXPECT_EQ(alone, 1);
     EXPECT_NE(find<QPushButton>(*workspace, "Tracing"), nullptr) << "of its own: the limits have the page";
     // In a high window it stands below the limits; the outputs join it where there is room for both.
     workspace->resize(1150, 1200);

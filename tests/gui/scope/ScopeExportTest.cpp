@@ -58,7 +58,7 @@ TEST_F(Exports, APictureSaysWhatItShows) {
     auto averaged = std::make_shared<gui::ShownCapture>(*model.shown());
     averaged->averaged = 16;
     model.show(averaged);
-    gui::ScopeCaption caption{"Oscilloscope · simulated", "2026-11-23 19:00:00", {}};
+    gui::PictureCaption caption{"Oscilloscope · simulated", "2026-11-23 19:00:00", {}};
     caption.lines << "simulated oscilloscope SIM-1" << gui::scalesText(model) << QString() << "V:  Amplitude 40.0 V";
     const auto path = folder.filePath("said.svg");
     const auto still = stillOf(model, screen, caption);
@@ -103,7 +103,7 @@ TEST_F(Exports, APictureNamesTheDevicesOfTheBench) {
 TEST_F(Exports, NoReadingIsCutFromAPicture) {
     QStringList readings{"I:"};
     for (const auto reading : gui::allReadings()) readings << nameOf(reading).title + " 12.34\u202fmA";
-    gui::ScopeCaption caption{"Oscilloscope", "2026-11-23 19:00:00 UTC", {readings.join("   ")}};
+    gui::PictureCaption caption{"Oscilloscope", "2026-11-23 19:00:00 UTC", {readings.join("   ")}};
     const auto path = folder.filePath("all.svg");
     ASSERT_EQ(gui::saveScopePicture(stillOf(model, screen, caption), path), std::nullopt);
     const auto drawing = QString::fromUtf8(bytes(path));

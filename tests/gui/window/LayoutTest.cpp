@@ -164,6 +164,26 @@ TEST_F(Layout, TheOscilloscopesToolsHaveTheKeysForAMarkAndForThePlotAlone) {
     EXPECT_IN_TIME(comesTrue([this] { return window.findChild<QWidget*>("markLine")->isVisible(); }));
 }
 
+TEST_F(Layout, TouchHasTheToolsOfAPictureAtTheRightEndOfItsTabs) {
+    open();
+    window.showWorkspace(0);
+    auto& head = *window.findChild<QWidget*>("livePage")->findChild<QWidget*>("tabRow");
+    for (const int width : {1280, 1920}) {
+        window.resize(width, width * 9 / 16);
+        letLive(50);
+        EXPECT_LT(head.height(), 50) << "one row of tools at " << width;
+        for (const auto* name : {"Save picture", "Copy picture", "Plot only"}) {
+            const auto* tool = find<QToolButton>(head, name);
+            ASSERT_NE(tool, nullptr) << name << " is in sight at " << width;
+            EXPECT_GE(tool->mapTo(&head, QPoint()).x(), head.width() - 160) << name << " at " << width;
+        }
+    }
+    click(*find<QToolButton>(head, "Plot only"));
+    EXPECT_IN_TIME(comesTrue([this] { return !bar("workspaces").isVisible(); })) << "as F11";
+    key(Qt::Key_F11);
+    EXPECT_IN_TIME(comesTrue([this] { return bar("workspaces").isVisible(); }));
+}
+
 TEST_F(Layout, F11HidesTheTabsAndTheirKeysStay) {
     open();
     key(Qt::Key_F11);

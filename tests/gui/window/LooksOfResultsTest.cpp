@@ -1,5 +1,6 @@
 // The screens that take a run or a fault to come to: results of a calibration, a safety check and a separability run,
 // the faulted state, the second step of arming, the drive panel; in both themes, small and large.
+#include <QClipboard>
 #include <QComboBox>
 #include <QDialog>
 #include <QDoubleSpinBox>
@@ -271,6 +272,20 @@ TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
     EXPECT_TRUE(texts(*plane).contains("Trials in the plane, 100"));
     for (const auto* axis : {plane->xAxis, plane->yAxis, train->xAxis, train->yAxis, train->yAxis2})
         EXPECT_TRUE(axis->label().at(0).isUpper()) << axis->label().toStdString();
+    click(*find<QToolButton>(window, "Copy picture"));
+    const auto copied = QGuiApplication::clipboard()->image();
+    EXPECT_EQ(copied.width(), 2 * plane->width());
+    EXPECT_GT(copied.height(), 2 * plane->height() + 100) << "with what it is of above it";
+    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
+        copied.save(shots + "/separability_picture.png");
+    click(*find<QPushButton>(window, "Log"));
+    EXPECT_FALSE(find<QToolButton>(window, "Save picture")->isEnabled()) << "a log has nothing to draw";
+    click(*find<QPushButton>(window, "Plot"));
+    EXPECT_TRUE(find<QToolButton>(window, "Save picture")->isEnabled());
+    click(*find<QToolButton>(window, "Plot only"));
+    EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") == nullptr; })) << "as F11";
+    click(*find<QToolButton>(window, "Plot only"));
+    EXPECT_IN_TIME(comesTrue([this] { return find<QWidget>(window, "path") != nullptr; }));
 }
 
 TEST_F(ResultsInTheWindow, ASessionThatIsChosenLooksRight) {

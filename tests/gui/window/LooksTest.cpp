@@ -308,9 +308,9 @@ TEST_F(Window, TheLastMessageOpensTheLogOfAllOfThem) {
     open();
     arm();
     window.controller().disarm();
-    ASSERT_IN_TIME(
-        comesTrue([this] { return find<QToolButton>(window, "Disarmed: stopped with Disarm. Output is off."); }));
-    click(*find<QToolButton>(window, "Disarmed: stopped with Disarm. Output is off."));
+    auto* last = find<QToolButton>(window, "lastMessage");
+    ASSERT_IN_TIME(comesTrue([&] { return last->text().endsWith(" Disarmed: stopped with Disarm. Output is off."); }));
+    click(*last);
     QDialog* log = nullptr;
     ASSERT_IN_TIME(comesTrue([&] {
         for (auto* dialog : window.findChildren<QDialog*>()) {

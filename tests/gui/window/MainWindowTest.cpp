@@ -242,6 +242,30 @@ TEST_F(Window, TheLastMessageDoesNotSayArmedWhenThatIsOver) {
     EXPECT_IN_TIME(comesTrue([&] { return says("Output is off.") && !says("Armed."); }));
 }
 
+TEST_F(Window, TheLastMessageHasItsTimeAndIsReadWholeInASmallWindow) {
+    const auto* message = window.statusBar()->findChild<QToolButton*>("lastMessage");
+    ASSERT_NE(message, nullptr);
+    const auto isWhole = [&] {
+        static const QRegularExpression timed(R"(^([01]\d|2[0-3]):[0-5]\d:[0-5]\d (.+)$)");
+        const auto found = timed.match(message->text());
+        return found.hasMatch() && found.captured(2) == message->toolTip().section('\n', 0, 0) &&
+               message->fontMetrics().horizontalAdvance(message->text()) <= message->width();
+    };
+    open();
+    arm();
+    deliver();
+    key(Qt::Key_Escape);
+    ASSERT_IN_TIME(comesTrue([&] { return message->toolTip().contains("Output is off."); }));
+    const auto* recording = window.findChild<QLabel*>("recording");
+    for (const int width : {1024, 1280, 1024}) {
+        window.resize(width, width * 3 / 4);
+        EXPECT_IN_TIME(comesTrue(isWhole)) << message->text().toStdString() << " at " << width;
+        EXPECT_GT(recording->width(), 0) << "and that it is recorded is still there";
+        EXPECT_EQ(window.width(), width);
+        shot(*window.statusBar(), QString("last-message-%1").arg(width));
+    }
+}
+
 TEST_F(Window, TheQuestionToArmIsVoidWithTheBenchItWasAskedFor) {
     RecordProperty("hazard", "H12");
     open();

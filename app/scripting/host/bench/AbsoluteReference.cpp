@@ -105,13 +105,12 @@ Result<Json> readReference(ScriptSession& session, const Arguments& arguments) {
     const Reading reading = differenceOf(*high, *zero, source_pct);
     const double scale = 100 / volts;
     const double off_pct = scale * (reading.value - volts);
-    const Verdict verdict = guardBanded(off_pct, scale * reading.expanded, tolerance_pct);
+    const auto verdict = guardBandedName(off_pct, scale * reading.expanded, tolerance_pct);
     const auto lacking = notStatedText(high->capture);
     std::string text = fmt::format("{:.4g} V of a reference source read as {:.4g} V", volts, reading.value);
     if (std::isfinite(reading.expanded)) text += fmt::format(" ± {:.2g} V", reading.expanded);
-    text +=
-        fmt::format("; ± {:.3g} % are allowed: {}", tolerance_pct,
-                    std::isnan(reading.expanded) ? "not evaluated, since " + lacking : std::string(nameOf(verdict)));
+    text += fmt::format("; ± {:.3g} % are allowed: {}", tolerance_pct,
+                        std::isnan(reading.expanded) ? "not evaluated, since " + lacking : std::string(verdict));
     Json out = {{"reference_v", volts},
                 {"reference_u_pct", source_pct},
                 {"measured_v", numberOrNull(reading.value)},
@@ -119,8 +118,8 @@ Result<Json> readReference(ScriptSession& session, const Arguments& arguments) {
                 {"deviation_pct", numberOrNull(off_pct)},
                 {"expanded_uncertainty_pct", numberOrNull(scale * reading.expanded)},
                 {"allowed_pct", tolerance_pct},
-                {"verdict", std::isnan(reading.expanded) ? "not evaluated" : nameOf(verdict)},
-                {"passed", verdict == Verdict::Pass},
+                {"verdict", verdict},
+                {"passed", verdict == "pass"},
                 {"text", text}};
     session.scopeSeen().setAbsolute(text);
     std::vector<Capture> shown;

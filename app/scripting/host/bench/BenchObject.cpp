@@ -268,9 +268,10 @@ std::vector<HostFunction> benchFunctions() {
                             .otherwise(0)},
          .text = "Delivers trains at the shortest interval and changes the load under way. Output must end before the "
                  "next train.",
-         .returns = "{ name, evaluated, tripped, after_s, reason } for analysis.loadSafety(), and { command_v, "
-                    "interval_s, captures }: the record of the train that found the circuit open, for measure.load(); "
-                    "an empty list where there is none.",
+         .returns = "{ name, evaluated, tripped, after_s, stop_s, allowed_s, reason } for analysis.loadSafety(): "
+                    "stop_s, at most, from the train that found the change to the end of output, and allowed_s to when "
+                    "the next was due. And { command_v, interval_s, captures }: the record of the train that found the "
+                    "circuit open, for measure.load(); an empty list where there is none.",
          .errors = kTripErrors,
          .asks = kConfirmArming,
          .call = host::bench::whileDelivering},

@@ -69,6 +69,16 @@ Result<void> startTrains(ScriptSession& session, const std::string& load, double
     return fail(ErrorCode::Timeout, "no two trains were delivered into {} within {:.1f} s", load, longest_s);
 }
 
+/// From the onset of the last train to the control loop's last step: the output had ended by then.
+double sinceLastTrain(const Telemetry& seen) {
+    double since = kNaN;
+    for (const auto& train : seen.programmed) {
+        if (std::isnan(train.amplitude) || train.onset > seen.at) continue;
+        since = std::fmin(since, toSeconds(seen.at - train.onset));
+    }
+    return since;
+}
+
 /// Records of what goes into an open circuit: all trains from now on, in a range for what the source can reach there.
 Result<void> watchOpenCircuit(Bench& bench) {
     const auto& source = bench.devices().stimulator->traits();
@@ -148,6 +158,7 @@ Result<Json> whileDelivering(ScriptSession& session, const Arguments& arguments)
     const double after_s = toSeconds(session.now() - begun);
     const auto cause = becomes == "short" ? FaultCause::ShortElectrode : FaultCause::OpenElectrode;
     const auto seen = bench.telemetry();
+    const double stop_s = sinceLastTrain(seen);
     if (waited) {
         bench.disarm();
         return trial(name, true, false, after_s, fmt::format("output went on for {:.1f} s", after_s));
@@ -167,6 +178,8 @@ Result<Json> whileDelivering(ScriptSession& session, const Arguments& arguments)
     Json out = trial(name, true, stopped, after_s, seen.reason.view());
     out["command_v"] = numberOrNull(command_v);
     out["interval_s"] = numberOrNull(interval_s);
+    out["stop_s"] = numberOrNull(stop_s);
+    out["allowed_s"] = numberOrNull(interval_s);
     out["captures"] = std::move(seenOpen);
     return out;
 }

@@ -143,7 +143,8 @@ std::vector<HostFunction> calibrationFunctions() {
          .text = "Before anything is believed: a weight must read as what it is. In counts it is not known what it "
                  "should read; then it must stand out from rest by five standard deviations.",
          .returns = "{ check, reason }: check { mass_g, reference_n, measured, unit, deviation_pct, allowed_pct, "
-                    "passed }, passed null when not evaluated; reason \"\" unless it failed.",
+                    "verdict, passed }: verdict \"not evaluated\" and passed false where nothing was read, passed null "
+                    "without a reading; reason \"\" where it passed and without a reading.",
          .call = host::calibration::knownWeight},
         {.name = "weighings",
          .parameters = {list("masses", "g").of(ValueType::Number),

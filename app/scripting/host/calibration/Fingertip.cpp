@@ -4,6 +4,7 @@
 #include "app/scripting/host/calibration/CalibrationObject.h"
 #include "app/scripting/host/report/Cells.h"
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
+#include "core/analysis/statistics/Verdict.h"
 #include "core/base/JsonFields.h"
 
 namespace tacto::host::calibration {
@@ -50,7 +51,8 @@ Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
     const Json& rest = arguments.object("rest");
     const double tolerance_pct = arguments.number("tolerance");
     Json check = {{"mass_g", nullptr},        {"reference_n", nullptr},       {"measured", nullptr},
-                  {"deviation_pct", nullptr}, {"allowed_pct", tolerance_pct}, {"passed", nullptr}};
+                  {"deviation_pct", nullptr}, {"allowed_pct", tolerance_pct}, {"verdict", "not evaluated"},
+                  {"passed", nullptr}};
     if (reading.is_null()) return Json{{"check", check}, {"reason", ""}};
     const auto weight = weightReadingFrom(reading);
     if (!weight) return arguments.wrong("reading", reading, "what bench.measureWeight() returned");
@@ -59,8 +61,9 @@ Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
     check["unit"] = weight->inUse ? Json(symbolOf(weight->inUse->unit)) : Json();
     const double measured =
         weight->inUse ? weight->inUse->mean - numberOr(valueOr(rest, "force_in_use"), "mean") : kNaN;
+    const bool read = std::isfinite(measured);
     bool passed = false;
-    if (std::isfinite(measured)) {
+    if (read) {
         check["measured"] = measured;
         if (weight->inUse->unit == StreamUnit::Newton) {
             const double off_pct = 100 * std::abs(measured / weight->reference_n - 1);
@@ -71,11 +74,11 @@ Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
         }
     }
     check["passed"] = passed;
+    if (read) check["verdict"] = nameOf(passed ? Verdict::Pass : Verdict::Fail);
     if (passed) return Json{{"check", check}, {"reason", ""}};
-    const auto read = std::isnan(measured) ? std::string("nothing")
-                                           : fmt::format("{} {}", digitsOf(measured, 4), symbolOf(weight->inUse->unit));
-    const auto reason = fmt::format("the known-reference check failed: {} was read under {} N; nothing was calibrated",
-                                    read, digitsOf(weight->reference_n, 4));
+    const auto found = read ? fmt::format("{} {}", digitsOf(measured, 4), symbolOf(weight->inUse->unit)) : "nothing";
+    const auto reason = fmt::format("the known-reference check {}: {} was read under {} N; nothing was calibrated",
+                                    read ? "failed" : "was not evaluated", found, digitsOf(weight->reference_n, 4));
     return Json{{"check", check}, {"reason", reason}};
 }
 

@@ -48,9 +48,11 @@ std::vector<HostFunction> recordFunctions() {
          .text = "Judges whether a known load reads as what it is, and records that: instruments that misread it can "
                  "judge nothing else.",
          .returns =
-             "{ load_ohm, measured_ohm, expanded_ohm, deviation_pct, expanded_uncertainty_pct, allowed_pct, passed, "
-             "reason }: passed when |deviation| + U is allowed; reason is a sentence where it did not pass, else null. "
-             "What could not be measured, or has no stated uncertainty, has not passed.",
+             "{ load_ohm, measured_ohm, expanded_ohm, deviation_pct, expanded_uncertainty_pct, allowed_pct, verdict, "
+             "passed, reason }: verdict \"pass\" when |deviation| + U is allowed, \"fail\" when |deviation| - U is "
+             "not, "
+             "else \"indeterminate\"; \"not evaluated\" where nothing was measured or no uncertainty is stated. passed "
+             "is true for a pass alone; reason is a sentence where it did not pass, else null.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::record::reference},
         {.name = "calibration",

@@ -1,5 +1,6 @@
 // Before anything is believed: a known load must read as what it is.
 #include <cmath>
+#include <string_view>
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/record/RecordObject.h"
@@ -13,14 +14,14 @@ namespace tacto::host::record {
 namespace {
 
 /// What is wrong with a check that did not pass, as a sentence.
-std::string whyNot(Verdict verdict, const Json& check, double load, double tolerance_pct) {
+std::string whyNot(std::string_view verdict, const Json& check, double load, double tolerance_pct) {
     const auto at = [&check](const char* key) { return check.value(key, Json()); };
     const auto text = [&](const char* key, const char* missing) {
         return at(key).is_number() ? fmt::format("{:.4g}", at(key).get<double>()) : std::string(missing);
     };
     if (at("measured_ohm").is_null()) {
-        return fmt::format("the known-reference check failed: nothing was measured where {:.4g} ohm is connected",
-                           load);
+        return fmt::format(
+            "the known-reference check was not evaluated: nothing was measured where {:.4g} ohm is connected", load);
     }
     if (at("expanded_ohm").is_null()) {
         return fmt::format(
@@ -31,8 +32,8 @@ std::string whyNot(Verdict verdict, const Json& check, double load, double toler
     return fmt::format(
         "the known-reference check {}: {} ± {} ohm was measured where {:.4g} ohm is connected; {:.2g} % "
         "of it is accepted, uncertainty included",
-        verdict == Verdict::Fail ? "failed" : "is indeterminate", text("measured_ohm", ""), text("expanded_ohm", ""),
-        load, tolerance_pct);
+        verdict == "fail" ? "failed" : "is indeterminate", text("measured_ohm", ""), text("expanded_ohm", ""), load,
+        tolerance_pct);
 }
 
 }  // namespace
@@ -49,14 +50,16 @@ Result<Json> judgeReference(ScriptSession& session, const Json& reading, const K
     // 95 % of a rectangle of the resistor's own tolerance.
     const double expanded = std::hypot(numberOr(reading, "load_expanded_ohm"), 0.95 * load_pct / 100 * load);
     const double off_pct = 100 * (measured / load - 1);
-    const Verdict verdict = guardBanded(off_pct, 100 * expanded / load, tolerance_pct);
+    const auto verdict = guardBandedName(off_pct, 100 * expanded / load, tolerance_pct);
+    const bool passed = verdict == "pass";
     const Json check = {{"load_ohm", load},
                         {"measured_ohm", numberOrNull(measured)},
                         {"expanded_ohm", numberOrNull(expanded)},
                         {"deviation_pct", numberOrNull(off_pct)},
                         {"expanded_uncertainty_pct", numberOrNull(100 * expanded / load)},
                         {"allowed_pct", tolerance_pct},
-                        {"passed", verdict == Verdict::Pass}};
+                        {"verdict", verdict},
+                        {"passed", passed}};
     if (session.writer() != nullptr) {
         auto& writer = *session.writer();
         if (auto kept = writer.measurement(session.now(), "known-reference check", check); !kept) return failure(kept);
@@ -67,7 +70,7 @@ Result<Json> judgeReference(ScriptSession& session, const Json& reading, const K
                           {"measured ± U", withU(check["measured_ohm"], check["expanded_ohm"], "ohm")},
                           {"off ± U", withU(check["deviation_pct"], check["expanded_uncertainty_pct"], "%")},
                           {"allowed_pct", tolerance_pct},
-                          {"verdict", nameOf(verdict)}};
+                          {"verdict", verdict}};
         auto shown = writer.reportItem(
             session.now(), {{"kind", "table"},
                             {"caption", "Known-reference check"},
@@ -76,7 +79,7 @@ Result<Json> judgeReference(ScriptSession& session, const Json& reading, const K
         if (!shown) return failure(shown);
     }
     Json out = check;
-    out["reason"] = verdict == Verdict::Pass ? Json() : Json(whyNot(verdict, check, load, tolerance_pct));
+    out["reason"] = passed ? Json() : Json(whyNot(verdict, check, load, tolerance_pct));
     return out;
 }
 

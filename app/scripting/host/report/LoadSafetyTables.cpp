@@ -214,6 +214,7 @@ Json trips(const Json& found) {
         copy(out, "ended_after_s", row, "value");
         copy(out, "verdict", row, "verdict");
         copy(out, "reason", row, "reason");
+        copy(out, "remark", row, "note");
         rows.push_back(std::move(out));
     }
     return rows;
@@ -241,7 +242,7 @@ Json loadSafetyTables(const Json& found) {
           {"columns", {"load", "asked", "would_be", "verdict", "reason"}}},
          {{"caption", "What must end output by itself"},
           {"rows", trips(found)},
-          {"columns", {"trip", "ended_after_s", "verdict", "reason"}}},
+          {"columns", {"trip", "ended_after_s", "verdict", "remark", "reason"}}},
          {{"caption", "Where each limit comes from, and our confidence in it"},
           {"rows", sources(found)},
           {"columns", {"requirement", "source", "confidence"}}}});

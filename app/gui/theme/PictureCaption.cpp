@@ -1,0 +1,106 @@
+#include "app/gui/theme/PictureCaption.h"
+
+#include <QRegularExpression>
+#include <cmath>
+
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "app/report/NumberText.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kCaptionSide = 16, kCaptionAbove = 4, kCaptionBelow = 8;
+constexpr int kAxisDigits = 4;
+
+QFont titleFont() { return textFont(TextSize::Large, QFont::DemiBold); }
+
+/// Parts of a line that belong together stay so: it goes on in another where one ends.
+QStringList wrapped(const QString& line, const QFontMetrics& metrics, int width) {
+    static const QRegularExpression kBetween(QStringLiteral("(?<=   |\\s·\\s)(?=\\S)"));
+    QStringList lines;
+    QString now;
+    for (const auto& part : line.split(kBetween)) {
+        if (!now.isEmpty() && metrics.horizontalAdvance((now + part).trimmed()) > width) {
+            lines << now;
+            now = QStringLiteral("      ");  // what goes on is indented
+        }
+        now += part;
+    }
+    return lines << now;
+}
+
+/// Draws the lines from `top` on; returns where they end.
+int drawLines(QPainter& painter, const QStringList& lines, const QFont& font, int width, int top) {
+    const QFontMetrics metrics(font);
+    painter.setFont(font);
+    QRect line(kCaptionSide, top, width - 2 * kCaptionSide, metrics.lineSpacing());
+    for (const auto& text : lines) {
+        painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
+                         metrics.elidedText(text, Qt::ElideRight, line.width()));
+        line.translate(0, line.height());
+    }
+    return line.top();
+}
+
+QString boundText(double value) { return settingText(QString::number(value, 'g', kAxisDigits).toDouble(), {}); }
+
+}  // namespace
+
+QString pictureTitle(const QString& title, bool simulated) {
+    return simulated ? QObject::tr("%1 · simulated").arg(title) : title;
+}
+
+QString pictureDate(const QDateTime& taken) {
+    const auto minutes = taken.offsetFromUtc() / 60;
+    const auto zone = minutes == 0 ? QString()
+                                   : QStringLiteral("%1%2:%3")
+                                         .arg(minutes < 0 ? QStringLiteral("−") : QStringLiteral("+"))
+                                         .arg(std::abs(minutes) / 60, 2, 10, QLatin1Char('0'))
+                                         .arg(std::abs(minutes) % 60, 2, 10, QLatin1Char('0'));
+    return QLocale::c().toString(taken, "yyyy-MM-dd HH:mm:ss") + " UTC" + zone;
+}
+
+QString deviceNames(const std::vector<SessionDevice>& devices) {
+    QStringList names;
+    for (const auto& device : devices) {
+        auto name = qtext(device.name);
+        if (!device.serial.empty()) name += " " + qtext(device.serial);
+        if (device.simulated && !name.contains(QObject::tr("simulated"))) name += QObject::tr(" (simulated)");
+        names << name;
+    }
+    return names.join(QStringLiteral(" · "));
+}
+
+QString axesText(const QCustomPlot& plot) {
+    QStringList parts;
+    for (const auto* axes : plot.axisRects()) {
+        for (const auto* axis : axes->axes()) {
+            if (!axis->visible() || axis->label().isEmpty()) continue;
+            parts << QObject::tr("%1 %2 to %3")
+                         .arg(axis->label(), boundText(axis->range().lower), boundText(axis->range().upper));
+        }
+    }
+    return parts.join(QStringLiteral(" · "));
+}
+
+CaptionLines::CaptionLines(const PictureCaption& caption, int width) : width_(width) {
+    if (caption.empty()) return;
+    const QFontMetrics large(titleFont()), small(textFont(TextSize::Small));
+    const int room = width - 2 * kCaptionSide;
+    if (!caption.title.isEmpty()) title_ = wrapped(caption.title, large, room);
+    for (const auto& line : QStringList{caption.date} + caption.lines)
+        if (!line.isEmpty()) rest_ << wrapped(line, small, room);
+    height_ = kCaptionAbove + large.lineSpacing() * int(title_.size()) + small.lineSpacing() * int(rest_.size()) +
+              kCaptionBelow;
+}
+
+void CaptionLines::draw(QPainter& painter) const {
+    if (height_ == 0) return;
+    painter.setPen(colours().text);
+    const int below = drawLines(painter, title_, titleFont(), width_, kCaptionAbove);
+    drawLines(painter, rest_, textFont(TextSize::Small), width_, below);
+}
+
+}  // namespace tacto::gui
