@@ -18,6 +18,7 @@
 
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
+#include "tests/gui/HeightLooks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/PlotLooks.h"
 #include "tests/gui/RoomLooks.h"
@@ -234,6 +235,8 @@ std::string faultsOf(const QWidget& in) {
     for (const auto& text : cutCells(in)) all << "cut cell: " + text;
     for (const auto& text : cutFields(in)) all << "cut field: " + text;
     for (const auto& text : cutSideways(in)) all << "cut sideways: " + text;
+    for (const auto& text : lowTexts(in)) all << "too low: " + text;
+    for (const auto& text : cutBelow(in)) all << "cut below: " + text;
     for (const auto& text : beyondTheirPlace(in)) all << "cut by what is around: " + text;
     for (const auto& text : untoldElisions(in)) all << "elided: " + text;
     for (const auto& text : plotWordFaults(in)) all << "plot: " + text;
@@ -264,14 +267,14 @@ void looksRight(QWidget& widget, const QString& name, const LookedAtSizes& sizes
 }
 
 std::string widgetName(const QWidget& widget) {
-    return (QString(widget.metaObject()->className()) + " " + widget.objectName() + " \"" + widget.accessibleName() +
-            "\"")
-        .toStdString();
+    const auto said = widget.accessibleName().isEmpty() ? textOf(widget) : widget.accessibleName();
+    return QString("%1 %2 \"%3\"").arg(widget.metaObject()->className(), widget.objectName(), said).toStdString();
 }
 
 std::string stepsBack(const std::vector<const QWidget*>& order) {
     std::string back;
     for (std::size_t i = 1; i < order.size(); ++i) {
+        if (order[i - 1]->isAncestorOf(order[i])) continue;  // into a page that scrolls
         const auto place = [](const QWidget* of) { return QRect(of->mapToGlobal(QPoint(0, 0)), of->size()); };
         const auto from = place(order[i - 1]);
         const auto to = place(order[i]);

@@ -25,7 +25,8 @@ namespace tacto::test {
 [[nodiscard]] QStringList paleTexts(const QWidget& in);
 /// Pairs of visible widgets that lie over each other though a layout places them.
 [[nodiscard]] QStringList overlaps(const QWidget& in);
-/// All of these and those of PlotLooks.h and RoomLooks.h, a line each; empty where the widget looks right.
+/// All of these and those of HeightLooks.h, PlotLooks.h and RoomLooks.h, a line each; empty where the widget looks
+/// right.
 [[nodiscard]] std::string faultsOf(const QWidget& in);
 
 /// A size for each size of text; an invalid one leaves the widget as large as it is.
@@ -37,7 +38,7 @@ struct LookedAtSizes {
 /// `frame`: what is resized and pictured, where that is more than what is judged.
 void looksRight(QWidget& widget, const QString& name, const LookedAtSizes& sizes = {}, QWidget* frame = nullptr);
 
-/// "QPushButton armButton "Arm"": its class, its name, and its name for those who do not see it.
+/// "QPushButton armButton "Arm"": its class, its name, and its name for those who do not see it, or else its text.
 [[nodiscard]] std::string widgetName(const QWidget& widget);
 /// Steps of Tab against the direction of reading, a line each: up within a column, or back within a row.
 [[nodiscard]] std::string stepsBack(const std::vector<const QWidget*>& order);

@@ -9,30 +9,16 @@
 #include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QScrollBar>
-#include <QStyleOptionFrame>
 #include <QTableView>
 #include <QTextDocument>
-#include <QToolButton>
 #include <QTreeView>
 
 #include "app/gui/theme/ElidedLabel.h"
+#include "tests/gui/ShownWidgets.h"
 
 namespace tacto::test {
 
 namespace {
-
-template <class T, class Follow>
-void forEachShown(const QWidget& in, Follow follow) {
-    for (auto* widget : in.findChildren<T*>())
-        if (widget->isVisible() && widget->window() == in.window()) follow(*widget);
-}
-
-QString called(const QWidget& widget) {
-    auto name = QString("%1 %2").arg(widget.metaObject()->className(), widget.objectName());
-    const auto* at = &widget;
-    while (at->parentWidget() != nullptr && at->objectName().isEmpty()) at = at->parentWidget();
-    return at == &widget ? name : QString("%1in %2 %3").arg(name, at->metaObject()->className(), at->objectName());
-}
 
 QString plain(const QString& text) {
     if (!Qt::mightBeRichText(text)) return text;
@@ -97,38 +83,12 @@ void addCutCell(const QAbstractItemView& view, const QModelIndex& cell, QStringL
                .arg(told ? "" : ", no tool tip");
 }
 
-void addCutCells(const QAbstractItemView& view, const QModelIndex& parent, QStringList& cut) {
-    const auto* model = view.model();
-    constexpr int kRows = 500;  // more are not in sight
-    for (int row = 0; row < std::min(model->rowCount(parent), kRows); ++row) {
-        for (int column = 0; column < model->columnCount(parent); ++column)
-            addCutCell(view, model->index(row, column, parent), cut);
-        const auto first = model->index(row, 0, parent);
-        const auto* tree = qobject_cast<const QTreeView*>(&view);
-        if (tree != nullptr && tree->isExpanded(first)) addCutCells(view, first, cut);
-    }
-}
-
-int roomForText(const QLineEdit& edit) {
-    QStyleOptionFrame option;
-    option.initFrom(&edit);
-    option.rect = edit.contentsRect();
-    option.lineWidth = edit.hasFrame() ? edit.style()->pixelMetric(QStyle::PM_DefaultFrameWidth, &option, &edit) : 0;
-    option.state |= QStyle::State_Sunken;
-    int room = edit.style()->subElementRect(QStyle::SE_LineEditContents, &option, &edit).width();
-    room -= edit.textMargins().left() + edit.textMargins().right();
-    for (const auto* button : edit.findChildren<QToolButton*>())
-        if (button->isVisible()) room -= button->width();
-    return room;
-}
-
 }  // namespace
 
 QStringList cutCells(const QWidget& in) {
     QStringList cut;
-    forEachShown<QAbstractItemView>(in, [&](const QAbstractItemView& view) {
-        if (qobject_cast<const QHeaderView*>(&view) == nullptr && view.model() != nullptr)
-            addCutCells(view, view.rootIndex(), cut);
+    forEachView(in, [&](const QAbstractItemView& view) {
+        forEachCell(view, view.rootIndex(), [&](const QModelIndex& cell) { addCutCell(view, cell, cut); });
     });
     return cut;
 }
@@ -138,10 +98,10 @@ QStringList cutFields(const QWidget& in) {
     forEachShown<QLineEdit>(in, [&](const QLineEdit& edit) {
         const auto text = edit.text().isEmpty() ? edit.placeholderText() : edit.displayText();
         const int needs = edit.fontMetrics().horizontalAdvance(text);
-        const int has = roomForText(edit);
+        const int has = roomForText(edit).width();
         if (needs <= has + 1 || tells(edit.toolTip(), text)) return;
         const auto* of = edit.objectName().startsWith("qt_spinbox") ? edit.parentWidget() : &edit;
-        cut << QString("\"%1\" in %2: %3 of %4 px").arg(text, called(*of)).arg(has).arg(needs);
+        cut << cutOf(text, *of, has, needs);
     });
     return cut;
 }

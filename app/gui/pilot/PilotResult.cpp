@@ -4,7 +4,6 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QRegularExpression>
-#include <QScrollBar>
 #include <cmath>
 
 #include "app/gui/theme/Icons.h"
@@ -247,13 +246,8 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
 
 void PilotResult::layOutMatrix() {
     if (matrix_->columnCount() == 0) return;
-    const int room = std::max(1, widthInSight(*this) - 2 * (kPagePad + 1));
-    layOutRecordTable(*matrix_, room);
-    if (matrix_->horizontalHeader()->length() <= room) return;
     // Six answers have no room in large text beside open docks: the matrix scrolls, not the page.
-    matrix_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
-    matrix_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    matrix_->setFixedHeight(matrix_->minimumHeight() + matrix_->horizontalScrollBar()->sizeHint().height());
+    layOutRecordTable(*matrix_, std::max(1, widthInSight(*this) - 2 * (kPagePad + 1)));
 }
 
 void PilotResult::resizeEvent(QResizeEvent* event) {

@@ -19,6 +19,7 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Trials"));
     for (auto* axis : {xAxis, yAxis}) axis->setNumberFormat("gb");
     putLegendAbove(*this);
+    wrapLegend(*this);
     addPlotMenu(*this, "trials");
     watermark_ = addWatermark(*axisRect());
     empty_ = new QCPItemText(this);
@@ -105,7 +106,6 @@ void TrialPlane::add(const nlohmann::json& trial) {
         names_.push_back(words);
         empty_->setVisible(false);
         colour();
-        wrapLegend();
     }
     found->second->addData(x, y);
     fit();
@@ -195,25 +195,6 @@ void TrialPlane::nameClusters() {
     legend->setVisible(!all && !conditions_.empty());
     fitLegend(*this);
     replot(QCustomPlot::rpQueuedReplot);  // its row is another
-}
-
-/// Names in one row where they fit, else in two columns.
-void TrialPlane::wrapLegend() {
-    const auto lay = [this](int wrap) {
-        if (legend->wrap() == wrap) return;
-        legend->setWrap(wrap);
-        // A grid keeps its cells where they were: put them in again.
-        for (int i = 0; i < plottableCount(); ++i) plottable(i)->removeFromLegend();
-        for (int i = 0; i < plottableCount(); ++i) plottable(i)->addToLegend();
-        fitLegend(*this);
-    };
-    lay(0);
-    if (legend->minimumOuterSizeHint().width() > width()) lay(2);
-}
-
-void TrialPlane::resizeEvent(QResizeEvent* event) {
-    wrapLegend();  // before it draws
-    QCustomPlot::resizeEvent(event);
 }
 
 }  // namespace tacto::gui

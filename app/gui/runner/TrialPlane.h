@@ -32,14 +32,10 @@ public:
     /// Every condition's name stands at its points; else a legend above the plot names them.
     [[nodiscard]] bool namedInPlace() const { return !conditions_.empty() && !legend->visible(); }
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void colour();
     void sayTitle();
     void fit();
-    void wrapLegend();
     void nameClusters();
     /// Beside its points and off everything else; nothing where there is no such place.
     [[nodiscard]] std::optional<QRectF> placeOf(const QSizeF& name, std::size_t cluster,

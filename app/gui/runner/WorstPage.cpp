@@ -1,6 +1,7 @@
 #include "app/gui/runner/WorstPage.h"
 
 #include <QHBoxLayout>
+#include <QHeaderView>
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <utility>
@@ -20,6 +21,7 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kMinChooser = 120;
+constexpr int kLeastRows = 2;
 }  // namespace
 
 WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTable(this)), says_(new QLabel(this)) {
@@ -35,6 +37,12 @@ WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTabl
         tr("The strongest command into 80 to 120 % of the declared load, from an ideal voltage source. "
            "Hatched: not evaluated, and never a pass."));
     keepRowsWhole(*worst_);
+    const auto least = [this] {
+        worst_->setMinimumHeight(worst_->horizontalHeader()->sizeHint().height() + 2 * worst_->frameWidth() +
+                                 kLeastRows * worst_->verticalHeader()->defaultSectionSize());
+    };
+    least();
+    afterLookChange(*worst_, least);
     column->addWidget(worst_, 1);
     setTabOrder(findChild<QPushButton*>("readLimits"), worst_);
 }

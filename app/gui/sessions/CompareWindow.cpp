@@ -6,6 +6,7 @@
 
 #include "app/gui/sessions/Differences.h"
 #include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
@@ -21,6 +22,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kDrawnPoints = 4000;
+constexpr int kPlotChars = 30;  // the width of a plot that can be read
 
 double feature(const SessionTrial& trial, const char* key) {
     const auto at = trial.measured.find(key);
@@ -73,6 +75,8 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     plane_->setAccessibleName(tr("Trials of both"));
     addPlotMenu(*plane_, "trials");
     putLegendAbove(*plane_);
+    wrapLegend(*plane_);
+    plane_->setMinimumWidth(fontMetrics().averageCharWidth() * kPlotChars);  // its legend wraps
     plane_->xAxis->setLabel(tr("Interval (s)"));
     plane_->yAxis->setLabel(tr("Amplitude (V)"));
     tabs->addTab(plane_, tr("&Trials"));
@@ -116,6 +120,7 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     connect(stream_, &QComboBox::currentIndexChanged, this, &CompareWindow::drawStream);
     drawTrials();
     drawStream();
+    onLookChange(*this, [this] { colour(); });
     resize(fontMetrics().averageCharWidth() * 120, fontMetrics().height() * 36);
 }
 
@@ -128,36 +133,60 @@ void CompareWindow::drawTrials() {
             if (!order.contains(name)) order[name] = int(order.size());
             auto*& graph = graphs[name];
             if (graph == nullptr) {
-                const auto style = conditionInTheme(name, order[name]);
                 graph = plane_->addGraph();
                 graph->setName(QString("%1, %2").arg(name, s == 0 ? tr("first") : tr("second")));
                 graph->setLineStyle(QCPGraph::lsNone);
-                graph->setScatterStyle(QCPScatterStyle(style.marker, QPen(style.color, 1.5),
-                                                       s == 0 ? QBrush(Qt::NoBrush) : QBrush(style.color),
-                                                       s == 0 ? 10 : 6));
+                trials_.push_back({graph, name, order[name], s == 0});
             }
             const double x = feature(trial, "interval_s"), y = feature(trial, "amplitude_v");
             if (std::isfinite(x) && std::isfinite(y)) graph->addData(x, y);
         }
     }
     if (plane_->graphCount() == 0) {
-        auto* none = new QCPItemText(plane_);
-        none->position->setType(QCPItemPosition::ptAxisRectRatio);
-        none->position->setCoords(0.5, 0.5);
-        none->setText(tr("Neither session holds a trial."));
-        none->setColor(colours().quiet);
+        noTrials_ = new QCPItemText(plane_);
+        noTrials_->position->setType(QCPItemPosition::ptAxisRectRatio);
+        noTrials_->position->setCoords(0.5, 0.5);
+        noTrials_->setText(tr("Neither session holds a trial."));
         for (auto* axis : {plane_->xAxis, plane_->yAxis}) {
             axis->setTicks(false);
             axis->setTickLabels(false);
             axis->grid()->setVisible(false);
         }
     }
-    stylePlot(*plane_);
     plane_->legend->setVisible(plane_->graphCount() > 0);
-    fitLegend(*plane_);
+    colourTrials();
     plane_->rescaleAxes();
     plane_->xAxis->scaleRange(1.2);
     plane_->yAxis->scaleRange(1.2);
+}
+
+/// In the current theme and size of text, as all that is coloured below.
+void CompareWindow::colour() {
+    colourTrials();
+    colourStreams();
+    for (auto* plot : {plane_, streams_}) plot->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void CompareWindow::colourTrials() {
+    stylePlot(*plane_);
+    if (noTrials_ != nullptr) {
+        noTrials_->setColor(colours().quiet);
+        noTrials_->setFont(textFont(TextSize::Body));
+    }
+    for (const auto& [graph, condition, number, first] : trials_) {
+        const auto style = conditionInTheme(condition, number);
+        graph->setScatterStyle(QCPScatterStyle(style.marker, QPen(style.color, 1.5),
+                                               first ? QBrush(Qt::NoBrush) : QBrush(style.color), first ? 10 : 6));
+    }
+    fitLegend(*plane_);
+}
+
+void CompareWindow::colourStreams() {
+    stylePlot(*streams_);
+    const QPen pens[] = {QPen(colours().voltage), QPen(colours().current, 1, Qt::DashLine), QPen(colours().third)};
+    for (int i = 0; i < streams_->graphCount(); ++i) streams_->graph(i)->setPen(pens[i]);
+    marks_->colour();
+    fitLegend(*streams_);
 }
 
 void CompareWindow::drawStream() {
@@ -189,8 +218,7 @@ void CompareWindow::drawStream() {
 /// Both from their own beginning; the difference below, where the second has a sample at the same time.
 void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn) {
     streams_->clearGraphs();
-    const auto shown = [&](const std::vector<double>& t, const std::vector<double>& values, const QString& name,
-                           const QPen& pen) {
+    const auto shown = [&](const std::vector<double>& t, const std::vector<double>& values, const QString& name) {
         QVector<double> x, y;
         for (const auto i : visiblePoints(values, kDrawnPoints)) {
             x << t[i] - t.front();
@@ -199,7 +227,6 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Dr
         auto* graph = streams_->addGraph();
         graph->setName(name);
         graph->setData(x, y, true);
-        graph->setPen(pen);
     };
     const auto column = [&](const SampleBlock& block) {
         std::vector<double> values(block.samples());
@@ -213,8 +240,8 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Dr
     for (const auto* values : {&va, &vb}) std::ranges::for_each(*values, [&](double v) { reach.include(v); });
     const auto unit = axisUnit(reach.magnitude(), drawn.unit);
     for (auto* values : {&va, &vb}) std::ranges::for_each(*values, [&](double& v) { v *= unit.factor; });
-    shown(a.t_s, va, tr("first"), QPen(colours().voltage));
-    shown(b.t_s, vb, tr("second"), QPen(colours().current, 1, Qt::DashLine));
+    shown(a.t_s, va, tr("first"));
+    shown(b.t_s, vb, tr("second"));
     std::vector<double> t, difference;
     std::size_t j = 0;
     for (std::size_t i = 0; i < va.size(); ++i) {
@@ -226,10 +253,9 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Dr
         t.push_back(a.t_s.front() + at);
         difference.push_back(va[i] - vb[j]);
     }
-    if (!t.empty()) shown(t, difference, tr("first less second"), QPen(colours().third));
-    stylePlot(*streams_);
+    if (!t.empty()) shown(t, difference, tr("first less second"));
     streams_->legend->setVisible(true);
-    fitLegend(*streams_);
+    colourStreams();
     streams_->xAxis->setLabel(tr("Time from the first sample (s)"));
     streams_->yAxis->setLabel(axisTitle(drawn.title, unit.unit));
     begins_s_ = {a.t_s.front(), b.t_s.front()};

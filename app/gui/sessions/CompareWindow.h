@@ -24,9 +24,19 @@ public:
     [[nodiscard]] const MarkLines& marks() const { return *marks_; }
 
 private:
+    /// The trials of a condition of one of both.
+    struct Trials {
+        QCPGraph* graph = nullptr;
+        QString condition;
+        int number = 0;  ///< of the condition
+        bool first = true;
+    };
     void drawTrials();
     void drawStream();
     void drawMarks();
+    void colour();
+    void colourTrials();
+    void colourStreams();
     /// A column of a stream that both have, and what its axis says before the prefix is known.
     struct Drawn {
         SessionStream stream;
@@ -37,6 +47,8 @@ private:
     void overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn);
     std::shared_ptr<const ReadSession> sessions_[2];
     QCustomPlot* plane_;
+    std::vector<Trials> trials_;
+    QCPItemText* noTrials_ = nullptr;  ///< says so; null where there are some
     QCustomPlot* streams_;
     QComboBox* stream_;
     std::vector<Drawn> drawn_;          // as stream_ lists them

@@ -1,7 +1,7 @@
 #include "app/gui/sessions/SessionDetails.h"
 
 #include <QHeaderView>
-#include <QSplitter>
+#include <algorithm>
 #include <map>
 
 #include "app/gui/sessions/SessionOverview.h"
@@ -14,6 +14,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
+#include "app/gui/theme/WholeRows.h"
 #include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
 #include "app/report/Reach.h"
@@ -27,6 +28,8 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kDetailPoints = 4000;
+constexpr int kPlotLines = 10;    // of text: the height of a plot that can be read
+constexpr int kLeastStreams = 2;  // rows
 
 QTableWidget* makeTable(QWidget* parent, const QString& name) {
     auto* table = new QTableWidget(parent);
@@ -38,6 +41,7 @@ QTableWidget* makeTable(QWidget* parent, const QString& name) {
     table->verticalHeader()->hide();
     table->horizontalHeader()->setHighlightSections(false);
     table->setWordWrap(false);
+    keepRowsWhole(*table);
     return table;
 }
 
@@ -46,7 +50,7 @@ using nlohmann::json;
 
 void fill(QTableWidget& table, const std::vector<RecordColumn>& columns, const json& records) {
     fillRecordTable(table, columns, records);
-    table.resizeColumnsToContents();
+    fitRecordTable(table);
 }
 
 /// A setting in words: a list one after the other, a record as "rows 3, columns 4". Never JSON.
@@ -83,6 +87,9 @@ std::map<QString, AxisUnit> axisUnitsOf(const SessionStream& stream, const Sampl
     return units;
 }
 
+/// What its columns of the stream's own unit are; its name stands above, among the streams.
+QString quantityOf(const SessionStream& stream) { return qtext(stream.unit.empty() ? stream.name : stream.kind); }
+
 std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::string("–") : writtenUnit(unit); }
 
 }  // namespace
@@ -90,7 +97,7 @@ std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::
 SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : QTabWidget(parent), limits_(limits) {
     setWhatsThis(tr("What the selected session holds. The left and right arrow keys change the page."));
     setDocumentMode(true);
-    afterLookChange(*this, [this] { fitTabs(); });
+    afterLookChange(*this, [this] { fitLook(); });
     fitTabs();
     overview_ = new SessionOverview(this);
     connect(overview_, &SessionOverview::labelsSaved, this, &SessionDetails::labelsSaved);
@@ -98,10 +105,12 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     about_ = new QTextBrowser(this);
     about_->setAccessibleName(tr("About the session"));
     trials_ = makeTable(this, tr("Trials"));
-    auto* split = new QSplitter(Qt::Vertical, this);
-    streams_ = makeTable(split, tr("Streams"));
+    split_ = new QSplitter(Qt::Vertical, this);
+    split_->setChildrenCollapsible(false);
+    connect(split_, &QSplitter::splitterMoved, this, [this] { splitByHand_ = true; });
+    streams_ = makeTable(split_, tr("Streams"));
     streams_->setObjectName("streamsTable");
-    plot_ = new QCustomPlot(split);
+    plot_ = new QCustomPlot(split_);
     plot_->setAccessibleName(tr("The chosen stream"));
     plot_->setObjectName("chosenStream");
     plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
@@ -110,19 +119,22 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     plot_->xAxis->setLabel(tr("Time (s)"));
     addPlotMenu(*plot_, "stream");
     putLegendAbove(*plot_);
+    wrapLegend(*plot_);
     watermark_ = addWatermark(*plot_->axisRect(), WatermarkPlace::InFront);
     watermark_->setVisible(false);
     marks_ = std::make_unique<MarkLines>(*plot_);
     // Dragged and zoomed: a mark's word goes with its moment.
     connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SessionDetails::drawMarks);
     colour();
-    split->addWidget(streams_);
-    split->addWidget(plot_);
+    split_->addWidget(streams_);
+    split_->addWidget(plot_);
+    split_->setStretchFactor(0, 0);
+    split_->setStretchFactor(1, 1);
     captures_ = makeTable(this, tr("Captures"));
     captures_->setToolTip(tr("Double click or Return opens a capture in the oscilloscope."));
     addTab(overview_, tr("Overview"));
     addTab(trials_, tr("Trials"));
-    addTab(split, tr("Streams"));
+    addTab(split_, tr("Streams"));
     addTab(captures_, tr("Captures"));
     addTab(about_, tr("About"));
     connect(captures_, &QTableWidget::cellActivated, this, [this] {
@@ -138,9 +150,33 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
 /// All of them in sight where there is room, by what is in sight: see fitPanes() of the workspace.
 void SessionDetails::fitTabs() { tabBar()->setUsesScrollButtons(widthInSight(*this) < tabBar()->sizeHint().width()); }
 
+/// Theme and size of text.
+void SessionDetails::fitLook() {
+    fitTabs();
+    for (auto* table : {trials_, streams_, captures_}) fitRecordTable(*table);
+    plot_->setMinimumHeight(fontMetrics().height() * kPlotLines);
+    fitStreams();
+    colour();
+    fitLegend(*plot_);
+    plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+/// All of the streams in sight where they leave the plot the larger part, else as many as have room in half.
+void SessionDetails::fitStreams() {
+    const int row = streams_->verticalHeader()->defaultSectionSize();
+    const int head = streams_->horizontalHeader()->height() + 2 * streams_->frameWidth();
+    streams_->setMinimumHeight(head + kLeastStreams * row);
+    if (splitByHand_) return;
+    const int all = split_->height() - split_->handleWidth();
+    const int rows = std::clamp((all / 2 - head) / row, kLeastStreams, std::max(kLeastStreams, streams_->rowCount()));
+    const int upper = head + rows * row;
+    split_->setSizes({upper, all - upper});
+}
+
 void SessionDetails::resizeEvent(QResizeEvent* event) {
     QTabWidget::resizeEvent(event);
     fitTabs();
+    fitStreams();
 }
 
 void SessionDetails::say(const QString& why) {
@@ -258,6 +294,7 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
           {tr("Rate"), "rate", As::Number, "S/s"}},
          captures);
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
+    fitStreams();
 }
 
 std::optional<std::int64_t> SessionDetails::chosenCapture() const {
@@ -307,7 +344,7 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         graph->setData(x, y, true);
         graph->setName(columnTitle(info.stream, c));
         const bool shared = !axis.label().isEmpty();
-        axis.setLabel(axisTitle(shared ? qtext(info.stream.name) : graph->name(), unit.unit));
+        axis.setLabel(axisTitle(shared ? quantityOf(info.stream) : graph->name(), unit.unit));
     }
     watermark_->setVisible(session_ && session_->about.simulated);
     plot_->legend->setVisible(columns > 1);
@@ -329,14 +366,6 @@ void SessionDetails::colour() {
     const QColor of[] = {colours().voltage, colours().current, colours().third, colours().amber};
     const Qt::PenStyle styles[] = {Qt::SolidLine, Qt::DashLine, Qt::DotLine};
     for (int i = 0; i < plot_->graphCount(); ++i) plot_->graph(i)->setPen(QPen(of[i % 4], 1, styles[i / 4 % 3]));
-}
-
-void SessionDetails::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange && watermark_ != nullptr) {
-        colour();
-        plot_->replot(QCustomPlot::rpQueuedReplot);
-    }
-    QTabWidget::changeEvent(event);
 }
 
 }  // namespace tacto::gui

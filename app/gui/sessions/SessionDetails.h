@@ -3,6 +3,7 @@
 // Thread-safety: the GUI thread; what is shown was read beside it.
 #pragma once
 
+#include <QSplitter>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTextBrowser>
@@ -37,7 +38,6 @@ signals:
     void labelsRefused(const QString& why);
 
 protected:
-    void changeEvent(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
 
 private:
@@ -48,11 +48,15 @@ private:
     void drawMarks();
     void colour();
     void fitTabs();
+    void fitLook();
+    void fitStreams();
     std::shared_ptr<const ReadSession> session_;
     const ShippedLimits& limits_;
     SessionOverview* overview_;
     QTextBrowser* about_;
     QTableWidget* trials_;
+    QSplitter* split_;          ///< the streams above the chosen one
+    bool splitByHand_ = false;  ///< their heights were dragged
     QTableWidget* streams_;
     QCustomPlot* plot_;
     QCPItemText* watermark_ = nullptr;

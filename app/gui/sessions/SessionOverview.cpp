@@ -11,6 +11,7 @@
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
@@ -101,7 +102,9 @@ QWidget* SessionOverview::buildHappened() {
     happened_->setObjectName("whatHappened");
     happened_->setAccessibleName(tr("What happened"));
     happened_->setTabChangesFocus(true);
-    happened_->setMinimumHeight(fontMetrics().height() * kMinMoments);
+    const auto least = [this] { happened_->setMinimumHeight(happened_->fontMetrics().height() * kMinMoments); };
+    least();
+    onFontChange(*happened_, least);
     column->addWidget(happened_, 1);
     return holder;
 }

@@ -73,7 +73,6 @@ SessionPreview::SessionPreview(QWidget* parent)
     nothing_->setWordWrap(true);
     setTone(*nothing_, Tone::Quiet);
     plane_ = new TrialPlane(stack_);
-    plane_->setMinimumHeight(fontMetrics().height() * kMinLines);
     sheet_ = new SheetView(stack_);
     course_ = new QCustomPlot(stack_);
     course_->setObjectName("course");
@@ -81,7 +80,6 @@ SessionPreview::SessionPreview(QWidget* parent)
     course_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
     course_->axisRect()->setRangeZoom(Qt::Horizontal);
     course_->axisRect()->setRangeDrag(Qt::Horizontal);
-    course_->setMinimumHeight(fontMetrics().height() * kMinLines);
     putLegendAbove(*course_);
     addPlotMenu(*course_, "session");
     watermark_ = addWatermark(*course_->axisRect());
@@ -91,6 +89,12 @@ SessionPreview::SessionPreview(QWidget* parent)
     for (auto* page : std::initializer_list<QWidget*>{nothing_, plane_, sheet_, course_}) stack_->addWidget(page);
     clear();
     onLookChange(*this, [this] { colour(); });
+    const auto least = [this] {
+        for (auto* plot : std::initializer_list<QCustomPlot*>{plane_, course_})
+            plot->setMinimumHeight(fontMetrics().height() * kMinLines);
+    };
+    least();
+    onFontChange(*this, least);
 }
 
 void SessionPreview::clear() {

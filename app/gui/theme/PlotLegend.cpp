@@ -1,12 +1,37 @@
 #include "app/gui/theme/PlotLegend.h"
 
+#include <memory>
+#include <tuple>
+#include <utility>
+
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
+
 constexpr int kBelow = 6;  // the axes stand close under it
+
+/// A grid keeps its cells where they were: they are put in again.
+void setWrap(QCustomPlot& plot, int columns) {
+    auto* legend = plot.legend;
+    if (legend->wrap() == columns) return;
+    legend->setWrap(columns);
+    for (int i = 0; i < plot.plottableCount(); ++i) plot.plottable(i)->removeFromLegend();
+    for (int i = 0; i < plot.plottableCount(); ++i) plot.plottable(i)->addToLegend();
+    fitLegend(plot);
 }
+
+void fitRows(QCustomPlot& plot) {
+    auto* legend = plot.legend;
+    const int entries = legend->itemCount();
+    for (int rows = 1; rows <= entries; ++rows) {
+        setWrap(plot, rows == 1 ? 0 : (entries + rows - 1) / rows);
+        if (legend->minimumOuterSizeHint().width() <= plot.width()) return;
+    }
+}
+
+}  // namespace
 
 void putLegendAbove(QCustomPlot& plot) {
     auto* legend = plot.legend;
@@ -42,6 +67,17 @@ void fitLegend(QCustomPlot& plot) {
     // One that is hidden leaves its line to the axes.
     legend->setMinimumSize(legend->visible() ? QSize(0, 0) : QSize(1, 1));
     legend->setMaximumSize(legend->visible() ? legend->minimumOuterSizeHint() : QSize(1, 1));
+}
+
+void wrapLegend(QCustomPlot& plot) {
+    using Fitted = std::tuple<int, int, QFont>;
+    const auto fitted = std::make_shared<Fitted>();
+    QObject::connect(&plot, &QCustomPlot::beforeReplot, &plot, [&plot, fitted] {
+        const auto* legend = plot.legend;
+        if (!legend->visible()) return;
+        const Fitted now(plot.width(), legend->itemCount(), legend->font());
+        if (std::exchange(*fitted, now) != now) fitRows(plot);
+    });
 }
 
 void drawLineIcon(QCPPainter& painter, const QRectF& icon, const QPen& pen) {

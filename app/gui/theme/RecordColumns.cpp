@@ -22,7 +22,7 @@ using As = RecordColumn::As;
 constexpr double kOnePrefix = 1e4;        // numbers further apart than this have a prefix each
 constexpr double kOnePrefixWithU = 1000;  // and those with all the decimals of an uncertainty
 constexpr int kDigits = 4, kSpreadDigits = 2;
-constexpr int kHeaderPad = 10;
+constexpr int kHeaderPad = 10, kRow = 30;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
 constexpr int kMinText = 10;      // and where numbers need the room
 constexpr int kMinTextTight = 6;  // and where the table stands in less than that of a small window
@@ -280,6 +280,12 @@ void fillRecordTable(QTableWidget& table, const std::vector<RecordColumn>& colum
         }
     }
     fitHeader(table);
+}
+
+void fitRecordTable(QTableWidget& table) {
+    fitHeader(table);
+    table.verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
+    table.resizeColumnsToContents();
 }
 
 QTableWidget* makeRecordTable(const std::vector<RecordColumn>& columns, const json& records, QWidget* parent) {

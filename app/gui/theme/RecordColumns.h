@@ -43,6 +43,8 @@ struct ColumnText {
                                             QWidget* parent);
 /// Headers and cells of a table that scrolls in its own place and has other rows now.
 void fillRecordTable(QTableWidget& table, const std::vector<RecordColumn>& columns, const nlohmann::json& records);
+/// Makes header, rows and columns of such a table as large as what is in them, in the current size of text.
+void fitRecordTable(QTableWidget& table);
 /// The same room for a table that is filled by hand, with putText(). `room_px`: no more than it has where it stands.
 void layOutRecordTable(QTableWidget& table, int room_px = QWIDGETSIZE_MAX);
 void putText(QTableWidget& table, int row, int column, const QString& text, bool right);

@@ -1,9 +1,12 @@
 // The walk of looks finds a fault that is put there, and accepts what is sound.
+#include <QComboBox>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPlainTextEdit>
 #include <QScrollArea>
 #include <QSpinBox>
+#include <QTabBar>
 #include <QTableWidget>
 #include <QTest>
 #include <QVBoxLayout>
@@ -13,6 +16,7 @@
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/ShownText.h"
+#include "tests/gui/HeightLooks.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/PlotLooks.h"
@@ -208,6 +212,88 @@ TEST_F(WalkOfLooks, FindsFieldsWithoutRoom) {
     spin->setFixedWidth(80);
     letLive(20);
     EXPECT_EQ(cutFields(window).size(), 1);
+}
+
+TEST_F(WalkOfLooks, FindsTextThatIsHigherThanItsPlace) {
+    auto* table = new QTableWidget(1, 1, &window);
+    table->setItem(0, 0, new QTableWidgetItem("a cell"));
+    auto* edit = new QLineEdit("a field", &window);
+    auto* box = new QComboBox(&window);
+    box->addItem("a choice");
+    auto* label = new gui::ElidedLabel("a line", &window);
+    auto* tabs = new QTabBar(&window);
+    tabs->addTab("a tab");
+    auto* text = new QPlainTextEdit("a text", &window);
+    for (QWidget* each : std::initializer_list<QWidget*>{table, edit, box, label, tabs, text}) layout.addWidget(each);
+    window.resize(480, 600);
+    show();
+    EXPECT_EQ(lowTexts(window).join('\n').toStdString(), "");
+    const auto expectFound = [this](const char* what) {
+        letLive(20);
+        const auto found = lowTexts(window);
+        EXPECT_EQ(found.size(), 1) << what << ": " << found.join('\n').toStdString();
+        EXPECT_TRUE(found.join('\n').contains(what)) << found.join('\n').toStdString();
+    };
+    table->verticalHeader()->hide();
+    table->verticalHeader()->setMinimumSectionSize(4);
+    const int rowHigh = table->rowHeight(0);
+    table->setRowHeight(0, 8);
+    expectFound("a cell");
+    table->setRowHeight(0, rowHigh);
+    const std::pair<QWidget*, const char*> others[] = {{edit, "a field"}, {box, "a choice"}, {label, "a line"},
+                                                       {tabs, "a tab"},   {text, "a line"},  {table, "a row"}};
+    for (const auto& [widget, what] : others) {
+        const int least = widget->minimumHeight(), most = widget->maximumHeight();
+        widget->setFixedHeight(widget == table ? table->horizontalHeader()->height() + 10 : 9);
+        expectFound(what);
+        widget->setMinimumHeight(least);
+        widget->setMaximumHeight(most);
+    }
+    letLive(20);
+    EXPECT_EQ(lowTexts(window).join('\n').toStdString(), "");
+}
+
+TEST_F(WalkOfLooks, FindsRowsThatAnEdgeCutsWithoutAScrollBar) {
+    auto* list = new QTableWidget(8, 1, &window);
+    for (int row = 0; row < 8; ++row) list->setItem(row, 0, new QTableWidgetItem("a row"));
+    layout.addWidget(list);
+    show();
+    list->setFixedHeight(list->horizontalHeader()->height() + 2 * list->frameWidth() + 5 * list->rowHeight(0) / 2);
+    letLive(20);
+    EXPECT_EQ(cutBelow(window).join('\n').toStdString(), "") << "its scroll bar leads there";
+    list->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    letLive(20);
+    EXPECT_EQ(cutBelow(window).size(), 2) << "half a row, and what lies below it";
+    list->setFixedHeight(list->height() + 8 * list->rowHeight(0));
+    window.resize(480, list->height() + 40);
+    letLive(20);
+    EXPECT_EQ(cutBelow(window).join('\n').toStdString(), "") << "all have room";
+}
+
+TEST_F(WalkOfLooks, FindsWordsThatAPageCutsWithoutAScrollBar) {
+    auto* area = new QScrollArea(&window);
+    auto* page = new QWidget;
+    auto* column = new QVBoxLayout(page);
+    auto* above = new QWidget(page);
+    above->setFixedHeight(40);
+    auto* words = new QLabel("some words", page);
+    words->setFixedHeight(30);
+    column->addWidget(above);
+    column->addWidget(words);
+    column->addStretch();
+    area->setWidgetResizable(true);
+    area->setWidget(page);
+    layout.addWidget(area);
+    show();
+    EXPECT_EQ(cutBelow(window).join('\n').toStdString(), "");
+    area->setFixedHeight(words->y() + 15);
+    letLive(20);
+    EXPECT_EQ(cutBelow(window).join('\n').toStdString(), "") << "its scroll bar leads there";
+    area->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    letLive(20);
+    EXPECT_EQ(cutBelow(window).size(), 2) << cutBelow(window).join('\n').toStdString();
+    page->setMask(QRect(0, 0, page->width(), words->y()));
+    EXPECT_EQ(cutBelow(window).size(), 1) << "its part is left out, and still no scroll bar leads there";
 }
 
 TEST_F(WalkOfLooks, FindsElidedWordsThatNoToolTipTells) {

@@ -120,18 +120,6 @@ protected:
         const auto isOff = [this] { return state() == InterlockState::Faulted || state() == InterlockState::Disarmed; };
         return comesTrue([&] { return isSo() || isOff(); }, limit_ms) && !isOff();
     }
-    void runsToItsEnd() {
-        QPushButton* run = nullptr;
-        ASSERT_IN_TIME(comesTrue([&] {
-            run = find<QPushButton>(window, "runButton");
-            return run != nullptr && run->isEnabled();
-        }));
-        bool over = false;
-        QObject::connect(&window.controller(), &gui::BenchController::finished, &window, [&] { over = true; });
-        click(*run);
-        ASSERT_IN_TIME(comesTrue([&] { return over; }, 120'000));
-        ASSERT_IN_TIME(comesTrue([&] { return find<QLabel>(window, "verdict") != nullptr; }));
-    }
 
 private:
     OwnDataHome home_;

@@ -88,6 +88,21 @@ protected:
         window.controller().drive(DriveSource::Manual, 0.5, 1);
         ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
     }
+    /// The procedure of the workspace that is shown, from its Run button to its verdict.
+    void runsToItsEnd() {
+        QPushButton* run = nullptr;
+        ASSERT_IN_TIME(comesTrue([&] {
+            run = find<QPushButton>(window, "runButton");
+            return run != nullptr && run->isEnabled();
+        }));
+        const auto over = std::make_shared<bool>(false);
+        QObject::connect(
+            &window.controller(), &gui::BenchController::finished, run, [over] { *over = true; },
+            Qt::SingleShotConnection);
+        click(*run);
+        ASSERT_IN_TIME(comesTrue([&] { return *over; }, 120'000));
+        ASSERT_IN_TIME(comesTrue([&] { return find<QLabel>(window, "verdict") != nullptr; }));
+    }
     /// What is visible and asks for much of a small window's width, a line each.
     [[nodiscard]] std::string wide() const {
         std::string all;

@@ -1,0 +1,47 @@
+// ShownWidgets.h - what of a window is shown, as a walk of its looks goes through it: widgets, views, cells.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QAbstractItemView>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QTreeView>
+#include <algorithm>
+
+namespace tacto::test {
+
+template <class T, class Follow>
+void forEachShown(const QWidget& in, Follow follow) {
+    for (auto* widget : in.findChildren<T*>())
+        if (widget->isVisible() && widget->window() == in.window()) follow(*widget);
+}
+
+template <class Follow>
+void forEachCell(const QAbstractItemView& view, const QModelIndex& parent, Follow follow) {
+    const auto* model = view.model();
+    constexpr int kRows = 500;  // more are not in sight
+    for (int row = 0; row < std::min(model->rowCount(parent), kRows); ++row) {
+        for (int column = 0; column < model->columnCount(parent); ++column) follow(model->index(row, column, parent));
+        const auto first = model->index(row, 0, parent);
+        const auto* tree = qobject_cast<const QTreeView*>(&view);
+        if (tree != nullptr && tree->isExpanded(first)) forEachCell(view, first, follow);
+    }
+}
+
+/// Views that show cells; a header is part of one.
+template <class Follow>
+void forEachView(const QWidget& in, Follow follow) {
+    forEachShown<QAbstractItemView>(in, [&](const QAbstractItemView& view) {
+        if (qobject_cast<const QHeaderView*>(&view) == nullptr && view.model() != nullptr) follow(view);
+    });
+}
+
+/// "QTableWidget in QWidget sessionsPage": its class and name, or where it stands.
+[[nodiscard]] QString called(const QWidget& widget);
+/// "a text" in …: 12 of 17 px.
+[[nodiscard]] QString cutOf(const QString& what, const QWidget& at, int has, int needs);
+/// Without frame, margins and buttons.
+[[nodiscard]] QSize roomForText(const QLineEdit& edit);
+
+}  // namespace tacto::test

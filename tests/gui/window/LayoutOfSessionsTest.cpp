@@ -1,0 +1,152 @@
+// The pages of a session and the comparison of two, in a small window and in large text: no text is cut, nothing lies
+// over anything else, and no page scrolls sideways.
+#include <QTabWidget>
+#include <QTableView>
+#include <QTableWidget>
+#include <gmock/gmock.h>
+#include <qcustomplot.h>
+
+#include "app/gui/runner/StepButton.h"
+#include "app/gui/sessions/CompareWindow.h"
+#include "app/gui/sessions/SessionDetails.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/OwnDataHome.h"
+#include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
+
+namespace tacto::test {
+namespace {
+
+class LayoutOfSessions : private OwnDataHome, public Window {
+protected:
+    ~LayoutOfSessions() override {
+        gui::applyTextSize(100);
+        gui::applyTheme(gui::Theme::Light);
+    }
+    void run() {
+        window.showWorkspace(3);
+        runsToItsEnd();
+    }
+    /// The bench live under the finger and delivering, with a mark.
+    void recordLive() {
+        ASSERT_NO_FATAL_FAILURE(open());
+        window.controller().present("P120", 50, 1);
+        ASSERT_NO_FATAL_FAILURE(arm());
+        ASSERT_NO_FATAL_FAILURE(deliver());
+        ASSERT_IN_TIME(comesTrue([this] { return window.controller().telemetry().trainsDelivered >= 3; }));
+        EXPECT_TRUE(window.controller().markMoment(window.controller().telemetry().at, "table bumped"));
+        window.controller().close();
+        ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
+    }
+    void choose(int row, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+        auto& table = *window.findChild<QTableView*>("sessionsTable");
+        ASSERT_IN_TIME(comesTrue([&] { return table.model()->rowCount() > row; }));
+        QTest::mouseClick(table.viewport(), Qt::LeftButton, modifiers,
+                          table.visualRect(table.model()->index(row, 0)).center());
+    }
+    /// Each of the pages in both themes and sizes of text, `frame` as large as a small screen has room for it.
+    void walk(QTabWidget& pages, QWidget& frame, const QSize& size, const QString& name) {
+        for (const int percent : {100, 200}) {
+            gui::applyTextSize(percent);
+            for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+                gui::applyTheme(theme);
+                frame.resize(size);
+                for (int page = 0; page < pages.count(); ++page) {
+                    pages.setCurrentIndex(page);
+                    static_cast<void>(comesTrue([&] { return faultsOf(frame).empty(); }, 2000));
+                    const auto at = QString("%1-%2-%3-%4")
+                                        .arg(name, pages.tabText(page).remove('&').section(' ', 0, 0).toLower(),
+                                             theme == gui::Theme::Dark ? "dark" : "light")
+                                        .arg(percent);
+                    shot(frame, at);
+                    shot(pages, at + "-whole");  // a page that scrolls shows a part of them
+                    EXPECT_EQ(faultsOf(frame), "") << at.toStdString();
+                    EXPECT_LE(frame.width(), size.width()) << at.toStdString();
+                    EXPECT_LE(frame.height(), size.height()) << at.toStdString();
+                }
+            }
+        }
+        gui::applyTextSize(100);
+        gui::applyTheme(gui::Theme::Light);
+    }
+    [[nodiscard]] gui::SessionDetails& details() { return *window.findChild<gui::SessionDetails*>(); }
+    [[nodiscard]] QTableWidget& tableOf(const char* name) { return *find<QTableWidget>(details(), name); }
+};
+
+TEST_F(LayoutOfSessions, EachPageOfARunIsReadWhole) {
+    ASSERT_NO_FATAL_FAILURE(run());
+    window.showWorkspace(5);
+    ASSERT_NO_FATAL_FAILURE(choose(0));
+    const auto tables = details().findChildren<QTableWidget*>();
+    const auto filled = [&] {
+        return std::ranges::all_of(tables, [](const auto* table) { return table->rowCount() > 0; });
+    };
+    ASSERT_IN_TIME(comesTrue(filled)) << "trials, streams and captures";
+    ASSERT_NO_FATAL_FAILURE(walk(details(), window, {1280, 720}, "session-run"));
+}
+
+TEST_F(LayoutOfSessions, EachStreamOfALiveSessionIsReadWhole) {
+    ASSERT_NO_FATAL_FAILURE(recordLive());
+    window.showWorkspace(5);
+    ASSERT_NO_FATAL_FAILURE(choose(0));
+    auto& streams = *details().findChild<QTableWidget*>("streamsTable");
+    ASSERT_IN_TIME(comesTrue([&] { return streams.rowCount() > 2; }));
+    const auto* plot = details().findChild<QCustomPlot*>("chosenStream");
+    for (int row = 0; row < streams.rowCount(); ++row) {
+        details().setCurrentIndex(2);
+        ASSERT_IN_TIME(comesTrue([&] {
+            if (streams.currentRow() != row) streams.setCurrentCell(row, 0);  // a list that is read again fills it anew
+            return plot->graphCount() > 0;
+        })) << row;
+        for (const int percent : {100, 200}) {
+            gui::applyTextSize(percent);
+            window.resize(1280, 720);
+            static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 2000));
+            const auto at = QString("session-stream-%1-%2").arg(row).arg(percent);
+            shot(window, at);
+            EXPECT_EQ(faultsOf(window), "") << at.toStdString();
+        }
+    }
+    gui::applyTextSize(100);
+    streams.setCurrentCell(0, 0);
+    ASSERT_NO_FATAL_FAILURE(walk(details(), window, {1280, 720}, "session-live"));
+}
+
+TEST_F(LayoutOfSessions, TheComparisonOfTwoIsReadWhole) {
+    ASSERT_NO_FATAL_FAILURE(run());
+    click(*find<gui::StepButton>(window, "Settings"));
+    for (const auto& [field, value] : {std::pair("repeats", "12"), std::pair("load", "2200")}) {
+        auto* line = find<QLineEdit>(window, field);
+        ASSERT_NE(line, nullptr) << field;
+        line->setText(value);
+    }
+    ASSERT_NO_FATAL_FAILURE(run());
+    window.resize(1280, 720);
+    window.showWorkspace(5);
+    ASSERT_NO_FATAL_FAILURE(choose(0));
+    ASSERT_NO_FATAL_FAILURE(choose(1, Qt::ControlModifier));
+    auto* compare = find<QPushButton>(window, "Compare two");
+    ASSERT_NE(compare, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return compare->isEnabled(); }));
+    shot(window, "two-chosen");
+    EXPECT_EQ(faultsOf(window), "");
+    click(*compare);
+    gui::CompareWindow* both = nullptr;
+    ASSERT_IN_TIME(comesTrue([&] {
+        both = window.findChild<gui::CompareWindow*>();
+        return both != nullptr && both->isVisible();
+    }));
+    auto& pages = *both->findChild<QTabWidget*>();
+    ASSERT_EQ(pages.count(), 3);
+    const auto drawn = [&] {
+        return std::ranges::all_of(both->findChildren<QCustomPlot*>(),
+                                   [](const auto* plot) { return plot->graphCount() >= 2; });
+    };
+    ASSERT_IN_TIME(comesTrue(drawn)) << "trials and a stream of both";
+    ASSERT_NO_FATAL_FAILURE(walk(pages, *both, {1200, 560}, "compare"));  // below the safety bar of a small screen
+    both->close();
+}
+
+}  // namespace
+}  // namespace tacto::test
