@@ -264,7 +264,7 @@ void alignPoints(QStringList& cells) {
     }
 }
 
-QString visible(QString text) {
+QString visible(const QString& text) {
     auto codes = text.toUcs4();
     for (auto& code : codes) {
         const bool movesCursor = isControl(code) && code != '\n' && code != '\t';

@@ -81,7 +81,7 @@ void alignPoints(QStringList& cells);
 
 /// `text` with every character that moves a cursor, turns the reading direction or cannot be seen as U+FFFD: what a
 /// script, a file or a device said never reaches a reader's terminal or page as a command.
-[[nodiscard]] QString visible(QString text);
+[[nodiscard]] QString visible(const QString& text);
 /// A table's cell: a number, text, flag, statistic or estimate; null is "–".
 [[nodiscard]] QString cellText(const QJsonValue& value, const QString& unit);
 

@@ -187,7 +187,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         order.ownLoad = observer->settings().who.skin.text();
         std::vector<std::string> names;
         for (const auto& each : made->settings_.conditions) names.push_back(each.name);
-        made->virtual_ = std::make_unique<VirtualPilotParticipant>(std::move(*observer), std::move(names));
+        made->virtual_ = std::make_unique<VirtualPilotParticipant>(*observer, std::move(names));
         truth = &made->virtual_->observer();
         if (people == nullptr) people = made->virtual_.get();
     }

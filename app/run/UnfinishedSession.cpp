@@ -6,7 +6,7 @@
 
 namespace tacto {
 
-Result<UnfinishedSession> UnfinishedSession::choose(const Study& study, const Participant& who, Choice choice) {
+Result<UnfinishedSession> UnfinishedSession::choose(const Study& study, const Participant& who, const Choice& choice) {
     UnfinishedSession made;
     made.code_ = who.code;
     made.inWindow_ = choice.inWindow;

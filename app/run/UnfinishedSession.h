@@ -27,7 +27,8 @@ public:
     UnfinishedSession() = default;
     /// Nothing is changed. Errors: NotFound where neither end nor resume is wanted, and for another protocol;
     /// kGateRefused for one that was interrupted too long ago, and as Study::stillApproved(); as pilotRows().
-    [[nodiscard]] static Result<UnfinishedSession> choose(const Study& study, const Participant& who, Choice choice);
+    [[nodiscard]] static Result<UnfinishedSession> choose(const Study& study, const Participant& who,
+                                                          const Choice& choice);
 
     /// The session that goes on; nothing where a new one begins.
     [[nodiscard]] const std::optional<StudySession>& continued() const noexcept { return continued_; }

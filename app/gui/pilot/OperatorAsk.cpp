@@ -79,7 +79,7 @@ void OperatorAsk::press(int choice) {
     choices[choice - 1]->click();
 }
 
-void OperatorAsk::give(PilotAnswer answer) {
+void OperatorAsk::give(const PilotAnswer& answer) {
     const auto id = id_;
     close();
     emit answered(id, answer);

@@ -30,7 +30,7 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    void give(PilotAnswer answer);
+    void give(const PilotAnswer& answer);
     void addChoices(const PilotPrompt& prompt);
     void addSeveral(const PilotPrompt& prompt);
     void addLine(const PilotPrompt& prompt);

@@ -268,7 +268,7 @@ void ParameterForm::setKnown(std::set<std::string> names) {
 bool ParameterForm::lacks(const Field& field) const {
     if (field.parameter.needed.empty() || known_.contains(field.parameter.name)) return false;
     const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
-    return value && (*value == 0 || *value == "");
+    return value && (*value == 0 || (value->is_string() && value->get_ref<const std::string&>().empty()));
 }
 
 QString ParameterForm::unanswered() const {

@@ -41,13 +41,13 @@ void ReportPrinter::offer(QMenu& menu, const QString& pdf) {
             auto printer = std::make_shared<QPrinter>(QPrinterInfo::printerInfo(name), QPrinter::HighResolution);
             printer->setPageSize(QPageSize(QPageSize::A4));
             printer->setDocName(QFileInfo(pdf).completeBaseName());
-            print(pdf, std::move(printer));
+            print(pdf, printer);
         });
     }
     if (menu.isEmpty()) menu.addAction(tr("No printer is set up on this computer."))->setEnabled(false);
 }
 
-void ReportPrinter::print(const QString& pdf, std::shared_ptr<QPrinter> printer) {
+void ReportPrinter::print(const QString& pdf, const std::shared_ptr<QPrinter>& printer) {
     const auto tell = [this](const QString& what) {
         QMetaObject::invokeMethod(
             this, [this, what] { emit said(what); }, Qt::QueuedConnection);

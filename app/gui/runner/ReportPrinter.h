@@ -22,7 +22,7 @@ public:
     /// An entry for each printer, which prints all pages there; or a sentence that there is none.
     void offer(QMenu& menu, const QString& pdf);
     /// The pages that `printer` is set to, of the report in `pdf`. After what is being printed.
-    void print(const QString& pdf, std::shared_ptr<QPrinter> printer);
+    void print(const QString& pdf, const std::shared_ptr<QPrinter>& printer);
 
 signals:
     /// How far it is, that it is done, or why not: a sentence.

@@ -161,8 +161,9 @@ void EnvelopeGraph::fillTall(QCPPainter& painter, const Screen& screen) {
         canvas_ = QImage(blocks * kBlock, height, QImage::Format_ARGB32_Premultiplied);
     }
     constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
-    tops_.assign(static_cast<std::size_t>(blocks * kBlock), kNone);
-    bottoms_.assign(static_cast<std::size_t>(blocks * kBlock), -1);
+    const auto columns = static_cast<std::size_t>(canvas_.width());
+    tops_.assign(columns, kNone);
+    bottoms_.assign(columns, -1);
     int top = height, bottom = -1;
     // One vertical a column goes into the image; flat lines and what shares a column with another stay lines.
     lines_.removeIf([&](const QLineF& line) {

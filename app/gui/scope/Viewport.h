@@ -47,7 +47,7 @@ struct Viewport {
 [[nodiscard]] double leastPerDivision(double rate_hz);
 /// `steps` along the ladder, not below `least_s` a division; what stands at `anchor_s` stays there. Steps above 0 show
 /// more time.
-[[nodiscard]] Viewport zoomedInTime(Viewport view, int steps, double anchor_s, double least_s = 0);
+[[nodiscard]] Viewport zoomedInTime(const Viewport& view, int steps, double anchor_s, double least_s = 0);
 /// Another time base; what stands at `anchor_s` stays there.
 [[nodiscard]] Viewport withTimeBase(Viewport view, double perDivision_s, double anchor_s);
 /// from..to and nothing else, from edge to edge; more around its middle where that is below `least_s` a division.

@@ -181,7 +181,8 @@ private:
                                               : column.title.toLower();
             const auto named = name.isEmpty() ? part : name + ", " + part;
             ++index;
-            const auto where = place + "/" + key;
+            auto where = place;
+            where.append("/").append(key);
             if (value.is_structured())
                 leavesOf(value, where, named, into);
             else

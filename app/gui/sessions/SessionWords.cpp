@@ -123,8 +123,7 @@ QString momentText(const ReadSession& session, Instant at) {
     const auto start = QDateTime::fromString(qtext(about.wallStart), Qt::ISODate);
     if (!about.virtualClock && start.isValid())
         return start.addMSecs(qint64(toSeconds(at - about.wallStartAt) * 1e3)).toLocalTime().toString("HH:mm:ss");
-    const double s = std::max(0.0, toSeconds(at));
-    return QString("%1:%2").arg(int(s) / 60).arg(s - 60 * (int(s) / 60), 4, 'f', 1, QChar('0'));
+    return minutesText(std::max(0.0, toSeconds(at)));
 }
 
 QString beginning(const ReadSession& session) {

@@ -35,7 +35,7 @@ ProtocolParameter scoreField(const char* name, const QString& label, std::span<c
 ProtocolParameter sessionField(const Study& study, const QString& code) {
     auto made = dialogField("session", QObject::tr("Session"), ParameterType::Choice, {});
     made.needed = QObject::tr("it belongs to nothing").toStdString();
-    std::string last;
+    std::string chosen, last;
     for (const auto& each : study.sessions()) {
         const auto begun = QDateTime::fromSecsSinceEpoch(each.parts.front().begun.time_since_epoch().count());
         const auto who = each.code.empty() ? QObject::tr("withdrawn") : qtext(each.code);
@@ -45,14 +45,15 @@ ProtocolParameter sessionField(const Study& study, const QString& code) {
                                                .arg(begun.toString("yyyy-MM-dd HH:mm"))
                                                .toStdString());
         last = each.id;
-        if (!code.isEmpty() && qtext(each.code) == code) made.value = each.id;
+        if (!code.isEmpty() && qtext(each.code) == code) chosen = each.id;
     }
     if (made.choices.empty()) made.choices.emplace_back("", QObject::tr("no session was begun").toStdString());
-    if (made.value == "" && code.isEmpty()) made.value = last;
-    if (made.value == "" && made.choices.front().first != "") {
+    if (chosen.empty() && code.isEmpty()) chosen = last;
+    if (chosen.empty() && !made.choices.front().first.empty()) {
         const auto none = QObject::tr("to be chosen: %1 has no session").arg(code).toStdString();
         made.choices.insert(made.choices.begin(), {"", none});
     }
+    made.value = chosen;
     return made;
 }
 

@@ -6,6 +6,7 @@
 #include <QObject>
 #include <QRegularExpression>
 #include <QString>
+#include <cmath>
 #include <string_view>
 
 #include "app/report/ShownText.h"
@@ -26,6 +27,12 @@ namespace tacto::gui {
 [[nodiscard]] inline QString decimalText(double value, int decimals, const QString& unit = {}) {
     const auto number = qtext(tacto::decimalText(value, decimals)).replace('-', QChar(0x2212));
     return unit.isEmpty() ? number : number + QChar(0x202f) + unit;
+}
+
+/// "1:02.3" of 62.3 s: minutes and seconds.
+[[nodiscard]] inline QString minutesText(double seconds) {
+    const auto tenths = std::llround(seconds * 10);
+    return QString("%1:%2").arg(tenths / 600).arg(static_cast<double>(tenths % 600) / 10, 4, 'f', 1, QChar('0'));
 }
 
 /// A protocol's name for people: "Encoding comparison" of "encoding-comparison"; "Live" of none. Sessions store the

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/run/RunNotes.h"
@@ -19,11 +20,6 @@ namespace {
 constexpr int kMarkGap = 8;
 constexpr int kMarkIcon = 16;
 constexpr int kMarkChars = 80;
-
-QString momentOf(Instant at) {
-    const double s = toSeconds(at);
-    return QString("%1:%2").arg(int(s) / 60).arg(s - 60 * (int(s) / 60), 4, 'f', 1, QChar('0'));
-}
 
 }  // namespace
 
@@ -75,7 +71,7 @@ void MarkLine::begin() {
     }
     at_ = at;
     session_ = open->session;
-    when_->setText(tr("Mark at %1").arg(momentOf(at_)));
+    when_->setText(tr("Mark at %1").arg(minutesText(toSeconds(at_))));
     word_->clear();
     focusBefore_ = QApplication::focusWidget();
     lieDown();
@@ -94,7 +90,7 @@ void MarkLine::finish() {
         emit refused(tr("“%1” was not marked: its recording has ended").arg(word));
         return;
     }
-    line_.say(tr("Marked at %1: %2").arg(momentOf(at_), word));
+    line_.say(tr("Marked at %1: %2").arg(minutesText(toSeconds(at_)), word));
 }
 
 /// The keys that follow are meant for what had them before: there Space stops again.
