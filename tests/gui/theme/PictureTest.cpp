@@ -74,6 +74,16 @@ TEST_F(Picture, IsOfItsMomentAndSaysWhatItShows) {
     EXPECT_EQ(QImage(folder.filePath("a.png")).size(), then.size());
 }
 
+TEST_F(Picture, ASentenceThatIsWiderGoesOnInAnotherLine) {
+    const QString sentence(
+        "Known limit of R: on the public sliding data tried so far its features are repeatable and specific to a "
+        "material, but do not by themselves rank felt roughness.");
+    gui::captionPictures(plot, [&] { return gui::PictureCaption{"Trials", {}, {sentence}}; });
+    const auto drawing = saved(plot, "c.svg");
+    for (const auto& word : sentence.split(' ')) EXPECT_THAT(drawing, HasSubstr(word.toStdString()));
+    EXPECT_THAT(drawing, testing::Not(HasSubstr("…")));
+}
+
 TEST_F(Picture, OfAWidgetIsADrawingToo) {
     QLabel words("Peak voltage");
     words.resize(200, 40);
