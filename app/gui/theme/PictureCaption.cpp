@@ -93,10 +93,12 @@ QString deviceNames(const std::vector<SessionDevice>& devices) {
 QString axesText(const QCustomPlot& plot) {
     QStringList parts;
     for (const auto* axes : plot.axisRects()) {
-        for (const auto* axis : axes->axes()) {
-            if (!axis->visible() || axis->label().isEmpty()) continue;
-            parts << QObject::tr("%1 %2 to %3")
-                         .arg(axis->label(), boundText(axis->range().lower), boundText(axis->range().upper));
+        for (const auto side : {QCPAxis::atBottom, QCPAxis::atLeft, QCPAxis::atRight}) {
+            for (const auto* axis : axes->axes(side)) {
+                if (!axis->visible() || axis->label().isEmpty()) continue;
+                parts << QObject::tr("%1 %2 to %3")
+                             .arg(axis->label(), boundText(axis->range().lower), boundText(axis->range().upper));
+            }
         }
     }
     return parts.join(QStringLiteral(" · "));
