@@ -16,17 +16,34 @@ constexpr int kAxisDigits = 4;
 
 QFont titleFont() { return textFont(TextSize::Large, QFont::DemiBold); }
 
-/// Parts of a line that belong together stay so: it goes on in another where one ends.
+/// Parts of a line that belong together; the words of one that is wider than `width`.
+QStringList partsOf(const QString& line, const QFontMetrics& metrics, int width) {
+    static const QRegularExpression kBetween(QStringLiteral("(?<=   |\\s·\\s)(?=\\S)")),
+        kWord(QStringLiteral("(?<= )(?=\\S)"));
+    QStringList parts;
+    for (const auto& part : line.split(kBetween)) {
+        if (metrics.horizontalAdvance(part.trimmed()) <= width)
+            parts << part;
+        else
+            parts << part.split(kWord);
+    }
+    return parts;
+}
+
+/// A line that has no room goes on in another, indented, where one of its parts ends.
 QStringList wrapped(const QString& line, const QFontMetrics& metrics, int width) {
-    static const QRegularExpression kBetween(QStringLiteral("(?<=   |\\s·\\s)(?=\\S)"));
+    static const QString kIndent(6, ' ');
+    static const QRegularExpression kSpaceAtEnd(QStringLiteral("\\s+$"));
     QStringList lines;
     QString now;
-    for (const auto& part : line.split(kBetween)) {
-        if (!now.isEmpty() && metrics.horizontalAdvance((now + part).trimmed()) > width) {
-            lines << now;
-            now = QStringLiteral("      ");  // what goes on is indented
+    for (const auto& part : partsOf(line, metrics, width - metrics.horizontalAdvance(kIndent))) {
+        const auto longer = now + part;
+        if (!now.trimmed().isEmpty() && metrics.horizontalAdvance(QString(longer).remove(kSpaceAtEnd)) > width) {
+            lines << now.remove(kSpaceAtEnd);
+            now = kIndent + part;
+        } else {
+            now = longer;
         }
-        now += part;
     }
     return lines << now;
 }
@@ -76,10 +93,12 @@ QString deviceNames(const std::vector<SessionDevice>& devices) {
 QString axesText(const QCustomPlot& plot) {
     QStringList parts;
     for (const auto* axes : plot.axisRects()) {
-        for (const auto* axis : axes->axes()) {
-            if (!axis->visible() || axis->label().isEmpty()) continue;
-            parts << QObject::tr("%1 %2 to %3")
-                         .arg(axis->label(), boundText(axis->range().lower), boundText(axis->range().upper));
+        for (const auto side : {QCPAxis::atBottom, QCPAxis::atLeft, QCPAxis::atRight}) {
+            for (const auto* axis : axes->axes(side)) {
+                if (!axis->visible() || axis->label().isEmpty()) continue;
+                parts << QObject::tr("%1 %2 to %3")
+                             .arg(axis->label(), boundText(axis->range().lower), boundText(axis->range().upper));
+            }
         }
     }
     return parts.join(QStringLiteral(" · "));

@@ -25,6 +25,7 @@ protected:
         gui::applyTheme(gui::Theme::Light);
         plot.resize(400, 300);
         plot.xAxis->setLabel("Interval (s)");
+        plot.yAxis->setLabel("Amplitude (V)");
         plot.addGraph();
         draw(1);
     }
@@ -65,13 +66,23 @@ TEST_F(Picture, IsOfItsMomentAndSaysWhatItShows) {
     EXPECT_GT(then.height(), bare.height() + 100) << "the caption takes nothing from the plot";
     EXPECT_EQ(then.copy(0, then.height() - bare.height(), bare.width(), bare.height()), bare) << "pixel by pixel";
     const auto drawing = saved(still, "a.svg");
-    for (const auto* said :
-         {"Trials · simulated", "2026-11-27 20:30:00 UTC", "Interval (s) 0 to 2.2", "twin SIM-1", "last"})
+    for (const auto* said : {"Trials · simulated", "2026-11-27 20:30:00 UTC",
+                             "Interval (s) 0 to 2.2 · Amplitude (V) 0 to 2", "twin SIM-1", "last"})
         EXPECT_THAT(drawing, HasSubstr(said));
     EXPECT_THAT(drawing, testing::Not(HasSubstr("<image"))) << "a drawing";
     EXPECT_THAT(saved(still, "a.pdf"), testing::StartsWith("%PDF"));
     static_cast<void>(saved(still, "a.png"));
     EXPECT_EQ(QImage(folder.filePath("a.png")).size(), then.size());
+}
+
+TEST_F(Picture, ASentenceThatIsWiderGoesOnInAnotherLine) {
+    const QString sentence(
+        "Known limit of R: on the public sliding data tried so far its features are repeatable and specific to a "
+        "material, but do not by themselves rank felt roughness.");
+    gui::captionPictures(plot, [&] { return gui::PictureCaption{"Trials", {}, {sentence}}; });
+    const auto drawing = saved(plot, "c.svg");
+    for (const auto& word : sentence.split(' ')) EXPECT_THAT(drawing, HasSubstr(word.toStdString()));
+    EXPECT_THAT(drawing, testing::Not(HasSubstr("…")));
 }
 
 TEST_F(Picture, OfAWidgetIsADrawingToo) {
