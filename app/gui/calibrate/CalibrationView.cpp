@@ -12,6 +12,7 @@
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PageStack.h"
 #include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/TabOrder.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -132,6 +133,7 @@ CalibrationReadings& CalibrationView::of(const std::string& quantity) {
     });
     if (follow_) shown_ = index;
     arrange();
+    tabInPlace(*this);
     return all_.back();
 }
 
