@@ -4,8 +4,8 @@
 //
 // A question is the file "ask" in the folder of its specification, the answer the file "answer":
 //   where NAME   "X Y", the middle in real pixels of the visible and enabled widget with this text, name or accessible
-//                name, or of a window with this title; of "tab NAME" the current tab of a tab bar. Of several one over
-//                whose middle no other window lies
+//                name, or of a window with this title; of "tab NAME" the current tab of a tab bar. Where several have
+//                that name, one that no other window covers
 //   text NAME    what is written in it: of what holds others the visible labels and buttons, from top to bottom, with
 //                " | " between them
 //   popup        "X Y" of the menu or list that is open

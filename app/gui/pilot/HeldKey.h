@@ -1,7 +1,7 @@
 // HeldKey.h - whether a key is still down though its window heard that it came up.
 //
 // X repeats a held key as pairs of a release and a press. Qt marks a pair as repeated only where both wait for it at
-// once, and else hands on a release that nobody made. Letting go is a STOP, so the server is asked.
+// once; otherwise it hands on a release of a key that is still held. Letting go is a STOP, so the server is asked.
 //
 // Thread-safety: the GUI thread.
 #pragma once
