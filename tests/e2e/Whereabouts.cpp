@@ -4,7 +4,8 @@
 //
 // A question is the file "ask" in the folder of its specification, the answer the file "answer":
 //   where NAME   "X Y", the middle in real pixels of the visible and enabled widget with this text, name or accessible
-//                name, or of a window with this title; of "tab NAME" the current tab of a tab bar
+//                name, or of a window with this title; of "tab NAME" the current tab of a tab bar. Where several have
+//                that name, one that no other window covers
 //   text NAME    what is written in it: of what holds others the visible labels and buttons, from top to bottom, with
 //                " | " between them
 //   popup        "X Y" of the menu or list that is open
@@ -41,6 +42,10 @@ QString middleOf(const QWidget& widget) {
     return QString("%1 %2").arg(at.x()).arg(at.y());
 }
 
+bool liesOnTop(const QWidget& widget) {
+    return QApplication::topLevelAt(widget.mapToGlobal(widget.rect().center())) == widget.window();
+}
+
 QString textOf(const QWidget& widget) {
     if (const auto* label = qobject_cast<const QLabel*>(&widget)) return label->text();
     const auto* button = qobject_cast<const QAbstractButton*>(&widget);
@@ -72,12 +77,15 @@ QString answerTo(const QString& question) {
     }
     const bool asksText = question.startsWith("text ");
     const auto name = question.section(' ', 1);
+    const QWidget* found = nullptr;
     for (const auto* widget : QApplication::allWidgets()) {
-        if (widget->isVisible() && widget->isEnabled() && isCalled(*widget, name) &&
-            (asksText || widget->visibleRegion().contains(widget->rect().center())))
-            return asksText ? writtenIn(*widget).simplified() : middleOf(*widget);
+        if (!widget->isVisible() || !widget->isEnabled() || !isCalled(*widget, name)) continue;
+        if (asksText) return writtenIn(*widget).simplified();
+        if (!widget->visibleRegion().contains(widget->rect().center())) continue;
+        found = widget;
+        if (liesOnTop(*widget)) break;
     }
-    return {};
+    return found == nullptr ? QString() : middleOf(*found);
 }
 
 class Whereabouts final : public QObject {

@@ -282,7 +282,8 @@ std::string stepsBack(const std::vector<const QWidget*>& order) {
         const bool sameRow = from.top() < to.center().y() && to.center().y() < from.bottom();
         const bool up = sameColumn && to.bottom() <= from.top();
         const bool left = sameRow && to.right() <= from.left();
-        if (up || left) back += widgetName(*order[i - 1]) + " -> " + widgetName(*order[i]) + "\n";
+        const bool upAndLeft = to.bottom() <= from.top() && to.right() <= from.left();
+        if (up || left || upAndLeft) back += widgetName(*order[i - 1]) + " -> " + widgetName(*order[i]) + "\n";
     }
     return back;
 }

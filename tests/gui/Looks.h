@@ -40,7 +40,7 @@ void looksRight(QWidget& widget, const QString& name, const LookedAtSizes& sizes
 
 /// "QPushButton armButton "Arm"": its class, its name, and its name for those who do not see it, or else its text.
 [[nodiscard]] std::string widgetName(const QWidget& widget);
-/// Steps of Tab against the direction of reading, a line each: up within a column, or back within a row.
+/// Steps of Tab against the direction of reading, a line each: up within a column, back within a row, or up and back.
 [[nodiscard]] std::string stepsBack(const std::vector<const QWidget*>& order);
 
 }  // namespace tacto::test

@@ -34,7 +34,6 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     bar.setTabToolTip(kGuided, tr("Levels up and down, read from the oscilloscope; fit, uncertainty and verdict"));
     bar.setTabToolTip(kFingertip, tr("Rest, weights and reference surfaces: what R and the forces mean on this rig"));
     bar.setTabToolTip(kOverTime, tr("The state of the calibration today, and everything stored before"));
-    setTabOrder(&bar, &runner_->plotKind());
     column->addWidget(tabs_, 1);
     for (auto* runner : runners())
         connect(runner, &ProtocolWorkspace::attentionWanted, this,

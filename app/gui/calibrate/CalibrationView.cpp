@@ -10,6 +10,7 @@
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PageStack.h"
 #include "app/gui/theme/PictureTools.h"
+#include "app/gui/theme/TabOrder.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -131,6 +132,7 @@ CalibrationReadings& CalibrationView::of(const std::string& quantity) {
     });
     if (follow_) shown_ = index;
     arrange();
+    tabInPlace(*this);
     return all_.back();
 }
 

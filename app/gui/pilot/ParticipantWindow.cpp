@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/gui/pilot/HeldKey.h"
 #include "app/gui/pilot/ParticipantFace.h"
 #include "app/gui/pilot/ParticipantField.h"
 
@@ -306,8 +307,8 @@ void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
 }
 
 void ParticipantWindow::keyReleaseEvent(QKeyEvent* event) {
-    if (event->isAutoRepeat()) return;
-    if (heldKey_ != 0 && event->key() == heldKey_) letGo();
+    if (event->isAutoRepeat() || heldKey_ == 0 || event->key() != heldKey_ || isStillDown(*event)) return;
+    letGo();
 }
 
 void ParticipantWindow::mousePressEvent(QMouseEvent* /*event*/) {

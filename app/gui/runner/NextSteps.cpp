@@ -5,6 +5,7 @@
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/TabOrder.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/ResultKind.h"
 
@@ -96,6 +97,7 @@ void NextStepBar::show(const std::vector<NextStep>& steps) {
         buttons_.push_back({button, icon(words.icon, first ? Ink::Primary : Ink::Text), 0, 0});
     }
     measure();
+    tabInPlace(*this);
 }
 
 /// Their widths follow the style and the size of text.

@@ -10,6 +10,7 @@
 #include "app/gui/theme/DayField.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/TabOrder.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/JsonText.h"
@@ -187,6 +188,7 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
         none->setWordWrap(true);
         settingsRows_->addRow(none);
     }
+    for (auto* part : {static_cast<QWidget*>(this), reference_}) tabInPlace(*part);
     fitLabels();
     judge();
 }

@@ -5,6 +5,7 @@
 
 #include "app/gui/calibrate/CalibrationResult.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/TabOrder.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
@@ -62,6 +63,7 @@ void ResultTables::show(const json& results) {
     for (const auto& table : known.empty() ? tablesIn(results) : known) add(table, results);
     column_->addStretch();
     layout_->addWidget(body_);
+    tabInPlace(*this);
 }
 
 void ResultTables::add(const ResultTable& table, const json& results) {

@@ -21,7 +21,7 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kMinChooser = 120;
-constexpr int kLeastRows = 2;
+constexpr int kMinRows = 2;
 }  // namespace
 
 WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTable(this)), says_(new QLabel(this)) {
@@ -39,7 +39,7 @@ WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTabl
     keepRowsWhole(*worst_);
     const auto least = [this] {
         worst_->setMinimumHeight(worst_->horizontalHeader()->sizeHint().height() + 2 * worst_->frameWidth() +
-                                 kLeastRows * worst_->verticalHeader()->defaultSectionSize());
+                                 kMinRows * worst_->verticalHeader()->defaultSectionSize());
     };
     least();
     afterLookChange(*worst_, least);

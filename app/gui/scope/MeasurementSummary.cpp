@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/TabOrder.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -180,6 +181,7 @@ void MeasurementSummary::lay() {
         for (const auto reading : chosen_->all()) layRow(reading);
     }
     rows_->setVisible(!channels.empty());
+    tabAfter(*note_, *rows_);  // they stand above the buttons
     restyle();
     fill();
 }

@@ -80,6 +80,7 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     line->addWidget(seen_, 1);
     line->addWidget(choose_);
     line->addWidget(reset_);
+    setTabOrder(reset_, table_);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(8, 4, 8, 0);
     layout->setSpacing(4);

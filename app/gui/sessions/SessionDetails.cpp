@@ -28,8 +28,8 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kDetailPoints = 4000;
-constexpr int kPlotLines = 10;    // of text: the height of a plot that can be read
-constexpr int kLeastStreams = 2;  // rows
+constexpr int kPlotLines = 10;  // of text: the height of a plot that can be read
+constexpr int kMinStreams = 2;  // rows
 
 QTableWidget* makeTable(QWidget* parent, const QString& name) {
     auto* table = new QTableWidget(parent);
@@ -165,10 +165,10 @@ void SessionDetails::fitLook() {
 void SessionDetails::fitStreams() {
     const int row = streams_->verticalHeader()->defaultSectionSize();
     const int head = streams_->horizontalHeader()->height() + 2 * streams_->frameWidth();
-    streams_->setMinimumHeight(head + kLeastStreams * row);
+    streams_->setMinimumHeight(head + kMinStreams * row);
     if (splitByHand_) return;
     const int all = split_->height() - split_->handleWidth();
-    const int rows = std::clamp((all / 2 - head) / row, kLeastStreams, std::max(kLeastStreams, streams_->rowCount()));
+    const int rows = std::clamp((all / 2 - head) / row, kMinStreams, std::max(kMinStreams, streams_->rowCount()));
     const int upper = head + rows * row;
     split_->setSizes({upper, all - upper});
 }

@@ -2,6 +2,7 @@
 
 #include <QVBoxLayout>
 
+#include "app/gui/theme/TabOrder.h"
 #include "app/gui/theme/TurningRow.h"
 
 namespace tacto::gui {
@@ -53,7 +54,9 @@ TabbedPage::TabbedPage(QWidget* parent)
 
 void TabbedPage::addTab(QWidget* page, const QString& title, QWidget* tools) {
     pages_->addWidget(page);
-    tools_->addWidget(tools != nullptr ? tools : new QWidget(tools_));
+    if (tools == nullptr) tools = new QWidget(tools_);
+    tools_->addWidget(tools);
+    tabAfter(*bar_, *tools);
     bar_->addTab(title);
     keys_.add(title);
 }

@@ -1,21 +1,16 @@
 // Without a mouse: Tab reaches every control of the window and of its dialogs and comes round, the focus is seen, and
 // F1 explains what has it.
-#include <QAbstractButton>
-#include <QAbstractSpinBox>
-#include <QComboBox>
 #include <QDialog>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
-#include <QRadioButton>
 #include <QStackedWidget>
-#include <QTextBrowser>
 #include <QWhatsThis>
 #include <gmock/gmock.h>
-#include <set>
 
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "tests/gui/Looks.h"
+#include "tests/gui/window/TabRound.h"
 #include "tests/gui/window/WindowFixture.h"
 #include "tests/support/InTime.h"
 
@@ -24,55 +19,8 @@ namespace {
 
 constexpr int kWorkspaces = 7;
 
-/// What a person works: buttons and fields that Tab should reach by themselves. Radio buttons are reached as a group;
-/// a box's own field has its focus.
-std::vector<QWidget*> controlsOf(const QWidget& in) {
-    std::vector<QWidget*> controls;
-    for (auto* control : in.findChildren<QWidget*>()) {
-        const bool works = qobject_cast<QAbstractButton*>(control) || qobject_cast<QComboBox*>(control) ||
-                           qobject_cast<QLineEdit*>(control) || qobject_cast<QAbstractSpinBox*>(control);
-        if (!works || !control->isVisible() || !control->isEnabled() || control->window() != in.window()) continue;
-        if ((control->focusPolicy() & Qt::TabFocus) == 0) continue;
-        if (qobject_cast<QRadioButton*>(control) || control->focusProxy() != nullptr ||
-            qobject_cast<QAbstractSpinBox*>(control->parentWidget()) ||
-            qobject_cast<QComboBox*>(control->parentWidget()))
-            continue;
-        controls.push_back(control);
-    }
-    return controls;
-}
-
 class Keyboard : public Window {
 protected:
-    /// Presses Tab from `first` until it comes round, and shows each widget on the way to `look`.
-    static std::set<const QWidget*> tabFrom(
-        QWidget& first, const std::function<void(QWidget&)>& look = [](QWidget&) {}) {
-        first.setFocus(Qt::TabFocusReason);
-        std::set<const QWidget*> reached;
-        const QWidget* before = nullptr;
-        constexpr int kMaxPresses = 300;
-        for (int i = 0; i < kMaxPresses; ++i) {
-            auto* at = QApplication::focusWidget();
-            if (at == nullptr) {
-                ADD_FAILURE() << "Tab leads nowhere from " << (before != nullptr ? widgetName(*before) : "the start");
-                return reached;
-            }
-            const bool amongLinks = at == before && qobject_cast<QTextBrowser*>(at) != nullptr;
-            if (!amongLinks && !reached.insert(at).second) {
-                EXPECT_EQ(at, &first) << "Tab does not leave " << widgetName(*at);
-                return reached;
-            }
-            EXPECT_TRUE(at->isVisible() && at->isEnabled()) << widgetName(*at);
-            if (!amongLinks) look(*at);
-            before = at;
-            QTest::keyClick(at, Qt::Key_Tab);
-        }
-        ADD_FAILURE() << "Tab does not come round";
-        return reached;
-    }
-    static void expectAllReached(const QWidget& in, const std::set<const QWidget*>& reached) {
-        for (const auto* control : controlsOf(in)) EXPECT_TRUE(reached.contains(control)) << widgetName(*control);
-    }
     /// QTest takes a dialog for active where its parent is.
     static void activate(QWidget& top) {
         top.activateWindow();
