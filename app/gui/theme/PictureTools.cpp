@@ -17,7 +17,7 @@ void PictureTools::addTo(QLayout& row) {
     for (auto* button : buttons()) row.addWidget(button);
 }
 
-void PictureTools::takeFrom(std::function<Still()> shown, const QString& name) {
+void PictureTools::takeFrom(const std::function<Still()>& shown, const QString& name) {
     connect(save_, &QToolButton::clicked, this,
             [this, shown, name] { askSavePicture(*save_->parentWidget(), shown(), name); });
     connect(copy_, &QToolButton::clicked, this, [shown] { copyPicture(shown()); });

@@ -24,7 +24,7 @@ public:
     [[nodiscard]] std::array<QToolButton*, 3> buttons() const { return {save_, copy_, plotOnly_}; }
     void addTo(QLayout& row);
     /// Save and copy take what `shown` gives when they are clicked; `name` is the file that is proposed.
-    void takeFrom(std::function<Still()> shown, const QString& name);
+    void takeFrom(const std::function<Still()>& shown, const QString& name);
 
 signals:
     /// The plot without what is around it, or back.

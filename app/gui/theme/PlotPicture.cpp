@@ -127,8 +127,8 @@ void Still::draw(QCPPainter& painter) const {
     painter.restore();
 }
 
-void captionPictures(QCustomPlot& plot, CaptionOf caption) {
-    plot.setProperty(kCaption, QVariant::fromValue(std::move(caption)));
+void captionPictures(QCustomPlot& plot, const CaptionOf& caption) {
+    plot.setProperty(kCaption, QVariant::fromValue(caption));
 }
 
 void copyPicture(const Still& still) { QApplication::clipboard()->setImage(pictureOf(still, kPictureScale)); }

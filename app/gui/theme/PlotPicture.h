@@ -39,7 +39,7 @@ private:
 };
 
 /// Every picture of `plot` says this above it, also by its menu.
-void captionPictures(QCustomPlot& plot, std::function<PictureCaption()> caption);
+void captionPictures(QCustomPlot& plot, const std::function<PictureCaption()>& caption);
 
 /// By the path's ending: .png (twice the screen's resolution), .svg or .pdf. Returns what went wrong, as a sentence.
 [[nodiscard]] std::optional<QString> savePicture(const Still& still, const QString& path);
