@@ -11,7 +11,7 @@
 namespace tacto::gui {
 
 /// Asks the X server, which has just sent `released`: a round trip on this computer. False on any other platform, where
-/// repeats are marked.
+/// repeats are marked. A key that was pressed again before its release is heard counts as held: its next one is heard.
 [[nodiscard]] bool isStillDown(const QKeyEvent& released);
 
 }  // namespace tacto::gui
