@@ -216,8 +216,9 @@ void SessionList::take(std::vector<SessionEntry> entries) {
 void SessionList::fitColumns() {
     for (const int each : {SessionModel::kSample, SessionModel::kNote}) table_->setColumnHidden(each, false);
     for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
-    const auto* header = table_->horizontalHeader();
+    auto* header = table_->horizontalHeader();
     const int note = std::max(header->minimumSectionSize(), header->sectionSizeHint(SessionModel::kNote));
+    header->resizeSection(SessionModel::kNote, note);  // Qt stretches it, but makes it no smaller than it was
     const auto least = [&] { return header->length() - header->sectionSize(SessionModel::kNote) + note; };
     // The table may have its own size later.
     const int bar = table_->verticalScrollBar()->sizeHint().width();

@@ -326,6 +326,18 @@ TEST_F(Sessions, WhereALongNameLeavesNoRoomForTheNoteItsColumnGoes) {
     gui::applyTextSize(100);
 }
 
+TEST_F(Sessions, NoWidthMakesAListWithAScrollBarScrollSideways) {
+    for (int i = 0; i < 16; ++i)
+        (void)sessions.write({.name = std::to_string(i), .protocol = "stimulator-calibration", .verdict = "pass"});
+    begin({1000, 440});
+    listed(16);
+    ASSERT_IN_TIME(comesTrue([&] { return table().verticalScrollBar()->isVisible(); }));
+    for (int width = 1000; width > 820; --width) {
+        workspace.resize(width, 440);
+        EXPECT_IN_TIME(comesTrue([&] { return table().horizontalScrollBar()->maximum() == 0; }, 1000)) << width;
+    }
+}
+
 TEST_F(Sessions, NoLineOfWhatHappenedIsCut) {
     (void)sessions.write({.name = "d", .verdict = "indeterminate", .wallStart = "2026-11-22T09:31:00Z"});
     begin();
