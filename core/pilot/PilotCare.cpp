@@ -162,7 +162,7 @@ Result<void> PilotCare::stopTest(PromptTo by) {
         if (pressed && !own) body["other"] = nameOf(other);
         if (!armed) body["armed"] = false;
         if (auto kept = stage_.record().write(row::kStopTest, name, std::move(body)); !kept) return kept;
-        auto begun = stage_.bench().begin(mark);
+        auto begun = stage_.beginAnew(mark);
         if (begun && stage_.stopped()) begun = fail(ErrorCode::Stopped, "stopped after the test");
         if (!begun) {
             if (auto goesOn = stage_.goOnAfter("stop-test", begun.error()); !goesOn) return goesOn;

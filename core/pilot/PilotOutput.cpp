@@ -239,6 +239,10 @@ Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
 Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
     rest();
     if (stage_.ended() != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
+    if (runEnds_) {  // for good, whoever else pressed
+        const auto noted = interrupted(during, why);
+        return noted ? tl::unexpected<Error>(why) : noted;
+    }
     const bool atScreen = stops_.screenGone() || !stage_.participant().hasScreen();
     const bool late = why.code == ErrorCode::Timeout && stage_.bench().telemetry().state == InterlockState::Faulted;
     if ((late || why.code == ErrorCode::Device) && !atScreen && !stops_.aborted()) return afterTheFault(during, why);
@@ -292,7 +296,7 @@ Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
                         "the participant's screen was gone for {:.0f} min, so the session is interrupted; it can go on "
                         "within 2 h",
                         kScreenTimeout.count() / 60);
-        const auto begun = asked ? bench.begin(mark) : Result<void>(failure(asked));
+        const auto begun = asked ? beginAnew(mark) : Result<void>(failure(asked));
         if (begun && people.hasScreen()) return {};
         if (begun || stops_.takeScreenGone() || stops_.takePaused()) continue;  // not there yet, or gone once more
         if (stops_.aborted()) return noteAbort(during);
@@ -365,6 +369,12 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
     return askToGoOn("The output was off because of a fault. Go on when you want to.");
 }
 
+Result<void> PilotOutput::beginAnew(StopMark mark) {
+    auto begun = stage_.bench().begin(mark);
+    if (begun && runEnds_) return fail(ErrorCode::Stopped, "the run was stopped");
+    return begun;
+}
+
 Result<void> PilotOutput::askToGoOn(const std::string& text) {
     PilotScreen screen;
     screen.text = text;
@@ -378,7 +388,7 @@ Result<void> PilotOutput::askToGoOn(const std::string& text) {
             continue;
         }
         const auto asked = stage_.participant().ask(goOnPrompt(text, PromptTo::Participant));
-        const auto begun = asked ? bench.begin(mark) : Result<void>(failure(asked));
+        const auto begun = asked ? beginAnew(mark) : Result<void>(failure(asked));
         if (begun) break;
         // Nothing is on, and they press STOP once more: theirs counts, and they are asked again.
         if (auto goesOn = interrupted("go on", begun.error()); !goesOn) return goesOn;

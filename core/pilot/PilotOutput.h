@@ -10,6 +10,7 @@
 // Thread-safety: one caller, the session's thread; stop() and takeStop() from any thread.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -40,8 +41,13 @@ public:
     void stop(const char* by) noexcept;
     /// See PilotStage.
     [[nodiscard]] std::optional<PressedStops::Press> takeStop() noexcept { return stops_.takePress(); }
-    /// A stop came since the last one was handled.
-    [[nodiscard]] bool stopped() const noexcept { return stops_.any(); }
+    /// A stop came since the last one was handled, or the run's.
+    [[nodiscard]] bool stopped() const noexcept { return stops_.any() || runEnds_; }
+    /// From here on a stop is that of the run: no test takes it for its own, and nothing goes on after it. Any thread,
+    /// before that stop.
+    void endRun() noexcept { runEnds_ = true; }
+    /// Another order takes the place of the one that was stopped before `mark`. Errors: Stopped, when the run was.
+    [[nodiscard]] Result<void> beginAnew(StopMark mark);
 
     // As those of PilotStage.
     [[nodiscard]] bool isArmed() const noexcept { return armed_; }
@@ -98,6 +104,7 @@ private:
     PilotStage& stage_;
     LevelRamp ramp_;
     PressedStops stops_;
+    std::atomic<bool> runEnds_{false};
     bool armed_ = false;
     bool reasonAsked_ = false;
     bool unmeasured_ = false;  // Since electrodes may have been touched

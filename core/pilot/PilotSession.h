@@ -41,6 +41,8 @@ public:
     [[nodiscard]] PilotCare& care() noexcept { return care_; }
     [[nodiscard]] PilotThresholds& thresholds() noexcept { return thresholds_; }
     [[nodiscard]] PilotIdentification& identification() noexcept { return identification_; }
+    /// Before the stop that ends the run: nothing goes on after that one. Any thread.
+    void endRun() noexcept { stage_.endRun(); }
     void cancel() noexcept { stage_.cancel(); }
 
     /// Results of `run pilot-thresholds` (pilot.md section 10).

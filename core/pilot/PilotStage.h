@@ -120,6 +120,8 @@ public:
     using PressedStop = PressedStops::Press;
     [[nodiscard]] std::optional<PressedStop> takeStop() noexcept { return output_.takeStop(); }
     [[nodiscard]] bool stopped() const noexcept { return output_.stopped(); }
+    [[nodiscard]] Result<void> beginAnew(StopMark mark) { return output_.beginAnew(mark); }
+    void endRun() noexcept { output_.endRun(); }
     [[nodiscard]] bool isArmed() const noexcept { return output_.isArmed(); }
     /// Wakes the people's prompts: for the end of the script. Any thread.
     void cancel() noexcept;

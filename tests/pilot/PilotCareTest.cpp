@@ -46,6 +46,23 @@ TEST_F(PilotCareTest, ARealStimulatorPassesTheChecklistAndTheOperatorConfirmsItB
     EXPECT_THAT(confirmed, Contains(HasSubstr("Measure the electrodes with")));
 }
 
+TEST_F(PilotCareTest, AStopOfTheRunWhileAStopIsTestedIsNoTestAndNothingGoesOnAfterIt) {
+    RecordProperty("hazard", "H2");
+    PilotCare care(*stage_);
+    someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
+    someone_.onAsk = [this](const PilotPrompt& prompt) {
+        if (prompt.name != "stop-test") return;
+        stage_->endRun();
+        bench_->stop("operator (STOP)");  // and then the participant presses, as they were asked to
+    };
+    const auto passed = care.checklist();
+    ASSERT_FALSE(passed);
+    EXPECT_EQ(passed.error().code, ErrorCode::Stopped) << passed.error().message;
+    EXPECT_EQ(someone_.asked.back(), "stop-test") << "nobody is asked to go on";
+    EXPECT_THAT(bodies(row::kImpedance), SizeIs(0)) << "no pulse after the stop";
+    EXPECT_FALSE(stage_->isArmed());
+}
+
 TEST_F(PilotCareTest, TheOthersStopProvesNothingAndItIsAskedAgain) {
     RecordProperty("hazard", "H2");
     PilotCare care(*stage_);

@@ -13,6 +13,7 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PageStack.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 
@@ -21,7 +22,6 @@ namespace tacto::gui {
 namespace {
 
 enum HomeTab { kRehearsalTab, kStudyTab };
-constexpr int kUsualBlocks = 5;
 
 QString kindOf(const PilotStart& start, bool ofStudy) {
     if (!start.rehearsal) return start.simulated() ? QObject::tr("Study, simulated bench") : QObject::tr("Study");
@@ -92,7 +92,8 @@ void PilotWorkspace::connectSession() {
     connect(session, &SessionConduct::begun, this, [this, session] {
         const auto& start = session->start();
         path_->setTitle(tr("Session: %1").arg(start.who), kindOf(start, ofStudy_));
-        path_->begin(start.blocks.value_or(kUsualBlocks), start.person, start.massager);
+        const bool tests = resultTraits(start.protocol).kind != ResultKind::PilotThresholds;
+        path_->begin(tests ? start.blocks.value_or(kUsualBlocks) : 0, start.person, start.massager);
         showPage(kSession);
     });
     connect(session, &SessionConduct::screenChanged, this, [this, session](const PilotScreen& screen) {
@@ -113,7 +114,9 @@ void PilotWorkspace::connectSession() {
         const auto& outcome = run->result.outcome;
         reopened_ = false;
         showPage(kOutcome);
-        path_->end(outcome.error.has_value() || run->result.verdict() == "stopped");
+        path_->end(outcome.error.has_value() || run->result.verdict() == "stopped" ? SessionEnd::BrokenOff
+                   : memberAt(outcome.results, "range.usable") == false            ? SessionEnd::NoRange
+                                                                                   : SessionEnd::Complete);
         result_->show(run->result, session->start().folder, ofStudy_);
         if (ofStudy_) study_.takeBack();
     });

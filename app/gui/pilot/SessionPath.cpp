@@ -2,6 +2,8 @@
 
 #include <QTime>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -16,6 +18,7 @@ namespace {
 constexpr int kPilotPath = 240, kPathPad = 16;
 
 enum PilotStep { kChecklist, kStopTest, kSkin, kThresholds, kTraining, kTest, kRatings, kAfter, kSteps };
+constexpr std::array<int, 3> kTested = {kTraining, kTest, kRatings};  // what a session of thresholds alone lacks
 
 using State = StepList::State;
 
@@ -56,7 +59,7 @@ QString titleOf(int step, bool massager) {
     }
 }
 
-// The design's minutes at which each step begins; the end of the session is the last.
+// The design's minutes at which each step begins, with the usual blocks; the end of the session is the last.
 constexpr double kBegins_min[kSteps + 1] = {0, 4, 6, 12, 23, 30, 58, 62, 66};
 
 }  // namespace
@@ -116,6 +119,7 @@ void SessionPath::begin(int blocks, bool counts, bool massager) {
     screen_ = {};
     blocks_ = blocks;
     counts_ = counts;
+    for (int step = 0; step < kSteps; ++step) steps_->setStepVisible(step, has(step));
     reach(kChecklist);
 }
 
@@ -124,16 +128,22 @@ void SessionPath::nameSeats(bool massager) {
 }
 
 void SessionPath::clear() {
-    nameSeats(false);
-    counts_ = false;
+    begin(kUsualBlocks, false, false);
     reach(-1);
 }
 
-void SessionPath::end(bool broke) {
+void SessionPath::end(SessionEnd how) {
     counts_ = false;
-    reach(broke ? step_ : int(kSteps));
-    if (broke) steps_->setState(step_, State::Troubled);
+    reach(how == SessionEnd::BrokenOff ? step_ : int(kSteps));
+    if (how == SessionEnd::BrokenOff) steps_->setState(step_, State::Troubled);
+    if (how != SessionEnd::NoRange) return;
+    for (const int step : kTested) {
+        steps_->setState(step, State::ToDo);
+        steps_->setNote(step, tr("not run"));
+    }
 }
+
+bool SessionPath::has(int step) const { return blocks_ > 0 || std::ranges::count(kTested, step) == 0; }
 
 void SessionPath::show(const PilotScreen& screen) {
     screen_ = screen;
@@ -177,18 +187,16 @@ void SessionPath::reach(int step) {
 }
 
 QString SessionPath::timeLeft() const {
-    const double done_min = kBegins_min[step_];
-    const double whole = kBegins_min[kSteps];
-    const double test_min = (kBegins_min[kRatings] - kBegins_min[kTest]) * blocks_ / 5;
-    double rest = whole - kBegins_min[kRatings] + test_min;
-    if (step_ < kTest) {
-        rest += kBegins_min[kTest] - done_min;
-    } else if (step_ == kTest) {
-        if (screen_.trials > 0) rest -= test_min * std::max(0, screen_.trial - 1) / screen_.trials;
-    } else {
-        rest = whole - done_min;
+    double rest_min = 0;
+    for (int step = step_; step < kSteps; ++step) {
+        if (!has(step)) continue;
+        double lasts_min = kBegins_min[step + 1] - kBegins_min[step];
+        if (step == kTest) lasts_min *= static_cast<double>(blocks_) / kUsualBlocks;
+        if (step == kTest && step == step_ && screen_.trials > 0)
+            lasts_min *= 1 - static_cast<double>(std::max(0, screen_.trial - 1)) / screen_.trials;
+        rest_min += lasts_min;
     }
-    return tr("about %1 min").arg(std::max(1, int(std::lround(rest))));
+    return tr("about %1 min").arg(std::max(1, int(std::lround(rest_min))));
 }
 
 void SessionPath::resizeEvent(QResizeEvent* event) {

@@ -25,10 +25,7 @@ void opensMenu(QToolButton& button) {
 }  // namespace
 
 ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
-    : QWidget(parent),
-      run_(new QPushButton(tr("Run"), this)),
-      pictures_(new PictureTools(this)),
-      modes_(new QActionGroup(this)) {
+    : QWidget(parent), run_(new QPushButton(tr("Run"), this)), modes_(new QActionGroup(this)) {
     auto* row = new ToolRow(this);
     run_->setToolTip(tr("R: Run takes captures; Hold keeps the picture. Neither touches the output: STOP does."));
     connect(run_, &QPushButton::clicked, this, &ScopeTools::runClicked);
@@ -43,6 +40,7 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     connect(mark, &QToolButton::clicked, this, &ScopeTools::markClicked);
     row->addWidget(mark);
     row->addGap();
+    pictures_ = new PictureTools(this);
     auto& save = pictures_->save();
     save.setAccessibleName(tr("Save"));
     save.setToolTip(tr("Copies and saves the picture and its data, opens captures. Ctrl+S saves."));
@@ -55,6 +53,7 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     connect(controls_, &QToolButton::clicked, this, &ScopeTools::controlsClicked);
     row->addWidget(controls_);
     row->addWidget(&pictures_->plotOnly());
+    pictures_->plotOnly().raise();  // the last of them for Tab, which goes by this order (TabOrder.h)
 }
 
 /// Its icon and its tip say it where a word would put other tools away.

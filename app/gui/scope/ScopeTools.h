@@ -69,7 +69,7 @@ private:
     void markTimeBase();
 
     QPushButton* run_;
-    PictureTools* pictures_;
+    PictureTools* pictures_ = nullptr;
     QToolButton* single_ = nullptr;
     QToolButton* mode_ = nullptr;
     QActionGroup* modes_;

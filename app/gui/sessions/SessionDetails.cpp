@@ -1,6 +1,7 @@
 #include "app/gui/sessions/SessionDetails.h"
 
 #include <QHeaderView>
+#include <QTimer>
 #include <algorithm>
 #include <map>
 
@@ -144,6 +145,7 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
         if (session_ && row >= 0 && row < int(session_->streams.size()))
             emit streamChosen(session_->streams[std::size_t(row)].id);
     });
+    connect(this, &QTabWidget::currentChanged, this, &SessionDetails::chooseStream);
     say(tr("Choose a session at the left."));
 }
 
@@ -186,6 +188,12 @@ void SessionDetails::say(const QString& why) {
     for (auto* table : {trials_, streams_, captures_}) table->setRowCount(0);
     clearStream();
     setCurrentIndex(0);
+}
+
+/// The first where none is chosen, once somebody looks: to read one takes time.
+void SessionDetails::chooseStream() {
+    if (currentWidget() == split_ && streams_->rowCount() > 0 && streams_->currentRow() < 0)
+        streams_->setCurrentCell(0, 0);
 }
 
 void SessionDetails::clearStream() {
@@ -246,6 +254,7 @@ QString SessionDetails::aboutHtml() const {
 }
 
 void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
+    const int again = session_ && session_->path == session->path ? streams_->currentRow() : -1;
     session_ = std::move(session);
     overview_->show(session_);
     about_->setHtml(aboutHtml());
@@ -278,6 +287,7 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
             ofTrials.push_back(column);
     }
     fill(*trials_, ofTrials, trials);
+    streams_->setCurrentCell(-1, -1);
     fill(*streams_,
          {{tr("Stream"), "name"},
           {tr("Unit"), "unit"},
@@ -295,6 +305,11 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
          captures);
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
     fitStreams();
+    // After what read the session has ended: it reads one thing at a time.
+    QTimer::singleShot(0, this, [this, again] {
+        if (again >= 0 && again < streams_->rowCount()) streams_->setCurrentCell(again, 0);
+        chooseStream();
+    });
 }
 
 std::optional<std::int64_t> SessionDetails::chosenCapture() const {

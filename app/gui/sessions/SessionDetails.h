@@ -42,6 +42,7 @@ protected:
 
 private:
     [[nodiscard]] QString aboutHtml() const;
+    void chooseStream();
     void clearStream();
     [[nodiscard]] QCPAxis& axisFor(const QString& unit);
     void removeAxes();

@@ -116,7 +116,8 @@ void ScriptRun::State::stop(const char* by) noexcept {
     {
         const std::lock_guard lock(control);
         if (over) return;
-        request.bench->stop(by);  // the output first
+        if (request.pilot != nullptr) request.pilot->endRun();  // a flag: no test takes this stop for its own
+        request.bench->stop(by);                                // the output first
         if (!stopping) stoppedBy = by;
         stopping = true;
     }

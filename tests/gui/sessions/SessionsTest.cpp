@@ -283,7 +283,9 @@ TEST_F(Recorded, AStreamOfASimulatedSessionSaysSoAndNamesItsTraces) {
     auto* details = workspace.findChild<gui::SessionDetails*>();
     auto* streams = details->findChild<QTableWidget*>("streamsTable");
     ASSERT_IN_TIME(comesTrue([&] { return streams->rowCount() > 0; }));
+    EXPECT_EQ(streams->currentRow(), -1) << "none is read before it is looked at";
     details->setCurrentIndex(2);
+    EXPECT_EQ(streams->currentRow(), 0) << "no empty plot";
     const auto* plot = details->findChild<QCustomPlot*>("chosenStream");
     for (int row = 0; row < streams->rowCount(); ++row) {
         streams->setCurrentCell(row, 0);
