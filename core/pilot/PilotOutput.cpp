@@ -239,7 +239,7 @@ Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
 Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
     rest();
     if (stage_.ended() != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
-    if (runEnds_) {  // for good, whoever else pressed
+    if (runEnds_) {  // for good, though another person pressed too
         const auto noted = interrupted(during, why);
         return noted ? tl::unexpected<Error>(why) : noted;
     }

@@ -58,7 +58,7 @@ TEST_F(PilotCareTest, AStopOfTheRunWhileAStopIsTestedIsNoTestAndNothingGoesOnAft
     const auto passed = care.checklist();
     ASSERT_FALSE(passed);
     EXPECT_EQ(passed.error().code, ErrorCode::Stopped) << passed.error().message;
-    EXPECT_EQ(someone_.asked.back(), "stop-test") << "nobody is asked to go on";
+    EXPECT_EQ(someone_.asked.back(), "stop-test") << "no one is asked to go on";
     EXPECT_THAT(bodies(row::kImpedance), SizeIs(0)) << "no pulse after the stop";
     EXPECT_FALSE(stage_->isArmed());
 }

@@ -190,7 +190,7 @@ void SessionDetails::say(const QString& why) {
     setCurrentIndex(0);
 }
 
-/// The first where none is chosen, once somebody looks: to read one takes time.
+/// The first where none is chosen, once the page is looked at: to read one takes time.
 void SessionDetails::chooseStream() {
     if (currentWidget() == split_ && streams_->rowCount() > 0 && streams_->currentRow() < 0)
         streams_->setCurrentCell(0, 0);
