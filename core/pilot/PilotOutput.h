@@ -43,13 +43,10 @@ public:
     [[nodiscard]] std::optional<PressedStops::Press> takeStop() noexcept { return stops_.takePress(); }
     /// A stop came since the last one was handled, or the run's.
     [[nodiscard]] bool stopped() const noexcept { return stops_.any() || runEnds_; }
-    /// From here on a stop is that of the run: no test takes it for its own, and nothing goes on after it. Any thread,
-    /// before that stop.
-    void endRun() noexcept { runEnds_ = true; }
-    /// Another order takes the place of the one that was stopped before `mark`. Errors: Stopped, when the run was.
-    [[nodiscard]] Result<void> beginAnew(StopMark mark);
 
     // As those of PilotStage.
+    void endRun() noexcept { runEnds_ = true; }
+    [[nodiscard]] Result<void> beginAnew(StopMark mark);
     [[nodiscard]] bool isArmed() const noexcept { return armed_; }
     [[nodiscard]] Result<void> arm();
     [[nodiscard]] Result<void> ready();

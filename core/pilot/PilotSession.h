@@ -4,7 +4,7 @@
 // Built on the bench, the two people and the record; SessionRequest, gates of the study and files belong to the caller.
 // The same protocol called again on the rows of an earlier part goes on where that ended.
 //
-// Thread-safety: one caller, the script's thread; cancel() from any thread.
+// Thread-safety: one caller, the script's thread; endRun() and cancel() from any thread.
 #pragma once
 
 #include <functional>
@@ -41,7 +41,7 @@ public:
     [[nodiscard]] PilotCare& care() noexcept { return care_; }
     [[nodiscard]] PilotThresholds& thresholds() noexcept { return thresholds_; }
     [[nodiscard]] PilotIdentification& identification() noexcept { return identification_; }
-    /// Before the stop that ends the run: nothing goes on after that one. Any thread.
+    /// As those of PilotStage.
     void endRun() noexcept { stage_.endRun(); }
     void cancel() noexcept { stage_.cancel(); }
 

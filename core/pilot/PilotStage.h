@@ -120,9 +120,12 @@ public:
     using PressedStop = PressedStops::Press;
     [[nodiscard]] std::optional<PressedStop> takeStop() noexcept { return output_.takeStop(); }
     [[nodiscard]] bool stopped() const noexcept { return output_.stopped(); }
-    [[nodiscard]] Result<void> beginAnew(StopMark mark) { return output_.beginAnew(mark); }
-    void endRun() noexcept { output_.endRun(); }
     [[nodiscard]] bool isArmed() const noexcept { return output_.isArmed(); }
+    /// Another order takes the place of the one that was stopped before `mark`. Errors: Stopped, when the run was.
+    [[nodiscard]] Result<void> beginAnew(StopMark mark) { return output_.beginAnew(mark); }
+    /// From here on a stop is that of the run: no test takes it for its own, and nothing goes on after it. Any thread,
+    /// before that stop.
+    void endRun() noexcept { output_.endRun(); }
     /// Wakes the people's prompts: for the end of the script. Any thread.
     void cancel() noexcept;
 
