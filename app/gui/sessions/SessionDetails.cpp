@@ -145,7 +145,10 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
         if (session_ && row >= 0 && row < int(session_->streams.size()))
             emit streamChosen(session_->streams[std::size_t(row)].id);
     });
-    connect(this, &QTabWidget::currentChanged, this, &SessionDetails::chooseStream);
+    connect(this, &QTabWidget::currentChanged, this, [this] {
+        fitStreams();  // a page that was not shown yet had no height
+        chooseStream();
+    });
     say(tr("Choose a session at the left."));
 }
 

@@ -2,6 +2,7 @@
 #include <QPdfDocument>
 #include <QPdfView>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QTabWidget>
 #include <QTableView>
 #include <QTest>
@@ -286,6 +287,7 @@ TEST_F(Recorded, AStreamOfASimulatedSessionSaysSoAndNamesItsTraces) {
     EXPECT_EQ(streams->currentRow(), -1) << "none is read before it is looked at";
     details->setCurrentIndex(2);
     EXPECT_EQ(streams->currentRow(), 0) << "no empty plot";
+    EXPECT_EQ(streams->verticalScrollBar()->maximum(), 0) << "all are in sight where the plot keeps the larger part";
     const auto* plot = details->findChild<QCustomPlot*>("chosenStream");
     for (int row = 0; row < streams->rowCount(); ++row) {
         streams->setCurrentCell(row, 0);
