@@ -21,10 +21,7 @@ bool isUnseated(const Error& why) { return why.code == ErrorCode::NotArmed || wh
 // Stops
 
 void PilotOutput::stop(const char* by) noexcept {
-    const auto pressed = std::chrono::steady_clock::now();
-    stops_.note(by);
-    stage_.bench().stop(by);
-    stops_.noteTook(std::chrono::steady_clock::now() - pressed);
+    stops_.press(by, [this, by] { stage_.bench().stop(by); });
 }
 
 void PilotOutput::rest() noexcept {
@@ -208,9 +205,9 @@ Result<void> PilotOutput::idleWhile(const std::string& during, const PilotScreen
     while (lasts()) {
         bench.idle(kHindrancePoll);
         if (!bench.stops().movedSince(mark) && !stopped()) continue;
-        mark = bench.stops().mark();
         const Error why{ErrorCode::Stopped, "stopped in a break"};
         if (auto goesOn = interrupted(during, why); !goesOn) return goesOn;
+        mark = bench.stops().mark();
         people.show(screen);
     }
     return {};
