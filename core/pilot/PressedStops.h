@@ -1,8 +1,8 @@
 // PressedStops.h - the stops of a pilot session that were not handled yet: who pressed, or what went, and how long it
 // took until the output was told.
 //
-// A press is one thing: whoever asks while the output is being told waits until it was, and so never handles one that
-// takes effect afterwards, when it would count once more, or has not been timed.
+// A press is one thing: a question that comes while the output is being told waits until it was. What is taken has
+// taken effect, so that it counts once, and has been timed.
 //
 // Thread-safety: all calls from any thread.
 #pragma once

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/Clock.h"
-#include "core/study/Study.h"
+#include "core/study/StudyBook.h"
 #include "tests/cli/PilotDesk.h"
 #include "tests/support/Trials.h"
 
@@ -95,6 +95,11 @@ TEST_F(DisturbedSession, WithAClockThatWasMovedBetweenItsPartsItIsRefusedOrGoesO
     copy("study", "earlier");
     for (const auto& [study, clock] :
          {std::pair<const char*, std::chrono::seconds>{"study", 50min}, {"earlier", -4min}}) {
+        const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+        if (localDay(now + clock) < localDay(now)) {  // just after midnight: a rehearsal begins on the day it was made
+            expectUnchanged({.clock = clock}, 4, "sessions can begin from that day on", study);
+            continue;
+        }
         const auto ran = desk.runDisturbed({.clock = clock}, kSession, shortSession() + kResume, study);
         ASSERT_EQ(ran.code, 0) << ran.err;
         EXPECT_EQ(planAndAnswers(jsonOf(ran)), expected);
