@@ -1,7 +1,6 @@
 #include "app/run/PilotRows.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "core/base/JsonFields.h"
 #include "core/devices/Device.h"
@@ -10,19 +9,6 @@
 #include "core/session/SessionReader.h"
 
 namespace tacto {
-
-namespace {
-
-/// As wallTimeUtc() writes it; the beginning of 1970 for another text.
-std::chrono::sys_seconds wallTimeFrom(const std::string& iso) {
-    int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0;
-    if (std::sscanf(iso.c_str(), "%d-%d-%dT%d:%d:%d", &year, &month, &day, &hour, &minute, &second) != 6) return {};
-    using namespace std::chrono;
-    const sys_days days{std::chrono::year(year) / month / day};
-    return days + hours(hour) + minutes(minute) + seconds(second);
-}
-
-}  // namespace
 
 Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
     PilotRows rows;
@@ -35,11 +21,16 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
         auto events = reader->events();
         if (!events) return failure(events);
         const auto& about = reader->about();
+        const auto started = wallTimeFrom(about.wallStart);
+        if (!started)
+            return fail(ErrorCode::ParseError,
+                        "{}: the session's start is \"{}\"; a time as 2026-11-20T14:03:05Z is expected", part.file,
+                        about.wallStart);
         for (const auto& event : *events) {
             if (event.name == row::kPlan) rows.runSha256 = planRowFrom(event.body).runSha256;
             if (event.name == row::kSessionEnd) rows.ended = pilotEndFrom(textOr(event.body, "state"));
             if (event.name != row::kAnswer && event.name != row::kNoAnswer && event.name != row::kTrialBegin) continue;
-            auto at = wallTimeFrom(about.wallStart);
+            auto at = *started;
             if (!about.virtualClock) at += std::chrono::floor<std::chrono::seconds>(event.at - about.wallStartAt);
             rows.answeredAt = std::max(rows.answeredAt, at);
         }

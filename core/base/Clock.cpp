@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <ctime>
+#include <iomanip>
+#include <locale>
+#include <sstream>
 #include <string>
 
 namespace tacto {
@@ -52,13 +55,29 @@ void VirtualClock::sleepFor(Instant duration) noexcept {
     if (duration.count() > 0) asleep_.fetch_add(duration.count(), std::memory_order_acq_rel);
 }
 
-std::string wallTimeUtc() {
-    const std::time_t seconds = std::time(nullptr);
+namespace {
+
+constexpr const char* kWallFormat = "%Y-%m-%dT%H:%M:%SZ";
+
+std::string wallText(std::time_t at) {
     std::tm parts{};
-    gmtime_r(&seconds, &parts);
+    gmtime_r(&at, &parts);
     char text[32];
-    const std::size_t length = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return {text, length};
+    return {text, std::strftime(text, sizeof text, kWallFormat, &parts)};
+}
+
+}  // namespace
+
+std::string wallTimeUtc() { return wallText(std::time(nullptr)); }
+
+std::optional<std::chrono::sys_seconds> wallTimeFrom(const std::string& utc) {
+    std::tm parts{};
+    std::istringstream text(utc);
+    text.imbue(std::locale::classic());
+    text >> std::get_time(&parts, kWallFormat);
+    const auto at = timegm(&parts);
+    if (!text || wallText(at) != utc) return std::nullopt;  // get_time() is lenient
+    return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::from_time_t(at));
 }
 
 }  // namespace tacto

@@ -8,6 +8,8 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <optional>
 #include <string>
 
 #include "core/base/Units.h"
@@ -55,5 +57,7 @@ private:
 
 /// Wall time as ISO 8601 UTC, e.g. "2026-11-20T14:03:05Z". For a session's header and names, nothing else.
 [[nodiscard]] std::string wallTimeUtc();
+/// What wallTimeUtc() wrote; nothing for another text.
+[[nodiscard]] std::optional<std::chrono::sys_seconds> wallTimeFrom(const std::string& utc);
 
 }  // namespace tacto

@@ -69,5 +69,15 @@ TEST(WallTime, IsIso8601Utc) {
     EXPECT_TRUE(std::regex_match(wallTimeUtc(), std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)"))) << wallTimeUtc();
 }
 
+TEST(WallTime, IsReadAsItWasWrittenAndNothingElseIs) {
+    using namespace std::chrono;
+    EXPECT_EQ(wallTimeFrom("1970-01-01T00:00:00Z"), sys_seconds(0s));
+    EXPECT_EQ(wallTimeFrom("2026-11-20T14:03:05Z"), sys_days(2026y / 11 / 20) + 14h + 3min + 5s);
+    EXPECT_LE(abs(*wallTimeFrom(wallTimeUtc()) - system_clock::now()), 2s);
+    for (const char* text : {"", "x", "2026-11-20", "2026-13-20T14:03:05Z", "2026-11-20T25:03:05Z",
+                             "2026-11-20T14:03:05", "2026-11-20T14:03:05Z ", "2026-11-20T14:03:05+01:00"})
+        EXPECT_EQ(wallTimeFrom(text), std::nullopt) << text;
+}
+
 }  // namespace
 }  // namespace tacto

@@ -1,11 +1,11 @@
 // Linked into tests that wait by the clock. The program switches its output off when 50 or 100 ms pass without a sign
 // of life, as it should; a virtual machine that is not given its processors for so long makes it do so without a fault.
 //
-// A thread that sleeps a millisecond at a time sees how long the machine stood still, and one that it wakes every now
-// and then how long a word from thread to thread takes (a transfer of an emulated USB device takes ten of them). Linux
-// says how long each thread of the test and of the programs that it started waited for a processor, and how long the
-// processors were taken from the virtual machine: it may be another thread's that stood still, not the watch's. A test
-// that fails on a machine that does all of it in time has failed, and so has one of which anything but a deadline
+// A thread that sleeps a few milliseconds at a time sees how long the machine stood still, and one that it wakes each
+// time how long a word from thread to thread takes (a transfer of an emulated USB device takes ten of them).
+// Linux says how long each thread of the test and of the programs that it started waited for a processor, and how long
+// the processors were taken from the virtual machine: it may be another thread's that stood still, not the watch's. A
+// test that fails on a machine that does all of it in time has failed, and so has one of which anything but a deadline
 // failed (support/InTime.h). One that was only late on another machine is tried again from the start, five times in
 // all, each when the machine has been calm. What fails five times has failed. Every retry is a line of the file that
 // TACTO_RETRIES names: ./dev prints and counts them.
@@ -39,6 +39,7 @@ using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr Milliseconds kStill{25};    // half of the shortest that is waited for, the 50 ms of a stimulator's status
+constexpr Milliseconds kNap{4};       // of the watch: a fraction of that, and little work
 constexpr Milliseconds kSlowWord{1};  // fifty times the usual: ten of them and back are half of 50 ms
 constexpr int kTries = 5;
 constexpr const char* kTry = "TACTO_TEST_TRY";
@@ -223,10 +224,10 @@ public:
                 longest_ = std::max(longest_, Milliseconds(now - last));
                 last = now;
             };
-            for (int turn = 0; !ending_; ++turn) {
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            while (!ending_) {
+                std::this_thread::sleep_for(kNap);
                 look();
-                if (turn % 5 == 0) words.pass();
+                words.pass();
             }
             look();
             waited_ = waits.longest();

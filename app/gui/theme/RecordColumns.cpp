@@ -140,6 +140,7 @@ ColumnText numbersText(const RecordColumn& column, const json& records) {
             out.cells << numberText(known, {}, isU, digits);
         }
     }
+    for (auto& cell : out.cells) cell = grouped(std::move(cell));
     out.header = !own && !apart && !axis.unit.isEmpty() ? withUnit(column.title, axis.unit) : onTwoLines(column.title);
     return out;
 }

@@ -1,6 +1,6 @@
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 
-#include <cmath>
+#include <deque>
 
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
@@ -20,11 +20,6 @@ Json distanceJson(const std::optional<SurfaceDistance>& distance) {
     out["told_apart"] = distance->toldApart();
     out["pooled_sd"] = numberOrNull(distance->pooledSd);
     return out;
-}
-
-tl::unexpected<Error> missing(const char* what, const char* key) {
-    return fail(ErrorCode::InvalidArgument, "{}: {} is missing or of another type; what the bench returned is expected",
-                what, key);
 }
 
 Json expandedR(const SensorCalibration& found, double R) {
@@ -92,6 +87,64 @@ const RecordFields<WeightReading>& weightFields() {
     return fields;
 }
 
+constexpr std::size_t kMaxFrames = 1'000'000;
+
+/// The frames of a slide, a list for each of their members.
+struct SlideTrack {
+    double period_s = 0;
+    std::vector<double> t_s;
+    std::deque<bool> contact, sliding;
+    std::vector<double> h, v;
+};
+
+RecordFields<SlideTrack> trackFields() {
+    using T = SlideTrack;
+    RecordFields<T> all;
+    all.number("period_s", &T::period_s, {.low = 0, .openLow = true}).required = true;
+    all.list("t_s", &T::t_s, numberKind<double>({}), 0, kMaxFrames).required = true;
+    all.list("contact", &T::contact, flagKind(), 0, kMaxFrames).required = true;
+    all.list("sliding", &T::sliding, flagKind(), 0, kMaxFrames).required = true;
+    all.list("h", &T::h, readingKind(), 0, kMaxFrames).required = true;
+    all.list("v", &T::v, readingKind(), 0, kMaxFrames).required = true;
+    all.rule([](const T& track) -> Result<void> {
+        for (const auto size : {track.contact.size(), track.sliding.size(), track.h.size(), track.v.size()}) {
+            if (size != track.t_s.size())
+                return fail(ErrorCode::InvalidArgument, "a list of {} values beside {} times; one for each is expected",
+                            size, track.t_s.size());
+        }
+        return {};
+    });
+    return all;
+}
+
+struct WrittenSlide {
+    SlideReading reading;
+    SlideTrack track;
+};
+
+RecordFields<WrittenSlide> buildSlideFields() {
+    using S = SlideReading;
+    RecordFields<WrittenSlide> all;
+    const auto number = [&all](std::string_view key, double S::*member) {
+        all.number(key, in(&WrittenSlide::reading, member));
+    };
+    number("h", &S::h);
+    number("h_abs", &S::hAbs);
+    number("v_static", &S::vStatic);
+    number("v_dynamic", &S::vDynamic);
+    number("force_n", &S::force_n);
+    all.number("sliding_frames", in(&WrittenSlide::reading, &S::slidingFrames));
+    all.record("track", &WrittenSlide::track, trackFields()).required = true;
+    all.takeNullAsMissing();
+    all.passOverUnknownKeys();
+    return all;
+}
+
+const RecordFields<WrittenSlide>& slideFields() {
+    static const auto fields = buildSlideFields();
+    return fields;
+}
+
 }  // namespace
 
 Json toJson(const SensorCalibration& found) {
@@ -155,21 +208,17 @@ Json toJson(const SensorScale& found) {
 Json toJson(const SensorRest& rest) { return restFields().write(rest); }
 
 Json toJson(const SlideReading& slide) {
-    Json track = {{"period_s", slide.framePeriod_s}};
-    for (const char* key : {"t_s", "contact", "sliding", "h", "v"}) track[key] = Json::array();
+    WrittenSlide out{slide, {}};
+    auto& track = out.track;
+    track.period_s = slide.framePeriod_s;
     for (const auto& frame : slide.frames) {
-        track["t_s"].push_back(frame.t_s);
-        track["contact"].push_back(frame.contact);
-        track["sliding"].push_back(frame.sliding);
-        track["h"].push_back(numberOrNull(frame.h));
-        track["v"].push_back(numberOrNull(frame.v));
+        track.t_s.push_back(frame.t_s);
+        track.contact.push_back(frame.contact);
+        track.sliding.push_back(frame.sliding);
+        track.h.push_back(frame.h);
+        track.v.push_back(frame.v);
     }
-    Json out = {
-        {"force_n", numberOrNull(slide.force_n)}, {"sliding_frames", slide.slidingFrames}, {"track", std::move(track)}};
-    for (const auto feature : kSensorFeatures) {
-        out[std::string(keyOf(feature))] = numberOrNull(valueOf(slide, feature));
-    }
-    return out;
+    return slideFields().write(out);
 }
 
 Json toJson(const ForceInUse& force) { return forceFields().write(force); }
@@ -185,32 +234,22 @@ Result<SensorRest> sensorRestFrom(const Json& json) {
 }
 
 Result<SlideReading> slideReadingFrom(const Json& json) {
-    SlideReading out;
-    if (!json.is_object() || !json.contains("track") || !json["track"].is_object()) return missing("a slide", "track");
-    const auto& track = json["track"];
-    out.h = numberOr(json, "h");
-    out.hAbs = numberOr(json, "h_abs");
-    out.vStatic = numberOr(json, "v_static");
-    out.vDynamic = numberOr(json, "v_dynamic");
-    out.force_n = numberOr(json, "force_n");
-    out.framePeriod_s = numberOr(track, "period_s");
-    if (!(out.framePeriod_s > 0)) return missing("a slide", "period_s");
-    for (const char* key : {"t_s", "contact", "sliding", "h", "v"}) {
-        if (!track.contains(key) || !track[key].is_array() || track[key].size() != track["t_s"].size()) {
-            return missing("a slide", key);
-        }
-    }
-    for (std::size_t i = 0; i < track["t_s"].size(); ++i) {
+    auto read = slideFields().read(json, {.path = "slide"}).map_error(asInvalidArgument);
+    if (!read) return failure(read);
+    auto& [slide, track] = *read;
+    slide.framePeriod_s = track.period_s;
+    slide.slidingFrames = 0;
+    for (std::size_t i = 0; i < track.t_s.size(); ++i) {
         RoughnessFrame frame;
-        frame.t_s = numberOr(track["t_s"][i]);
-        frame.contact = track["contact"][i] == Json(true);
-        frame.sliding = track["sliding"][i] == Json(true);
-        frame.h = numberOr(track["h"][i]);
-        frame.v = numberOr(track["v"][i]);
-        out.slidingFrames += frame.contact && frame.sliding ? 1 : 0;
-        out.frames.push_back(frame);
+        frame.t_s = track.t_s[i];
+        frame.contact = track.contact[i];
+        frame.sliding = track.sliding[i];
+        frame.h = track.h[i];
+        frame.v = track.v[i];
+        slide.slidingFrames += frame.contact && frame.sliding ? 1 : 0;
+        slide.frames.push_back(frame);
     }
-    return out;
+    return std::move(slide);
 }
 
 }  // namespace tacto

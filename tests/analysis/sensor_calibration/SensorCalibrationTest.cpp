@@ -172,8 +172,31 @@ TEST(SensorCalibration, ReadingsSurviveTheScriptsJson) {
     EXPECT_EQ(back.slidingFrames, 99U);
     EXPECT_EQ(roughnessOf(back, {}), roughnessOf(slide, {}));
     EXPECT_EQ(sensorRestFrom(toJson(restOf(3e-4))).value().levels.taxelBaseline, (std::vector{1.0, 2.0, 3.0}));
-    EXPECT_FALSE(slideReadingFrom(nlohmann::json::object()));
     EXPECT_FALSE(sensorRestFrom(nlohmann::json::object()));
+}
+
+TEST(SensorCalibration, ASlideThatIsNotWhatTheBenchReturnedIsRefused) {
+    const auto good = toJson(slideOf(0.1, 0.02));
+    ASSERT_TRUE(slideReadingFrom(good));
+    const auto refused = [](const nlohmann::json& slide) {
+        const auto read = slideReadingFrom(slide);
+        EXPECT_EQ(read ? ErrorCode::Io : read.error().code, ErrorCode::InvalidArgument) << slide.dump().substr(0, 80);
+        return read ? std::string() : read.error().message;
+    };
+    EXPECT_THAT(refused(nlohmann::json::object()), HasSubstr("track"));
+    EXPECT_THAT(refused(nullptr), HasSubstr("slide"));
+    for (const char* key : {"period_s", "t_s", "contact", "sliding", "h", "v"}) {
+        auto slide = good;
+        slide["track"].erase(key);
+        EXPECT_THAT(refused(slide), HasSubstr(key));
+        slide["track"][key] = "x";
+        EXPECT_THAT(refused(slide), HasSubstr(key));
+        slide["track"][key] = key == std::string("period_s") ? nlohmann::json(0) : nlohmann::json::array();
+        EXPECT_NE(refused(slide), "");
+    }
+    auto slide = good;
+    slide["track"]["sliding"][2] = "yes";  // neither yes nor no: not taken for no
+    EXPECT_THAT(refused(slide), HasSubstr("sliding"));
 }
 
 std::vector<CalibrationReading> weighed(Random& random, double perNewton, double zero, double noise, int repeats) {

@@ -31,6 +31,14 @@ TEST(RecordColumns, GivesNumbersThatAreFarApartAPrefixEach) {
     EXPECT_THAT(text.cells[1].toStdString(), HasSubstr("MΩ"));
 }
 
+TEST(RecordColumns, GroupsTheDigitsOfLongNumbers) {
+    const auto cells =
+        columnText({"Samples", "n", As::Number}, Json{{{"n", 1227441}}, {{"n", 9120}}, {{"n", 12000.25}}}).cells;
+    EXPECT_EQ(cells[0], "1\u202f227\u202f441");
+    EXPECT_EQ(cells[1], "9120");
+    EXPECT_THAT(cells[2].toStdString(), testing::StartsWith("12\u202f000"));
+}
+
 TEST(RecordColumns, HasOnePrefixInAColumnUpToAFactorOfTenThousand) {
     const Json rows = {{{"v", 40.12}}, {{"v", 0.0125}}, {{"v", 0.3}}};
     const auto text = columnText({"Level", "v", As::Number, "V"}, rows);
