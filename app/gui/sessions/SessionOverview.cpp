@@ -2,6 +2,7 @@
 
 #include <QEvent>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QSplitter>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -24,7 +25,7 @@ namespace {
 constexpr int kGrid = 8;
 constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
-constexpr int kMinMoments = 2;  // lines
+constexpr int kMinMoments = 3;  // lines
 constexpr int kWhyLines = 2;
 constexpr int kLowPage = 560;      // there the reason is one line
 constexpr double kWrapped = 0.85;  // of a line's width is used where words wrap
@@ -114,32 +115,43 @@ QWidget* SessionOverview::buildFields() {
     auto* grid = new QGridLayout(fields);
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setHorizontalSpacing(kGrid);
-    grid->setVerticalSpacing(4);
-    const auto add = [&](const QString& title, const char* name, const QString& placeholder, std::size_t limit, int row,
-                         int column, int columns) {
-        auto* label = new QLabel(title, fields);
-        setTone(*label, Tone::Quiet);
-        setTextSize(*label, TextSize::Small);
-        auto* edit = new QLineEdit(fields);
-        edit->setObjectName(name);
-        edit->setAccessibleName(title);
-        edit->setPlaceholderText(placeholder);
-        edit->setMaxLength(int(limit));
-        connect(edit, &QLineEdit::editingFinished, this, &SessionOverview::save);
-        grid->addWidget(label, row, column);
-        grid->addWidget(edit, row + 1, column, 1, columns);
-        return edit;
+    grid->setVerticalSpacing(kGrid / 2);
+    const auto label = [fields](const QString& title) {
+        auto* made = new QLabel(title, fields);
+        setTone(*made, Tone::Quiet);
+        setTextSize(*made, TextSize::Small);
+        return made;
     };
-    operator_ = add(tr("Operator"), "labelOperator", tr("not recorded"), kLabelLimit, 0, 0, 1);
-    sample_ = add(tr("Sample"), "labelSample", tr("not recorded"), kLabelLimit, 0, 1, 1);
-    tags_ = add(tr("Tags"), "labelTags", tr("P60, P120"), kMaxTags * (kTagLimit + 2), 0, 2, 1);
-    note_ = add(tr("Note"), "labelNote", tr("what the next reader should know"), kSessionNoteLimit, 2, 0, 3);
-    // Beside a title: what it says takes no room from the plot.
+    const auto edit = [this, fields](const QString& title, const char* name, const QString& placeholder,
+                                     std::size_t limit) {
+        auto* made = new QLineEdit(fields);
+        made->setObjectName(name);
+        made->setAccessibleName(title);
+        made->setPlaceholderText(placeholder);
+        made->setMaxLength(int(limit));
+        connect(made, &QLineEdit::editingFinished, this, &SessionOverview::save);
+        return made;
+    };
+    operator_ = edit(tr("Operator"), "labelOperator", tr("not recorded"), kLabelLimit);
+    sample_ = edit(tr("Sample"), "labelSample", tr("not recorded"), kLabelLimit);
+    tags_ = edit(tr("Tags"), "labelTags", tr("P60, P120"), kMaxTags * (kTagLimit + 2));
+    note_ = edit(tr("Note"), "labelNote", tr("what the next reader should know"), kSessionNoteLimit);
+    int at = 0;
+    for (auto* one : {operator_, sample_, tags_}) {
+        grid->addWidget(label(one->accessibleName()), 0, at);
+        grid->addWidget(one, 1, at++);
+    }
+    // Beside what was edited: what it says takes no room from the plot.
     saved_ = new ElidedLabel(fields);
     saved_->setObjectName("labelsSaved");
-    saved_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    saved_->hide();
     setTextSize(*saved_, TextSize::Small);
-    grid->addWidget(saved_, 2, 1, 1, 2);
+    auto* note = new QHBoxLayout;
+    note->setSpacing(kGrid);
+    note->addWidget(label(note_->accessibleName()));
+    note->addWidget(note_, 1);
+    note->addWidget(saved_);
+    grid->addLayout(note, 2, 0, 1, 3);
     for (int column = 0; column < 3; ++column) grid->setColumnStretch(column, column == 2 ? 3 : 2);
     return fields;
 }
@@ -276,6 +288,7 @@ void SessionOverview::saved(const SessionLabels& before, const SessionLabels& ed
 void SessionOverview::saySaved(const QString& text, bool refused) {
     saved_->setText(text);
     saved_->setToolTip(text);
+    saved_->setVisible(!text.isEmpty());
     setTone(*saved_, refused ? Tone::Warning : Tone::Quiet);
 }
 
