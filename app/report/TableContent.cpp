@@ -167,7 +167,7 @@ QString limitSetTitle(const QString& id) {
 
 QString limitShareText(double used_pct) {
     if (!std::isfinite(used_pct)) return "–";
-    if (used_pct > 0 && used_pct < 0.1) return "< 0.1\u202f%";
+    if (used_pct > 0 && used_pct < 0.1) return "<\u202f0.1\u202f%";
     return QString::number(used_pct, 'f', used_pct < 1 && used_pct > 0 ? 1 : 0) + "\u202f%";
 }
 

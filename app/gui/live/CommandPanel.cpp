@@ -101,7 +101,7 @@ HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, std::uint64_
     words << (telemetry.gaps == 0   ? QObject::tr("no gaps")
               : telemetry.gaps == 1 ? QObject::tr("⚠ 1 gap")
                                     : QObject::tr("⚠ %1 gaps").arg(telemetry.gaps));
-    words << (telemetry.samplesLost > 0 ? QObject::tr("⚠ %1 samples lost").arg(telemetry.samplesLost)
+    words << (telemetry.samplesLost > 0 ? QObject::tr("⚠ %1 samples lost").arg(countText(telemetry.samplesLost))
                                         : QObject::tr("none lost"));
     if (missedByPicture > 0) words << QObject::tr("%1 not drawn, but recorded").arg(missedByPicture);
     for (const auto& flag : telemetry.flags.texts()) words << QString::fromStdString(flag);

@@ -12,6 +12,7 @@
 #include "app/gui/scope/QuantitySpin.h"
 #include "app/gui/scope/Remembered.h"
 #include "app/gui/scope/Steps.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
@@ -200,7 +201,7 @@ void AcquisitionPanel::restore(const QSettings& settings) {
 
 void AcquisitionPanel::say() {
     const auto s = settings();
-    said_->setText(tr("%1 samples at %2").arg(s.samples).arg(settingText(s.sampleRate.value(), "Hz")));
+    said_->setText(tr("%1 samples at %2").arg(countText(s.samples)).arg(settingText(s.sampleRate.value(), "Hz")));
     const double asked = rate_->currentData().toDouble();
     if (asked > s.sampleRate.value() * 1.001) {
         said_->setText(said_->text() + tr(": more does not fit into the instrument's memory"));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/gui/scope/AcquisitionPanel.h"
+#include "app/gui/theme/Text.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -173,7 +174,7 @@ QString ScopeAcquisition::statusText(const ShownCapture* shown, std::uint64_t sk
     if (shown != nullptr && !shown->source.isEmpty()) {
         return tr("%1 · %2 samples at %3")
             .arg(shown->source)
-            .arg(shown->capture->samples())
+            .arg(countText(shown->capture->samples()))
             .arg(settingText(shown->capture->rate_hz, "S/s"));
     }
     switch (controller_.activity()) {

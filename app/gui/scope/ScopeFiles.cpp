@@ -11,6 +11,7 @@
 #include "app/gui/scope/ScopeExport.h"
 #include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Text.h"
 #include "app/run/CaptureFormatsList.h"
 
 namespace tacto::gui {
@@ -106,7 +107,7 @@ void ScopeFiles::copyData() {
     if ((std::min(to, shown->end_s()) - std::max(from, shown->capture->start_s)) * shown->capture->rate_hz >
         static_cast<double>(kMaxCopied)) {
         emit told({}, tr("More than %1 samples are on the screen, too many to copy: zoom in, or save them as CSV.")
-                          .arg(kMaxCopied));
+                          .arg(countText(kMaxCopied)));
     } else if (const auto wrong = saveData(*shown, from, to, path)) {
         emit told({}, *wrong);
     } else if (QFile file(path); file.open(QIODevice::ReadOnly)) {

@@ -40,7 +40,7 @@ QString scalesText(const ScopeModel& model) {
     parts << QObject::tr("%1/div").arg(settingText(stepNotBelow(model.viewport().perDivision_s), "s"));
     if (const auto& shown = model.shown()) {
         parts << QObject::tr("%1 samples at %2")
-                     .arg(shown->capture->samples())
+                     .arg(countText(shown->capture->samples()))
                      .arg(settingText(shown->capture->rate_hz, "S/s"));
         if (shown->averaged > 0) parts << QObject::tr("averaged %1").arg(shown->averaged);
         if (shown->capture->untriggered) parts << QObject::tr("not triggered");

@@ -11,10 +11,15 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kCaptionSide = 16, kCaptionAbove = 4, kCaptionBelow = 8;
+constexpr int kCaptionAbove = 4, kCaptionBelow = 8;
 constexpr int kAxisDigits = 4;
 
 QFont titleFont() { return textFont(TextSize::Large, QFont::DemiBold); }
+
+/// As drawLines() finds it, which is not to a pixel what its advance says.
+bool fits(const QString& text, const QFontMetrics& metrics, int width) {
+    return metrics.elidedText(text, Qt::ElideRight, width) == text;
+}
 
 /// Parts of a line that belong together; the words of one that is wider than `width`.
 QStringList partsOf(const QString& line, const QFontMetrics& metrics, int width) {
@@ -22,7 +27,7 @@ QStringList partsOf(const QString& line, const QFontMetrics& metrics, int width)
         kWord(QStringLiteral("(?<= )(?=\\S)"));
     QStringList parts;
     for (const auto& part : line.split(kBetween)) {
-        if (metrics.horizontalAdvance(part.trimmed()) <= width)
+        if (fits(part.trimmed(), metrics, width))
             parts << part;
         else
             parts << part.split(kWord);
@@ -38,7 +43,7 @@ QStringList wrapped(const QString& line, const QFontMetrics& metrics, int width)
     QString now;
     for (const auto& part : partsOf(line, metrics, width - metrics.horizontalAdvance(kIndent))) {
         const auto longer = now + part;
-        if (!now.trimmed().isEmpty() && metrics.horizontalAdvance(QString(longer).remove(kSpaceAtEnd)) > width) {
+        if (!now.trimmed().isEmpty() && !fits(QString(longer).remove(kSpaceAtEnd), metrics, width)) {
             lines << now.remove(kSpaceAtEnd);
             now = kIndent + part;
         } else {
@@ -52,7 +57,7 @@ QStringList wrapped(const QString& line, const QFontMetrics& metrics, int width)
 int drawLines(QPainter& painter, const QStringList& lines, const QFont& font, int width, int top) {
     const QFontMetrics metrics(font);
     painter.setFont(font);
-    QRect line(kCaptionSide, top, width - 2 * kCaptionSide, metrics.lineSpacing());
+    QRect line(PictureCaption::kMargin, top, width - 2 * PictureCaption::kMargin, metrics.lineSpacing());
     for (const auto& text : lines) {
         painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
                          metrics.elidedText(text, Qt::ElideRight, line.width()));
@@ -107,7 +112,7 @@ QString axesText(const QCustomPlot& plot) {
 CaptionLines::CaptionLines(const PictureCaption& caption, int width) : width_(width) {
     if (caption.empty()) return;
     const QFontMetrics large(titleFont()), small(textFont(TextSize::Small));
-    const int room = width - 2 * kCaptionSide;
+    const int room = width - 2 * PictureCaption::kMargin;
     if (!caption.title.isEmpty()) title_ = wrapped(caption.title, large, room);
     for (const auto& line : QStringList{caption.date} + caption.lines)
         if (!line.isEmpty()) rest_ << wrapped(line, small, room);

@@ -113,16 +113,21 @@ Still::Still(QSize size, std::function<void(QCPPainter&)> draw, PictureCaption c
     if (!caption_.title.isEmpty()) title_ = caption_.title;
 }
 
-QSize Still::size() const { return {size_.width(), size_.height() + CaptionLines(caption_, size_.width()).height()}; }
+CaptionLines Still::captionLines() const { return {caption_, size_.width() + 2 * caption_.margin()}; }
+
+QSize Still::size() const {
+    const int margin = caption_.margin();
+    return {size_.width() + 2 * margin, captionLines().height() + size_.height() + margin};
+}
 
 void Still::draw(QCPPainter& painter) const {
-    const CaptionLines caption(caption_, size_.width());
+    const auto caption = captionLines();
     painter.fillRect(QRect(QPoint(0, 0), size()), ground_);
     painter.save();
     caption.draw(painter);
     painter.restore();
     painter.save();
-    painter.translate(0, caption.height());
+    painter.translate(caption_.margin(), caption.height());
     draw_(painter);
     painter.restore();
 }

@@ -24,13 +24,14 @@ public:
     /// `draw` paints `size` from the painter's origin on. `title` is for screen readers.
     Still(QSize size, std::function<void(QCPPainter&)> draw, PictureCaption caption, QString title);
 
-    /// With the caption.
+    /// With the caption, and the margin that goes with it.
     [[nodiscard]] QSize size() const;
     /// All of it, on its ground.
     void draw(QCPPainter& painter) const;
     [[nodiscard]] const QString& title() const { return title_; }
 
 private:
+    [[nodiscard]] CaptionLines captionLines() const;
     QSize size_;
     std::function<void(QCPPainter&)> draw_;
     PictureCaption caption_;

@@ -67,6 +67,9 @@ namespace tacto::gui {
     return words;
 }
 
+/// "20 000".
+[[nodiscard]] inline QString countText(std::size_t count) { return grouped(QString::number(qulonglong(count))); }
+
 /// "The load is open." of "the load is open".
 [[nodiscard]] inline QString sentence(const QString& words) {
     const auto whole = titled(withOhmSigns(words));

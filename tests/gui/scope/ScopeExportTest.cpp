@@ -66,12 +66,13 @@ TEST_F(Exports, APictureSaysWhatItShows) {
     const auto drawing = QString::fromUtf8(bytes(path));
     for (const auto* text :
          {"Oscilloscope · simulated", "2026-11-23 19:00:00", "simulated oscilloscope SIM-1", "V/div", "1\u202fms/div",
-          "20000 samples at 2\u202fMS/s", "averaged 16", "Amplitude 40.0 V", "SIMULATED", "Voltage (V)"}) {
+          "20\u202f000 samples at 2\u202fMS/s", "averaged 16", "Amplitude 40.0 V", "SIMULATED", "Voltage (V)"}) {
         EXPECT_TRUE(drawing.contains(text)) << text;
     }
     const auto picture = gui::scopePicture(still);
-    EXPECT_EQ(picture.width(), 2 * screen.width());
-    EXPECT_GT(picture.height(), 2 * screen.height() + 100) << "the caption takes nothing from the plot";
+    EXPECT_EQ(picture.width(), 2 * (screen.width() + 2 * gui::PictureCaption::kMargin));
+    EXPECT_GT(picture.height(), 2 * (screen.height() + gui::PictureCaption::kMargin) + 100)
+        << "the caption takes nothing from the plot";
     if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
         picture.save(shots + "/captioned.png");
 }

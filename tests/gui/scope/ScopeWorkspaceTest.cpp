@@ -144,7 +144,7 @@ TEST_F(Scope, OpensACaptureFileAndSaysWhatIsWrongWithABadOne) {
     EXPECT_THAT(problem->text().toStdString(), HasSubstr("pipe.csv is not a file that can be read."));
     EXPECT_TRUE(scope.openCaptureFile(good));
     ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
-    EXPECT_THAT(status(), HasSubstr("good.csv · 20000 samples at 2"));
+    EXPECT_THAT(status(), HasSubstr("good.csv · 20\u202f000 samples at 2"));
     EXPECT_EQ(scope.table().statistics().captures(), 1U);
     shot(scope, "workspace-file");
     QFile file(bad);
@@ -195,7 +195,7 @@ TEST_F(Scope, SavesAndCopies) {
     QFile picture(folder.filePath("picture.svg"));
     ASSERT_TRUE(picture.open(QIODevice::ReadOnly));
     const auto drawn = QString::fromUtf8(picture.readAll());
-    for (const auto* text : {"Oscilloscope · simulated", "capture", "20000 samples", "Amplitude", "Interval"}) {
+    for (const auto* text : {"Oscilloscope · simulated", "capture", "20\u202f000 samples", "Amplitude", "Interval"}) {
         EXPECT_TRUE(drawn.contains(text)) << text;
     }
     auto* menu = scope.findChild<QMenu*>();

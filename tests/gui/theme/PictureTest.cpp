@@ -62,9 +62,11 @@ TEST_F(Picture, IsOfItsMomentAndSaysWhatItShows) {
     draw(2);
     EXPECT_EQ(gui::pictureOf(still, 2), then) << "the plot went on";
     EXPECT_NE(gui::pictureOf(plot, 2), then);
-    EXPECT_EQ(then.width(), bare.width());
-    EXPECT_GT(then.height(), bare.height() + 100) << "the caption takes nothing from the plot";
-    EXPECT_EQ(then.copy(0, then.height() - bare.height(), bare.width(), bare.height()), bare) << "pixel by pixel";
+    const int margin = 2 * gui::PictureCaption::kMargin;
+    EXPECT_EQ(then.width(), bare.width() + 2 * margin);
+    EXPECT_GT(then.height(), bare.height() + margin + 100) << "the caption takes nothing from the plot";
+    EXPECT_EQ(then.copy(margin, then.height() - margin - bare.height(), bare.width(), bare.height()), bare)
+        << "pixel by pixel";
     const auto drawing = saved(still, "a.svg");
     for (const auto* said : {"Trials · simulated", "2026-11-27 20:30:00 UTC",
                              "Interval (s) 0 to 2.2 · Amplitude (V) 0 to 2", "twin SIM-1", "last"})
