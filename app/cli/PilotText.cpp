@@ -63,6 +63,8 @@ std::string rangeText(const json& range, const LevelText& levels) {
                        limit ? inWords(*limit) : resultText(range, "limited_by"));
 }
 
+std::string orBeyond(const json& found) { return found.value("at_edge", json()) == json(true) ? ", or beyond" : ""; }
+
 /// A line each; both protocols have them.
 void addThresholds(TextTable& table, const json& results, const LevelText& levels) {
     table.add({"felt from", levels.of(results, "felt")});
@@ -75,17 +77,18 @@ void addThresholds(TextTable& table, const json& results, const LevelText& level
         const double low = resultValue(estimate, "low"), high = resultValue(estimate, "high");
         const bool isInterval = std::isfinite(low) && std::isfinite(high);  // a staircase gives none
         table.add(
-            {"detection", fmt::format("{}{}, {} trials by {}", levels.with(resultValue(estimate, "value")),
+            {"detection", fmt::format("{}{}{}, {} trials by {}", levels.with(resultValue(estimate, "value")),
                                       isInterval ? fmt::format(" ({} to {})", levels.with(low), levels.with(high)) : "",
-                                      resultNumber(detection, "trials"), wordsOf(resultText(detection, "method")))});
+                                      orBeyond(detection), resultNumber(detection, "trials"),
+                                      wordsOf(resultText(detection, "method")))});
     }
     table.add({"range", rangeText(resultObject(results, "range"), levels)});
     const auto compared = resultObject(results, "comparison");
     const auto weber = resultObject(compared, "amplitude_weber");
     if (weber.empty()) return;
     const auto figure = [&](const char* key) { return decimalText(resultValue(weber, key), 2); };
-    table.add({"Weber fraction", fmt::format("{} ({} to {}){}", figure("value"), figure("low"), figure("high"),
-                                             compared.value("at_edge", json()) == json(true) ? ", or beyond" : "")});
+    table.add({"Weber fraction",
+               fmt::format("{} ({} to {}){}", figure("value"), figure("low"), figure("high"), orBeyond(compared))});
 }
 
 void addParticipant(TextTable& table, const json& results) {

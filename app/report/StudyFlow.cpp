@@ -223,6 +223,25 @@ TableBlock sideEffectsTable(const StudyRecord& study, ShownName name, const QStr
     return table;
 }
 
+namespace {
+
+/// What the records that are kept say where none says that a check did not hold.
+QString noRefusalText(const StudyRecord& study) {
+    const bool anyCheck = std::ranges::any_of(study.participants, [](const auto& participant) {
+        return std::ranges::any_of(participant.sessions, [](const auto& session) {
+            return std::ranges::any_of(session.rows, [](const auto& each) { return each.name == row::kGate; });
+        });
+    });
+    const bool destroyed = std::ranges::any_of(study.participants, [](const auto& participant) {
+        return participant.about.state == ParticipantState::Withdrawn;
+    });
+    if (!anyCheck) return "no check of a session is on record";
+    return destroyed ? "every check on record held; the records of participants who withdrew are destroyed"
+                     : "every check on record held";
+}
+
+}  // namespace
+
 TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
     const auto shared = sharedStudy(study);
     TableBlock table;
@@ -237,7 +256,7 @@ TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
             }
         }
     }
-    if (table.rows.empty()) table.rows.push_back({"–", "–", "–", "every check before every session passed"});
+    if (table.rows.empty()) table.rows.push_back({"–", "–", "–", noRefusalText(study)});
     return table;
 }
 

@@ -28,7 +28,7 @@ std::vector<SessionFigures> figuresOf(const std::vector<AnalysedSession>& sessio
         figures.push_back({.number = felt.number,
                            .days = felt.days,
                            .detection = {felt.detection, felt.detectionLow, felt.detectionHigh},
-                           .tooStrong = felt.tooStrong,
+                           .tooStrong = felt.saidTooStrong ? felt.tooStrong : kNaN,
                            .high = highestOf(felt, massager),
                            .impedance = felt.impedance,
                            .n = one.found.all.n,
@@ -36,6 +36,12 @@ std::vector<SessionFigures> figuresOf(const std::vector<AnalysedSession>& sessio
                            .itCorrected_bits = one.found.all.itCorrected_bits});
     }
     return figures;
+}
+
+/// "12.0"; "> 12.0" where the highest that was given was not called too strong.
+QString tooStrongText(const BidsSession& felt, int digits) {
+    const auto level = figureText(felt.tooStrong, digits);
+    return felt.saidTooStrong || !std::isfinite(felt.tooStrong) ? level : "> " + level;
 }
 
 TableBlock valuesTable(const OverSessions& compared, const std::vector<AnalysedSession>& sessions, bool massager) {
@@ -55,7 +61,7 @@ TableBlock valuesTable(const OverSessions& compared, const std::vector<AnalysedS
                                ? figureText(low, digits) + " to " + figureText(each.high, digits)
                                : QString("–");
         table.rows.push_back({QString::number(each.number), figureText(each.days, 0), withInterval(each.detection, 2),
-                              figureText(each.tooStrong, digits), range});
+                              tooStrongText(felt, digits), range});
         if (!massager) table.rows.back() << figureText(each.impedance.value(), 0);
         table.rows.back() << (each.n == 0 ? QString("–") : QString("%1 of %2").arg(each.hits).arg(each.n))
                           << figureText(each.n == 0 ? kNaN : each.itCorrected_bits, 2);

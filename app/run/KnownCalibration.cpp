@@ -24,7 +24,7 @@ KnownCalibration knownCalibration(const DeviceSet& devices) {
         return {.calibration = {}, .until = {}, .text = fmt::format("not calibrated: {}", store.error().message)};
     const auto& device = devices.stimulator->identity();
     const auto output = calibratedOutput(device.serial, device.uri);
-    const std::string_view unit = devices.stimulator->traits().drive == Drive::Current ? "mA" : "V";
+    const std::string_view unit = amplitudeUnit(devices.stimulator->traits().drive);
     KnownCalibration known;
     const auto* last = store->proven(output, unit, device.simulated);
     if (last != nullptr) known.calibration = linesOf(*last);

@@ -1,8 +1,10 @@
 #include "app/run/LoadSafetyRecord.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/scripting/ShippedResources.h"
+#include "core/base/JsonFields.h"
 #include "core/devices/DeviceUri.h"
 #include "core/session/Digest.h"
 #include "core/session/Origin.h"
@@ -11,7 +13,13 @@ namespace tacto {
 
 namespace {
 constexpr std::string_view kLoadSafety = "load-safety";
+
+std::optional<double> given(const nlohmann::json& parameters, const char* name) {
+    const double value = numberOr(parameters, name);
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
+
+}  // namespace
 
 std::string shippedLoadSafetySha256() {
     const auto shipped = shippedProtocols();
@@ -23,7 +31,9 @@ TrainReach reachOf(const Profile& profile) {
     const auto& encoding = profile.encoding;
     return {.amplitude_v = encoding.amplitudeMax.value(),
             .interval_s = encoding.intervalMin.count(),
-            .phase_us = encoding.train.phaseWidth.count() * encoding.train.pulses};
+            .phase_us = encoding.train.phaseWidth.count() * encoding.train.pulses,
+            .lowest_ohm = profile.loadLow.value(),
+            .highest_ohm = profile.loadHigh.value()};
 }
 
 std::optional<LoadSafetyCheck> loadSafetyCheckOf(const ProtocolSource& script, const SessionAbout& about,
@@ -40,6 +50,8 @@ std::optional<LoadSafetyCheck> loadSafetyCheckOf(const ProtocolSource& script, c
         about.devices, [](const SessionDevice& each) { return originOf(each) != origin::kHardware; });
     check.area = profile.electrodeArea;
     check.reach = reachOf(profile);
+    check.tolerances = {.load_pct = given(about.parameters, "load_tolerance"),
+                        .amplitude_pct = given(about.parameters, "amplitude_tolerance")};
     for (const auto& set : about.limitSets) check.limits.push_back({set.id, set.sha256});
     check.scriptSha256 = shippedLoadSafetySha256();
     check.session = session;

@@ -21,7 +21,7 @@ namespace tacto {
 /// Hash of the protocol that this program was built with.
 [[nodiscard]] std::string shippedLoadSafetySha256();
 
-/// How far the trains of a profile go.
+/// How far the trains of a profile go, and into which loads.
 [[nodiscard]] TrainReach reachOf(const Profile& profile);
 
 /// A check that begins; nothing for another protocol, altered bytes, or a stimulator without a serial number.

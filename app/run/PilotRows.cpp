@@ -13,6 +13,7 @@ namespace tacto {
 Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
     PilotRows rows;
     rows.answeredAt = session.parts.front().begun;
+    bool allTimed = true;
     for (const auto& part : session.parts) {
         const auto file = study.part(part.file);
         if (!file) return failure(file);
@@ -22,17 +23,15 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
         if (!events) return failure(events);
         const auto& about = reader->about();
         const auto started = wallTimeFrom(about.wallStart);
-        if (!started)
-            return fail(ErrorCode::ParseError,
-                        "{}: the session's start is \"{}\"; a time as 2026-11-20T14:03:05Z is expected", part.file,
-                        about.wallStart);
         for (const auto& event : *events) {
             if (event.name == row::kPlan) rows.runSha256 = planRowFrom(event.body).runSha256;
             if (event.name == row::kSessionEnd) rows.ended = pilotEndFrom(textOr(event.body, "state"));
             if (event.name != row::kAnswer && event.name != row::kNoAnswer && event.name != row::kTrialBegin) continue;
+            allTimed = allTimed && started;
+            if (!started) continue;
             auto at = *started;
             if (!about.virtualClock) at += std::chrono::floor<std::chrono::seconds>(event.at - about.wallStartAt);
-            rows.answeredAt = std::max(rows.answeredAt, at);
+            rows.answeredAt = std::max(*rows.answeredAt, at);
         }
         std::ranges::move(*events, std::back_inserter(rows.events));
         if (!rows.seed) rows.seed = about.seed;
@@ -42,6 +41,7 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
         if (!rows.delivers && delivers != about.devices.end()) rows.delivers = *delivers;
         rows.chainHead = reader->chainHead();
     }
+    if (!allTimed) rows.answeredAt.reset();
     return rows;
 }
 

@@ -25,13 +25,14 @@ struct PilotRows {
     std::string runSha256;                  ///< of its plan: runHash(); empty where it was not kept yet
     std::optional<SessionDevice> delivers;  ///< the stimulator or massager of the first part
     /// When something was last presented or answered; else when the session began, however often it was gone on with.
-    /// On a virtual clock a session's time runs ahead of the wall's, so a part counts from its beginning.
-    std::chrono::sys_seconds answeredAt{};
+    /// On a virtual clock a session's time runs ahead of the wall's, so a part counts from its beginning. Nothing: a
+    /// part does not say when it began.
+    std::optional<std::chrono::sys_seconds> answeredAt{};
     std::optional<PilotEnd> ended;  ///< as its row says; nothing where there is none
 
     /// What is complete has nothing left to present, however late it is.
     [[nodiscard]] bool mayGoOn(std::chrono::sys_seconds now) const {
-        return ended == PilotEnd::Complete || now - answeredAt <= kResumedWithin;
+        return ended == PilotEnd::Complete || (answeredAt && now - *answeredAt <= kResumedWithin);
     }
 };
 

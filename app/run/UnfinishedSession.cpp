@@ -41,12 +41,19 @@ Result<void> UnfinishedSession::mayResume(const Study& study) const {
     const auto now = SystemTime::real().wall();
     if (earlier_.mayGoOn(now)) {
         if (auto approved = study.stillApproved(); !approved) return approved;
-        return clockGate(earlier_.answeredAt, now, "what was last presented or answered");
+        if (!earlier_.answeredAt) return {};  // complete
+        return clockGate(*earlier_.answeredAt, now, "what was last presented or answered");
     }
+    if (!earlier_.answeredAt)
+        return fail(
+            kGateRefused,
+            "session {} of {} does not say when it began; one that can go on within 2 h does, and this one ends "
+            "with {}",
+            continued_->number, code_, whatEnds());
     return fail(kGateRefused,
                 "session {} of {} was interrupted {:.1f} h ago; it can go on within 2 h, and ends with {}",
                 continued_->number, code_,
-                std::chrono::duration<double, std::ratio<3600>>(now - earlier_.answeredAt).count(), whatEnds());
+                std::chrono::duration<double, std::ratio<3600>>(now - *earlier_.answeredAt).count(), whatEnds());
 }
 
 Result<void> UnfinishedSession::sameDevice(const DeviceSet& devices) const {

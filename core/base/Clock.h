@@ -57,7 +57,7 @@ private:
 
 /// Wall time as ISO 8601 UTC, e.g. "2026-11-20T14:03:05Z". For a session's header and names, nothing else.
 [[nodiscard]] std::string wallTimeUtc();
-/// What wallTimeUtc() wrote; nothing for another text.
+/// Reads what wallTimeUtc() wrote. Returns nothing for any other text.
 [[nodiscard]] std::optional<std::chrono::sys_seconds> wallTimeFrom(const std::string& utc);
 
 }  // namespace tacto

@@ -16,6 +16,8 @@ enum class Drive { Voltage, Current, HighImpedance };
 inline constexpr Word<Drive> kDrives[] = {
     {"voltage", Drive::Voltage}, {"current", Drive::Current}, {"high impedance", Drive::HighImpedance}};
 [[nodiscard]] constexpr std::string_view nameOf(Drive drive) noexcept { return wordFor(kDrives, drive); }
+/// The unit in which amplitudes of such a source are written and stored.
+[[nodiscard]] constexpr const char* amplitudeUnit(Drive drive) noexcept { return drive == Drive::Current ? "mA" : "V"; }
 
 /// The source's level goes from `start` to `end` in a straight line. SI units: volts or amperes by `drive`;
 /// levels carry the sign of the phase; ignored for HighImpedance (no current flows).

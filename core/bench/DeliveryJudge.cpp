@@ -80,7 +80,7 @@ std::optional<LoopFault> DeliveryJudge::amplitude(const SeenAmplitude& seen) con
     const double uncertainty = seen.uncertainty + (stated ? stated->absolute : 0);
     if (std::abs(off) <= kMaxDeviation * seen.expected + uncertainty) return std::nullopt;
     if (seen.onset < load_.armedAt || interlock_.state() == InterlockState::Faulted) return std::nullopt;
-    const auto* unit = source_.drive == Drive::Current ? "mA" : "V";
+    const auto* unit = amplitudeUnit(source_.drive);
     return LoopFault{off < 0 ? FaultCause::DeviceFault : FaultCause::LimitBroken,
                      faultText("{} {:.4g} {}; {:.4g} {} was commanded, and it must be within 20 % of that", seen.by,
                                seen.amplitude, unit, seen.expected, unit)};

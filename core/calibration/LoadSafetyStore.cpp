@@ -1,6 +1,7 @@
 #include "core/calibration/LoadSafetyStore.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/Hex.h"
 #include "core/base/RecordFields.h"
@@ -47,6 +48,11 @@ RecordFields<LoadSafetyCheck> buildCheckFields() {
     all.number("amplitude_v", in(&C::reach, &R::amplitude_v), {.low = 0, .unit = "V"}).required = true;
     all.number("interval_s", in(&C::reach, &R::interval_s), {.low = 0, .unit = "s"}).required = true;
     all.number("phase_us", in(&C::reach, &R::phase_us), {.low = 0, .unit = "µs"}).required = true;
+    // Lines of earlier versions have none of these, and count for no session.
+    all.number("load_low_ohm", in(&C::reach, &R::lowest_ohm), {.low = 0, .openLow = true, .unit = "ohm"});
+    all.number("load_high_ohm", in(&C::reach, &R::highest_ohm), {.low = 0, .openLow = true, .unit = "ohm"});
+    all.number("load_tolerance_pct", in(&C::tolerances, &CheckTolerances::load_pct), {.low = 0, .unit = "%"});
+    all.number("amplitude_tolerance_pct", in(&C::tolerances, &CheckTolerances::amplitude_pct), {.low = 0, .unit = "%"});
     all.list("limits", &C::limits, set.kind(), 0, 100).required = true;
     all.text("script_sha256", &C::scriptSha256, kAnyText).required = true;
     all.text("session", &C::session, kAnyText).required = true;
@@ -59,6 +65,27 @@ RecordFields<LoadSafetyCheck> buildCheckFields() {
 const RecordFields<LoadSafetyCheck>& checkFields() {
     static const auto fields = buildCheckFields();
     return fields;
+}
+
+/// Empty where `allowed` is known and at most `widest`.
+std::string widerThan(const std::optional<double>& allowed, const std::optional<double>& widest,
+                      std::string_view what) {
+    if (!allowed) return fmt::format("does not say how much it allowed for {}; a new one is expected", what);
+    if (*allowed <= widest.value_or(0)) return {};
+    return fmt::format("allowed {:g} % for {}; at most {:g} % is expected", *allowed, what, widest.value_or(0));
+}
+
+/// Empty where the worst case was judged for all loads of the session.
+std::string loadsLeftOut(const TrainReach& made, const TrainReach& wanted) {
+    if (!made.lowest_ohm || !made.highest_ohm)
+        return "does not say for which loads its worst case was judged; a new one is expected";
+    if (wanted.lowest_ohm && wanted.highest_ohm && *made.lowest_ohm <= *wanted.lowest_ohm &&
+        *made.highest_ohm >= *wanted.highest_ohm)
+        return {};
+    return fmt::format(
+        "was judged for loads of {:g} to {:g} Ω, and the session's profile permits {:g} to {:g} Ω; all of "
+        "them are expected",
+        *made.lowest_ohm, *made.highest_ohm, wanted.lowest_ohm.value_or(0), wanted.highest_ohm.value_or(HUGE_VAL));
 }
 
 /// What a check that passed in time leaves open of `need`; empty: nothing.
@@ -90,6 +117,12 @@ std::string shortOf(const LoadSafetyCheck& found, const LoadSafetyNeed& need) {
             "expected",
             made.phase_us, wanted.phase_us);
     }
+    if (auto open = loadsLeftOut(made, wanted); !open.empty()) return open;
+    const auto& allowed = found.tolerances;
+    if (auto wide = widerThan(allowed.load_pct, need.tolerances.load_pct, "a load's value"); !wide.empty()) return wide;
+    if (auto wide = widerThan(allowed.amplitude_pct, need.tolerances.amplitude_pct, "an amplitude over the command");
+        !wide.empty())
+        return wide;
     for (const auto& set : need.limits) {
         if (std::ranges::find(found.limits, set) != found.limits.end()) continue;
         return fmt::format("was not judged by the limit set {} ({:.12}…) of the approval; a check by it is expected",

@@ -40,7 +40,16 @@ struct TrainReach {
     double amplitude_v = 0;  ///< the largest command
     double interval_s = 0;   ///< the shortest interval
     double phase_us = 0;     ///< width of a phase, times the pulses of a train
+    // The loads for which the worst case is judged, and in which a person's |Z| lies; nothing: not known.
+    std::optional<double> lowest_ohm{}, highest_ohm{};
     bool operator==(const TrainReach&) const = default;
+};
+
+/// What a check lets pass, per cent; nothing: not known.
+struct CheckTolerances {
+    std::optional<double> load_pct{};       ///< of a load's value
+    std::optional<double> amplitude_pct{};  ///< delivered above the command
+    bool operator==(const CheckTolerances&) const = default;
 };
 
 struct LoadSafetyCheck {
@@ -51,6 +60,7 @@ struct LoadSafetyCheck {
     bool simulated = false;                 ///< any of the devices was simulated, replayed or emulated
     std::optional<SquareCentimetres> area;  ///< smallest electrode that was judged; nothing: none was stated
     TrainReach reach;
+    CheckTolerances tolerances;
     std::vector<LimitSetHash> limits;
     std::string scriptSha256;  ///< of the protocol's bytes
     std::string session;       ///< file name of the session that holds the evidence
@@ -67,7 +77,8 @@ struct LoadSafetyNeed {
     CalibrationDate day{};
     std::string scriptSha256;  ///< of the protocol as it is today
     SquareCentimetres area{0};
-    TrainReach reach;
+    TrainReach reach;            ///< with its loads
+    CheckTolerances tolerances;  ///< the widest that count
     std::vector<LimitSetHash> limits;
 };
 

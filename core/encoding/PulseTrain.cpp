@@ -45,7 +45,7 @@ Result<void> validate(const PulseTrain& train) {
     };
     const auto finite = [](double x, bool atLeast) { return std::isfinite(x) && atLeast; };
     if (!finite(amplitude, amplitude >= 0)) {
-        return refused("amplitude", amplitude, isCurrent(train.amplitude) ? "mA" : "V", "a finite number of 0 or more");
+        return refused("amplitude", amplitude, amplitudeUnit(train.amplitude), "a finite number of 0 or more");
     }
     switch (train.shape) {
         case PulseShape::SymmetricBiphasic:

@@ -34,6 +34,9 @@ struct Amplitude : std::variant<Volts, Milliamps> {
 };
 
 [[nodiscard]] inline bool isCurrent(const Amplitude& a) noexcept { return std::holds_alternative<Milliamps>(a); }
+[[nodiscard]] inline const char* amplitudeUnit(const Amplitude& a) noexcept {
+    return amplitudeUnit(isCurrent(a) ? Drive::Current : Drive::Voltage);
+}
 /// The amplitude in V or A, depending on the drive.
 [[nodiscard]] double siValue(const Amplitude& a) noexcept;
 

@@ -31,7 +31,7 @@ Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& g
     // The outer minimum: a multiple of a step that is not exact in binary may lie a last bit above the range.
     const double amplitudeSet =
         std::min(towardZero(std::min(amplitude, grid.amplitudeMax), grid.amplitudeStep), grid.amplitudeMax);
-    const char* unit = current ? "mA" : "V";
+    const char* unit = amplitudeUnit(wanted.amplitude);
     result.amplitude = shrunk(amplitude, amplitudeSet);
     if (tooFar(result.amplitude)) {
         return fail(

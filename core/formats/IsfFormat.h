@@ -3,6 +3,7 @@
 // A preamble of `KEY value` pairs with ';' between them, in long (YMULT) or short spelling (YMU), then `:CURVE ` and a
 // block `#<digits><bytes><samples>`, or numbers with commas between them where the encoding is ASCII.
 //   value = (code - YOFF) * YMULT + YZERO, at XZERO + (i - PT_OFF) * XINCR
+// XZERO and PT_OFF are 0 where they are missing; YMULT, YOFF and YZERO must be there.
 // Source: the WFMOutpre and CURVe commands in Tektronix' programmer manuals; checked against a MDO4104C's own CSV.
 // Envelopes (PT_FMT ENV: two values per interval) and FFTs (XUNIT other than s) are refused.
 //

@@ -138,8 +138,8 @@ Result<IsfPreamble> readIsfPreamble(std::string_view head, std::string_view file
     pre.start_s = number(kXZero, 0) - number(kPointOffset, 0) * pre.interval_s;
     pre.scale = number(kYScale);
     if (pre.scale == 0) refuse(kYScale, "a number other than 0");
-    pre.offset = number(kYOffset, 0);
-    pre.zero = number(kYZero, 0);
+    pre.offset = number(kYOffset);
+    pre.zero = number(kYZero);
     if (!std::isfinite(pre.start_s)) refuse(kXZero, "a time within reason");
     if (!std::isfinite(pre.valueOf(-65536)) || !std::isfinite(pre.valueOf(65536)))
         refuse(kYScale, "a scale within reason");

@@ -7,7 +7,8 @@
 //
 // Errors of all calls: as PilotStage.
 //
-// Thread-safety: one caller, the session's thread; stop() and takeStop() from any thread.
+// Thread-safety: one caller, the session's thread; stop() and endRun() from any thread. takeStop() and stopped() wait
+// for a press that is under way.
 #pragma once
 
 #include <atomic>

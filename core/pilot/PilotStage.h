@@ -116,7 +116,7 @@ public:
     [[nodiscard]] Result<void> end(PilotEnd how, const std::string& why);
     [[nodiscard]] PilotEnd ended() const noexcept { return end_; }
     /// A stop that was pressed since the last one was handled: by the participant or not, and how long it took until
-    /// the output was told. For the test of the STOPs; any other stop is handled where it interrupts.
+    /// the output was off. For the test of the STOPs; any other stop is handled where it interrupts.
     using PressedStop = PressedStops::Press;
     [[nodiscard]] std::optional<PressedStop> takeStop() noexcept { return output_.takeStop(); }
     [[nodiscard]] bool stopped() const noexcept { return output_.stopped(); }

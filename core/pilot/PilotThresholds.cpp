@@ -23,6 +23,8 @@ Seconds trainLength(const Bench& bench, LevelUnit unit) {
 
 Estimate estimateOf(const QuestPlusResult& found) { return found.estimate; }
 Estimate estimateOf(const StaircaseResult& found) { return {found.estimate, kNaN, kNaN}; }
+bool isAtEdge(const QuestPlusResult& found) { return found.atEdge; }
+bool isAtEdge(const StaircaseResult& /*found*/) { return false; }
 
 }  // namespace
 
@@ -147,7 +149,8 @@ Result<void> PilotThresholds::detection(DetectionMethod method) {
                                                  : measureBy<Staircase>(StaircaseSettings{});
     if (!done) return done;
     const auto kept = stage_.record().once(row::kEstimate, "detection", [this]() -> Result<nlohmann::json> {
-        return nlohmann::json{{"estimate", estimateOrNull(estimate_)}, {"trials", trials_.size()}};
+        return nlohmann::json{
+            {"estimate", estimateOrNull(estimate_)}, {"at_edge", estimateAtEdge_}, {"trials", trials_.size()}};
     });
     return kept ? Result<void>() : failure(kept);
 }
@@ -187,6 +190,7 @@ Result<void> PilotThresholds::measureBy(Settings settings) {
     }
     auto result = procedure->result();
     estimate_ = estimateOf(result);
+    estimateAtEdge_ = isAtEdge(result);
     shares_ = result.intervals;
     trials_ = std::move(result.trials);
     return {};
@@ -317,9 +321,10 @@ nlohmann::json PilotThresholds::toJson() const {
     nlohmann::json history = nlohmann::json::array();
     for (const auto& each : trials_) history.push_back({{nameOf(unit), each.level}, {"correct", each.correct}});
     const nlohmann::json detection{
-        {"method", nameOf(method_)},         {levelKey("estimate", unit), estimateOrNull(estimate_)},
-        {"trials", trials_.size()},          {"history", std::move(history)},
-        {"first", shareJson(shares_.first)}, {"second", shareJson(shares_.second)}};
+        {"method", nameOf(method_)},          {levelKey("estimate", unit), estimateOrNull(estimate_)},
+        {"at_edge", estimateAtEdge_},         {"trials", trials_.size()},
+        {"history", std::move(history)},      {"first", shareJson(shares_.first)},
+        {"second", shareJson(shares_.second)}};
     return {{levelKey("felt", unit), numberOrNull(ascending_.felt)},
             {levelKey("too_strong", unit), numberOrNull(ascending_.tooStrong)},
             {"said_too_strong", ascending_.saidTooStrong},

@@ -66,6 +66,7 @@ private:
     std::optional<LevelGrid> detectionGrid_;
     DetectionMethod method_ = DetectionMethod::Quest;
     Estimate estimate_{kNaN, kNaN, kNaN};
+    bool estimateAtEdge_ = false;  // of what was considered: it may lie anywhere beyond
     IntervalShares shares_;
     std::vector<AnsweredTwoIntervalTrial> trials_;
     bool measured_ = false;

@@ -1,8 +1,8 @@
 // PressedStops.h - the stops of a pilot session that were not handled yet: who pressed, or what went, and how long it
 // took until the output was told.
 //
-// A press is one thing: a question that comes while the output is being told waits until it was. What is taken has
-// taken effect, so that it counts once, and has been timed.
+// A press is atomic: a caller that takes one while the output is being switched off waits until it is off. So each
+// counts once, with its time.
 //
 // Thread-safety: all calls from any thread.
 #pragma once
@@ -25,73 +25,55 @@ public:
         std::chrono::nanoseconds took{0};
     };
 
-    /// `by` as in PilotParticipant::stop; the pointer is kept, the text not copied. `tellOutput` asks nothing here.
-    template <class TellOutput>
-    void press(const char* by, TellOutput tellOutput) noexcept {
+    /// `by` as in PilotParticipant::stop; the pointer is kept, the text not copied. `switchOff` must not call this
+    /// object.
+    template <class SwitchOff>
+    void press(const char* by, SwitchOff switchOff) noexcept {
         const auto pressed = std::chrono::steady_clock::now();
         underWay_.fetch_add(1);
-        keep(by);
-        tellOutput();
-        took_.store((std::chrono::steady_clock::now() - pressed).count());
+        const bool isPerson = keep(by);
+        switchOff();
+        if (isPerson) took_.store((std::chrono::steady_clock::now() - pressed).count());
         underWay_.fetch_sub(1);
         underWay_.notify_all();
     }
 
     [[nodiscard]] bool any() const noexcept {
-        settle();
-        return by_.load() != nullptr || screenGone_ || aborted_ || paused_;
+        return settled(by_.load() != nullptr || screenGone_ || aborted_ || paused_);
     }
 
     /// Someone pressed STOP, or let go; null: neither.
-    [[nodiscard]] const char* by() const noexcept {
-        settle();
-        return by_.load();
-    }
-    [[nodiscard]] const char* takeBy() noexcept {
-        settle();
-        return by_.exchange(nullptr);
-    }
-    /// The same, with how long it took from the press until the output was told.
+    [[nodiscard]] const char* by() const noexcept { return settled(by_.load()); }
+    [[nodiscard]] const char* takeBy() noexcept { return settled(by_.exchange(nullptr)); }
+    /// The same, with how long it took from the press until the output was off.
     [[nodiscard]] std::optional<Press> takePress() noexcept {
         const char* by = takeBy();
         if (by == nullptr) return std::nullopt;
         return Press{isParticipants(by), std::chrono::nanoseconds(took_.load())};
     }
-    [[nodiscard]] bool screenGone() const noexcept {
-        settle();
-        return screenGone_;
-    }
-    [[nodiscard]] bool takeScreenGone() noexcept {
-        settle();
-        return screenGone_.exchange(false);
-    }
-    [[nodiscard]] bool paused() const noexcept {
-        settle();
-        return paused_;
-    }
-    [[nodiscard]] bool takePaused() noexcept {
-        settle();
-        return paused_.exchange(false);
-    }
+    [[nodiscard]] bool screenGone() const noexcept { return settled(screenGone_.load()); }
+    [[nodiscard]] bool takeScreenGone() noexcept { return settled(screenGone_.exchange(false)); }
+    [[nodiscard]] bool paused() const noexcept { return settled(paused_.load()); }
+    [[nodiscard]] bool takePaused() noexcept { return settled(paused_.exchange(false)); }
     /// The session is interrupted for good: it stays so.
-    [[nodiscard]] bool aborted() const noexcept {
-        settle();
-        return aborted_;
-    }
+    [[nodiscard]] bool aborted() const noexcept { return settled(aborted_.load()); }
 
 private:
-    void keep(const char* by) noexcept {
-        if (std::string_view(by).starts_with(kScreenGone))
-            screenGone_ = true;
-        else if (std::string_view(by) == kOperatorAborts)
-            aborted_ = true;
-        else if (std::string_view(by) == kOperatorPauses)
-            paused_ = true;
-        else
-            by_.store(by);
+    /// Whether a person pressed.
+    bool keep(const char* by) noexcept {
+        const std::string_view text(by);
+        std::atomic<bool>* const other = text.starts_with(kScreenGone) ? &screenGone_
+                                         : text == kOperatorAborts     ? &aborted_
+                                         : text == kOperatorPauses     ? &paused_
+                                                                       : nullptr;
+        other != nullptr ? other->store(true) : by_.store(by);
+        return other == nullptr;
     }
-    void settle() const noexcept {
+    /// `read`, once the output is off: a press counts as under way before it can be read.
+    template <class T>
+    T settled(T read) const noexcept {
         for (int pressing = underWay_.load(); pressing != 0; pressing = underWay_.load()) underWay_.wait(pressing);
+        return read;
     }
 
     std::atomic<int> underWay_{0};

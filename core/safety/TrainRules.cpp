@@ -20,7 +20,7 @@ struct TrainForm {
     Seconds interval;
     const SourceTraits& source;
     [[nodiscard]] bool current() const noexcept { return isCurrent(train.amplitude); }
-    [[nodiscard]] const char* unit() const noexcept { return current() ? "mA" : "V"; }
+    [[nodiscard]] const char* unit() const noexcept { return amplitudeUnit(train.amplitude); }
     [[nodiscard]] double amplitude() const noexcept { return inOwnUnit(train.amplitude); }
 };
 

@@ -133,11 +133,11 @@ std::vector<BidsCell> feltCells(const BidsStudy& study, const BidsSession& sessi
 /// "redness:2:4,itching:1:1"; empty where it was not asked.
 std::string sideEffectsNextDay(const BidsSession& session) {
     if (std::ranges::find(session.sideEffectsAsked, kNextDayMoment) == session.sideEffectsAsked.end()) return {};
+    const auto rated = [](std::optional<int> rating) { return rating ? std::to_string(*rating) : "n/a"; };
     std::string all;
     for (const auto& each : session.sideEffects) {
         if (each.moment != kNextDayMoment) continue;
-        all += fmt::format("{}{}:{}:{}", all.empty() ? "" : ",", each.item, each.severity.value_or(0),
-                           each.relation.value_or(0));
+        all += fmt::format("{}{}:{}:{}", all.empty() ? "" : ",", each.item, rated(each.severity), rated(each.relation));
     }
     return all.empty() ? "none" : all;
 }
@@ -154,7 +154,8 @@ BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participa
         {"skin_after", skin},
         {"skin_next_day", skin + ", on a later day; n/a where it was not asked"},
         {"side_effects_next_day",
-         "On a later day, ITEM:SEVERITY:RELATION with commas between; none: asked, and nothing was noticed. "
+         "On a later day, ITEM:SEVERITY:RELATION with commas between, n/a for what was not rated; none: asked, and "
+         "nothing was noticed. "
          "Severity: " +
              scaleText(kSideEffectSeverities) + ". Relation to the stimulation: " + scaleText(kRelations)},
         {"complete", "Whether the session came to its end", "", {{"true", "yes"}, {"false", "no"}}},

@@ -77,6 +77,7 @@ struct BidsSession {
     double lowIntensity = kNaN, highIntensity = kNaN;
     std::string rangeNotUsable;                 ///< why ("it was not confirmed"); empty where it was, or none was found
     double detection = kNaN, tooStrong = kNaN;  ///< mA, or a massager's intensity
+    bool saidTooStrong = false;                 ///< else `tooStrong` is the highest that was given: it lies above
     double detectionLow = kNaN, detectionHigh = kNaN;  ///< 95 % interval of `detection`
     double amplitudeWeber = kNaN;                      ///< their own, from a comparison of strengths; NaN at its edge
     std::vector<std::string> sideEffectsAsked;         ///< moments at which they were asked for

@@ -64,12 +64,12 @@ Result<void> SimulatedStimulator::accepts(const PulseTrain& train) const {
     const auto& traits = settings_.traits;
     if (isCurrent(train.amplitude) != (traits.drive == Drive::Current)) {
         return fail(ErrorCode::Device, "the simulated stimulator is a {} source and refused a train in {}",
-                    nameOf(traits.drive), isCurrent(train.amplitude) ? "mA" : "V");
+                    nameOf(traits.drive), amplitudeUnit(train.amplitude));
     }
     const double asked = siValue(train.amplitude) * (traits.drive == Drive::Current ? 1e3 : 1);
     if (!(asked <= traits.amplitudeMax)) {
         return fail(ErrorCode::Device, "the simulated stimulator refused amplitude {}: at most {} {}", asked,
-                    traits.amplitudeMax, traits.drive == Drive::Current ? "mA" : "V");
+                    traits.amplitudeMax, amplitudeUnit(traits.drive));
     }
     const auto width = train.phaseWidth;
     if (!(width >= traits.widthMin) || !(width <= traits.widthMax)) {

@@ -20,7 +20,8 @@ LoadSafetyCheck checkOf(CheckVerdict verdict = CheckVerdict::Pass, const char* m
     check.made = dayIn(made);
     check.verdict = verdict;
     check.area = SquareCentimetres(3);
-    check.reach = {40, 0.5, 200};
+    check.reach = {40, 0.5, 200, 500, 10'000};
+    check.tolerances = {.load_pct = 5, .amplitude_pct = 2};
     check.limits = {{"paper", std::string(64, 'a')}, {"fda-pms", std::string(64, 'b')}};
     check.scriptSha256 = std::string(64, 'c');
     check.session = "load-safety.tacto";
@@ -33,7 +34,8 @@ LoadSafetyNeed needed(const char* day = "2026-11-23") {
             .day = dayIn(day),
             .scriptSha256 = std::string(64, 'c'),
             .area = SquareCentimetres(4),
-            .reach = {40, 0.5, 200},
+            .reach = {40, 0.5, 200, 500, 10'000},
+            .tolerances = {.load_pct = 5, .amplitude_pct = 2},
             .limits = {{"paper", std::string(64, 'a')}}};
 }
 
@@ -140,6 +142,9 @@ TEST_F(LoadSafetyChecks, IsOfElectrodesTrainsLimitsAndAProtocolThatCoverTheSessi
     EXPECT_THAT(without([](auto& need) { need.reach.amplitude_v = 41; }), HasSubstr("went up to 40 V, and the"));
     EXPECT_THAT(without([](auto& need) { need.reach.interval_s = 0.25; }), HasSubstr("had trains every 0.5 s"));
     EXPECT_THAT(without([](auto& need) { need.reach.phase_us = 400; }), HasSubstr("had 200 µs of each phase"));
+    EXPECT_THAT(without([](auto& need) { need.reach.highest_ohm = 20'000; }),
+                HasSubstr("was judged for loads of 500 to 10000 Ω, and the session's profile permits 500 to 20000 Ω"));
+    EXPECT_THAT(without([](auto& need) { need.reach.lowest_ohm = 200; }), HasSubstr("permits 200 to 10000 Ω"));
     EXPECT_THAT(without([](auto& need) { need.scriptSha256[0] = 'e'; }), HasSubstr("another version of the protocol"));
     EXPECT_THAT(without([](auto& need) { need.limits[0].sha256[0] = 'f'; }),
                 HasSubstr("was not judged by the limit set paper (faaaaaaaaaaa…)"));
@@ -147,6 +152,36 @@ TEST_F(LoadSafetyChecks, IsOfElectrodesTrainsLimitsAndAProtocolThatCoverTheSessi
     without_area.area.reset();
     keep(without_area);
     EXPECT_THAT(why(), HasSubstr("states no electrode area; one of at most 4 cm² is expected"));
+}
+
+// What fails at the program's own tolerances may be run again with wider ones: that pass is none.
+TEST_F(LoadSafetyChecks, OneThatAllowedMoreThanTheProgramDoesNotCount) {
+    RecordProperty("hazard", "H9");
+    auto wide = checkOf();
+    wide.tolerances.amplitude_pct = 20;
+    keep(wide);
+    EXPECT_EQ(why(),
+              "the load-safety check of stimulator P24-0815 of 2026-11-20 allowed 20 % for an amplitude over the "
+              "command; at most 2 % is expected");
+    wide.tolerances = {.load_pct = 15, .amplitude_pct = 2};
+    keep(wide);
+    EXPECT_THAT(why(), HasSubstr("allowed 15 % for a load's value; at most 5 % is expected"));
+    wide.tolerances = {.load_pct = 1, .amplitude_pct = 0.5};
+    keep(wide);
+    EXPECT_EQ(why(), "");
+}
+
+TEST_F(LoadSafetyChecks, OneThatDoesNotSayWhatItAllowedOrForWhichLoadsDoesNotCount) {
+    RecordProperty("hazard", "H9");
+    auto unsaid = checkOf();
+    unsaid.tolerances.load_pct.reset();
+    keep(unsaid);
+    EXPECT_THAT(why(), HasSubstr("does not say how much it allowed for a load's value; a new one is expected"));
+    unsaid = checkOf();
+    unsaid.reach.lowest_ohm.reset();
+    keep(unsaid);
+    EXPECT_EQ(store().all().back(), unsaid);
+    EXPECT_THAT(why(), HasSubstr("does not say for which loads its worst case was judged"));
 }
 
 TEST_F(LoadSafetyChecks, AChangedFileCannotBeReadOrAddedTo) {

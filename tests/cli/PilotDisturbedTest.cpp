@@ -86,6 +86,8 @@ TEST_F(DisturbedSession, OnADiskThatIsFullAtAnyTimeItEndsAndGoesOnOnceThereIsRoo
 TEST_F(DisturbedSession, WithAClockThatWasMovedBetweenItsPartsItIsRefusedOrGoesOnUnchanged) {
     RecordProperty("hazard", "H8");
     const auto expected = undisturbed();
+    const auto now = [] { return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()); };
+    const auto made = localDay(now());
     ASSERT_EQ(desk.runKilled(kAmongItsRows, kSession, shortSession()), -9);
     takeIn("study");
     expectUnchanged({.clock = 3h}, 4, "it can go on within 2 h", "study");
@@ -95,8 +97,7 @@ TEST_F(DisturbedSession, WithAClockThatWasMovedBetweenItsPartsItIsRefusedOrGoesO
     copy("study", "earlier");
     for (const auto& [study, clock] :
          {std::pair<const char*, std::chrono::seconds>{"study", 50min}, {"earlier", -4min}}) {
-        const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-        if (localDay(now + clock) < localDay(now)) {  // just after midnight: a rehearsal begins on the day it was made
+        if (localDay(now() + clock) < made) {  // just after midnight: a rehearsal's approval begins on that day
             expectUnchanged({.clock = clock}, 4, "sessions can begin from that day on", study);
             continue;
         }

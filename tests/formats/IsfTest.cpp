@@ -75,7 +75,7 @@ TEST(Isf, ShortKeysOtherBytesAndText) {
     EXPECT_THAT(bytes->capture.channels[0].samples, ElementsAre(0, 254));
     EXPECT_EQ(bytes->capture.channels[0].unit, "V");
     EXPECT_DOUBLE_EQ(bytes->capture.channels[0].high, 254);
-    const auto text = readIsf(isf("ENCDG ASCII;NR_PT 4;XINCR 0.5;YMULT 2;YUNIT \"mV\"", "1,-2,3,4\n"));
+    const auto text = readIsf(isf("ENCDG ASCII;NR_PT 4;XINCR 0.5;YMULT 2;YOFF 0;YZERO 0;YUNIT \"mV\"", "1,-2,3,4\n"));
     ASSERT_TRUE(text) << text.error().message;
     EXPECT_THAT(text->capture.channels[0].samples, ElementsAre(0.002F, -0.004F, 0.006F, 0.008F));
 }
@@ -83,7 +83,8 @@ TEST(Isf, ShortKeysOtherBytesAndText) {
 TEST(Isf, ATimeIsNoUnitOfItsChannel) {
     RecordProperty("hazard", "H10");
     for (const std::string unit : {"s", "ms", "second"}) {
-        const auto read = readIsf(isf("ENCDG ASCII;NR_PT 2;XINCR 0.5;YMULT 2;YUNIT \"" + unit + "\"", "1,2\n"));
+        const auto read =
+            readIsf(isf("ENCDG ASCII;NR_PT 2;XINCR 0.5;YMULT 2;YOFF 0;YZERO 0;YUNIT \"" + unit + "\"", "1,2\n"));
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_EQ(read->capture.channels[0].unit, "");
         EXPECT_THAT(read->capture.channels[0].samples, ElementsAre(2, 4));
@@ -123,10 +124,13 @@ TEST(Isf, WhatMakesNoSenseIsRefusedByKey) {
     EXPECT_THAT(with("XINCR 1.0E-3", "XINCR 0"), HasSubstr("xincr"));
     EXPECT_THAT(with("XINCR 1.0E-3", "XINCR nan"), HasSubstr("xincr"));
     EXPECT_THAT(with("YMULT 0.5;", ""), HasSubstr("ymult is missing"));
+    EXPECT_THAT(with("YOFF 2;", ""), HasSubstr("yoff is missing")) << "unknown, not 0";
+    EXPECT_THAT(with(";YZERO 1", ""), HasSubstr("yzero is missing"));
     EXPECT_THAT(with("NR_PT 3", "NR_PT 1e30"), HasSubstr("nr_pt"));
     EXPECT_THAT(refusal(isf(kKeys, "16")), HasSubstr("'#', a digit"));
     EXPECT_THAT(refusal(":WFMPRE:" + std::string(kKeys)), HasSubstr("no :CURVE"));
-    EXPECT_THAT(refusal(isf("ENCDG ASCII;NR_PT 2;XINCR 0.5;YMULT 2", "1,x")), HasSubstr("point 2 is 'x'"));
+    EXPECT_THAT(refusal(isf("ENCDG ASCII;NR_PT 2;XINCR 0.5;YMULT 2;YOFF 0;YZERO 0", "1,x")),
+                HasSubstr("point 2 is 'x'"));
 }
 
 }  // namespace

@@ -103,7 +103,8 @@ void checkLoadSafety(std::span<const std::uint8_t> bytes) {
         need.day = *parseDate("2026-11-23");
         need.scriptSha256 = one.scriptSha256;
         need.area = SquareCentimetres(1000);
-        need.reach.interval_s = 1000;
+        need.reach = {.interval_s = 1000, .lowest_ohm = 1e6, .highest_ohm = 1e-6};
+        need.tolerances = {.load_pct = 1000, .amplitude_pct = 1000};
         const auto counts = store->passed(need);
         if (!counts) {
             if (counts.error().message.empty()) std::abort();

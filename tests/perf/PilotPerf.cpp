@@ -23,10 +23,10 @@
 #include "app/run/PilotRun.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/Random.h"
-#include "core/devices/StatesCalibration.h"
 #include "core/study/SessionSeal.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/perf/Windows.h"
+#include "tests/support/WrappedTwin.h"
 
 namespace tacto {
 namespace {
@@ -214,25 +214,14 @@ std::atomic<std::int64_t> pilotOffAt_ns{0};
 
 std::int64_t steady_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
-class ClockedStimulator final : public Stimulator, public StatesCalibration {
+class ClockedStimulator final : public test::WrappedStimulator {
 public:
-    explicit ClockedStimulator(std::unique_ptr<Stimulator> inner) : inner_(std::move(inner)) {}
-    const DeviceIdentity& identity() const noexcept override { return inner_->identity(); }
-    const SourceTraits& traits() const noexcept override { return inner_->traits(); }
-    const KnownLines& statedCalibration() const noexcept override {
-        return dynamic_cast<const StatesCalibration&>(*inner_).statedCalibration();
-    }
-    Result<void> deliver(ApprovedTrain&& train) override { return inner_->deliver(std::move(train)); }
-    Result<StimulatorStatus> status() override { return inner_->status(); }
-    Result<void> keepAlive() override { return inner_->keepAlive(); }
+    using WrappedStimulator::WrappedStimulator;
     void forceOff() noexcept override {
-        inner_->forceOff();
+        WrappedStimulator::forceOff();
         std::int64_t none = 0;  // the first one counts
         pilotOffAt_ns.compare_exchange_strong(none, steady_ns());
     }
-
-private:
-    std::unique_ptr<Stimulator> inner_;
 };
 
 /// In real time: the key comes from outside at a moment that the window does not choose, while trains are delivered.

@@ -2,9 +2,9 @@
 // presented behind it.
 #include <thread>
 
-#include "core/devices/StatesCalibration.h"
 #include "core/pilot/PilotCare.h"
 #include "tests/pilot/StageFixture.h"
+#include "tests/support/WrappedTwin.h"
 
 namespace tacto::test {
 namespace {
@@ -12,29 +12,21 @@ namespace {
 using testing::HasSubstr;
 
 /// A twin whose output takes its time to switch off, or whose electrodes come off by and by.
-class WornStimulator final : public Stimulator, public StatesCalibration {
+class WornStimulator final : public WrappedStimulator {
 public:
     WornStimulator(std::unique_ptr<Stimulator> twin, std::chrono::milliseconds offTakes, double skinLater)
-        : twin_(std::move(twin)), offTakes_(offTakes), skinLater_(skinLater) {}
-    const DeviceIdentity& identity() const noexcept override { return twin_->identity(); }
-    const SourceTraits& traits() const noexcept override { return twin_->traits(); }
-    const KnownLines& statedCalibration() const noexcept override {
-        return dynamic_cast<const StatesCalibration&>(*twin_).statedCalibration();
-    }
-    Result<void> deliver(ApprovedTrain&& train) override { return twin_->deliver(std::move(train)); }
+        : WrappedStimulator(std::move(twin)), offTakes_(offTakes), skinLater_(skinLater) {}
     Result<StimulatorStatus> status() override {
-        auto read = twin_->status();
+        auto read = WrappedStimulator::status();
         if (read && read->impedance && read->at > std::chrono::seconds(20)) *read->impedance *= skinLater_;
         return read;
     }
-    Result<void> keepAlive() override { return twin_->keepAlive(); }
     void forceOff() noexcept override {
         std::this_thread::sleep_for(offTakes_);
-        twin_->forceOff();
+        WrappedStimulator::forceOff();
     }
 
 private:
-    const std::unique_ptr<Stimulator> twin_;
     const std::chrono::milliseconds offTakes_;
     const double skinLater_;
 };

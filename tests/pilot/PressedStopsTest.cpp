@@ -45,8 +45,8 @@ TEST(PressedStops, AScreenAPauseAndAnAbortAreNoPress) {
     EXPECT_TRUE(stops.any());
 }
 
-// Otherwise it would be handled first and take effect afterwards: the output's stop would have no name, which breaks a
-// session off, and a STOP's test would read the time of the press before.
+// Otherwise the session handles the press before it takes effect. The output's stop then has no name, which breaks the
+// session off, and a STOP's test reads the time of the previous press.
 TEST(PressedStops, OneIsTakenAfterTheOutputWasTold) {
     RecordProperty("hazard", "H2");
     PressedStops stops;
@@ -66,6 +66,33 @@ TEST(PressedStops, OneIsTakenAfterTheOutputWasTold) {
     EXPECT_TRUE(press->participants);
     EXPECT_GE(press->took, 20ms);
     EXPECT_FALSE(stops.any());
+}
+
+TEST(PressedStops, EachOfManyIsTakenOnceAndNeverBeforeTheOutputIsOff) {
+    RecordProperty("hazard", "H2");
+    constexpr int kPresses = 20'000;
+    PressedStops stops;
+    std::atomic<int> off{0};
+    std::atomic<bool> taken{true};
+    std::jthread presses([&](const std::stop_token& ends) {
+        for (int i = 0; i < kPresses; ++i) {
+            while (!taken.exchange(false) && !ends.stop_requested()) std::this_thread::yield();
+            stops.press("participant", [&] { ++off; });
+        }
+    });
+    for (int i = 1; i <= kPresses; ++i) {
+        while (stops.takeBy() == nullptr) std::this_thread::yield();
+        ASSERT_EQ(off, i);
+        taken = true;
+    }
+}
+
+TEST(PressedStops, AnotherThatComesNextDoesNotLendItsTime) {
+    RecordProperty("hazard", "H2");
+    PressedStops stops;
+    stops.press("operator", [] { std::this_thread::sleep_for(15ms); });
+    stops.press(kScreenGone, [] {});
+    EXPECT_GE(stops.takePress()->took, 15ms);
 }
 
 }  // namespace

@@ -170,9 +170,11 @@ TEST(StudyReport, ThresholdsAndRatingsOverSessionsStandBesideTheFirst) {
     thresholds.results.detectionLow = 5.6;
     thresholds.results.detectionHigh = 6.8;
     thresholds.results.tooStrong = 9;
+    thresholds.results.saidTooStrong = true;
     auto& sessions = study.participants[0].sessions;
     sessions.push_back(thresholds);
     sessions[0].results.tooStrong = 7.5;
+    sessions[0].results.saidTooStrong = true;
     sessions[0].results.ratings = {{"intensity", "rough-low", "4"}, {"intensity", "rough-high", "7"}};
     const auto content = studyReport(study);
     ASSERT_TRUE(content) << content.error().message;
@@ -183,6 +185,25 @@ TEST(StudyReport, ThresholdsAndRatingsOverSessionsStandBesideTheFirst) {
     EXPECT_THAT(said, HasSubstr("3 | – | 2.00 (1.74 to 2.29) | 1.20 | 1.00 | 1.00"));
     EXPECT_THAT(said, HasSubstr("1 | 5.5 | – | – | –"));
     EXPECT_THAT(said, Not(HasSubstr("nan")));
+    // The highest that was given was not called too strong: what is lies above.
+    sessions.back().results.saidTooStrong = false;
+    const auto never = textOf(studyReport(study).value());
+    EXPECT_THAT(never, HasSubstr("3 | 14 | 6.20 (5.60 to 6.80) | > 9.0 | "));
+    EXPECT_THAT(never, HasSubstr("3 | – | 2.00 (1.74 to 2.29) | – | 1.00 | 1.00"));
+}
+
+TEST(StudyReport, TheCommitteesClaimsNoCheckThatIsNotOnRecord) {
+    RecordProperty("hazard", "H9");
+    auto study = studyOfThree();
+    const auto said = [&] { return textOf(committeeReport(study)); };
+    EXPECT_THAT(said(), HasSubstr("skin break 3 | the skin scores 2"));
+    auto& rows = study.participants[1].sessions[0].rows;
+    rows.back().body["holds"] = true;
+    EXPECT_THAT(said(), HasSubstr("– | – | – | every check on record held\n"));
+    study.participants[2].about.state = ParticipantState::Withdrawn;
+    EXPECT_THAT(said(), HasSubstr("held; the records of participants who withdrew are destroyed"));
+    rows.clear();
+    EXPECT_THAT(said(), HasSubstr("no check of a session is on record"));
 }
 
 TEST(StudyReport, DriftAndExposureStandInBothReports) {

@@ -202,5 +202,26 @@ TEST(GivenReadings, AreRefusedAlikeByEachFunctionThatTakesThem) {
     EXPECT_NEAR(outcome.results["scale"]["offset"].get<double>(), -0.5, 1e-12);
 }
 
+TEST(CalibrationCheck, AReadingThatWasNotMeasuredMayBeTheOneThatIsOff) {
+    RecordProperty("hazard", "H9");
+    RunBench rig;
+    const auto check = [&](const std::string& level) {
+        const auto outcome = rig.run(withRun(R"(
+            const found = { quantity: "amplitude", unit: "V", levels: [Object.assign(
+                { commanded: 20, mean: 20.01, expanded_uncertainty: 0.05 }, )" +
+                                             level + R"()] };
+            const line = { gain: 1, offset: 0, lowest: 10, highest: 40 };
+            return verdict({ verdict: null, check: analysis.calibrationCheck(found, line, 2) });)"));
+        EXPECT_FALSE(outcome.error) << outcome.error->message;
+        return outcome.results["check"];
+    };
+    EXPECT_EQ(check("{ not_measured: 0 }")["verdict"], "pass");
+    for (const char* level : {"{ not_measured: 2 }", "{}"})
+        EXPECT_EQ(check(level)["verdict"], "indeterminate") << level;
+    EXPECT_THAT(check("{ not_measured: 2 }")["reasons"][0].get<std::string>(),
+                testing::HasSubstr("2 of its readings were not measured"));
+    EXPECT_EQ(check("{ not_measured: 2, mean: 25 }")["verdict"], "fail");
+}
+
 }  // namespace
 }  // namespace tacto

@@ -74,7 +74,8 @@ TEST_F(LoadSafetyRecord, APassIsKeptWithItsSessionsChainHeadAndAsSimulated) {
     EXPECT_TRUE(pass.simulated);
     EXPECT_EQ(pass.made, utcToday());
     EXPECT_EQ(pass.area, SquareCentimetres(3));
-    EXPECT_EQ(pass.reach, (TrainReach{40, 0.5, 200}));
+    EXPECT_EQ(pass.reach, (TrainReach{40, 0.5, 200, 500, 10'000}));
+    EXPECT_EQ(pass.tolerances, (CheckTolerances{.load_pct = 5, .amplitude_pct = 2})) << "as the script declares";
     EXPECT_EQ(pass.scriptSha256, shippedLoadSafetySha256());
     EXPECT_EQ(pass.session, result.session.filename().string());
     EXPECT_EQ(pass.sessionHead, SessionReader::open(result.session).value().chainHead());

@@ -308,6 +308,8 @@ TEST(BidsFiles, TheDayAfterStandsInTheSessionsTableAndItsSidecar) {
     };
     EXPECT_EQ(cells("skin_next_day"), (std::vector<std::string>{"1", "n/a"}));
     EXPECT_EQ(cells("side_effects_next_day"), (std::vector<std::string>{"redness:2:4,itching:3:5", "n/a"}));
+    sessions[0].sideEffects = {{"next day", "redness", std::nullopt, 4}};
+    EXPECT_EQ(cells("side_effects_next_day").front(), "redness:n/a:4") << "not rated is not 0";
     sessions[0].sideEffects.clear();
     EXPECT_EQ(cells("side_effects_next_day"), (std::vector<std::string>{"none", "n/a"})) << "asked is not n/a";
     for (const auto& [path, text] : filesOf(study)) {

@@ -139,6 +139,18 @@ TEST(SessionResults, AnEstimateAtTheEdgeOfWhatWasConsideredIsNoFigure) {
         rowOf(row::kEstimate, "comparison", {{"amplitude_weber", {{"value", 0.97}}}, {"at_edge", true}});
     EXPECT_EQ(sessionResults({first}, kLabels).amplitudeWeber, 0.12);
     EXPECT_TRUE(std::isnan(sessionResults({guessed}, kLabels).amplitudeWeber));
+    const auto detected = [](bool atEdge) {
+        return sessionResults(
+            {rowOf(row::kEstimate, "detection",
+                   {{"estimate", {{"value", 2.5}, {"low", 2.4}, {"high", 2.6}}}, {"at_edge", atEdge}}),
+             testTrial(41, 1, "rough-high", "rough-high")},
+            kLabels);
+    };
+    EXPECT_EQ(detected(false).detection, 2.5);
+    const auto beyond = detected(true);
+    for (const double figure :
+         {beyond.detection, beyond.detectionLow, beyond.detectionHigh, beyond.trials[0].detection})
+        EXPECT_TRUE(std::isnan(figure));
 }
 
 TEST(SessionResults, QuestionsBecomeRatingsSideEffectsAndSkin) {

@@ -4,33 +4,29 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
-#include "core/devices/Stimulator.h"
+#include "tests/support/PassingStimulator.h"
 
 namespace tacto::test {
 
-/// Passes everything on and says that it is real.
-class RealLookingStimulator final : public Stimulator {
+/// Reports itself as real hardware.
+class RealLookingStimulator final : public PassingStimulator {
 public:
     explicit RealLookingStimulator(std::unique_ptr<Stimulator> twin)
-        : twin_(std::move(twin)), identity_(twin_->identity()) {
+        : PassingStimulator(std::move(twin)), identity_(inner().identity()) {
         identity_.simulated = false;
     }
     const DeviceIdentity& identity() const noexcept override { return identity_; }
-    const SourceTraits& traits() const noexcept override { return twin_->traits(); }
     Result<void> deliver(ApprovedTrain&& train) override {
         ++delivered_;
-        return twin_->deliver(std::move(train));
+        return PassingStimulator::deliver(std::move(train));
     }
-    Result<StimulatorStatus> status() override { return twin_->status(); }
-    Result<void> keepAlive() override { return twin_->keepAlive(); }
-    void forceOff() noexcept override { twin_->forceOff(); }
 
     /// Trains and impedance checks so far; on the virtual clock.
     [[nodiscard]] int delivered() const noexcept { return delivered_; }
 
 private:
-    std::unique_ptr<Stimulator> twin_;
     DeviceIdentity identity_;
     int delivered_ = 0;
 };

@@ -39,7 +39,7 @@ using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr Milliseconds kStill{25};    // half of the shortest that is waited for, the 50 ms of a stimulator's status
-constexpr Milliseconds kNap{4};       // of the watch: a fraction of that, and little work
+constexpr Milliseconds kNap{4};       // between two looks: short against kStill, and cheap
 constexpr Milliseconds kSlowWord{1};  // fifty times the usual: ten of them and back are half of 50 ms
 constexpr int kTries = 5;
 constexpr const char* kTry = "TACTO_TEST_TRY";

@@ -11,31 +11,22 @@
 
 #include "core/devices/Registry.h"
 #include "core/devices/StatesCalibration.h"
-#include "core/devices/Stimulator.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "drivers/simulated/World.h"
+#include "tests/support/PassingStimulator.h"
 
 namespace tacto::test {
 
-/// Passes on all that the bench and other twins ask a simulated stimulator for.
-class WrappedStimulator : public Stimulator, public StatesCalibration, public sim::WorldMember {
+/// Also forwards what the bench and other twins ask of a simulated stimulator.
+class WrappedStimulator : public PassingStimulator, public StatesCalibration, public sim::WorldMember {
 public:
-    explicit WrappedStimulator(std::unique_ptr<Stimulator> twin) : twin_(std::move(twin)) {}
-    const DeviceIdentity& identity() const noexcept override { return twin_->identity(); }
-    const SourceTraits& traits() const noexcept override { return twin_->traits(); }
-    Result<void> deliver(ApprovedTrain&& train) override { return twin_->deliver(std::move(train)); }
-    Result<StimulatorStatus> status() override { return twin_->status(); }
-    Result<void> keepAlive() override { return twin_->keepAlive(); }
-    void forceOff() noexcept override { twin_->forceOff(); }
+    using PassingStimulator::PassingStimulator;
     const KnownLines& statedCalibration() const noexcept override {
-        return dynamic_cast<const StatesCalibration&>(*twin_).statedCalibration();
+        return dynamic_cast<const StatesCalibration&>(inner()).statedCalibration();
     }
     const std::shared_ptr<sim::World>& world() const noexcept override {
-        return dynamic_cast<const sim::WorldMember&>(*twin_).world();
+        return dynamic_cast<const sim::WorldMember&>(inner()).world();
     }
-
-private:
-    const std::unique_ptr<Stimulator> twin_;
 };
 
 class WrappedBench final : public Driver {

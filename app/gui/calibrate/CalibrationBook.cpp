@@ -26,7 +26,7 @@ std::optional<StimulatorId> CalibrationBook::connected() const {
     if (!open) return std::nullopt;
     for (const auto& device : open->about.devices) {
         if (device.role != nameOf(Role::Stimulator)) continue;
-        const char* unit = !open->source ? "" : open->source->drive == Drive::Current ? "mA" : "V";
+        const char* unit = open->source ? amplitudeUnit(open->source->drive) : "";
         return StimulatorId{calibratedOutput(device.serial, device.uri), device.name, unit, device.simulated};
     }
     return std::nullopt;

@@ -103,7 +103,7 @@ HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, std::uint64_
                                     : QObject::tr("⚠ %1 gaps").arg(telemetry.gaps));
     words << (telemetry.samplesLost > 0 ? QObject::tr("⚠ %1 samples lost").arg(countText(telemetry.samplesLost))
                                         : QObject::tr("none lost"));
-    if (missedByPicture > 0) words << QObject::tr("%1 not drawn, but recorded").arg(missedByPicture);
+    if (missedByPicture > 0) words << QObject::tr("%1 not drawn, but recorded").arg(countText(missedByPicture));
     for (const auto& flag : telemetry.flags.texts()) words << QString::fromStdString(flag);
     health.text = words.join(" · ");
     return health;

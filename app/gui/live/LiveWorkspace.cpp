@@ -276,7 +276,7 @@ void LiveWorkspace::begin() {
         tap_ = controller_.tap();
         history_.begin(open ? open->streams : std::vector<StreamInfo>{});
         freeze_->setChecked(false);
-        strips_->begin(touch, source, open && open->source && open->source->drive == Drive::Current ? "mA" : "V");
+        strips_->begin(touch, source, amplitudeUnit(open && open->source ? open->source->drive : Drive::Voltage));
         taxels_->clear();
         taxels_->setVisible(history_.info(StreamKind::Taxels) != nullptr);
         taxels_->setSimulated(touch);

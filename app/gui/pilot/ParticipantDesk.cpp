@@ -233,12 +233,11 @@ bool ParticipantDesk::testsStopOf(PromptTo whose) const {
 
 bool ParticipantDesk::stopBy(const char* by) {
     {
-        const std::scoped_lock lock(stopMutex_);
+        const std::scoped_lock whole(
+            stopMutex_);  // the screen that follows the press clears `stopped_`, not one before
         if (!listens_) return false;
         stop(by);
-    }
-    heldButton_ = kNoButton;  // it is off already: letting go does not stop again
-    {
+        heldButton_ = kNoButton;  // it is off already: letting go does not stop again
         const std::scoped_lock lock(mutex_);
         stopped_ = true;
     }

@@ -27,7 +27,7 @@ Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Partici
     found.number = open->number;
     found.protocol = open->protocol;
     found.answered = whole->answered;
-    const auto brokenOff = rows ? rows->answeredAt : open->parts.back().begun;
+    const auto brokenOff = rows && rows->answeredAt ? *rows->answeredAt : open->parts.back().begun;
     found.brokenOff = QDateTime::fromSecsSinceEpoch(brokenOff.time_since_epoch().count());
     if (!rows) {
         found.mayGoOn = false;

@@ -2,6 +2,7 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/report/QtJson.h"
+#include "core/base/DriveSegment.h"
 #include "core/base/JsonFields.h"
 #include "core/session/Marks.h"
 #include "core/session/Origin.h"
@@ -43,7 +44,7 @@ Result<void> readCourse(const SessionReader& reader, ReadSession& session) {
     for (const auto& row : *commands) {
         if (row.name != "delivered") continue;
         const bool current = !valueOr(row.body, "amplitude_ma").is_null();
-        course.unit = current ? "mA" : "V";
+        course.unit = amplitudeUnit(current ? Drive::Current : Drive::Voltage);
         course.train_s.push_back(toSeconds(row.at));
         course.amplitude.push_back(numberOr(row.body, current ? "amplitude_ma" : "amplitude_v"));
     }

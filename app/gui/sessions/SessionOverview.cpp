@@ -141,16 +141,17 @@ QWidget* SessionOverview::buildFields() {
         grid->addWidget(label(one->accessibleName()), 0, at);
         grid->addWidget(one, 1, at++);
     }
-    // Beside what was edited: what it says takes no room from the plot.
+    // Beside the note, so that it takes no room from the plot; a long sentence leaves the note half of the row.
     saved_ = new ElidedLabel(fields);
     saved_->setObjectName("labelsSaved");
+    saved_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     saved_->hide();
     setTextSize(*saved_, TextSize::Small);
     auto* note = new QHBoxLayout;
     note->setSpacing(kGrid);
     note->addWidget(label(note_->accessibleName()));
     note->addWidget(note_, 1);
-    note->addWidget(saved_);
+    note->addWidget(saved_, 1);
     grid->addLayout(note, 2, 0, 1, 3);
     for (int column = 0; column < 3; ++column) grid->setColumnStretch(column, column == 2 ? 3 : 2);
     return fields;
@@ -305,7 +306,8 @@ void SessionOverview::showHappened() {
     }
     html += "</table>";
     if (all.size() > kShownMoments)
-        html += "<p>" + tr("%1 more are in the export.").arg(all.size() - kShownMoments) + "</p>";
+        html +=
+            "<p>" + tr("%1 more are in the export.").arg(countText(std::size_t(all.size() - kShownMoments))) + "</p>";
     happened_->setHtml(html);
 }
 

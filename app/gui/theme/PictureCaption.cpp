@@ -11,12 +11,12 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kCaptionAbove = 4, kCaptionBelow = 8;
+constexpr int kCaptionAbove = PictureCaption::kMargin, kCaptionBelow = 8;
 constexpr int kAxisDigits = 4;
 
 QFont titleFont() { return textFont(TextSize::Large, QFont::DemiBold); }
 
-/// As drawLines() finds it, which is not to a pixel what its advance says.
+/// True if drawLines() draws `text` whole; elidedText() and horizontalAdvance() can differ by a pixel.
 bool fits(const QString& text, const QFontMetrics& metrics, int width) {
     return metrics.elidedText(text, Qt::ElideRight, width) == text;
 }

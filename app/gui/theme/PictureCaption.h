@@ -21,7 +21,7 @@ struct PictureCaption {
     QString date;       ///< "2026-11-26 16:59:39 UTC+01:00"
     QStringList lines;  ///< devices, scale, readings
     [[nodiscard]] bool empty() const { return title.isEmpty() && date.isEmpty() && lines.isEmpty(); }
-    /// Around what it stands above, so that both begin at one edge, px; 0 for an empty one.
+    /// Around the plot, in px, so that plot and caption share an edge; 0 without a caption.
     [[nodiscard]] int margin() const { return empty() ? 0 : kMargin; }
     static constexpr int kMargin = 16;
 };

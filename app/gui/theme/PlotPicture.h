@@ -24,7 +24,7 @@ public:
     /// `draw` paints `size` from the painter's origin on. `title` is for screen readers.
     Still(QSize size, std::function<void(QCPPainter&)> draw, PictureCaption caption, QString title);
 
-    /// With the caption, and the margin that goes with it.
+    /// Includes the caption and its margin.
     [[nodiscard]] QSize size() const;
     /// All of it, on its ground.
     void draw(QCPPainter& painter) const;

@@ -42,10 +42,10 @@ QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
     lines << tr("Serial %1, firmware %2").arg(orDash(device.serial), orDash(device.firmware));
     if (device.simulated) lines << tr("Simulated: none of its numbers were measured on hardware.");
     if (device.is(Role::Stimulator) && open.source) {
-        const bool current = open.source->drive == Drive::Current;
+        const auto drive = open.source->drive;
         lines << tr("%1 source, at most %2")
-                     .arg(current ? tr("Current") : tr("Voltage"),
-                          settingText(open.source->amplitudeMax, current ? "mA" : "V"));
+                     .arg(drive == Drive::Current ? tr("Current") : tr("Voltage"),
+                          settingText(open.source->amplitudeMax, amplitudeUnit(drive)));
     }
     if (device.is(Role::Sensor)) {
         for (const auto& stream : open.streams) {

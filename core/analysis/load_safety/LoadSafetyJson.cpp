@@ -229,6 +229,7 @@ Result<LoadRecord> loadRecordFrom(const json& from) {
     const auto load = parseLoad(out->name);
     if (!load) return failure(load);
     out->load = *load;
+    if (!(out->dmm_ohm.u > 0)) out->dmm_ohm.u = kNaN;  // no meter is exact: its uncertainty is not known
     out->dmm_ohm.expanded = 2 * out->dmm_ohm.u;
     return out;
 }

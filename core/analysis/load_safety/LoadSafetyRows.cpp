@@ -49,6 +49,8 @@ std::string missingOf(const LoadRecord& record) {
         if (!step.reading.notStated.empty()) return step.reading.notStated;
     }
     if (!record.problem.empty()) return record.problem;
+    if (std::isfinite(record.dmm_ohm.value) && !record.dmm_ohm.measured())
+        return "the uncertainty of the multimeter's reading is not known; one above 0 is expected";
     return record.steps.empty() ? "nothing was delivered" : "it was not measured";
 }
 
@@ -116,24 +118,23 @@ void addUpper(std::vector<SafetyRow>& rows, const LoadRecord& record, SafetyRow 
 }
 
 void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
+    const bool metered = std::isfinite(record.dmm_ohm.value);
     Reading error;
     if (!record.steps.empty()) {
         const Reading& got = record.steps.front().reading.impedance_ohm;
-        const double truth = record.dmm_ohm.measured() ? record.dmm_ohm.value : expectedOhms(record, input);
+        const double truth = metered ? record.dmm_ohm.value : expectedOhms(record, input);
         // As marked on it: a rectangle, whose 95 % are 0.95 of it and whose s is its half-width/√3.
         const double marked = input.tolerances.resistor_pct / 100 * truth;
-        const Reading known =
-            record.dmm_ohm.measured() ? record.dmm_ohm : Reading{truth, marked / std::sqrt(3.0), 0.95 * marked};
+        const Reading known = metered ? record.dmm_ohm : Reading{truth, marked / std::sqrt(3.0), 0.95 * marked};
         const double scale = 100 / truth;
         error = {scale * std::abs(got.value - truth), scale * std::hypot(got.u, known.u),
                  scale * std::hypot(got.expanded, known.expanded)};
     }
-    addUpper(
-        rows, record,
-        rowOf(record, "load_value",
-              record.dmm_ohm.measured() ? "error of the load's value against the DMM" : "error of the load's value",
-              error, "%"),
-        input.tolerances.load_pct, false, "laboratory", "the load's value is verified before anything is judged on it");
+    addUpper(rows, record,
+             rowOf(record, "load_value",
+                   metered ? "error of the load's value against the DMM" : "error of the load's value", error, "%"),
+             input.tolerances.load_pct, false, "laboratory",
+             "the load's value is verified before anything is judged on it");
 }
 
 void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {

@@ -25,8 +25,10 @@ struct Made {
     Reading amplitude{1, 0, 0}, width{1, 0, 0}, interval{1, 0, 0};
     bool measured = false;
 };
+/// What was measured nowhere is not as commanded, but unknown.
 Made madeOf(const LoadSafetyInput& input) {
     Made out;
+    bool widthSeen = false, intervalSeen = false;
     // One that was measured without a known U leaves nothing known.
     const auto take = [](Reading& into, double value, const Reading& got, double scale, bool more) {
         if (std::isnan(got.value)) return;
@@ -44,8 +46,12 @@ Made madeOf(const LoadSafetyInput& input) {
             take(out.interval, got.interval_s.value / step.interval_s, got.interval_s, 1 / step.interval_s,
                  got.interval_s.value / step.interval_s < out.interval.value);
             out.measured = out.measured || !std::isnan(got.delivered.value);
+            widthSeen = widthSeen || !std::isnan(got.width_s.value);
+            intervalSeen = intervalSeen || !std::isnan(got.interval_s.value);
         }
     }
+    if (!widthSeen) out.width.expanded = kNaN;
+    if (!intervalSeen) out.interval.expanded = kNaN;
     return out;
 }
 

@@ -81,6 +81,22 @@ ReferenceSurface certificate(const SlidSurface& surface) {
     return {surface.name, Micrometres(surface.ra_um), Micrometres(surface.rz_um > 0 ? surface.rz_um : 0)};
 }
 
+/// A rig that never measures a feature does without it. One that measures it now and then would weigh it by a scale
+/// that is not this rig's.
+void sayAbsent(SensorFeature feature, const std::vector<SlidSurface>& surfaces, SensorCalibration& found) {
+    const bool measured = std::ranges::any_of(surfaces, [&](const SlidSurface& surface) {
+        return std::ranges::any_of(surface.slides, [&](const auto& slide) { return valueOf(slide, feature) > 0; });
+    });
+    if (!measured) {
+        found.warnings.push_back(fmt::format("{} was absent; R stands on what is left", keyOf(feature)));
+        return;
+    }
+    found.reasons.push_back(fmt::format(
+        "{} was measured in some slides and not in every slide over the two references, so it has no scale; "
+        "all of them, or none, are expected",
+        keyOf(feature)));
+}
+
 /// Every feature's distance and its new scale; what is in use and not told apart becomes a reason.
 void setScales(const std::vector<SlidSurface>& surfaces, SensorCalibration& found, RoughnessSettings& scaled) {
     const auto used = featuresInUse(scaled);
@@ -90,7 +106,7 @@ void setScales(const std::vector<SlidSurface>& surfaces, SensorCalibration& foun
         const bool inUse = std::find(used.begin(), used.end(), feature) != used.end();
         const auto smooth = logarithms(surfaces[0], feature), rough = logarithms(surfaces[1], feature);
         if (!smooth || !rough) {
-            if (inUse) found.warnings.push_back(fmt::format("{} was absent; R stands on what is left", keyOf(feature)));
+            if (inUse) sayAbsent(feature, surfaces, found);
             continue;
         }
         const auto distance = surfaceDistance(*smooth, *rough);

@@ -89,7 +89,7 @@ const RecordFields<WeightReading>& weightFields() {
 
 constexpr std::size_t kMaxFrames = 1'000'000;
 
-/// The frames of a slide, a list for each of their members.
+/// The frames of a slide, one list per member. (A vector<bool> has no elements that a field could refer to.)
 struct SlideTrack {
     double period_s = 0;
     std::vector<double> t_s;
@@ -107,10 +107,13 @@ RecordFields<SlideTrack> trackFields() {
     all.list("h", &T::h, readingKind(), 0, kMaxFrames).required = true;
     all.list("v", &T::v, readingKind(), 0, kMaxFrames).required = true;
     all.rule([](const T& track) -> Result<void> {
-        for (const auto size : {track.contact.size(), track.sliding.size(), track.h.size(), track.v.size()}) {
-            if (size != track.t_s.size())
-                return fail(ErrorCode::InvalidArgument, "a list of {} values beside {} times; one for each is expected",
-                            size, track.t_s.size());
+        for (const auto& [key, size] : {std::pair("contact", track.contact.size()),
+                                        {"sliding", track.sliding.size()},
+                                        {"h", track.h.size()},
+                                        {"v", track.v.size()}}) {
+            if (size == track.t_s.size()) continue;
+            return fail(ErrorCode::InvalidArgument, "{} has {} values beside {} times in t_s; one for each is expected",
+                        key, size, track.t_s.size());
         }
         return {};
     });

@@ -49,7 +49,8 @@ public:
             // At the edge of what was considered it may be anything beyond: no figure.
             if (!flagOr(body, "at_edge")) out_.amplitudeWeber = estimateFrom(body["amplitude_weber"]).value;
         } else if (each.name == row::kEstimate) {
-            const auto estimate = estimateFrom(valueOr(body, "estimate"));
+            const auto estimate =
+                flagOr(body, "at_edge") ? Estimate{kNaN, kNaN, kNaN} : estimateFrom(valueOr(body, "estimate"));
             out_.detection = detectionLevel_ = estimate.value;
             out_.detectionLow = estimate.low;
             out_.detectionHigh = estimate.high;
@@ -76,7 +77,8 @@ public:
 
     [[nodiscard]] BidsSession result() {
         for (const auto& [number, trial] : silent_) out_.trials.push_back(trial);
-        if (!std::isfinite(out_.tooStrong)) out_.tooStrong = highestLevel_;
+        out_.saidTooStrong = std::isfinite(out_.tooStrong);
+        if (!out_.saidTooStrong) out_.tooStrong = highestLevel_;
         return std::move(out_);
     }
 

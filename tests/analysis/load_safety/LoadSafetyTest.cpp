@@ -272,6 +272,33 @@ TEST_F(LoadSafetyCheck, AWrongResistorIsFoundBeforeAnythingIsBelieved) {
     EXPECT_EQ(rowOf(judgeLoadSafety(input), "500 ohm", "load_value").verdict, RowVerdict::Pass);
 }
 
+TEST_F(LoadSafetyCheck, AMultimeterWithoutAnUncertaintyIsNoPerfectOne) {
+    RecordProperty("hazard", "H9");
+    const auto read = [](double u) {
+        return loadRecordFrom(
+                   {{"name", "500 ohm"}, {"dmm_ohm", 500}, {"dmm_u_ohm", u}, {"steps", nlohmann::json::array()}})
+            .value()
+            .dmm_ohm;
+    };
+    EXPECT_EQ(read(0.5).expanded, 1);
+    EXPECT_TRUE(std::isnan(read(0).expanded));
+    at("500 ohm").dmm_ohm = read(0);
+    const auto found = judgeLoadSafety(input);
+    const auto row = rowOf(found, "500 ohm", "load_value");
+    EXPECT_EQ(row.verdict, RowVerdict::NotEvaluated);
+    EXPECT_THAT(row.reason, testing::HasSubstr("the uncertainty of the multimeter's reading is not known"));
+    EXPECT_EQ(found.verdict, Verdict::Indeterminate);
+}
+
+TEST_F(LoadSafetyCheck, WhatWasMeasuredNowhereLeavesTheWorstCaseOpen) {
+    RecordProperty("hazard", "H1");
+    for (auto& record : input.loads)
+        for (auto& step : record.steps) step.reading.interval_s = {};
+    const auto interval = judgeLoadSafety(input);
+    EXPECT_EQ(interval.worstCase.verdict, RowVerdict::NotEvaluated);
+    EXPECT_EQ(interval.verdict, Verdict::Indeterminate);
+}
+
 TEST_F(LoadSafetyCheck, StatesTheOutputsOfTheGuidance) {
     const auto found = judgeLoadSafety(input);
     const struct {

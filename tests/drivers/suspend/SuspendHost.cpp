@@ -18,6 +18,7 @@
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/bench/FakeStimulator.h"
 #include "tests/drivers/pulsepal/PulsePalLine.h"
+#include "tests/support/PassingStimulator.h"
 
 namespace tacto {
 namespace {
@@ -34,21 +35,13 @@ void sayTrain() {
     say(fmt::format("train {}", at.tv_sec * 1'000'000'000L + at.tv_nsec));
 }
 
-class ToldStimulator final : public Stimulator {
+class ToldStimulator final : public test::PassingStimulator {
 public:
-    explicit ToldStimulator(std::unique_ptr<Stimulator> inner) : inner_(std::move(inner)) {}
-    const DeviceIdentity& identity() const noexcept override { return inner_->identity(); }
-    const SourceTraits& traits() const noexcept override { return inner_->traits(); }
+    using PassingStimulator::PassingStimulator;
     Result<void> deliver(ApprovedTrain&& train) override {
         sayTrain();
-        return inner_->deliver(std::move(train));
+        return PassingStimulator::deliver(std::move(train));
     }
-    Result<StimulatorStatus> status() override { return inner_->status(); }
-    Result<void> keepAlive() override { return inner_->keepAlive(); }
-    void forceOff() noexcept override { inner_->forceOff(); }
-
-private:
-    const std::unique_ptr<Stimulator> inner_;
 };
 
 class ToldMassager final : public Massager {

@@ -14,6 +14,7 @@
 #include "app/gui/live/StripPlots.h"
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/live/TaxelMap.h"
+#include "app/gui/theme/PictureCaption.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "tests/gui/Looks.h"
@@ -339,7 +340,7 @@ TEST_F(LiveBench, AFrozenPictureIsZoomedFittedSavedCopiedAndMarked) {
 
     QApplication::clipboard()->clear();
     click(*find<QToolButton>(live, "Copy picture"));
-    EXPECT_EQ(QApplication::clipboard()->image().width(), 2 * plots->width());
+    EXPECT_EQ(QApplication::clipboard()->image().width(), 2 * (plots->width() + 2 * gui::PictureCaption::kMargin));
     int marks = 0;
     QObject::connect(&live, &gui::LiveWorkspace::markWanted, [&] { ++marks; });
     click(*find<QToolButton>(live, "Mark"));

@@ -22,6 +22,7 @@
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/ScopeModel.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/theme/PictureCaption.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
@@ -262,7 +263,7 @@ TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
         EXPECT_TRUE(axis->label().at(0).isUpper()) << axis->label().toStdString();
     click(*find<QToolButton>(window, "Copy picture"));
     const auto copied = QGuiApplication::clipboard()->image();
-    EXPECT_EQ(copied.width(), 2 * plane->width());
+    EXPECT_EQ(copied.width(), 2 * (plane->width() + 2 * gui::PictureCaption::kMargin));
     EXPECT_GT(copied.height(), 2 * plane->height() + 100) << "with what it is of above it";
     if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
         copied.save(shots + "/separability_picture.png");

@@ -17,7 +17,10 @@ std::string notHeld(const Json& row) {
                        report::titleOfQuantity(textOr(row, "quantity")), scaledText(numberOr(row, "commanded"), unit),
                        scaledText(numberOr(row, "expected"), unit),
                        measuredText(numberOr(row, "measured"), numberOr(row, "expanded_uncertainty"), unit),
-                       scaledText(numberOr(row, "allowed"), unit));
+                       scaledText(numberOr(row, "allowed"), unit)) +
+           (numberOr(row, "not_measured") > 0
+                ? fmt::format("; {:g} of its readings were not measured", numberOr(row, "not_measured"))
+                : "");
 }
 
 }  // namespace
@@ -41,7 +44,10 @@ Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
         // its own range.
         const bool known =
             commanded >= 0.98 * numberOr(line, "lowest") && commanded <= 1.02 * numberOr(line, "highest");
-        const Verdict judged = known ? guardBanded(off, u, allowed) : Verdict::Indeterminate;
+        const auto within = known ? guardBanded(off, u, allowed) : Verdict::Indeterminate;
+        // A reading that was not measured may be the one that is off.
+        const double missing = numberOr(level, "not_measured");
+        const Verdict judged = missing == 0 ? within : worseOf(within, Verdict::Indeterminate);
         verdict = worseOf(verdict, judged);
         rows.push_back({{"quantity", quantity},
                         {"commanded", numberOrNull(commanded * scale)},
@@ -50,6 +56,7 @@ Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
                         {"off", numberOrNull(off * scale)},
                         {"expanded_uncertainty", numberOrNull(u * scale)},
                         {"allowed", numberOrNull(allowed * scale)},
+                        {"not_measured", numberOrNull(missing)},
                         {"unit", scale != 1 ? "us" : textOr(found, "unit")},
                         {"verdict", nameOf(judged)}});
         if (judged != Verdict::Pass) reasons.push_back(notHeld(rows.back()));

@@ -40,8 +40,8 @@ std::string forbidsCheck(const GateSetup& setup) {
     const PulseTrain check = checkTrainOf(setup);
     const auto why = forbids(setup, check, std::max(kCheckInterval, check.duration()));
     if (why.empty()) return {};
-    return fmt::format("impedance check of {:.3g} {}: {}", inItsUnit(check.amplitude),
-                       isCurrent(check.amplitude) ? "mA" : "V", why);
+    return fmt::format("impedance check of {:.3g} {}: {}", inItsUnit(check.amplitude), amplitudeUnit(check.amplitude),
+                       why);
 }
 
 /// Settings that show the whole train with its tail, and twice the peak that is expected.

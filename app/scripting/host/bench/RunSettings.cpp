@@ -5,15 +5,12 @@
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/bench/BenchObject.h"
 #include "app/scripting/host/bench/EncodingChange.h"
-#include "app/scripting/host/record/CalibratedOutput.h"
 #include "core/calibration/CalibrationStore.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto::host::bench {
 
 namespace {
-
-using record::unitOf;
 
 Json lineJson(const StoredLine& line, std::string_view unit) {
     return {{"unit", unit},          {"gain", line.gain},
@@ -82,8 +79,8 @@ Result<Json> storedCalibration(ScriptSession& session, const Arguments&) {
     const auto& device = stimulator.identity();
     auto store = CalibrationStore::open(calibrationFile());
     if (!store) return failure(store);
-    const auto found =
-        store->valid(calibratedOutput(device.serial, device.uri), unitOf(stimulator), utcToday(), device.simulated);
+    const auto found = store->valid(calibratedOutput(device.serial, device.uri),
+                                    amplitudeUnit(stimulator.traits().drive), utcToday(), device.simulated);
     if (!found) return Json{{"calibrated", false}, {"text", found.error().message}};
     Json out = {{"calibrated", true},
                 {"text", fmt::format("stimulator {} was calibrated on {} and that holds until {}", found->serial,

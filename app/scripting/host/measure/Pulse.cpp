@@ -74,7 +74,7 @@ Result<Json> pulseReading(ScriptSession& session, const Json& handles) {
     const double scale = drivesCurrent ? 1e3 : 1;
     const auto* channel = channelOf(captures.front(), read.name);
 
-    Json out = {{"unit", drivesCurrent ? "mA" : "V"},
+    Json out = {{"unit", amplitudeUnit(stimulator->traits().drive)},
                 {"amplitude", numberOrNull(scale * meanOfTrains(read, &TrainMeasurement::amplitude))},
                 {"interval_s", numberOrNull(meanOfTrains(read, &TrainMeasurement::interval_s))},
                 {"width_s", numberOrNull(meanOfTrains(read, &TrainMeasurement::width_s))},
@@ -91,7 +91,7 @@ Result<Json> pulseReading(ScriptSession& session, const Json& handles) {
     for (const auto& id : given->ids) own.captures.push_back(id.get<std::int64_t>());
     own.commands = *commands;
     for (const char* key : {"amplitude", "interval_s", "width_s", "gap_s"}) own.read[key] = out[key];
-    own.unit = drivesCurrent ? "mA" : "V";
+    own.unit = amplitudeUnit(stimulator->traits().drive);
     own.gainTolerance = channel->gainTolerance;
     own.probeTolerance = channel->probeTolerance;
     own.linearityTolerance = channel->linearityTolerance * scale;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/record/CalibratedOutput.h"
 #include "app/scripting/host/record/RecordObject.h"
 #include "core/base/JsonFields.h"
 #include "core/base/NaN.h"
@@ -126,7 +125,8 @@ Result<Json> keepCalibration(ScriptSession& session, const Arguments& arguments)
     made.serial = calibratedOutput(device.serial, device.uri);
     made.device = device.name;
     made.unit = (*amplitude)->found.value("unit", "");
-    if (made.unit != unitOf(stimulator)) return arguments.wrong("unit", made.unit, unitOf(stimulator));
+    const std::string unit = amplitudeUnit(stimulator.traits().drive);
+    if (made.unit != unit) return arguments.wrong("unit", made.unit, unit);
     made.made = utcToday();
     made.validUntil = std::chrono::sys_days(made.made) + std::chrono::days(days);
     for (const auto& each : session.bench().devices().identities()) {
