@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/scripting/ShippedResources.h"
+#include "core/analysis/load_safety/LoadSafety.h"
 #include "core/base/JsonFields.h"
 #include "core/devices/DeviceUri.h"
 #include "core/session/Digest.h"
@@ -34,6 +35,11 @@ TrainReach reachOf(const Profile& profile) {
             .phase_us = encoding.train.phaseWidth.count() * encoding.train.pulses,
             .lowest_ohm = profile.loadLow.value(),
             .highest_ohm = profile.loadHigh.value()};
+}
+
+CheckTolerances ownTolerances() {
+    const LoadSafetyTolerances ours;
+    return {.load_pct = ours.load_pct, .amplitude_pct = ours.amplitude_pct};
 }
 
 std::optional<LoadSafetyCheck> loadSafetyCheckOf(const ProtocolSource& script, const SessionAbout& about,

@@ -24,6 +24,9 @@ namespace tacto {
 /// How far the trains of a profile go, and into which loads.
 [[nodiscard]] TrainReach reachOf(const Profile& profile);
 
+/// The widest with which a pass counts for a session: what the protocol is shipped with.
+[[nodiscard]] CheckTolerances ownTolerances();
+
 /// A check that begins; nothing for another protocol, altered bytes, or a stimulator without a serial number.
 [[nodiscard]] std::optional<LoadSafetyCheck> loadSafetyCheckOf(const ProtocolSource& script, const SessionAbout& about,
                                                                const Profile& profile, const std::string& session);

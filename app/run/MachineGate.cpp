@@ -4,7 +4,6 @@
 
 #include "app/run/KnownCalibration.h"
 #include "app/run/LoadSafetyRecord.h"
-#include "core/analysis/load_safety/LoadSafety.h"
 #include "core/calibration/LoadSafetyStore.h"
 #include "core/devices/DeviceUri.h"
 #include "core/pilot/PilotCare.h"
@@ -51,8 +50,7 @@ Result<void> loadSafetyGate(const StudySettings& study, const Profile& profile, 
     need.scriptSha256 = shippedLoadSafetySha256();
     need.area = study.electrode.area;
     need.reach = reachOf(profile);
-    const LoadSafetyTolerances ours;
-    need.tolerances = {.load_pct = ours.load_pct, .amplitude_pct = ours.amplitude_pct};
+    need.tolerances = ownTolerances();
     for (const auto& set : study.limits) need.limits.push_back({set.id, set.sha256});
     if (const auto passed = store->passed(need); !passed) return fail(kGateRefused, "{}", passed.error().message);
     return {};

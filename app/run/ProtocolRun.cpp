@@ -85,6 +85,10 @@ Result<void> ProtocolRun::start(RunRequest hooks) {
     hooks.asked = order_.asked;
     hooks.captureFolder = opened_->files.captures;
     auto begun = beginCheck();
+    if (check_ && hooks.onLog) {
+        if (const auto wide = widerThan(check_->tolerances, ownTolerances()); !wide.empty())
+            hooks.onLog("A pass of this check counts for no session with a person: it " + wide + ".");
+    }
     auto started = begun ? ScriptRun::start(std::move(hooks)) : failure(begun);
     if (!started) {
         notStarted_ = started.error();

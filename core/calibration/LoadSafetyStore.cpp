@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/base/Hex.h"
 #include "core/base/RecordFields.h"
@@ -67,14 +68,6 @@ const RecordFields<LoadSafetyCheck>& checkFields() {
     return fields;
 }
 
-/// Empty where `allowed` is known and at most `widest`.
-std::string widerThan(const std::optional<double>& allowed, const std::optional<double>& widest,
-                      std::string_view what) {
-    if (!allowed) return fmt::format("does not say how much it allowed for {}; a new one is expected", what);
-    if (*allowed <= widest.value_or(0)) return {};
-    return fmt::format("allowed {:g} % for {}; at most {:g} % is expected", *allowed, what, widest.value_or(0));
-}
-
 /// Empty where the worst case was judged for all loads of the session.
 std::string loadsLeftOut(const TrainReach& made, const TrainReach& wanted) {
     if (!made.lowest_ohm || !made.highest_ohm)
@@ -118,11 +111,7 @@ std::string shortOf(const LoadSafetyCheck& found, const LoadSafetyNeed& need) {
             made.phase_us, wanted.phase_us);
     }
     if (auto open = loadsLeftOut(made, wanted); !open.empty()) return open;
-    const auto& allowed = found.tolerances;
-    if (auto wide = widerThan(allowed.load_pct, need.tolerances.load_pct, "a load's value"); !wide.empty()) return wide;
-    if (auto wide = widerThan(allowed.amplitude_pct, need.tolerances.amplitude_pct, "an amplitude over the command");
-        !wide.empty())
-        return wide;
+    if (auto wide = widerThan(found.tolerances, need.tolerances); !wide.empty()) return wide;
     for (const auto& set : need.limits) {
         if (std::ranges::find(found.limits, set) != found.limits.end()) continue;
         return fmt::format("was not judged by the limit set {} ({:.12}…) of the approval; a check by it is expected",
@@ -132,6 +121,17 @@ std::string shortOf(const LoadSafetyCheck& found, const LoadSafetyNeed& need) {
 }
 
 }  // namespace
+
+std::string widerThan(const CheckTolerances& allowed, const CheckTolerances& widest) {
+    for (const auto& [its, most, what] :
+         {std::tuple(allowed.load_pct, widest.load_pct, "a load's value"),
+          std::tuple(allowed.amplitude_pct, widest.amplitude_pct, "an amplitude over the command")}) {
+        if (!its) return fmt::format("does not say how much it allowed for {}; a new one is expected", what);
+        if (!(*its <= most.value_or(0)))
+            return fmt::format("allowed {:g} % for {}; at most {:g} % is expected", *its, what, most.value_or(0));
+    }
+    return {};
+}
 
 std::string_view nameOf(CheckVerdict verdict) noexcept { return wordFor(kCheckVerdicts, verdict); }
 

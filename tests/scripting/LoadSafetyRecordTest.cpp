@@ -47,7 +47,9 @@ protected:
             };
             EXPECT_TRUE((*made)->start(std::move(hooks)));
         } else {
-            EXPECT_TRUE((*made)->start({}));
+            RunRequest hooks;
+            hooks.onLog = [this](const std::string& line) { logged_ += line + "\n"; };
+            EXPECT_TRUE((*made)->start(std::move(hooks)));
         }
         return (*made)->finish();
     }
@@ -55,6 +57,7 @@ protected:
         return LoadSafetyStore::open(loadSafetyFile()).value().all();
     }
 
+    std::string logged_;                   // by runs that were not stopped
     std::vector<LoadSafetyCheck> during_;  // what was kept while the run that is stopped went on
 };
 
@@ -82,6 +85,18 @@ TEST_F(LoadSafetyRecord, APassIsKeptWithItsSessionsChainHeadAndAsSimulated) {
     ASSERT_EQ(pass.limits.size(), limits.sets.size());
     for (std::size_t i = 0; i < limits.sets.size(); ++i)
         EXPECT_EQ(pass.limits[i], (LimitSetHash{limits.sets[i].id, limits.sha256[i]}));
+}
+
+TEST_F(LoadSafetyRecord, AnOperatorsWiderTolerancesAreKeptAndItIsSaidThatThePassCountsForNoSession) {
+    RecordProperty("hazard", "H9");
+    EXPECT_EQ(run(order({{"area", "3"}, {"steps", "2"}, {"trains", "2"}})).verdict(), "pass");
+    EXPECT_THAT(logged_, testing::Not(testing::HasSubstr("counts for no session")));
+    const auto wide = order({{"area", "3"}, {"steps", "2"}, {"trains", "2"}, {"amplitude_tolerance", "20"}});
+    EXPECT_EQ(run(wide).verdict(), "pass");
+    EXPECT_THAT(logged_,
+                testing::HasSubstr("A pass of this check counts for no session with a person: it allowed 20 % for "
+                                   "an amplitude over the command; at most 2 % is expected."));
+    EXPECT_EQ(kept().back().tolerances, (CheckTolerances{.load_pct = 5, .amplitude_pct = 20}));
 }
 
 TEST_F(LoadSafetyRecord, WithoutAnElectrodeAreaItIsKeptAsIndeterminate) {
