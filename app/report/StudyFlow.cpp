@@ -50,6 +50,20 @@ std::string labelOf(const BidsStudy& shared, const Participant& participant) {
     return bidsLabel(shared, static_cast<std::size_t>(std::max(0, participant.enrolled))).value_or("–");
 }
 
+/// What the records that are kept say where none says that a check did not hold.
+QString noRefusalText(const StudyRecord& study) {
+    const bool anyCheck = std::ranges::any_of(study.participants, [](const auto& participant) {
+        return std::ranges::any_of(participant.sessions,
+                                   [](const auto& session) { return rowsOf(session, row::kGate) > 0; });
+    });
+    const bool destroyed = std::ranges::any_of(study.participants, [](const auto& participant) {
+        return participant.about.state == ParticipantState::Withdrawn;
+    });
+    if (!anyCheck) return "no check of a session is on record";
+    return destroyed ? "every check on record held; the records of participants who withdrew are destroyed"
+                     : "every check on record held";
+}
+
 }  // namespace
 
 FactsBlock approvalFacts(const StudyRecord& study) {
@@ -222,25 +236,6 @@ TableBlock sideEffectsTable(const StudyRecord& study, ShownName name, const QStr
     }
     return table;
 }
-
-namespace {
-
-/// What the records that are kept say where none says that a check did not hold.
-QString noRefusalText(const StudyRecord& study) {
-    const bool anyCheck = std::ranges::any_of(study.participants, [](const auto& participant) {
-        return std::ranges::any_of(participant.sessions, [](const auto& session) {
-            return std::ranges::any_of(session.rows, [](const auto& each) { return each.name == row::kGate; });
-        });
-    });
-    const bool destroyed = std::ranges::any_of(study.participants, [](const auto& participant) {
-        return participant.about.state == ParticipantState::Withdrawn;
-    });
-    if (!anyCheck) return "no check of a session is on record";
-    return destroyed ? "every check on record held; the records of participants who withdrew are destroyed"
-                     : "every check on record held";
-}
-
-}  // namespace
 
 TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
     const auto shared = sharedStudy(study);

@@ -11,10 +11,22 @@
 #include "core/base/Clock.h"
 #include "core/session/SessionWriter.h"
 #include "core/study/Study.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 
 Words shortSession() { return {"--set", "participant=virtual:7", "--set", "blocks=1"}; }
+
+namespace {
+
+/// A session refuses a STOP that takes more than 10 ms, as it should: on a machine that stood still that tells nothing.
+Ran stopsInTime(Ran ran) {
+    const bool inTime = ran.err.find("to switch off; at most 10 ms are accepted") == std::string::npos;
+    [&] { ASSERT_IN_TIME(inTime) << ran.err; }();
+    return ran;
+}
+
+}  // namespace
 
 Words PilotDesk::words(const std::string& protocol, const Words& more, const std::string& study) const {
     Words all{"run", protocol, "--out", desk_.at(study), "--json"};
@@ -24,7 +36,7 @@ Words PilotDesk::words(const std::string& protocol, const Words& more, const std
 }
 
 Ran PilotDesk::run(const std::string& protocol, const Words& more, const std::string& study) const {
-    return desk_.run(words(protocol, more, study));
+    return stopsInTime(desk_.run(words(protocol, more, study)));
 }
 
 void PilotDesk::writeUnfinished(const std::string& folder, const std::string& protocol,
@@ -80,7 +92,7 @@ Ran PilotDesk::runDisturbed(const Disturbance& by, const std::string& protocol, 
     }
     int status = 0;
     EXPECT_EQ(waitpid(child, &status, 0), child);
-    return {WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status), contentOf(out), contentOf(err)};
+    return stopsInTime({WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status), contentOf(out), contentOf(err)});
 }
 
 int PilotDesk::runKilled(long sync, const std::string& protocol, const Words& more, const std::string& study) const {

@@ -233,8 +233,8 @@ bool ParticipantDesk::testsStopOf(PromptTo whose) const {
 
 bool ParticipantDesk::stopBy(const char* by) {
     {
-        const std::scoped_lock whole(
-            stopMutex_);  // the screen that follows the press clears `stopped_`, not one before
+        // Until the end of the press: the screen that follows it clears `stopped_`, not one before.
+        const std::scoped_lock whole(stopMutex_);
         if (!listens_) return false;
         stop(by);
         heldButton_ = kNoButton;  // it is off already: letting go does not stop again

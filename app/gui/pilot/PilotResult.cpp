@@ -48,6 +48,11 @@ QString rangeWords(const nlohmann::json& range) {
     return words;
 }
 
+/// An estimate at the edge of what was considered may lie anywhere beyond it.
+QString orBeyond(const nlohmann::json& results, const char* atEdge) {
+    return memberAt(results, atEdge) == true ? QObject::tr(", or beyond") : QString();
+}
+
 /// The headline of a session that measured thresholds only.
 QString thresholdSentence(const nlohmann::json& results) {
     auto who = textIn(results, "participant.code");
@@ -63,14 +68,15 @@ QString thresholdSentence(const nlohmann::json& results) {
     if (std::isfinite(low) && std::isfinite(high))
         said += (massager ? QObject::tr(" (95 % interval %1 to %2)") : QObject::tr(" (95 % interval %1 to %2 mA)"))
                     .arg(decimalText(low, 2), decimalText(high, 2));
+    said += orBeyond(results, "detection.at_edge");
     const auto range = rangeWords(memberAt(results, "range"));
     said +=
         range.isEmpty() ? QObject::tr("; there is no usable range.") : QObject::tr("; conditions lie") + range + '.';
     const auto& weber = memberAt(results, "comparison.amplitude_weber");
     if (std::isfinite(numberIn(weber, "value")))
-        said += ' ' + QObject::tr("The Weber fraction of strength is %1 (95 % interval %2 to %3).")
+        said += ' ' + QObject::tr("The Weber fraction of strength is %1 (95 % interval %2 to %3)%4.")
                           .arg(decimalText(numberIn(weber, "value"), 2), decimalText(numberIn(weber, "low"), 2),
-                               decimalText(numberIn(weber, "high"), 2));
+                               decimalText(numberIn(weber, "high"), 2), orBeyond(results, "comparison.at_edge"));
     return said;
 }
 

@@ -32,17 +32,25 @@ nlohmann::json someResults() {
 
 TEST(PilotResult, SaysFirstWhatEveryResultSaysFirst) {
     EXPECT_EQ(gui::resultSentence(someResults()).toStdString(), kHeadline);
-    const nlohmann::json thresholds{
-        {"kind", "pilot-thresholds"},
-        {"modality", "massager"},
-        {"participant", {{"code", "P-7K3M"}}},
-        {"detection", {{"estimate_intensity", {{"value", 0.22}, {"low", 0.2}, {"high", 0.25}}}}},
-        {"range", {{"min_intensity", 0.3}, {"max_intensity", 0.55}}}};
+    nlohmann::json thresholds{{"kind", "pilot-thresholds"},
+                              {"modality", "massager"},
+                              {"participant", {{"code", "P-7K3M"}}},
+                              {"detection", {{"estimate_intensity", {{"value", 0.22}, {"low", 0.2}, {"high", 0.25}}}}},
+                              {"range", {{"min_intensity", 0.3}, {"max_intensity", 0.55}}}};
     auto felt = gui::resultSentence(thresholds);
     felt.replace(QChar(0x202F), ' ');
     EXPECT_EQ(felt.toStdString(),
               "P-7K3M feels a strength of 0.22 in 4 of 5 trials (95 % interval 0.20 to 0.25); conditions lie between "
               "strengths of 0.30 and 0.55.");
+    thresholds["detection"]["at_edge"] = true;
+    thresholds["comparison"] = {{"at_edge", true}, {"amplitude_weber", {{"value", 0.97}, {"low", 0.8}, {"high", 1}}}};
+    felt = gui::resultSentence(thresholds);
+    felt.replace(QChar(0x202F), ' ');
+    EXPECT_EQ(
+        felt.toStdString(),
+        "P-7K3M feels a strength of 0.22 in 4 of 5 trials (95 % interval 0.20 to 0.25), or beyond; conditions lie "
+        "between strengths of 0.30 and 0.55. The Weber fraction of strength is 0.97 (95 % interval 0.80 to 1.00), "
+        "or beyond.");
     EXPECT_TRUE(gui::resultSentence(nlohmann::json::object()).isEmpty());
     EXPECT_TRUE(gui::resultSentence(nullptr).isEmpty());
 }
