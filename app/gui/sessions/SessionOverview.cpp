@@ -26,6 +26,7 @@ constexpr int kGrid = 8;
 constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
 constexpr int kMinMoments = 3;  // lines
+constexpr int kMinNote = 16;    // characters
 constexpr int kWhyLines = 2;
 constexpr int kLowPage = 560;      // there the reason is one line
 constexpr double kWrapped = 0.85;  // of a line's width is used where words wrap
@@ -141,17 +142,19 @@ QWidget* SessionOverview::buildFields() {
         grid->addWidget(label(one->accessibleName()), 0, at);
         grid->addWidget(one, 1, at++);
     }
-    // Beside the note, so that it takes no room from the plot; a long sentence leaves the note half of the row.
+    // Beside the note, so that it takes no room from the plot. A long sentence leaves the note some words.
     saved_ = new ElidedLabel(fields);
     saved_->setObjectName("labelsSaved");
-    saved_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     saved_->hide();
     setTextSize(*saved_, TextSize::Small);
     auto* note = new QHBoxLayout;
     note->setSpacing(kGrid);
     note->addWidget(label(note_->accessibleName()));
     note->addWidget(note_, 1);
-    note->addWidget(saved_, 1);
+    note->addWidget(saved_);
+    const auto least = [this] { note_->setMinimumWidth(note_->fontMetrics().averageCharWidth() * kMinNote); };
+    least();
+    onFontChange(*note_, least);
     grid->addLayout(note, 2, 0, 1, 3);
     for (int column = 0; column < 3; ++column) grid->setColumnStretch(column, column == 2 ? 3 : 2);
     return fields;

@@ -18,6 +18,7 @@
 #include "app/gui/sessions/SessionModel.h"
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
+#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/Digest.h"
 #include "core/session/SessionLabels.h"
@@ -184,6 +185,10 @@ TEST_F(Sessions, ARefusedEditStaysSaidThoughAnotherFollowsAtOnce) {
     QTest::keyClick(&field("labelNote"), Qt::Key_Return);
     ASSERT_IN_TIME(comesTrue([&] { return SessionReader::open(path)->labels()->note == "table bumped once"; }));
     ASSERT_IN_TIME(comesTrue([&] { return saidOfLabels().contains("60 characters"); })) << saidOfLabels().toStdString();
+    const auto* said = dynamic_cast<gui::ElidedLabel*>(workspace.findChild<QLabel*>("labelsSaved"));
+    EXPECT_IN_TIME(comesTrue([&] { return said->shownText() == said->text(); })) << "it is read whole";
+    EXPECT_GE(field("labelNote").width(), 100);
+    shot(workspace, "sessions_refused_label");
     EXPECT_FALSE(comesTrue([&] { return !saidOfLabels().contains("60 characters"); }, 300)) << "nor is it said over";
     EXPECT_EQ(field("labelTags").text(), QString(60, 'x')) << "what is not kept stays to be mended";
     field("labelTags").setText("P60");
