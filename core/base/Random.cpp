@@ -1,5 +1,9 @@
 #include "core/base/Random.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace tacto {
 
 namespace {
@@ -25,7 +29,24 @@ Random::Random(std::uint64_t seed, std::string_view stream) : engine_(engineFor(
 
 double Random::uniform() noexcept { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }
 
-double Random::normal() noexcept { return normal_(engine_); }
+// Marsaglia's polar method (Marsaglia and Bray 1964). std::normal_distribution's draws differ between libraries, and
+// clang makes each of libstdc++'s twice as slow: it computes the logarithm of a constant every time.
+double Random::normal() noexcept {
+    if (spare_) return *std::exchange(spare_, std::nullopt);
+    const auto coordinate = [this] {
+        constexpr double kBelowOne = 1 - 0x1.0p-53;
+        return 2 * std::min(static_cast<double>(engine_()) * 0x1.0p-64, kBelowOne) - 1;
+    };
+    double x = 0, y = 0, square = 0;
+    do {
+        x = coordinate();
+        y = coordinate();
+        square = x * x + y * y;
+    } while (square > 1 || square == 0);
+    const double scale = std::sqrt(-2 * std::log(square) / square);
+    spare_ = x * scale;
+    return y * scale;
+}
 
 std::uint64_t Random::below(std::uint64_t bound) noexcept {
     return std::uniform_int_distribution<std::uint64_t>(0, bound - 1)(engine_);

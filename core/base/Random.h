@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string_view>
 
@@ -25,7 +26,7 @@ public:
 
 private:
     std::mt19937_64 engine_;
-    std::normal_distribution<double> normal_;
+    std::optional<double> spare_;  ///< normal draws come in pairs
 };
 
 }  // namespace tacto

@@ -126,9 +126,9 @@ std::string widerThan(const CheckTolerances& allowed, const CheckTolerances& wid
     for (const auto& [its, most, what] :
          {std::tuple(allowed.load_pct, widest.load_pct, "a load's value"),
           std::tuple(allowed.amplitude_pct, widest.amplitude_pct, "an amplitude over the command")}) {
-        if (!its) return fmt::format("does not say how much it allowed for {}; a new one is expected", what);
+        if (!its) return fmt::format("does not say how much it allows for {}; a new one is expected", what);
         if (!(*its <= most.value_or(0)))
-            return fmt::format("allowed {:g} % for {}; at most {:g} % is expected", *its, what, most.value_or(0));
+            return fmt::format("allows {:g} % for {}; at most {:g} % is expected", *its, what, most.value_or(0));
     }
     return {};
 }

@@ -51,7 +51,7 @@ struct CheckTolerances {
     std::optional<double> amplitude_pct{};  ///< delivered above the command
     bool operator==(const CheckTolerances&) const = default;
 };
-/// "allowed 20 % for an amplitude over the command; at most 2 % is expected"; empty where `allowed` is known and at
+/// "allows 20 % for an amplitude over the command; at most 2 % is expected"; empty where `allowed` is known and at
 /// most `widest`.
 [[nodiscard]] std::string widerThan(const CheckTolerances& allowed, const CheckTolerances& widest);
 

@@ -22,10 +22,22 @@ constexpr double kRests = 1.4;           // times the noise: no more is left abo
 constexpr double kMaxBend = 0.2;         // of the span
 constexpr double kAsGood = 1.05;         // as the best of all
 
+std::ptrdiff_t placeOf(double share, const std::vector<double>& values) {
+    return static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+}
+
 double quantile(std::vector<double>& values, double share) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    const auto at = values.begin() + placeOf(share, values);
     std::nth_element(values.begin(), at, values.end());
     return *at;
+}
+
+/// From the quantile kTail to 1 - kTail.
+double withoutTails(std::vector<double>& values) {
+    const double high = quantile(values, 1 - kTail);  // what is less stands before it now
+    const auto low = values.begin() + placeOf(kTail, values);
+    std::nth_element(values.begin(), low, values.begin() + placeOf(1 - kTail, values) + 1);
+    return high - *low;
 }
 
 double medianOf(std::span<const float> block, std::vector<float>& scratch) {
@@ -73,7 +85,7 @@ double restAbout(std::span<const float> samples, const BaselineDrift& drift) {
         const double x = static_cast<double>(samples[i]);
         if (std::isfinite(x)) left.push_back(x - drift.at(i));
     }
-    return (quantile(left, 1 - kTail) - quantile(left, kTail)) / kTailsApart;
+    return withoutTails(left) / kTailsApart;
 }
 
 }  // namespace
@@ -82,7 +94,7 @@ double BaselineDrift::at(std::size_t sample) const noexcept {
     const double position = (static_cast<double>(sample) + 0.5) / static_cast<double>(block) - 0.5;
     const double last = static_cast<double>(medians.size()) - 1;
     // Before the first middle and after the last one the line goes on.
-    const auto from = static_cast<std::size_t>(std::clamp(std::floor(position), 0.0, std::max(0.0, last - 1)));
+    const auto from = static_cast<std::size_t>(std::clamp(position, 0.0, std::max(0.0, last - 1)));
     if (from + 1 >= medians.size()) return medians[from];
     return medians[from] + (position - static_cast<double>(from)) * (medians[from + 1] - medians[from]);
 }
@@ -95,7 +107,7 @@ std::optional<BaselineDrift> findDrift(std::span<const float> samples, double no
     const double perMedian = static_cast<double>(std::min(kPerMedian, drift.block));
     const double still = std::max(kMovesFor * kMedianSpread * noise / std::sqrt(perMedian), 1.5 * lsb);
     auto medians = drift.medians;
-    if (!(quantile(medians, 1 - kTail) - quantile(medians, kTail) > still)) return std::nullopt;
+    if (!(withoutTails(medians) > still)) return std::nullopt;
 
     BaselineDrift none;
     if (!follow(samples, 1, none)) return std::nullopt;

@@ -161,11 +161,11 @@ TEST_F(LoadSafetyChecks, OneThatAllowedMoreThanTheProgramDoesNotCount) {
     wide.tolerances.amplitude_pct = 20;
     keep(wide);
     EXPECT_EQ(why(),
-              "the load-safety check of stimulator P24-0815 of 2026-11-20 allowed 20 % for an amplitude over the "
+              "the load-safety check of stimulator P24-0815 of 2026-11-20 allows 20 % for an amplitude over the "
               "command; at most 2 % is expected");
     wide.tolerances = {.load_pct = 15, .amplitude_pct = 2};
     keep(wide);
-    EXPECT_THAT(why(), HasSubstr("allowed 15 % for a load's value; at most 5 % is expected"));
+    EXPECT_THAT(why(), HasSubstr("allows 15 % for a load's value; at most 5 % is expected"));
     wide.tolerances = {.load_pct = 1, .amplitude_pct = 0.5};
     keep(wide);
     EXPECT_EQ(why(), "");
@@ -176,7 +176,7 @@ TEST_F(LoadSafetyChecks, OneThatDoesNotSayWhatItAllowedOrForWhichLoadsDoesNotCou
     auto unsaid = checkOf();
     unsaid.tolerances.load_pct.reset();
     keep(unsaid);
-    EXPECT_THAT(why(), HasSubstr("does not say how much it allowed for a load's value; a new one is expected"));
+    EXPECT_THAT(why(), HasSubstr("does not say how much it allows for a load's value; a new one is expected"));
     unsaid = checkOf();
     unsaid.reach.lowest_ohm.reset();
     keep(unsaid);

@@ -119,6 +119,33 @@ TEST_F(Screen, DISABLED_LeftOnALargerScreen) {
     window.close();
 }
 
+TEST_F(Screen, DISABLED_AWindowManagersFrameIsOnItToo) {
+    QProcess manager;
+    manager.start("openbox", {"--sm-disable"});
+    ASSERT_TRUE(manager.waitForStarted()) << "openbox is not installed";
+    const auto framed = [](const QWidget& widget) { return widget.frameGeometry() != widget.geometry(); };
+    ASSERT_IN_TIME(comesTrue([&] {  // once it frames what is shown
+        QWidget first;
+        first.show();
+        return QTest::qWaitForWindowExposed(&first) && comesTrue([&] { return framed(first); }, 500);
+    }));
+    gui::MainWindow window(simulatedRegistry);
+    const auto screen = QGuiApplication::primaryScreen()->availableGeometry();
+    window.setGeometry(screen);
+    window.show();
+    ASSERT_IN_TIME(comesTrue([&] { return framed(window); })) << "its frame comes after it is shown";
+    const auto placed = [&] { return screen.contains(window.frameGeometry()); };
+    EXPECT_IN_TIME(comesTrue(placed)) << "the frame ends at " << window.frameGeometry().bottom() << " of "
+                                      << screen.bottom();
+    const auto* stop = window.findChild<QPushButton*>("stopButton");
+    EXPECT_TRUE(screen.contains(QRect(stop->mapToGlobal(QPoint()), stop->size())));
+    picture("screen-frame");
+    EXPECT_TRUE(placed()) << "and stays there";
+    window.close();
+    manager.terminate();
+    ASSERT_TRUE(manager.waitForFinished());
+}
+
 TEST_F(Screen, DISABLED_ItGetsSmallerThanALaptopsScreen) {
     gui::MainWindow window(simulatedRegistry);
     window.show();

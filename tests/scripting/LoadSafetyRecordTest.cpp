@@ -94,7 +94,7 @@ TEST_F(LoadSafetyRecord, AnOperatorsWiderTolerancesAreKeptAndItIsSaidThatThePass
     const auto wide = order({{"area", "3"}, {"steps", "2"}, {"trains", "2"}, {"amplitude_tolerance", "20"}});
     EXPECT_EQ(run(wide).verdict(), "pass");
     EXPECT_THAT(logged_,
-                testing::HasSubstr("A pass of this check counts for no session with a person: it allowed 20 % for "
+                testing::HasSubstr("A pass of this check counts for no session with a person: it allows 20 % for "
                                    "an amplitude over the command; at most 2 % is expected."));
     EXPECT_EQ(kept().back().tolerances, (CheckTolerances{.load_pct = 5, .amplitude_pct = 20}));
 }

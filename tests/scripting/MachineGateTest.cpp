@@ -186,7 +186,7 @@ TEST_F(MachineGate, HoldsForACalibratedCurrentSourceWhoseCheckPassed) {
                                   "the real bench is expected"));
     tolerated_pct_ = 2.5;
     keep(CheckVerdict::Pass);
-    EXPECT_THAT(said(), HasSubstr("allowed 2.5 % for an amplitude over the command; at most 2 % is expected"));
+    EXPECT_THAT(said(), HasSubstr("allows 2.5 % for an amplitude over the command; at most 2 % is expected"));
     tolerated_pct_ = 2;
     keep(CheckVerdict::Pass, 30);
     EXPECT_EQ(said(), "");

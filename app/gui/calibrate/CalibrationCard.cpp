@@ -1,9 +1,9 @@
 #include "app/gui/calibrate/CalibrationCard.h"
 
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/TurningRow.h"
@@ -111,6 +111,7 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
     column->addWidget(facts_);
     connect(&book_, &CalibrationBook::changed, this, &CalibrationCard::fill);
     fill();
+    afterLookChange(*this, [this] { colour(); });
 }
 
 std::optional<StimulatorId> CalibrationCard::shown() const {
@@ -180,11 +181,6 @@ void CalibrationCard::colour() {
     const auto& ink = counts_ ? colours().passText : warns_ ? colours().amberText : colours().text;
     const auto sheet = QString("QLabel { color: %1; }").arg(ink.name());
     if (word_->styleSheet() != sheet) word_->setStyleSheet(sheet);
-}
-
-void CalibrationCard::changeEvent(QEvent* event) {
-    QFrame::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange && check_ != nullptr) colour();
 }
 
 void CalibrationCard::showEvent(QShowEvent* event) {

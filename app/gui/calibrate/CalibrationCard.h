@@ -28,7 +28,6 @@ signals:
     void stimulatorChosen();
 
 protected:
-    void changeEvent(QEvent* event) override;
     void showEvent(QShowEvent* event) override;
 
 private:

@@ -54,7 +54,7 @@ LanePanel::LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent)
     connect(&model_, &ScopeModel::viewChanged, this, &LanePanel::follow);
     connect(&model_, &ScopeModel::activeLaneChanged, this, &LanePanel::follow);
     build();
-    onLookChange(*this, [this] { follow(); });
+    afterLookChange(*this, [this] { follow(); });
 }
 
 void LanePanel::build() {

@@ -14,7 +14,8 @@ void onLookChange(QWidget& widget, std::function<void()> follow);
 void onFontChange(QWidget& widget, std::function<void()> follow);
 
 /// Calls `follow` in the next turn of the event loop after a change of palette, font or style, when the widgets within
-/// have it too: for one that gives them fonts or places of its own. (A new style sheet takes them those fonts.)
+/// have it too: for one that gives them fonts, places or a style sheet of its own. (The theme's new sheet takes them
+/// those fonts; a sheet that is set while the theme's is being laid may keep the colours of the theme before.)
 void afterLookChange(QWidget& widget, std::function<void()> follow);
 
 /// Bounds of a widget's width that grow and shrink with the size of text: pixels of text at 100 % (scaledPx()).

@@ -1,9 +1,9 @@
 #include "app/gui/window/FaultBanner.h"
 
-#include <QEvent>
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -67,6 +67,7 @@ FaultBanner::FaultBanner(QWidget* parent)
     column->addStretch();
     setTextSize(*cause_, TextSize::Body, true);
     colour();
+    afterLookChange(*this, [this] { colour(); });
 }
 
 void FaultBanner::refresh(const Telemetry& telemetry, QTime now) {
@@ -117,14 +118,6 @@ QString FaultBanner::outputWords(const Telemetry& telemetry) const {
 }
 
 QString FaultBanner::text() const { return cause_->text() + "\n" + output_->text() + "\n" + next_->text(); }
-
-void FaultBanner::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange) {
-        QMetaObject::invokeMethod(
-            this, [this] { colour(); }, Qt::QueuedConnection);
-    }
-    QFrame::changeEvent(event);
-}
 
 void FaultBanner::colour() {
     const auto sheet = QString(

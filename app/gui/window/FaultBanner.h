@@ -22,9 +22,6 @@ public:
     /// All of it, for a tool tip and for the log.
     [[nodiscard]] QString text() const;
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     void note(const Telemetry& telemetry, QTime now);
     [[nodiscard]] QString outputWords(const Telemetry& telemetry) const;

@@ -177,6 +177,11 @@ void MainWindow::buildDocks() {
 }
 
 void MainWindow::tick() {
+    // A window system may frame the window long after it is shown, and without moving it: the frame has to fit, too.
+    if (awaitsFrame_ && frameGeometry() != geometry()) {
+        awaitsFrame_ = false;
+        keepOnScreen(*this);
+    }
     const auto telemetry = controller_.telemetry();
     safety_->refresh(telemetry);
     const auto* pilot = workspaces_->pilot();
@@ -330,17 +335,6 @@ void MainWindow::showEvent(QShowEvent* event) {
     if (event->spontaneous()) return;
     awaitsFrame_ = true;
     QTimer::singleShot(0, this, [this] { keepOnScreen(*this); });
-}
-
-/// A window system may put its frame around the window long after it is shown: the frame has to fit, too.
-void MainWindow::moveEvent(QMoveEvent* event) {
-    QMainWindow::moveEvent(event);
-    if (!awaitsFrame_) return;
-    QTimer::singleShot(0, this, [this] {  // the window knows of its frame after the event
-        if (!awaitsFrame_ || frameGeometry() == geometry()) return;
-        awaitsFrame_ = false;
-        keepOnScreen(*this);
-    });
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {

@@ -75,7 +75,6 @@ public:
 protected:
     bool event(QEvent* event) override;
     void showEvent(QShowEvent* event) override;
-    void moveEvent(QMoveEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
     void changeEvent(QEvent* event) override;
@@ -111,7 +110,7 @@ private:
     ArmQuestion* arming_ = nullptr;
     WorkspaceRail* rail_ = nullptr;
     bool hasRoomForDocks_ = true, hasRoomForAllDocks_ = true;
-    bool awaitsFrame_ = false;
+    bool awaitsFrame_ = false;  ///< of the window system
     QTimer frame_;
 };
 

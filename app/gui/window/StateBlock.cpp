@@ -1,11 +1,11 @@
 #include "app/gui/window/StateBlock.h"
 
 #include <QApplication>
-#include <QEvent>
 #include <QGridLayout>
 #include <algorithm>
 
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -49,6 +49,7 @@ StateBlock::StateBlock(QWidget* parent)
     fit(widthAt(kDisplayText));
     show(state_, {}, false);
     colour();
+    afterLookChange(*this, [this] { colour(); });
 }
 
 QFont StateBlock::wordFont(double scale) const {
@@ -109,15 +110,6 @@ void StateBlock::colour() {
                                 (style.ground == colours().base ? colours().line : style.ground).name());
     if (styleSheet() != sheet) setStyleSheet(sheet);  // which changes the palette, too
     showShape(false);
-}
-
-void StateBlock::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange) {
-        // Once the new theme is in place everywhere.
-        QMetaObject::invokeMethod(
-            this, [this] { colour(); }, Qt::QueuedConnection);
-    }
-    QFrame::changeEvent(event);
 }
 
 }  // namespace tacto::gui

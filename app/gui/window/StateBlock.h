@@ -23,9 +23,6 @@ public:
     /// In pixels, for the longest word at 1.5 times the text's size.
     [[nodiscard]] int smallestWidth() const;
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     [[nodiscard]] QFont wordFont(double scale) const;
     [[nodiscard]] int widthAt(double scale) const;

@@ -26,11 +26,14 @@ void IntervalShares::add(TrialInterval interval, bool correct) noexcept {
 TwoIntervalOrder::TwoIntervalOrder(std::uint64_t seed, std::string_view name) : seed_(seed), name_(name) {}
 
 TrialInterval TwoIntervalOrder::of(std::size_t number) const {
-    std::array<TrialInterval, 10> ten{};
-    std::fill(ten.begin() + 5, ten.end(), TrialInterval::Second);
-    Random random(seed_, fmt::format("{}, intervals of ten {}", name_, (number - 1) / ten.size()));
-    for (std::size_t i = ten.size() - 1; i > 0; --i) std::swap(ten[i], ten[random.below(i + 1)]);
-    return ten[(number - 1) % ten.size()];
+    if (const auto wanted = (number - 1) / ten_.size(); drawn_ != wanted) {
+        drawn_ = wanted;
+        std::fill_n(ten_.begin(), 5, TrialInterval::First);
+        std::fill(ten_.begin() + 5, ten_.end(), TrialInterval::Second);
+        Random random(seed_, fmt::format("{}, intervals of ten {}", name_, wanted));
+        for (std::size_t i = ten_.size() - 1; i > 0; --i) std::swap(ten_[i], ten_[random.below(i + 1)]);
+    }
+    return ten_[(number - 1) % ten_.size()];
 }
 
 }  // namespace tacto

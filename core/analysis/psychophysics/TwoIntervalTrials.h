@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -60,6 +61,8 @@ public:
 private:
     std::uint64_t seed_;
     std::string name_;
+    mutable std::optional<std::size_t> drawn_;  ///< which ten are in ten_
+    mutable std::array<TrialInterval, 10> ten_{};
 };
 
 }  // namespace tacto

@@ -58,7 +58,9 @@ void addTrains(ChangeGroup& group, const CapturedChange& change) {
             const double shorter_s = std::min(train.interval_s, std::isnan(last_s) ? train.interval_s : last_s);
             const double u = kCoverageFactor * std::sqrt(8.0) * train.onsetUncertainty_s / shorter_s /
                              std::log1p(kIntervalWeberFraction);
-            if (!(u <= group.interval.uncertainty)) group.interval.uncertainty = u;
+            // That of a step which was measured; unknown of one, it is unknown of the largest.
+            double& widest = group.interval.uncertainty;
+            if (!std::isnan(train.interval_jnd) && !std::isnan(widest) && !(u <= widest)) widest = u;
         }
         last_v = train.amplitude_v;
         last_s = train.interval_s;

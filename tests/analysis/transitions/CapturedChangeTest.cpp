@@ -79,5 +79,15 @@ TEST(CapturedChange, IsIndeterminateForWhatWasNotMeasured) {
     EXPECT_EQ(judgeChanges(std::vector{alone}, {}, kLimits).verdict, Verdict::Indeterminate);
 }
 
+TEST(CapturedChange, AnUncertaintyThatIsUnknownOnceIsNotMadeUpForByTheNextTrain) {
+    for (const std::size_t which : {0U, 1U}) {
+        auto change = changeOf(1.5, 1.2);
+        change.trains.at(which).onsetUncertainty_s = kNaN;
+        const auto judged = judgeChanges(std::vector{change}, {}, kLimits);
+        EXPECT_EQ(judged.verdict, Verdict::Indeterminate) << which;
+        EXPECT_THAT(judged.reasons, Contains(HasSubstr("its uncertainty is unknown"))) << which;
+    }
+}
+
 }  // namespace
 }  // namespace tacto

@@ -63,6 +63,30 @@ TEST_F(InstrumentWindow, SavesOnceAndChoosesInPlace) {
     EXPECT_EQ(used, "sigrok:rigol-ds:conn=x?gain_pct=2");
 }
 
+TEST_F(InstrumentWindow, AProbeSavedHereStatesTheVoltagesUncertainty) {
+    keep(scope());
+    keep(shunt(10));
+    showDialog();
+    the<QComboBox>("oscilloscope").setCurrentIndex(1);
+    the<QComboBox>("shunt").setCurrentIndex(1);
+    EXPECT_THAT(says("instrumentSays"), HasSubstr("voltages have no uncertainty"));
+    the<QComboBox>("presetKind").setCurrentIndex(2);
+    for (const char* field : {"presetAddress", "presetOhms", "presetTimeBase"})
+        EXPECT_FALSE(the<QLineEdit>(field).isVisible()) << field;
+    write("presetName", "TPP0250");
+    write("presetAccuracy", "60");
+    EXPECT_THAT(says("presetTrouble"), HasSubstr("60"));
+    EXPECT_FALSE(the<QPushButton>("savePreset").isEnabled());
+    write("presetAccuracy", "1.5");
+    click(the<QPushButton>("savePreset"));
+    EXPECT_THAT(says("presetTrouble"), HasSubstr("TPP0250 is saved and chosen")) << "for what follows";
+    EXPECT_EQ(the<QComboBox>("probe").currentText(), "TPP0250 (data sheet)");
+    EXPECT_THAT(says("instrumentAddress"), HasSubstr("probe_pct=1.5"));
+    EXPECT_EQ(says("instrumentSays"), "Everything that an uncertainty needs is stated.");
+    click(the<QPushButton>("useInstruments"));
+    EXPECT_EQ(used.toStdString(), says("instrumentAddress"));
+}
+
 TEST_F(InstrumentWindow, TakesTheDayOfItsCertificateFromACalendar) {
     showDialog();
     the<QComboBox>("presetKind").setCurrentIndex(1);

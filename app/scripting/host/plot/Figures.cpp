@@ -1,6 +1,7 @@
 // Figures of what was measured.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/plot/CalibrationFigure.h"
@@ -123,7 +124,7 @@ Result<Json> waveforms(ScriptSession& session, const Arguments&) {
     for (const auto& exemplar : session.exemplars()) {
         captures.push_back(withCapture({{"condition", exemplar.condition}}, exemplar));
     }
-    return Json{{"type", "waveforms"}, {"captures", captures}};
+    return Json{{"type", "waveforms"}, {"captures", std::move(captures)}};
 }
 
 Result<Json> exposureFigure(ScriptSession& session, const Arguments& arguments) {
@@ -153,7 +154,7 @@ Json tracingsFigure(ScriptSession& session, const std::vector<Tracing>& tracings
             if (exemplar.condition == condition) captures.push_back(withCapture({{"label", label}}, exemplar));
         }
     }
-    return {{"type", "waveforms"}, {"captures", captures}};
+    return {{"type", "waveforms"}, {"captures", std::move(captures)}};
 }
 
 Result<Json> tracings(ScriptSession& session, const Arguments& arguments) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <utility>
 #include <vector>
 
 #include "app/scripting/host/plot/TracingsFigure.h"
@@ -23,7 +24,7 @@ Json figureItem(ScriptSession& session, std::string_view caption, const std::vec
                 std::string_view settings) {
     Json figure = plot::tracingsFigure(session, tracings);
     figure["note"] = fmt::format("{}. {}", settings, kNote);
-    return {{"kind", "figure"}, {"caption", caption}, {"figure", figure}};
+    return {{"kind", "figure"}, {"caption", caption}, {"figure", std::move(figure)}};
 }
 
 }  // namespace
