@@ -198,6 +198,11 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
         static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 3000));
         EXPECT_EQ(faultsOf(window), "") << name;
         shot(window, QString("large-%1").arg(name));
+        for (const auto* area : window.findChildren<QScrollArea*>())
+            if (area->isVisible()) area->verticalScrollBar()->setValue(area->verticalScrollBar()->maximum());
+        letLive(50);
+        EXPECT_EQ(faultsOf(window), "") << name << ", its end";
+        shot(window, QString("large-%1-end").arg(name));
         gui::applyTextSize(100);
     };
     isWhole("safety-result");
