@@ -43,12 +43,10 @@ Result<Delivered> deliveredIn(const SessionReader& session) {
     if (session.locked())
         return fail(ErrorCode::Unsupported,
                     "what the session delivered is sealed; it opens with the study's passphrase");
-    const auto commands = session.commands();
-    if (!commands) return failure(commands);
     Delivered delivered;
-    for (const auto& row : *commands) {
+    const auto read = session.forEachCommand([&](const SessionRow& row) {
         if (row.name == "impedance check") ++delivered.checks;
-        if (row.name != "delivered") continue;
+        if (row.name != "delivered") return;
         ++delivered.trains;
         for (const auto& [key, unit] : {std::pair("amplitude_ma", "mA"), std::pair("amplitude_v", "V")}) {
             const auto amplitude = row.body.find(key);
@@ -56,7 +54,8 @@ Result<Delivered> deliveredIn(const SessionReader& session) {
             delivered.unit = unit;
             delivered.most = std::max(delivered.most, amplitude->get<double>());
         }
-    }
+    });
+    if (!read) return failure(read);
     return delivered;
 }
 

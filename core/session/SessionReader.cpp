@@ -257,6 +257,9 @@ Result<SessionLabels> SessionReader::labels() const {
 
 Result<std::vector<SessionRow>> SessionReader::events() const { return state_->rows(kind::kEvent); }
 Result<std::vector<SessionRow>> SessionReader::commands() const { return state_->rows(kind::kCommand); }
+Result<void> SessionReader::forEachCommand(const std::function<void(const SessionRow&)>& visit) const {
+    return state_->forEach(kind::kCommand, visit);
+}
 Result<std::vector<SessionRow>> SessionReader::measurements() const { return state_->rows(kind::kMeasurement); }
 Result<std::vector<SessionRow>> SessionReader::log() const { return state_->rows(kind::kLog); }
 Result<std::vector<SessionRow>> SessionReader::reportItems() const { return state_->rows(kind::kReport); }

@@ -58,6 +58,8 @@ public:
     // Each list is in the order written. Errors: ParseError naming the row; Io.
     [[nodiscard]] Result<std::vector<SessionRow>> events() const;
     [[nodiscard]] Result<std::vector<SessionRow>> commands() const;
+    /// The same row by row: hours of trains have more than memory should.
+    [[nodiscard]] Result<void> forEachCommand(const std::function<void(const SessionRow&)>& visit) const;
     [[nodiscard]] Result<std::vector<SessionRow>> measurements() const;
     [[nodiscard]] Result<std::vector<SessionRow>> log() const;
     /// `body` of each row is the item as it was given.

@@ -14,6 +14,8 @@
 #include <unistd.h>
 #include <vector>
 
+#include "tests/perf/Verdict.h"
+
 extern char** environ;
 
 namespace {
@@ -62,19 +64,22 @@ int main(int argc, char** argv) {
     std::printf("%-44s %10.2f %10.0f  baseline: start and end\n", "--version", idle.seconds, idle.megabytes);
     const auto separability =
         runQuietly({cli, "run", "separability", "--device", "sim:", "--out", out("separability")});
-    std::printf("%-44s %10.2f %10.0f  wanted: under 10 s, report included (exit %d)\n", "run separability, 25 repeats",
-                separability.seconds, separability.megabytes, separability.exitCode);
+    std::printf("%-44s %10.2f %10.0f  wanted: under 10 s, report included: %s\n", "run separability, 25 repeats",
+                separability.seconds, separability.megabytes,
+                tacto::verdict(separability.seconds < 10 && separability.exitCode == 0));
     Ran hours[2];
     const int lengths[] = {1, 10};
     for (int i = 0; i < 2; ++i) {
         const int seconds = lengths[i] * 3600;
         hours[i] = runQuietly({cli, "run", "live", "--device", "sim:", "--set", "duration=" + std::to_string(seconds),
                                "--out", out(i == 0 ? "live1" : "live10")});
-        std::printf("run live, %2d simulated h %30.2f %10.0f  %.0f times real time; wanted: 200 (exit %d)\n",
-                    lengths[i], hours[i].seconds, hours[i].megabytes, seconds / hours[i].seconds, hours[i].exitCode);
+        const double speed = seconds / hours[i].seconds;
+        std::printf("run live, %2d simulated h %30.2f %10.0f  %.0f times real time; wanted: 200: %s\n", lengths[i],
+                    hours[i].seconds, hours[i].megabytes, speed,
+                    tacto::verdict(speed >= 200 && hours[i].exitCode == 0));
     }
-    std::printf("memory from 1 to 10 h: %+.1f %%; wanted: within 5 %%\n",
-                100 * (hours[1].megabytes / hours[0].megabytes - 1));
+    const double more = hours[1].megabytes / hours[0].megabytes - 1;
+    std::printf("memory from 1 to 10 h: %+.1f %%; wanted: within 5 %%: %s\n", 100 * more, tacto::verdict(more <= 0.05));
     std::error_code ignored;
     std::filesystem::remove_all(scratch, ignored);
     return 0;

@@ -23,6 +23,8 @@
 #include <unistd.h>
 #include <vector>
 
+#include "tests/perf/Verdict.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,7 +221,7 @@ int main(int argc, char** argv) {
             std::printf("  %-42s %8.3f %8.3f %8.3f  ", "tactoscope", ours.median, ours.least, ours.most);
             if (theirs)
                 std::printf("%.2f times %s; wanted: no later: %s\n", ours.median / theirs->median, argv[2],
-                            ours.median <= theirs->median ? "met" : "MISSED");
+                            tacto::verdict(ours.median <= theirs->median));
             else
                 std::printf("not compared: %s is not installed\n", argc == 3 ? argv[2] : "a baseline");
         }

@@ -14,6 +14,7 @@
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/MainWindow.h"
 #include "tests/gui/Person.h"
+#include "tests/perf/Verdict.h"
 #include "tests/perf/window/WindowPerf.h"
 
 namespace tacto::perf {

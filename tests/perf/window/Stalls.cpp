@@ -16,6 +16,7 @@
 #include "app/gui/window/MainWindow.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/window/StallWatch.h"
+#include "tests/perf/Verdict.h"
 #include "tests/perf/window/WindowPerf.h"
 
 namespace tacto::perf {

@@ -17,6 +17,7 @@
 
 #include "app/gui/window/MainWindow.h"
 #include "core/base/Random.h"
+#include "tests/perf/Verdict.h"
 #include "tests/perf/window/WindowPerf.h"
 #include "tests/support/WrappedTwin.h"
 

@@ -41,8 +41,6 @@ void notMeasured(const std::string& what, const std::string& why) {
 
 bool everythingWasMeasured() noexcept { return everything; }
 
-const char* verdict(bool met) noexcept { return met ? "met" : "MISSED"; }
-
 double secondsOf(clockid_t clock) noexcept {
     timespec now{};
     clock_gettime(clock, &now);

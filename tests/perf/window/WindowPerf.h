@@ -19,9 +19,6 @@ void line(const std::string& what, const std::string& figures, const std::string
 void notMeasured(const std::string& what, const std::string& why);
 [[nodiscard]] bool everythingWasMeasured() noexcept;
 
-/// "met" or "MISSED".
-[[nodiscard]] const char* verdict(bool met) noexcept;
-
 /// CPU time of the calling thread (CLOCK_THREAD_CPUTIME_ID) or of the process (CLOCK_PROCESS_CPUTIME_ID).
 [[nodiscard]] double secondsOf(clockid_t clock) noexcept;
 
