@@ -347,8 +347,14 @@ void ControlLoop::publish(Instant now) noexcept {
     shown_.impedance_ohm = load_.impedance ? load_.impedance->value() : NAN;
     shown_.impedanceAge_s = load_.impedance ? toSeconds(now - load_.impedanceAt) : NAN;
     ++shown_.steps;
-    exposure_.look(now, shown_);
+    exposure_.look(now);
     latest_.write(shown_);
+}
+
+Telemetry ControlLoop::telemetry() const noexcept {
+    Telemetry all{latest_.read(), {}, 0};  // the table after it: never older than the step says
+    exposure_.show(all);
+    return all;
 }
 
 }  // namespace tacto

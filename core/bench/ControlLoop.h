@@ -97,7 +97,7 @@ public:
     /// Records a change of the interlock that came from outside, for a bench that will not step again.
     void noteState(Instant now) noexcept;
 
-    [[nodiscard]] Telemetry telemetry() const noexcept { return latest_.read(); }
+    [[nodiscard]] Telemetry telemetry() const noexcept;
     /// Trains refused so far. Any thread.
     [[nodiscard]] std::uint64_t refusals() const noexcept { return refusals_.load(std::memory_order_acquire); }
     /// Who ordered the output (a script, a window) is looking after it until then. Output that is driven for longer
@@ -166,8 +166,8 @@ private:
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;
-    Telemetry shown_;
-    Latest<Telemetry> latest_;
+    StepTelemetry shown_;
+    Latest<StepTelemetry> latest_;
 };
 
 }  // namespace tacto

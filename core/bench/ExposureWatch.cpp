@@ -4,17 +4,24 @@
 
 namespace tacto {
 
-void ExposureWatch::look(Instant now, Telemetry& shown) noexcept {
+void ExposureWatch::look(Instant now) noexcept {
     constexpr Instant kEvery = std::chrono::milliseconds(100);
     const bool isAnother = anotherOrder_.exchange(false, std::memory_order_acq_rel);
     if (!isAnother && now - at_ < kEvery && at_ != Instant(0)) return;
     at_ = now;
     gate_.exposure(rows_);
-    shown.exposureCount = std::min(rows_.size(), shown.exposureRows.size());
-    std::copy_n(rows_.begin(), shown.exposureCount, shown.exposureRows.begin());
+    now_.count = std::min(rows_.size(), now_.rows.size());
+    std::copy_n(rows_.begin(), now_.count, now_.rows.begin());
+    latestNow_.write(now_);
     if (isAnother) worst_ = {};
     worst_.take(rows_);
     latestWorst_.write(worst_);
+}
+
+void ExposureWatch::show(Telemetry& all) const noexcept {
+    const auto table = latestNow_.read();
+    all.exposureRows = table.rows;
+    all.exposureCount = table.count;
 }
 
 }  // namespace tacto

@@ -19,7 +19,7 @@ void FingerWatch::replace(NextFinger next) noexcept {
     finger_ = std::move(next.finger);
 }
 
-void FingerWatch::read(Instant now, Telemetry& shown) noexcept {
+void FingerWatch::read(Instant now, StepTelemetry& shown) noexcept {
     if (!finger_) return;
     finger_->update();
     journal_.finger(*finger_);

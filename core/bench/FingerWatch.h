@@ -28,7 +28,7 @@ public:
     void replace(NextFinger next) noexcept;
 
     /// Takes what arrived, for journal, taps and `shown`.
-    void read(Instant now, Telemetry& shown) noexcept;
+    void read(Instant now, StepTelemetry& shown) noexcept;
     /// What has failed since the last time: a sensor that is gone ends the output of any source. A plug was
     /// pulled at the finger.
     [[nodiscard]] std::optional<LoopFault> failure() noexcept;

@@ -1,5 +1,5 @@
-// Telemetry.h - what the bench is doing right now, for displays and scripts. Published by the control loop
-// once a step, read without a lock.
+// Telemetry.h - what the bench is doing right now, for displays and scripts. Published by the control loop, read
+// without a lock: most of it once a step, the exposure table ten times a second and after each train.
 //
 // Thread-safety: values.
 #pragma once
@@ -36,9 +36,7 @@ struct ProgrammedTrain {
 };
 
 /// Trivially copyable; NaN means absent.
-struct Telemetry {
-    static constexpr std::size_t kMaxExposureRows = 40;
-
+struct StepTelemetry {
     Instant at{0};
     InterlockState state = InterlockState::Disconnected;
     FixedText<200> reason;            ///< of a fault or the last stop; else empty
@@ -82,7 +80,10 @@ struct Telemetry {
     std::uint64_t samplesLost = 0;  ///< ring overflows since the start
     std::uint64_t gaps = 0;         ///< found in the sensor streams
     std::uint64_t steps = 0;        ///< control-loop steps
+};
 
+/// The same, with the exposure table of that step or of a later one.
+struct Telemetry : StepTelemetry {
     std::array<ExposureRow, kMaxExposureRows> exposureRows{};
     std::size_t exposureCount = 0;
     [[nodiscard]] std::span<const ExposureRow> exposure() const noexcept {

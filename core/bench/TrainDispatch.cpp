@@ -36,7 +36,7 @@ bool TrainDispatch::beginDelivery() noexcept {
     return mayPost(false);
 }
 
-Result<void> TrainDispatch::sendTrain(TrainPlanner& planner, Instant now, Telemetry& shown) {
+Result<void> TrainDispatch::sendTrain(TrainPlanner& planner, Instant now, StepTelemetry& shown) {
     planner.armedOn(parts_.load.reference);
     auto planned = planner.plan(now, parts_.load.impedance);
     if (!planned) return failure(planned);
@@ -47,7 +47,7 @@ Result<void> TrainDispatch::sendTrain(TrainPlanner& planner, Instant now, Teleme
     return {};
 }
 
-Result<void> TrainDispatch::sendBurst(TrainPlanner& planner, Instant now, const Telemetry& shown) {
+Result<void> TrainDispatch::sendBurst(TrainPlanner& planner, Instant now, const StepTelemetry& shown) {
     auto planned = planner.planBurst(now);
     if (!planned) return failure(planned);
     if (!beginDelivery()) return {};
@@ -57,7 +57,7 @@ Result<void> TrainDispatch::sendBurst(TrainPlanner& planner, Instant now, const 
 }
 
 Result<void> TrainDispatch::sendPresented(PresentationRun& presentation, TrainPlanner& planner, Instant now,
-                                          Telemetry& shown) {
+                                          StepTelemetry& shown) {
     auto planned = presentation.plan(planner, parts_.gate, now);
     if (!planned) return failure(planned);
     if (!mayPost(false)) return {};
@@ -73,7 +73,7 @@ Result<void> TrainDispatch::sendPresented(PresentationRun& presentation, TrainPl
     return {};
 }
 
-Result<void> TrainDispatch::sendCheck(Instant now, Telemetry& shown) {
+Result<void> TrainDispatch::sendCheck(Instant now, StepTelemetry& shown) {
     auto check = parts_.gate.approveCheck(now);
     if (!check) return failure(check);
     if (mayPost(true)) postCheck(std::move(*check), now, shown);
@@ -81,7 +81,7 @@ Result<void> TrainDispatch::sendCheck(Instant now, Telemetry& shown) {
 }
 
 void TrainDispatch::post(ApprovedTrain&& train, Instant onset, std::optional<double> expected,
-                         Telemetry& shown) noexcept {
+                         StepTelemetry& shown) noexcept {
     const auto& amplitude = train.train().amplitude;
     const double programmed = siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1);
     // Check pulses too: a capture of one belongs to no train that was delivered shortly before.

@@ -57,20 +57,20 @@ public:
 
     // Has what is due judged and posts it into `shown`'s ring too. A stop in between posts nothing and is not an error.
     // Errors: the refusal, as the planner's and the gate's.
-    [[nodiscard]] Result<void> sendTrain(TrainPlanner& planner, Instant now, Telemetry& shown);
-    [[nodiscard]] Result<void> sendBurst(TrainPlanner& planner, Instant now, const Telemetry& shown);
+    [[nodiscard]] Result<void> sendTrain(TrainPlanner& planner, Instant now, StepTelemetry& shown);
+    [[nodiscard]] Result<void> sendBurst(TrainPlanner& planner, Instant now, const StepTelemetry& shown);
     [[nodiscard]] Result<void> sendPresented(PresentationRun& presentation, TrainPlanner& planner, Instant now,
-                                             Telemetry& shown);
+                                             StepTelemetry& shown);
     /// A check pulse that renews the reading of |Z|; the train follows when it was judged.
-    [[nodiscard]] Result<void> sendCheck(Instant now, Telemetry& shown);
+    [[nodiscard]] Result<void> sendCheck(Instant now, StepTelemetry& shown);
     /// The check pulse of arming, already approved.
-    void postCheck(ApprovedTrain&& check, Instant onset, Telemetry& shown) noexcept {
+    void postCheck(ApprovedTrain&& check, Instant onset, StepTelemetry& shown) noexcept {
         post(std::move(check), onset, std::nullopt, shown);
     }
 
 private:
     /// `expected` is the amplitude that should come out, in V or mA; nothing for a check pulse: what is programmed.
-    void post(ApprovedTrain&& train, Instant onset, std::optional<double> expected, Telemetry& shown) noexcept;
+    void post(ApprovedTrain&& train, Instant onset, std::optional<double> expected, StepTelemetry& shown) noexcept;
 
     const Parts parts_;
     std::atomic<bool> paused_{false};

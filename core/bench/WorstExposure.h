@@ -1,4 +1,5 @@
 // WorstExposure.h - the largest value that each row of the exposure table has had during an order. Trivially copyable.
+// Where limits of a set on one quantity differ by frequency it is the one that was in force then.
 //
 // Thread-safety: a value; the control loop adds to it and publishes it.
 #pragma once
@@ -19,11 +20,12 @@ public:
         for (const auto& row : now) {
             const auto known = std::span(rows_).first(count_);
             const auto at = std::ranges::find_if(known, [&](const ExposureRow& r) {
-                return r.quantity == row.quantity && r.judged == row.judged && r.set.view() == row.set.view();
+                return r.quantity == row.quantity && r.judged == row.judged && r.action == row.action &&
+                       r.set.view() == row.set.view();
             });
             if (at != known.end()) {
                 if (at->evaluated && (!row.evaluated || !(row.value <= at->value))) *at = row;
-            } else if (count_ < rows_.size()) {
+            } else if (count_ < rows_.size()) {  // always: the gate refuses more
                 rows_[count_++] = row;
             }
         }
@@ -31,7 +33,7 @@ public:
     [[nodiscard]] std::span<const ExposureRow> rows() const noexcept { return std::span(rows_).first(count_); }
 
 private:
-    std::array<ExposureRow, Telemetry::kMaxExposureRows> rows_{};
+    std::array<ExposureRow, kMaxExposureRows> rows_{};
     std::size_t count_ = 0;
 };
 

@@ -5,12 +5,16 @@
 // Thread-safety: values; pure functions.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 #include "core/safety/FixedText.h"
 #include "core/safety/LimitSet.h"
 
 namespace tacto {
+
+/// A table holds no more. A setup with more limits is refused: one that no table shows would seem to be kept.
+inline constexpr std::size_t kMaxExposureRows = 64;
 
 struct ExposureRow {
     Quantity quantity = Quantity::PeakVoltage;

@@ -28,6 +28,7 @@ enum Check : int {
     BadLimitRow,
     BadCeiling,
     LoosenedCeiling,
+    TooManyLimits,
     SourceDrive,
     SourceAmplitudeMax,
     SourceAmplitudeStep,

@@ -97,8 +97,8 @@ public:
 
     /// Says what is connected and what is allowed. Voids every approval; the meter keeps its memory. After an error
     /// nothing is approved until a configure() succeeds. Errors: InvalidArgument naming what is missing or impossible
-    /// (no limit set, a loosened ceiling, monophasic or a voltage source for a person, no consent, no electrode area
-    /// for a person ...).
+    /// (no limit set, too many limits, a loosened ceiling, monophasic or a voltage source for a person, no consent, no
+    /// electrode area for a person ...).
     [[nodiscard]] Result<void> configure(const GateSetup& setup);
 
     /// A newer measured |Z|, from a check pulse or a train's read-back. Person mode judges with 0.7 to 1.3 of it; on a

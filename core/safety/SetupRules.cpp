@@ -66,7 +66,22 @@ constexpr Rule<CeilingBesideRow> kTighteningRules[] = {
      }},
 };
 
+std::size_t rowsOf(const GateSetup& setup) noexcept {
+    std::size_t rows = setup.ceilings.size() + kShown.size();
+    for (const auto& set : setup.limits) rows += set.rows.size();
+    return rows;
+}
+
+constexpr Rule<GateSetup> kTableRules[] = {
+    {TooManyLimits, [](auto& s) { return rowsOf(s) > kMaxExposureRows; },
+     [](auto& s) {
+         return invalid("the limit sets and the profile's ceilings hold {} limits; at most {} can be watched at once",
+                        rowsOf(s) - kShown.size(), kMaxExposureRows - kShown.size());
+     }},
+};
+
 Result<void> checkLimits(const GateSetup& setup) {
+    if (auto sound = judge(kTableRules, setup); !sound) return sound;
     for (const auto& set : setup.limits) {
         for (const auto& row : set.rows) {
             if (auto sound = judge(kRowRules, RowOfSet{set, row}); !sound) return sound;

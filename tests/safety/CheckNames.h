@@ -22,6 +22,7 @@ inline constexpr std::array kCheckNames{
     TACTO_CHECK(BadLimitRow),
     TACTO_CHECK(BadCeiling),
     TACTO_CHECK(LoosenedCeiling),
+    TACTO_CHECK(TooManyLimits),
     TACTO_CHECK(SourceDrive),
     TACTO_CHECK(SourceAmplitudeMax),
     TACTO_CHECK(SourceAmplitudeStep),

@@ -39,6 +39,9 @@ void addConfigureCases(std::vector<GateCase>& cases) {
         "has a row");
     add(BadCeiling, bench([](auto& s) { s.ceilings = {{Quantity::PeakCurrent, kNaN}}; }), "ceiling is");
     add(LoosenedCeiling, bench([](auto& s) { s.ceilings = {{Quantity::PeakVoltage, 1.1e6}}; }), "only tighten");
+    add(TooManyLimits,
+        bench([](auto& s) { s.limits.push_back(limitsOf(std::vector(61, rowFor(Quantity::PeakVoltage, 1e6)))); }),
+        "can be watched at once");
     add(SourceAmplitudeMax, bench([](auto& s) { s.source.amplitudeMax = kNaN; }), "largest amplitude");
     add(SourceAmplitudeStep, bench([](auto& s) { s.source.amplitudeStep = -0.1; }), "amplitude step");
     for (Micros SourceTraits::*width : {&SourceTraits::widthStep, &SourceTraits::widthMin, &SourceTraits::widthMax})

@@ -40,6 +40,19 @@ void takeStep(LargestStep& axis, double jnd, double from, double to) {
     }
 }
 
+double largerOrUnknown(double a, double b) { return std::isnan(a) || std::isnan(b) ? kNaN : std::max(a, b); }
+
+/// Expanded, of the step from `before_s` to the interval that ends with train `k`. Two intervals share the stamp
+/// between them: u² of ln(T2/T1) is at most 2 (2 u / T)², u that of the least certain of their three stamps.
+double intervalUncertainty_jnd(const std::vector<CapturedTrain>& trains, std::size_t k, double before_s) {
+    double stamp_s = 0;
+    for (std::size_t i = k < 2 ? 0 : k - 2; i <= k; ++i)
+        stamp_s = largerOrUnknown(stamp_s, trains[i].onsetUncertainty_s);
+    const double interval_s = trains[k].interval_s;
+    const double shorter_s = std::isnan(before_s) ? interval_s : std::min(interval_s, before_s);
+    return kCoverageFactor * std::sqrt(8.0) * stamp_s / shorter_s / std::log1p(kIntervalWeberFraction);
+}
+
 void addTrains(ChangeGroup& group, const CapturedChange& change) {
     double last_v = kNaN, last_s = kNaN;
     if (!change.before_v.empty() && !std::isnan(change.before_v.back())) {
@@ -53,14 +66,13 @@ void addTrains(ChangeGroup& group, const CapturedChange& change) {
         // The first trains of a movement have none before them to be compared with.
         if (!movement || k >= 1) takeStep(group.amplitude, train.amplitude_jnd, last_v, train.amplitude_v);
         if (!movement || k >= 2) {
+            const bool isFirst = std::isnan(group.interval.jnd);
             takeStep(group.interval, train.interval_jnd, last_s, train.interval_s);
-            // Two intervals share the stamp between them: u² of ln(T2/T1) is at most 2 (2 u / T)².
-            const double shorter_s = std::min(train.interval_s, std::isnan(last_s) ? train.interval_s : last_s);
-            const double u = kCoverageFactor * std::sqrt(8.0) * train.onsetUncertainty_s / shorter_s /
-                             std::log1p(kIntervalWeberFraction);
-            // That of a step which was measured; unknown of one, it is unknown of the largest.
-            double& widest = group.interval.uncertainty;
-            if (!std::isnan(train.interval_jnd) && !std::isnan(widest) && !(u <= widest)) widest = u;
+            if (!std::isnan(train.interval_jnd)) {
+                const double u = intervalUncertainty_jnd(change.trains, k, last_s);
+                double& widest = group.interval.uncertainty;
+                widest = isFirst ? u : largerOrUnknown(widest, u);
+            }
         }
         last_v = train.amplitude_v;
         last_s = train.interval_s;

@@ -62,8 +62,8 @@ struct ChangeLimits {
 /// One axis of the steps from train to train.
 struct LargestStep {
     double jnd = kNaN;
-    double from = 0, to = 0;  ///< V or s
-    double uncertainty = 0;   ///< expanded, of a step; NaN: unknown
+    double from = 0, to = 0;    ///< V or s
+    double uncertainty = kNaN;  ///< expanded, of a step; NaN: unknown of one, or none was measured
     std::size_t unmeasured = 0;
 };
 

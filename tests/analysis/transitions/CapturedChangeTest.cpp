@@ -89,5 +89,27 @@ TEST(CapturedChange, AnUncertaintyThatIsUnknownOnceIsNotMadeUpForByTheNextTrain)
     }
 }
 
+TEST(CapturedChange, AnIntervalOfAMovementHangsOnThreeStamps) {
+    auto scatter = changeOf(1.5, 1.2);
+    for (const std::size_t which : {0U, 1U, 2U}) {
+        auto movement = changeOf(1, kNaN);
+        movement.name = "finger";
+        movement.kind = ChangeKind::Movement;
+        movement.trains = {trainOf(1), trainOf(1), trainOf(1)};
+        movement.trains.at(which).onsetUncertainty_s = kNaN;
+        const auto judged = judgeChanges(std::vector{movement, scatter}, {}, kLimits);
+        EXPECT_EQ(judged.groups.at(0).verdict, Verdict::Indeterminate) << which;
+        EXPECT_TRUE(std::isnan(judged.groups.at(0).interval.uncertainty)) << which;
+    }
+}
+
+TEST(CapturedChange, WhereNoIntervalWasMeasuredItsUncertaintyIsUnknownNotZero) {
+    auto change = changeOf(1.5, 1.2);
+    for (auto& train : change.trains) train.interval_s = train.interval_jnd = kNaN;
+    const auto judged = judgeChanges(std::vector{change}, {}, kLimits);
+    EXPECT_EQ(judged.verdict, Verdict::Indeterminate);
+    EXPECT_TRUE(std::isnan(judged.groups.at(0).interval.uncertainty));
+}
+
 }  // namespace
 }  // namespace tacto

@@ -5,6 +5,7 @@
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QHeaderView>
+#include <QLabel>
 #include <QLineEdit>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -34,6 +35,19 @@
 
 namespace tacto::test {
 namespace {
+
+/// The lowest visible label with a text; null where there is none.
+const QLabel* lowestText(const QWidget& page) {
+    const QLabel* lowest = nullptr;
+    int bottom = 0;
+    for (const auto* label : page.findChildren<QLabel*>()) {
+        const int itsBottom = label->mapTo(&page, QPoint(0, label->height())).y();
+        if (!label->isVisible() || label->text().isEmpty() || (lowest != nullptr && itsBottom <= bottom)) continue;
+        lowest = label;
+        bottom = itsBottom;
+    }
+    return lowest;
+}
 
 class ResultsInTheWindow : public Window {
 protected:
@@ -198,11 +212,22 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
         static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 3000));
         EXPECT_EQ(faultsOf(window), "") << name;
         shot(window, QString("large-%1").arg(name));
-        for (const auto* area : window.findChildren<QScrollArea*>())
-            if (area->isVisible()) area->verticalScrollBar()->setValue(area->verticalScrollBar()->maximum());
+        std::vector<QScrollBar*> scrolled;
+        for (const auto* area : window.findChildren<QAbstractScrollArea*>())
+            if (area->isVisible() && area->verticalScrollBar()->value() == 0)
+                scrolled.push_back(area->verticalScrollBar());
+        for (auto* bar : scrolled) bar->setValue(bar->maximum());
         letLive(50);
         EXPECT_EQ(faultsOf(window), "") << name << ", its end";
+        for (const auto* area : window.findChildren<QScrollArea*>()) {
+            const auto* lowest = area->isVisible() ? lowestText(*area->widget()) : nullptr;
+            if (lowest == nullptr) continue;
+            const QRect place(lowest->mapTo(area->viewport(), QPoint()), lowest->size());
+            EXPECT_LE(place.bottom(), area->viewport()->height()) << name << ": " << widgetName(*lowest);
+            EXPECT_GE(place.bottom(), 0) << name << ": " << widgetName(*lowest);
+        }
         shot(window, QString("large-%1-end").arg(name));
+        for (auto* bar : scrolled) bar->setValue(0);
         gui::applyTextSize(100);
     };
     isWhole("safety-result");
