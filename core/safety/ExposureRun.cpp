@@ -32,9 +32,8 @@ Run largerRun(const Run& a, const Run& b) noexcept {
     r.phaseCharge = larger(a.phaseCharge, b.phaseCharge);
     r.netCharge = larger(a.netCharge, b.netCharge);
     r.energy = larger(a.energy, b.energy);
-    r.dissipated = larger(a.dissipated, b.dissipated);
-    r.squares = larger(a.squares, b.squares);
-    r.volts = larger(a.volts, b.volts);
+    r.pulse = larger(a.pulse, b.pulse);
+    r.cut = larger(a.cut, b.cut);
     r.inDuration = largerSums(a.inDuration, b.inDuration);
     r.whole = largerSums(a.whole, b.whole);
     r.endOfTrain = larger(std::abs(a.endOfTrain), std::abs(b.endOfTrain));
@@ -43,6 +42,18 @@ Run largerRun(const Run& a, const Run& b) noexcept {
 }
 
 namespace {
+
+/// What a capacitor may hold, V.
+struct Held {
+    double least = 0, most = 0;
+    void include(double voltage) noexcept {
+        // NaN is kept: a run from it is refused.
+        least = std::isnan(voltage) || voltage < least ? voltage : least;
+        most = std::isnan(voltage) || voltage > most ? voltage : most;
+    }
+};
+
+constexpr Held kNothing{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
 double voltageSquared(const SegmentResponse& response) noexcept {
     double sum = 0;
@@ -53,6 +64,84 @@ double voltageSquared(const SegmentResponse& response) noexcept {
     return sum;
 }
 
+/// What a segment adds up to that the capacitor began with `start`.
+Sums sumsOf(const Plan& plan, const SegmentResponse& response, double start) noexcept {
+    Sums sums{0, voltageSquared(response), storedAt(plan, start) - storedAt(plan, response.endCapacitorVoltage)};
+    for (const ResponsePiece& piece : response.pieces()) {
+        sums.squares += piece.currentSquared();
+        sums.dissipated += piece.energy();
+    }
+    return sums;
+}
+
+void addTo(TrainSums& total, const Sums& sums, double times = 1) noexcept {
+    total.currentSquared_A2s += times * sums.squares;
+    total.voltageSquared_V2s += times * sums.volts;
+    total.dissipated_J += times * sums.dissipated;
+}
+
+/// What the pulses of a train hold where they are not alike, because each finds another voltage on the capacitor.
+class PulseParts {
+public:
+    static constexpr std::size_t kRest = 3;  // after the pulse's segments, of which there are up to three
+    explicit PulseParts(const Plan& plan) noexcept : plan_(plan) {}
+
+    /// One pulse's segment, which the capacitor began with any of `held`.
+    void add(std::size_t segment, const Held& held, const Sums& sums) noexcept {
+        Part& part = parts_[segment];
+        part.most = larger(sums, part.most);
+        part.held.include(held.least);
+        part.held.include(held.most);
+    }
+    /// The most that one pulse holds.
+    [[nodiscard]] Sums pulse() const noexcept {
+        Sums sum;
+        for (const Part& part : parts_) sum += part.most;
+        return sum;
+    }
+    /// How much more than n pulses a stretch of n periods holds that begins late in a part of one pulse, a, and ends
+    /// early in the same part of another, b. With f the square of a quantity x that is linear in what the capacitor
+    /// holds: late(a) + early(b) = a + early(b) - early(a), and the integral of |f_b - f_a| is at most
+    /// 2 sqrt(most) |x_b - x_a| by the Cauchy-Schwarz inequality, where x_b - x_a is the undriven response to the
+    /// difference of what both began with. Heat is the sum of two such squares. Beyond its compliance a source is not
+    /// linear: at most the part itself.
+    [[nodiscard]] Sums cut() const noexcept {
+        Sums most;
+        for (std::size_t s = 0; s < kParts; ++s) {
+            const Part& part = parts_[s];
+            const double apart = part.held.most - part.held.least;
+            if (apart <= 0) continue;  // Also where no pulse has this part
+            most =
+                larger(std::isinf(plan_.limits.compliance_V) ? extra(part.most, undriven(s, apart)) : part.most, most);
+        }
+        return most;
+    }
+
+private:
+    static constexpr std::size_t kParts = kRest + 1;
+    struct Part {
+        Sums most;
+        Held held = kNothing;
+    };
+    [[nodiscard]] Sums undriven(std::size_t segment, double voltage) const noexcept {
+        DriveSegment still = plan_.betweenPulses;
+        still.duration_s = plan_.mostBetweenPulses_s;
+        if (segment < kRest) still = plan_.pulse.items[segment];
+        still.start = still.end = 0;
+        return larger(sumsOf(plan_, respond(plan_.circuit, still, voltage), voltage), Sums{});  // rounded below 0, say
+    }
+    [[nodiscard]] static Sums extra(const Sums& most, const Sums& between) noexcept {
+        const auto of = [](double sum, double difference) {
+            const double bound = 2 * std::sqrt(sum * difference);
+            return bound > sum ? sum : bound;  // NaN stays
+        };
+        return {of(most.squares, between.squares), of(most.volts, between.volts),
+                of(most.dissipated, between.dissipated)};
+    }
+    const Plan& plan_;
+    std::array<Part, kParts> parts_{};
+};
+
 PulsePart partOf(const PulseSegments& pulse, std::size_t s) noexcept {
     if (s == 0) return PulsePart::LeadingPhase;
     return s + 1 == pulse.count ? PulsePart::SecondPhase : PulsePart::Gap;
@@ -60,19 +149,30 @@ PulsePart partOf(const PulseSegments& pulse, std::size_t s) noexcept {
 
 Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
     Run run;
+    PulseParts parts(plan);
     double stored = storedAt(plan, capacitorVoltage);
     for (int done = 0; done < plan.pulses;) {
         PulseResponse response(plan.circuit, plan.limits, capacitorVoltage);
-        double volts = 0;
-        const double found = storedAt(plan, capacitorVoltage);
+        const PulseTotals& totals = response.totals();
+        Sums pulse;
+        const auto add = [&](const DriveSegment& segment, PulsePart part) {
+            const PulseTotals before = totals;
+            Sums sums;
+            sums.volts = voltageSquared(response.add(segment, part));
+            sums.squares = totals.currentSquared_A2s - before.currentSquared_A2s;
+            sums.dissipated = totals.energy_J - before.energy_J + storedAt(plan, before.endCapacitorVoltage) -
+                              storedAt(plan, totals.endCapacitorVoltage);
+            pulse += sums;
+            return sums;
+        };
         for (std::size_t s = 0; s < plan.pulse.count; ++s) {
-            volts += voltageSquared(response.add(plan.pulse.items[s], partOf(plan.pulse, s)));
+            const double found = response.capacitorVoltage();
+            parts.add(s, {found, found}, add(plan.pulse.items[s], partOf(plan.pulse, s)));
             stored = larger(storedAt(plan, response.capacitorVoltage()), stored);
         }
-        if (plan.betweenPulses.duration_s > 0)
-            volts += voltageSquared(response.add(plan.betweenPulses, PulsePart::Rest));
-        const PulseTotals& totals = response.totals();
-        const double dissipated = totals.energy_J + found - storedAt(plan, response.capacitorVoltage());
+        const double rested = response.capacitorVoltage();
+        Sums rest;
+        if (plan.betweenPulses.duration_s > 0) rest = add(plan.betweenPulses, PulsePart::Rest);
 
         // Once a pulse leaves the capacitor as it found it, all further pulses are this one.
         const double moved = std::abs(response.capacitorVoltage() - capacitorVoltage);
@@ -85,13 +185,8 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
         run.phaseCharge = larger(totals.phaseCharge_C(), run.phaseCharge);
         run.netCharge = larger(std::abs(totals.netCharge_C), run.netCharge);
         run.energy = larger(totals.energy_J, run.energy);
-        run.dissipated = larger(dissipated, run.dissipated);
-        run.squares = larger(totals.currentSquared_A2s, run.squares);
-        run.volts = larger(volts, run.volts);
         run.inDuration.netCharge_C += alike * std::abs(totals.netCharge_C);
-        run.inDuration.currentSquared_A2s += alike * totals.currentSquared_A2s;
-        run.inDuration.voltageSquared_V2s += alike * volts;
-        run.inDuration.dissipated_J += alike * dissipated;
+        addTo(run.inDuration, pulse, alike);
         run.inDuration.stored_J = stored;
         capacitorVoltage = response.capacitorVoltage();
 
@@ -100,13 +195,10 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
             run.whole = run.inDuration;
             if (plan.afterTrain.duration_s > 0) {
                 PulseResponse tail(plan.circuit, plan.limits, capacitorVoltage);
-                const double tailVolts = voltageSquared(tail.add(plan.afterTrain, PulsePart::Rest));
+                const Sums sums = sumsOf(plan, tail.add(plan.afterTrain, PulsePart::Rest), capacitorVoltage);
                 const PulseTotals& after = tail.totals();
-                run.whole.currentSquared_A2s += after.currentSquared_A2s;
-                run.whole.voltageSquared_V2s += tailVolts;
-                const double kept = storedAt(plan, capacitorVoltage) - storedAt(plan, tail.capacitorVoltage());
-                run.whole.dissipated_J += after.energy_J + kept;
-                run.dissipated = larger(dissipated + after.energy_J + kept, run.dissipated);
+                rest += sums;
+                addTo(run.whole, sums);
                 run.peakCurrent = larger(after.peakCurrent_A, run.peakCurrent);
                 // The last pulse's tail is longer than the others', unless the next train comes early: the larger.
                 const double before = std::abs(totals.netCharge_C);
@@ -114,13 +206,14 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
                 run.netCharge = larger(last, run.netCharge);
                 run.whole.netCharge_C += larger(last, before) - before;
                 run.energy = larger(totals.energy_J + after.energy_J, run.energy);
-                run.squares = larger(totals.currentSquared_A2s + after.currentSquared_A2s, run.squares);
-                run.volts = larger(volts + tailVolts, run.volts);
                 capacitorVoltage = tail.capacitorVoltage();
             }
             run.endOfInterval = capacitorVoltage;
         }
+        parts.add(PulseParts::kRest, {rested, rested}, rest);
     }
+    run.pulse = parts.pulse();
+    if (plan.outlastsWindow) run.cut = parts.cut();
     return run;
 }
 
@@ -145,43 +238,16 @@ Run worstOfStates(const Plan& plan, double carried) noexcept {
     return worst;
 }
 
-/// What a capacitor may hold, V.
-struct Held {
-    double least = 0, most = 0;
-    void include(double voltage) noexcept {
-        // NaN is kept: a run from it is refused.
-        least = std::isnan(voltage) || voltage < least ? voltage : least;
-        most = std::isnan(voltage) || voltage > most ? voltage : most;
-    }
-};
-
 /// The most that one segment gives, whatever of `held` it begins with and however long it lasts. The current is linear
 /// in what the capacitor holds and squares are convex, so the ends of `held` have the most; a longer segment adds to a
 /// sum of squares. `held` becomes what the capacitor may hold afterwards, which is monotonic in start and time.
-struct Most {
-    double squares = 0, volts = 0, dissipated = 0;
-    Most& operator+=(const Most& other) noexcept {
-        squares += other.squares;
-        volts += other.volts;
-        dissipated += other.dissipated;
-        return *this;
-    }
-};
-Most mostOf(const Plan& plan, DriveSegment segment, double least_s, double most_s, Held& held) noexcept {
-    Most most;
-    Held after{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+Sums mostOf(const Plan& plan, DriveSegment segment, double least_s, double most_s, Held& held) noexcept {
+    Sums most;
+    Held after = kNothing;
     for (const double start : {held.least, held.most}) {
         segment.duration_s = most_s;
         const SegmentResponse longest = respond(plan.circuit, segment, start, plan.limits);
-        double squares = 0, energy = 0;
-        for (const ResponsePiece& piece : longest.pieces()) {
-            squares += piece.currentSquared();
-            energy += piece.energy();
-        }
-        most.squares = larger(squares, most.squares);
-        most.volts = larger(voltageSquared(longest), most.volts);
-        most.dissipated =
-            larger(energy + storedAt(plan, start) - storedAt(plan, longest.endCapacitorVoltage), most.dissipated);
+        most = larger(sumsOf(plan, longest, start), most);
         after.include(longest.endCapacitorVoltage);
         segment.duration_s = least_s;
         after.include(respond(plan.circuit, segment, start, plan.limits).endCapacitorVoltage);
@@ -194,44 +260,47 @@ Most mostOf(const Plan& plan, DriveSegment segment, double least_s, double most_
 /// becomes what it leaves when the next train begins.
 Run enclosedFrom(const Plan& plan, Held& held) noexcept {
     Run run;
+    PulseParts parts(plan);
     double stored = larger(storedAt(plan, held.least), storedAt(plan, held.most));
-    const auto add = [&](const DriveSegment& segment, double least_s, double most_s, Most& to) {
-        to += mostOf(plan, segment, least_s, most_s, held);
+    const auto add = [&](const DriveSegment& segment, double least_s, double most_s) {
+        const Sums most = mostOf(plan, segment, least_s, most_s, held);
         stored = larger(larger(storedAt(plan, held.least), storedAt(plan, held.most)), stored);
+        return most;
     };
-    TrainSums& sums = run.inDuration;
+    Sums tail;
     for (int done = 0; done < plan.pulses;) {
         const Held found = held;
-        Most pulse;
-        for (std::size_t s = 0; s < plan.pulse.count; ++s)
-            add(plan.pulse.items[s], plan.leastPulse_s[s], plan.pulse.items[s].duration_s, pulse);
-        add(plan.betweenPulses, plan.betweenPulses.duration_s, plan.mostBetweenPulses_s, pulse);
+        Sums pulse;
+        for (std::size_t s = 0; s < plan.pulse.count; ++s) {
+            const Held before = held;
+            const Sums most = add(plan.pulse.items[s], plan.leastPulse_s[s], plan.pulse.items[s].duration_s);
+            parts.add(s, before, most);
+            pulse += most;
+        }
+        const Held rested = held;
+        Sums rest = add(plan.betweenPulses, plan.betweenPulses.duration_s, plan.mostBetweenPulses_s);
+        pulse += rest;
         const double moved = larger(std::abs(held.least - found.least), std::abs(held.most - found.most));
         const int alike = moved <= 1e-12 * larger(held.most, -held.least) ? plan.pulses - done : 1;
         done += alike;
-        run.squares = larger(pulse.squares, run.squares);
-        run.volts = larger(pulse.volts, run.volts);
-        run.dissipated = larger(pulse.dissipated, run.dissipated);
-        sums.currentSquared_A2s += alike * pulse.squares;
-        sums.voltageSquared_V2s += alike * pulse.volts;
-        sums.dissipated_J += alike * pulse.dissipated;
+        addTo(run.inDuration, pulse, alike);
+        if (done >= plan.pulses) {
+            tail = add(plan.afterTrain, plan.afterTrain.duration_s, plan.afterTrain.duration_s);
+            rest += tail;
+        }
+        parts.add(PulseParts::kRest, rested, rest);
     }
-    Most tail;
-    add(plan.afterTrain, plan.afterTrain.duration_s, plan.afterTrain.duration_s, tail);
-    run.squares += tail.squares;
-    run.volts += tail.volts;
-    run.dissipated += tail.dissipated;
-    sums.stored_J = stored;
-    run.whole = sums;
-    run.whole.currentSquared_A2s += tail.squares;
-    run.whole.voltageSquared_V2s += tail.volts;
-    run.whole.dissipated_J += tail.dissipated;
+    run.pulse = parts.pulse();
+    if (plan.outlastsWindow) run.cut = parts.cut();
+    run.inDuration.stored_J = stored;
+    run.whole = run.inDuration;
+    addTo(run.whole, tail);
     return run;
 }
 
 Run unknownRun() noexcept {
     Run run;
-    run.squares = run.volts = run.dissipated = kNaN;
+    run.pulse = run.cut = {kNaN, kNaN, kNaN};
     run.inDuration = run.whole = {kNaN, kNaN, kNaN, kNaN, kNaN};
     return run;
 }

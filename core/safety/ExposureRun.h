@@ -14,15 +14,33 @@ namespace tacto::exposure {
 /// The larger of both; NaN wins, so that it is refused and not lost.
 [[nodiscard]] inline double larger(double a, double b) noexcept { return std::isnan(a) || a > b ? a : b; }
 
+/// Sums over a stretch of time of what is nowhere below 0.
+struct Sums {
+    double squares = 0;     // ∫i², A²s
+    double volts = 0;       // ∫v², V²s
+    double dissipated = 0;  // energy less what the capacitor kept, J
+    Sums& operator+=(const Sums& other) noexcept {
+        squares += other.squares;
+        volts += other.volts;
+        dissipated += other.dissipated;
+        return *this;
+    }
+};
+[[nodiscard]] inline Sums larger(const Sums& a, const Sums& b) noexcept {
+    return {larger(a.squares, b.squares), larger(a.volts, b.volts), larger(a.dissipated, b.dissipated)};
+}
+
 /// What one run of a train adds up to, starting with some voltage on the load's capacitor.
 struct Run {
     double peakVoltage = 0, peakCurrent = 0, phaseCharge = 0;  // Largest of any pulse
-    double netCharge = 0, energy = 0, squares = 0, volts = 0;  // Largest of any pulse, its rest included
-    double dissipated = 0;                                     // The same: energy less what the capacitor kept, J
-    TrainSums inDuration;                                      // Over n / rate
-    TrainSums whole;                                           // The same with the rest until the next train
-    double endOfTrain = 0;                                     // Capacitor voltage after n / rate, V
-    double endOfInterval = 0;                                  // and when the next train begins
+    double netCharge = 0, energy = 0;                          // Largest of any pulse, its rest included
+    // A stretch of n periods holds at most n times `pulse`, part by part the most of any pulse, and `cut`: it may begin
+    // in a part of one pulse and end in the same part of another.
+    Sums pulse, cut;
+    TrainSums inDuration;      // Over n / rate
+    TrainSums whole;           // The same with the rest until the next train
+    double endOfTrain = 0;     // Capacitor voltage after n / rate, V
+    double endOfInterval = 0;  // and when the next train begins
 };
 
 /// Everything about a run but its start: constant while one exposure is computed.
@@ -34,7 +52,8 @@ struct Plan {
     double mostBetweenPulses_s = 0;        // and the rest after them
     DriveSegment afterTrain;
     int pulses = 1;
-    SourceLimits limits;  // Infinite: what clipping takes away is counted as delivered
+    bool outlastsWindow = false;  // the train, even the shortest window: Run::cut is needed
+    SourceLimits limits;          // Infinite: what clipping takes away is counted as delivered
 };
 
 /// How long each segment of `longest` lasts in the shortest train, which may lack its gap; in s.

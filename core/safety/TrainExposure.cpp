@@ -27,6 +27,12 @@ TrainSums times(double factor, const TrainSums& sums) noexcept {
             factor * sums.dissipated_J, sums.stored_J};
 }
 
+/// What any `periods` periods within a train hold.
+TrainSums pulsesOf(const Run& run, double periods) noexcept {
+    return {periods * run.pulse.squares + run.cut.squares, periods * run.pulse.volts + run.cut.volts,
+            periods * run.netCharge, periods * run.pulse.dissipated + run.cut.dissipated, run.whole.stored_J};
+}
+
 TrainSums smallerSums(const TrainSums& a, const TrainSums& b) noexcept {
     // a < b is false for NaN in either, and then the other must not hide it.
     const auto smaller = [](double x, double y) { return std::isnan(x) || x < y ? x : y; };
@@ -62,7 +68,7 @@ Run clipped(Plan plan, const Run& unlimited, double compliance, const PulseTrain
     const double stored =
         std::min(run.whole.stored_J, larger(storedAt(plan, compliance), storedAt(plan, carried.voltage_V)));
     run.whole.stored_J = stored;
-    run.dissipated = std::min(run.dissipated, compliance * moved + stored);
+    run.pulse.dissipated = std::min(run.pulse.dissipated, compliance * moved + stored);
     run.whole.dissipated_J = std::min(run.whole.dissipated_J, compliance * moved * train.pulses + stored);
     if (plan.circuit.hasCapacitor() || train.shape != PulseShape::SymmetricBiphasic) {
         run.netCharge = larger(run.phaseCharge, run.netCharge);
@@ -131,6 +137,8 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
     plan.mostBetweenPulses_s = restBetweenPulses(trains.shortest).count();
     plan.afterTrain = restOf(source.gap, Seconds(std::max(T - duration, 0.0)));
     plan.pulses = train.pulses;
+    const double period = 1 / train.rate.value();
+    plan.outlastsWindow = train.pulses > periodsIn(1, period);
     Run run = worstRun(plan, carried.voltage_V);
 
     const double compliance = source.compliance.value();
@@ -138,13 +146,13 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
 
     TrainExposure exposure;
     // A train longer than a window cannot put all of itself into it.
-    const TrainSums pulse{run.squares, run.volts, run.netCharge, run.dissipated, run.whole.stored_J};
-    const double rate = train.rate.value();
-    exposure.in1s = smallerSums(run.whole, times(periodsIn(1, 1 / rate), pulse));
-    exposure.in5s = smallerSums(run.whole, times(periodsIn(5, 1 / rate), pulse));
+    const TrainSums pulses1s = pulsesOf(run, periodsIn(1, period));
+    const TrainSums pulses5s = pulsesOf(run, periodsIn(5, period));
+    exposure.in1s = smallerSums(run.whole, pulses1s);
+    exposure.in5s = smallerSums(run.whole, pulses5s);
     exposure.residual_V = std::abs(run.endOfTrain);
-    const TrainSums second = smallerSums(times(periodsIn(1, T), run.whole), times(periodsIn(1, 1 / rate), pulse));
-    const TrainSums five = smallerSums(times(periodsIn(5, T), run.whole), times(periodsIn(5, 1 / rate), pulse));
+    const TrainSums second = smallerSums(times(periodsIn(1, T), run.whole), pulses1s);
+    const TrainSums five = smallerSums(times(periodsIn(5, T), run.whole), pulses5s);
 
     const auto set = [&exposure](Quantity q, double value) { exposure.values[indexOf(q)] = value; };
     set(Quantity::CommandVoltage, commandVoltage(train, load, source));

@@ -357,6 +357,7 @@ private:
             search(theme_ == Near::Count ? any : theme_, train, interval);
             repeats = static_cast<int>(std::min(14.0, std::ceil(5 / interval) + 1));
         }
+        if (campaign && source_.amplitudeStep == 0 && dice_.chance(fills_ ? 0.6 : 0.05)) return edge(train, interval);
         const double shortest = train.duration().count();
         const double aim = aimed(train, interval);
         const double how = dice_.unit();
@@ -374,6 +375,25 @@ private:
             }
             wait(pace);
         }
+    }
+
+    /// Delivers the most that the gate approves, but for 0.05 %: what it counts too little may be little.
+    void edge(PulseTrain train, double interval) {
+        constexpr std::array kSteps{0.03, 0.004, 0.0005};
+        double amplitude = 1.3 * aimed(train, interval);
+        for (const double step : kSteps) {
+            pending_.clear();
+            wait(12);  // until no window holds what was approved
+            bool approved = false;
+            for (int tries = 0; tries < 40 && !approved; ++tries) {
+                amplitude *= 1 - step;
+                setAmplitude(train, amplitude);
+                approved = ask(train, interval);
+            }
+            if (!approved) return;
+            if (step != kSteps.back()) amplitude /= 1 - step;
+        }
+        deliverPending();
     }
 
     bool ask(const PulseTrain& train, double interval) {
@@ -537,8 +557,9 @@ void runSequences(std::uint64_t seed, std::uint64_t count, SequenceCount& total)
     // A trace of every sequence would take longer than the sequences do.
     SequenceCount again;
     run(seed, done, true, again);
-    total.violation = fmt::format("seed {}, sequence {}: {}", seed, done - 1,
-                                  again.violation.empty() ? total.violation + " (not again)" : again.violation);
+    total.violation =
+        fmt::format("{} (seed {}, sequence {})",
+                    again.violation.empty() ? total.violation + ", but not again" : again.violation, seed, done - 1);
 }
 
 }  // namespace tacto::test

@@ -75,8 +75,9 @@ public:
         : clock_(clock), dice_(dice), total_(total), traced_(traced) {}
 
 protected:
+    /// The trace, then what was violated: of a long text, the end is seen.
     void violation(const std::string& what) {
-        if (total_.violation.empty()) total_.violation = what + "\n" + trace_;
+        if (total_.violation.empty()) total_.violation = trace_ + what;
     }
     template <class Text>
     void note(Text text) {
@@ -173,6 +174,7 @@ protected:
     void search(Near kind, PulseTrain& train, double& interval) {
         for (int tries = 0; tries < 6; ++tries) {
             train = randomTrain();
+            fills_ = false;
             const bool slow = kind == Near::Rms5s || kind == Near::Rms500 || kind == Near::Dc;
             const bool windowed = slow || kind == Near::Rms1s || kind == Near::Power;
             if (windowed && dice_.chance(0.5)) {  // One train longer than the window
@@ -183,8 +185,16 @@ protected:
                 }
                 const double period = train.pulseDuration().count() * dice_.decade(1, kind == Near::Rms500 ? 1.3 : 3);
                 train.rate = Hertz(1 / period);
+                const double window = slow ? 5 : 1;
                 const double pulses = (slow ? 5.2 : 1.1) / period;
                 if (pulses < 200) train.pulses = std::max(1, static_cast<int>(pulses));
+                // Periods that fill the window leave no room in which a bound of whole pulses could hide.
+                const double whole = std::floor(window / period);
+                fills_ = whole >= 1 && pulses < 200 && dice_.chance(0.3);
+                if (fills_) {
+                    train.rate = Hertz(whole / window / (1 + dice_.decade(1e-8, 1e-3)));
+                    train.pulses = static_cast<int>(whole) + 1 + dice_.pick(3);
+                }
             }
             const double shortest = train.duration().count();
             interval = std::max(
@@ -258,6 +268,7 @@ protected:
     Miscalibration device_;         // What it really makes of it
     bool calibrated_ = false;       // What is known holds, and trains are told by it
     bool close_ = false;
+    bool fills_ = false;      // The train that was searched for: its periods fill a window
     double slowest_ = 0;      // Longest interval delivered, s
     double readAs_ = 1;       // |Z| of a bench load as told to the gate, to that which was declared
     double measured_ = 1000;  // A person's |Z| as told to the gate, Ω

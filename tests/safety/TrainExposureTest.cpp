@@ -1,6 +1,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "core/base/NaN.h"
 #include "core/safety/SafetyGate.h"
@@ -155,6 +156,86 @@ TEST(TrainExposure, ASecondMayEndWithTheCapacitorFull) {
     EXPECT_NEAR(worst, scipy.at("energy_j").get<double>() / kArea, 1e-4 * worst);
     EXPECT_GE(e.at(Quantity::PowerDensity), worst);
     EXPECT_LE(e.at(Quantity::PowerDensity), 1.05 * worst) << "and not much more than that";
+}
+
+/// A second of a train that lasts longer, at 1 V or 1 mA, into the body, and what is booked of it.
+struct LongTrain {
+    Body body;
+    PulseTrain train;
+    SourceTraits source;
+    [[nodiscard]] TrainSums booked() const {
+        const Load load = Load::skin(Ohms(body.rs), Ohms(body.rp), Nanofarads(body.c * 1e9));
+        return exposureOf(train, Seconds(2 * train.duration().count()), load, source, 1).in1s;
+    }
+    [[nodiscard]] IndependentBody delivered() const {
+        IndependentBody truth;
+        truth.fit(body);
+        truth.deliver(train, {source.gap == GapState::HighImpedance, 1e9}, 0);
+        return truth;
+    }
+};
+
+// The first pulse is from rest and its second phase takes the most, the later ones' leading phases do: a second that
+// begins within the first pulse and ends within the ninth holds more than eight times the largest of them.
+TEST(TrainExposure, ASecondMayBeginAndEndWithinAPulse) {
+    RecordProperty("hazard", "H1");
+    LongTrain late{{200, 48'000, 1.75e-6}, volts(1), voltageSource()};
+    late.source.gap = GapState::HighImpedance;
+    late.train.phaseWidth = Micros(220);
+    late.train.interPhaseGap = Micros(0);
+    late.train.pulses = 11;
+    late.train.rate = Hertz(7.999999);  // eight periods are a second and a little
+    double most = 0;
+    for (int only = 1; only <= 9; ++only) {
+        IndependentBody truth;
+        truth.fit(late.body);
+        PulseTrain some = late.train;
+        some.pulses = only;
+        truth.deliver(some, {true, 1e9}, 0);
+        const double all = truth.worstI2(100);
+        some.pulses = only - 1;
+        IndependentBody before;
+        before.fit(late.body);
+        if (only > 1) before.deliver(some, {true, 1e9}, 0);
+        most = std::max(most, all - before.worstI2(100));
+    }
+    const double worst = late.delivered().worstI2(1);
+    EXPECT_GT(worst, 1.002 * 8 * most) << "the largest pulse eight times does not hold it";
+    EXPECT_GE(late.booked().currentSquared_A2s, worst);
+    EXPECT_LE(late.booked().currentSquared_A2s, 1.05 * worst) << "a bound that refuses too much";
+}
+
+TEST(TrainExposure, NoSecondOfALongTrainHoldsMoreThanIsBooked) {
+    RecordProperty("hazard", "H1");
+    std::mt19937_64 engine(20261128);
+    const auto unit = [&] { return static_cast<double>(engine() >> 11U) * 0x1p-53; };
+    const auto decade = [&](double low, double high) { return low * std::pow(high / low, unit()); };
+    int close = 0;
+    for (int k = 0; k < 20'000; ++k) {
+        const bool current = unit() < 0.5;
+        LongTrain some{{decade(80, 2000), decade(1000, 50'000), decade(5e-9, 2e-6)},
+                       current ? milliamps(1) : volts(1),
+                       current ? currentSource() : voltageSource()};
+        some.source.gap = unit() < 0.5 ? GapState::HoldsZero : GapState::HighImpedance;
+        some.source.compliance = Volts(1e9);
+        some.train.shape = std::array{PulseShape::SymmetricBiphasic, PulseShape::Monophasic,
+                                      PulseShape::AsymmetricBiphasic}[static_cast<std::size_t>(3 * unit())];
+        some.train.rechargeRatio = 2 + 8 * unit();
+        some.train.phaseWidth = Micros(decade(20, 400'000));
+        some.train.interPhaseGap = Micros(unit() < 0.3 ? 0 : 200 * unit());
+        const int periods = 1 + static_cast<int>(8 * unit());
+        some.train.rate = Hertz(periods / (1 + decade(1e-8, 1e-2)));  // they are hardly longer than a second
+        some.train.pulses = periods + 1 + static_cast<int>(4 * unit());
+        if (!validate(some.train)) continue;
+        const TrainSums booked = some.booked();
+        const IndependentBody truth = some.delivered();
+        // The error of the other model's quadrature.
+        constexpr double kSlack = 1 + 2e-6;
+        ASSERT_LE(truth.worstI2(1), booked.currentSquared_A2s * kSlack) << k;
+        ASSERT_LE(truth.worstEnergy(1), (booked.dissipated_J + booked.stored_J) * kSlack) << k;
+        close += truth.worstI2(1) > 0.99 * booked.currentSquared_A2s ? 1 : 0;
+    }
+    EXPECT_GT(close, 10'000) << "a bound that refuses too much, or nothing was tried";
 }
 
 TEST(TrainExposure, ChargeLeftBehindIsCarriedIntoTheSteadyState) {

@@ -1,8 +1,10 @@
 #include "tests/support/Support.h"
 
-#include <atomic>
+#include <cerrno>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
+#include <system_error>
 #include <unistd.h>
 
 namespace tacto::test {
@@ -16,10 +18,11 @@ std::optional<std::filesystem::path> sharedData(std::string_view relative) {
 }
 
 ScratchDir::ScratchDir() {
-    static std::atomic<int> count{0};
-    path_ = std::filesystem::temp_directory_path() /
-            ("tactoscope-test-" + std::to_string(getpid()) + "-" + std::to_string(++count));
-    std::filesystem::create_directories(path_);
+    // Not by the process's number: a run starts more processes than there are numbers, and one that is killed leaves
+    // its folder behind.
+    auto path = (std::filesystem::temp_directory_path() / "tactoscope-test-XXXXXX").string();
+    if (::mkdtemp(path.data()) == nullptr) throw std::system_error(errno, std::generic_category(), path);
+    path_ = path;
 }
 
 ScratchDir::~ScratchDir() {
