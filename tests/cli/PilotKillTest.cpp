@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/study/StudyVerify.h"
 #include "tests/cli/PilotDesk.h"
 #include "tests/support/Trials.h"
 
@@ -83,12 +84,11 @@ std::string cameTo(const nlohmann::json& value) {
 
 /// Plan and answers of the study's only session, where that is complete on disk.
 std::optional<std::string> completeIn(const PilotDesk& desk, const std::string& study) {
-    const auto shown = desk.desk().run({"study", "show", desk.desk().at(study), "--json"});
-    if (shown.code != 0) return std::nullopt;
-    const Json sessions = jsonOf(shown)["sessions"];
-    if (sessions.empty() || sessions[0]["state"] != "complete") return std::nullopt;
-    const auto listed =
-        desk.desk().run({"study", "trials", desk.desk().at(study), sessions[0]["code"].get<std::string>(), "--json"});
+    const auto opened = Study::open(desk.desk().at(study), nullptr, Study::Access::Read);
+    if (!opened) return std::nullopt;
+    const auto sessions = opened->sessions();
+    if (sessions.empty() || sessions[0].state != StudySessionState::Complete) return std::nullopt;
+    const auto listed = desk.desk().run({"study", "trials", desk.desk().at(study), sessions[0].code, "--json"});
     EXPECT_EQ(listed.code, 0) << listed.err;
     auto trials = jsonOf(listed)["trials"];
     for (auto& trial : trials) trial.erase("attempt");
@@ -129,7 +129,8 @@ TEST_P(PilotKill, AtEveryDurableRowGoesOnAsIfUndisturbed) {
         const auto ran = desk.run(session->protocol, words, study);
         ASSERT_EQ(ran.code, 0) << "sync " << sync << ": " << ran.err;
         EXPECT_EQ(cameTo(jsonOf(ran)), expected) << "sync " << sync;
-        ASSERT_EQ(desk.desk().run({"verify", desk.desk().at(study)}).code, 0) << "sync " << sync;
+        const auto verified = verifyStudy(desk.desk().at(study));
+        ASSERT_TRUE(verified && verified->status == SessionStatus::Intact) << "sync " << sync;
         std::filesystem::remove_all(desk.desk().at(study));
     }
     EXPECT_GE(killed, 3);
