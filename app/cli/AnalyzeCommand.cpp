@@ -153,11 +153,8 @@ int runAnalyze(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kAnalyze{"analyze",
-                       "{calibration|identification|separability} FILE.csv [--json]",
+const Command kAnalyze{"analyze", "{calibration|identification|separability} FILE.csv [--json]",
                        "Commanded against measured values, or whether people or measurements tell trials apart",
-                       false,
-                       declareAnalyze,
-                       runAnalyze};
+                       declareAnalyze, runAnalyze};
 
 }  // namespace tacto::cli

@@ -143,9 +143,6 @@ const Command kCertificate{"certificate",
                            "{list [--json] | add --instrument NAME --serial S --number N --by LAB --date D --due D "
                            "--gain-u PCT [--timebase-u-ppm X] [--shunt-u PCT] [--probe-u PCT] [--json] | withdraw "
                            "NUMBER [--serial S]}",
-                           "The calibration certificates of oscilloscopes",
-                           false,
-                           declareCertificate,
-                           runCertificate};
+                           "The calibration certificates of oscilloscopes", declareCertificate, runCertificate};
 
 }  // namespace tacto::cli

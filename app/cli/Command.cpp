@@ -1,7 +1,12 @@
 #include "app/cli/Command.h"
 
+#include <QCoreApplication>
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
+#include <exception>
 
 #include "app/report/WholeFile.h"
 #include "core/base/JsonText.h"
@@ -43,11 +48,53 @@ int usage(const std::string& sentence) {
     return kUsage;
 }
 
-const std::vector<Command>& commands() {
-    static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness, kEncode, kMeasure,
-                                          kConvert, kAnalyze,     kReport,  kVerify,    kHid,    kScienceMode,
-                                          kSensor,  kCertificate, kStudy,   kExport};
+std::string howToCall(const Command& command, std::string_view program) {
+    const std::string_view arguments = command.arguments;
+    const auto end = arguments.starts_with('{') ? arguments.find('}') : std::string_view::npos;
+    if (end == std::string_view::npos) return fmt::format("{} {} {}\n", program, command.name, arguments);
+    std::string all;
+    for (auto rest = arguments.substr(1, end - 1); !rest.empty();) {
+        const auto bar = std::min(rest.find(" | "), rest.size());
+        all += fmt::format("{} {} {}{}\n", program, command.name, rest.substr(0, bar), arguments.substr(end + 1));
+        rest.remove_prefix(std::min(bar + 3, rest.size()));
+    }
     return all;
+}
+
+int runCommand(const Command& command, const QStringList& words) {
+    QCoreApplication::setApplicationName("tactoscope");
+    QCoreApplication::setApplicationVersion(TACTOSCOPE_VERSION);
+
+    QCommandLineParser parser;
+    parser.setSingleDashWordOptionMode(QCommandLineParser::ParseAsLongOptions);
+    parser.setOptionsAfterPositionalArgumentsMode(QCommandLineParser::ParseAsOptions);
+    parser.setApplicationDescription(command.summary);
+    parser.addOption({{"h", "help"}, "Shows this."});
+    command.declare(parser);
+    if (!parser.parse(words)) {
+        const bool hasForms = std::string_view(command.arguments).starts_with('{');
+        return usage(fmt::format("{}: {} (tactoscope-cli {} {})", command.name, parser.errorText().toStdString(),
+                                 command.name, hasForms ? "--help" : command.arguments));
+    }
+    if (parser.isSet("help")) {
+        say("{}", lines(howToCall(command, "tactoscope-cli")));
+        say("{}\n", lines(parser.helpText().section('\n', 1).toStdString()));
+        return kDone;
+    }
+    try {
+        int code = command.run(parser);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            say(stderr, "tactoscope-cli: {}: the output could not be written: {}\n", command.name,
+                std::strerror(errno));
+            if (code == kDone) code = kCouldNotRun;
+        }
+        return code;
+    } catch (const std::exception& surprise) {
+        // From a library: this program's own code does not throw. Devices were switched off when their bench was
+        // unwound.
+        say(stderr, "tactoscope-cli: {}: unexpected error: {}\n", command.name, surprise.what());
+        return kCouldNotRun;
+    }
 }
 
 Result<std::string> onlyArgument(const QCommandLineParser& parser, const char* what) {
@@ -66,10 +113,6 @@ Result<double> numberOption(const QCommandLineParser& parser, const char* name) 
         return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; a number is expected", name, text);
     }
     return *number;
-}
-
-Result<Profile> profileOption(const QCommandLineParser& parser) {
-    return parser.isSet("profile") ? loadProfile(parser.value("profile").toStdString()) : shippedProfile();
 }
 
 void printJson(const nlohmann::json& value) {

@@ -9,11 +9,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "app/cli/Say.h"
-#include "app/run/Shipped.h"
 #include "core/base/Result.h"
-#include "core/devices/Registry.h"
 
 namespace tacto::cli {
 
@@ -42,22 +41,20 @@ struct Command {
     const char* name;
     const char* arguments;  ///< as shown in the usage line: "RECORDING [--profile F]"
     const char* summary;
-    bool draws;  ///< needs fonts and plots (QApplication)
     /// Declares options, then gets the parsed command line.
     void (*declare)(QCommandLineParser& parser);
     int (*run)(const QCommandLineParser& parser);
 };
 
-/// The commands, in the order of the help.
-[[nodiscard]] const std::vector<Command>& commands();
+/// "PROGRAM NAME ARGUMENTS"; a line for each of {these | and these} arguments.
+[[nodiscard]] std::string howToCall(const Command& command, std::string_view program);
+/// Parses `words`, the program's name first, and runs the command. A QCoreApplication is there.
+[[nodiscard]] int runCommand(const Command& command, const QStringList& words);
 
 /// The one positional argument. Errors: InvalidArgument naming what is missing or too much.
 [[nodiscard]] Result<std::string> onlyArgument(const QCommandLineParser& parser, const char* what);
 /// A number option. Errors: InvalidArgument naming option and text; missing without a default.
 [[nodiscard]] Result<double> numberOption(const QCommandLineParser& parser, const char* name);
-
-/// The profile of --profile, else the shipped one. Errors: as loadProfile().
-[[nodiscard]] Result<Profile> profileOption(const QCommandLineParser& parser);
 
 /// Prints one JSON value on stdout.
 void printJson(const nlohmann::json& value);
@@ -65,7 +62,12 @@ void printJson(const nlohmann::json& value);
 [[nodiscard]] Result<void> writeFile(const std::string& path, const std::string& content);
 
 // Defined one per file, in app/cli/<Name>Command.cpp.
-extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kConvert, kAnalyze, kReport, kVerify,
-    kHid, kScienceMode, kSensor, kCertificate, kStudy, kExport;
+extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kConvert, kAnalyze, kVerify, kHid,
+    kScienceMode, kSensor, kCertificate, kStudy, kExport;
+// That of the program tactoscope-report; its words stand in the help of tactoscope-cli.
+extern const Command kReport;
+inline constexpr const char* kReportArguments =
+    "{SESSION|STUDY} --out report.pdf [--participant CODE | --for READER] [--noted] [--passphrase-file F]";
+inline constexpr const char* kReportSummary = "The report of a session or of a study, as PDF or HTML";
 
 }  // namespace tacto::cli

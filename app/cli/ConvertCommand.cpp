@@ -53,11 +53,7 @@ int runConvert(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kConvert{"convert",
-                       "CAPTURE --out FILE [--format ID] [--json]",
-                       "An oscilloscope record in another format: CSV, WAV, sigrok",
-                       false,
-                       declareConvert,
-                       runConvert};
+const Command kConvert{"convert", "CAPTURE --out FILE [--format ID] [--json]",
+                       "An oscilloscope record in another format: CSV, WAV, sigrok", declareConvert, runConvert};
 
 }  // namespace tacto::cli

@@ -89,7 +89,6 @@ int runDevices(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kDevices{"devices", "[--watch | --json]", "What can be opened, as URIs",
-                       false,     declareDevices,       runDevices};
+const Command kDevices{"devices", "[--watch | --json]", "What can be opened, as URIs", declareDevices, runDevices};
 
 }  // namespace tacto::cli

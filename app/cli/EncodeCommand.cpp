@@ -1,7 +1,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
+#include "app/cli/ProfileOption.h"
 #include "app/cli/TextTable.h"
+#include "app/run/Shipped.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
 #include "core/bench/CommandPreview.h"
@@ -74,11 +76,8 @@ int runEncode(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kEncode{"encode",
-                      "--roughness R --pressure-pa P --load OHM [--profile F] [--json]",
-                      "Amplitude and interval for a roughness and a pressure, judged against the limits",
-                      false,
-                      declareEncode,
+const Command kEncode{"encode", "--roughness R --pressure-pa P --load OHM [--profile F] [--json]",
+                      "Amplitude and interval for a roughness and a pressure, judged against the limits", declareEncode,
                       runEncode};
 
 }  // namespace tacto::cli

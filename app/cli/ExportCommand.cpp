@@ -37,11 +37,7 @@ int runExport(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kExport{"export",
-                      "STUDY --format bids --out DIR [--with LIST] [--passphrase-file F]",
-                      "The results of a study without codes and dates, as a BIDS dataset",
-                      false,
-                      declareExport,
-                      runExport};
+const Command kExport{"export", "STUDY --format bids --out DIR [--with LIST] [--passphrase-file F]",
+                      "The results of a study without codes and dates, as a BIDS dataset", declareExport, runExport};
 
 }  // namespace tacto::cli

@@ -109,11 +109,7 @@ int runHid(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kHid{"hid",
-                   "show-bytes TEMPLATE --intensity X [--length N] [--json]",
-                   "The bytes that a massager's template makes of an intensity",
-                   false,
-                   declareHid,
-                   runHid};
+const Command kHid{"hid", "show-bytes TEMPLATE --intensity X [--length N] [--json]",
+                   "The bytes that a massager's template makes of an intensity", declareHid, runHid};
 
 }  // namespace tacto::cli

@@ -158,11 +158,8 @@ int runMeasure(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kMeasure{"measure",
-                       "CAPTURE [--channel NAME] [--shunt OHM] [--format ID] [--json]",
-                       "Amplitude, width and interval of the pulses in an oscilloscope record",
-                       false,
-                       declareMeasure,
+const Command kMeasure{"measure", "CAPTURE [--channel NAME] [--shunt OHM] [--format ID] [--json]",
+                       "Amplitude, width and interval of the pulses in an oscilloscope record", declareMeasure,
                        runMeasure};
 
 }  // namespace tacto::cli

@@ -79,6 +79,6 @@ int runProtocols(const QCommandLineParser& parser) {
 }  // namespace
 
 const Command kProtocols{"protocols", "[--json] [--reference]", "Shipped and user protocols with their parameters",
-                         false,       declareProtocols,         runProtocols};
+                         declareProtocols, runProtocols};
 
 }  // namespace tacto::cli

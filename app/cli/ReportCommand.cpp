@@ -113,12 +113,6 @@ int runReport(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kReport{"report",
-                      "{SESSION|STUDY} --out report.pdf [--participant CODE | --for READER] [--noted] "
-                      "[--passphrase-file F]",
-                      "The report of a session or of a study, as PDF or HTML",
-                      true,
-                      declareReport,
-                      runReport};
+const Command kReport{"report", kReportArguments, kReportSummary, declareReport, runReport};
 
 }  // namespace tacto::cli

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
+#include "app/cli/ProfileOption.h"
 #include "app/cli/TextTable.h"
 #include "core/acquisition/Recording.h"
 #include "core/analysis/statistics/StatisticsJson.h"
@@ -109,11 +110,7 @@ int runRoughness(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kRoughness{"roughness",
-                         "{RECORDING [--profile F] [--out frames.csv] [--json] | --template}",
-                         "Roughness R and pressure P of a fingertip recording",
-                         false,
-                         declareRoughness,
-                         runRoughness};
+const Command kRoughness{"roughness", "{RECORDING [--profile F] [--out frames.csv] [--json] | --template}",
+                         "Roughness R and pressure P of a fingertip recording", declareRoughness, runRoughness};
 
 }  // namespace tacto::cli

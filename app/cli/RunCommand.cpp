@@ -5,17 +5,20 @@
 #include <unistd.h>
 
 #include "app/cli/Command.h"
+#include "app/cli/ProfileOption.h"
+#include "app/cli/ReportProgram.h"
 #include "app/cli/TerminalOperator.h"
 #include "app/cli/Verdicts.h"
-#include "app/report/Report.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/PilotRun.h"
 #include "app/run/ProtocolRun.h"
+#include "app/run/Shipped.h"
 #include "app/run/SignalStop.h"
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/GivenOnce.h"
 #include "core/base/Printable.h"
+#include "core/devices/Registry.h"
 #include "core/dsp/RoughnessFlags.h"
 #include "core/session/Origin.h"
 #include "core/session/ResultKind.h"
@@ -293,13 +296,9 @@ json writeReports(const RunFiles& files, const std::vector<const char*>& endings
     json report = nullptr;
     for (const auto* ending : endings) {
         const auto path = files.report(ending);
-        const auto made =
-            writeSessionReport(QString::fromStdString(files.session.string()), QString::fromStdString(path.string()));
-        if (made) {
+        if (const auto made = makeReport(files.session, path); made)
             report = path.string();
-            for (const auto& problem : *made)
-                say(stderr, "tactoscope-cli: the session is damaged: {}\n", problem.toStdString());
-        } else
+        else
             say(stderr, "tactoscope-cli: no report: {}\n", lines(made.error().message));
     }
     return report;
@@ -369,9 +368,6 @@ const Command kRun{
     "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--profile F] [--realtime] [--reset-fault] "
     "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--out DIR] [--passphrase-file F] [--markers "
     "[ADDRESS:]PORT] [--report none|html|pdf] [--json]",
-    "Runs a protocol script, records it and writes its report",
-    true,
-    declareRun,
-    runRun};
+    "Runs a protocol script, records it and writes its report", declareRun, runRun};
 
 }  // namespace tacto::cli

@@ -136,8 +136,6 @@ const Command kScienceMode{"sciencemode",
                            "{identify | status | pulse --current MA --width US --gap US --load OHM [--yes-bench-load] "
                            "[--out FILE.csv]} [--device URI] [--json]",
                            "A ScienceMode stimulator by hand: its identity, its state, one pulse into a bench load",
-                           false,
-                           declareScienceMode,
-                           runScienceMode};
+                           declareScienceMode, runScienceMode};
 
 }  // namespace tacto::cli

@@ -153,11 +153,8 @@ int runSensor(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kSensor{"sensor",
-                      "status [URI] [--seconds S] [--json]",
+const Command kSensor{"sensor", "status [URI] [--seconds S] [--json]",
                       "A sensor board by hand: its identity, settings, calibration, rates, clock drift and losses",
-                      false,
-                      declareSensor,
-                      runSensor};
+                      declareSensor, runSensor};
 
 }  // namespace tacto::cli

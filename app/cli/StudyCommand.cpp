@@ -299,9 +299,6 @@ const Command kStudy{
     "adverse-event STUDY SESSION --what TEXT --severity 1..4 --relation 1..5 [--serious] [--action T] [--outcome T] "
     "[--reported] | next-day STUDY SESSION --erythema 0..4 --oedema 0..4 [--side-effect ITEM:SEVERITY:RELATION]...} "
     "[--passphrase-file F] [--json]",
-    "Studies with people or virtual participants: approval, consent, sealed records",
-    false,
-    declareStudyOptions,
-    runStudy};
+    "Studies with people or virtual participants: approval, consent, sealed records", declareStudyOptions, runStudy};
 
 }  // namespace tacto::cli

@@ -1,6 +1,7 @@
 #include "app/cli/StudyOptions.h"
 
 #include "app/cli/Command.h"
+#include "app/cli/ProfileOption.h"
 #include "app/cli/StudyPassphrase.h"
 #include "app/run/StudyProgram.h"
 

@@ -79,11 +79,8 @@ int runVerify(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kVerify{"verify",
-                      "{SESSION | STUDY} [--json]",
-                      "Whether a session or study is what was recorded: integrity and hash chains",
-                      false,
-                      declareVerify,
+const Command kVerify{"verify", "{SESSION | STUDY} [--json]",
+                      "Whether a session or study is what was recorded: integrity and hash chains", declareVerify,
                       runVerify};
 
 }  // namespace tacto::cli

@@ -1,17 +1,13 @@
 // tactoscope-cli - all of Tactoscope without a window. `tactoscope-cli help` is the contract.
-#include <QApplication>
 #include <QCoreApplication>
-#include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
-#include <memory>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "app/cli/Command.h"
+#include "app/cli/ReportProgram.h"
 #include "app/scripting/engine/ScriptRun.h"
 #include "core/base/StandardStreams.h"
 
@@ -22,18 +18,13 @@ namespace {
 constexpr const char* kNotice =
     "Tactoscope is a research bench, not a medical device. Simulated devices are marked as simulated.";
 
-/// "tactoscope-cli NAME ARGUMENTS"; a line for each of {these | and these} arguments.
-std::string howToCall(const Command& command, std::string_view indent) {
-    const std::string_view arguments = command.arguments;
-    const auto end = arguments.starts_with('{') ? arguments.find('}') : std::string_view::npos;
-    if (end == std::string_view::npos) return fmt::format("{}tactoscope-cli {} {}\n", indent, command.name, arguments);
-    std::string all;
-    for (auto rest = arguments.substr(1, end - 1); !rest.empty();) {
-        const auto bar = std::min(rest.find(" | "), rest.size());
-        all += fmt::format("{}tactoscope-cli {} {}{}\n", indent, command.name, rest.substr(0, bar),
-                           arguments.substr(end + 1));
-        rest.remove_prefix(std::min(bar + 3, rest.size()));
-    }
+/// In the order of the help.
+const std::vector<Command>& commands() {
+    // Another program does it (ReportProgram.h).
+    static const Command report{"report", kReportArguments, kReportSummary, nullptr, nullptr};
+    static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness, kEncode, kMeasure,
+                                          kConvert, kAnalyze,     report,   kVerify,    kHid,    kScienceMode,
+                                          kSensor,  kCertificate, kStudy,   kExport};
     return all;
 }
 
@@ -41,7 +32,7 @@ void printHelp(std::FILE* to) {
     say(to, "tactoscope-cli {} - tactile-feedback stimulation, from fingertip to judged pulse train\n\n",
         TACTOSCOPE_VERSION);
     for (const auto& command : commands()) {
-        say(to, "{}        {}\n", lines(howToCall(command, "  ")), command.summary);
+        say(to, "{}        {}\n", lines(howToCall(command, "  tactoscope-cli")), command.summary);
     }
     say(to,
         "\nExit codes: 0 done and passed, 1 a verdict failed, 2 usage, 3 could not run (device, file),\n"
@@ -50,60 +41,15 @@ void printHelp(std::FILE* to) {
         kNotice);
 }
 
-/// Qt's own warnings are for developers; its fatal errors are for everybody.
-void quietly(QtMsgType type, const QMessageLogContext&, const QString& text) {
-    if (type == QtFatalMsg || type == QtCriticalMsg) say(stderr, "{}\n", lines(text.toStdString()));
-}
-
-int runCommand(const Command& command, int argc, char** argv) {
-    if (command.draws) {
-        // Drawing needs fonts and a QApplication but no display, and no word about a missing session of a desktop.
-        if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
-        qInstallMessageHandler(quietly);
-    }
-    std::unique_ptr<QCoreApplication> application;
-    if (command.draws)
-        application = std::make_unique<QApplication>(argc, argv);
-    else
-        application = std::make_unique<QCoreApplication>(argc, argv);
-    QCoreApplication::setApplicationName("tactoscope");
-    QCoreApplication::setApplicationVersion(TACTOSCOPE_VERSION);
-
-    QCommandLineParser parser;
-    parser.setSingleDashWordOptionMode(QCommandLineParser::ParseAsLongOptions);
-    parser.setOptionsAfterPositionalArgumentsMode(QCommandLineParser::ParseAsOptions);
-    parser.setApplicationDescription(command.summary);
-    parser.addOption({{"h", "help"}, "Shows this."});
-    command.declare(parser);
-
+int runNamed(const Command& command, int argc, char** argv) {
+    if (command.run == nullptr) return becomeReportProgram(argv);
+    const QCoreApplication application(argc, argv);
     auto words = QCoreApplication::arguments();
     words.removeAt(1);  // the command's name
-    if (!parser.parse(words)) {
-        const bool hasForms = std::string_view(command.arguments).starts_with('{');
-        return usage(fmt::format("{}: {} (tactoscope-cli {} {})", command.name, parser.errorText().toStdString(),
-                                 command.name, hasForms ? "--help" : command.arguments));
-    }
-    if (parser.isSet("help")) {
-        say("{}", lines(howToCall(command, "")));
-        say("{}\n", lines(parser.helpText().section('\n', 1).toStdString()));
-        return kDone;
-    }
-    try {
-        int code = command.run(parser);
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            say(stderr, "tactoscope-cli: {}: the output could not be written: {}\n", command.name,
-                std::strerror(errno));
-            if (code == kDone) code = kCouldNotRun;
-        }
-        if (ScriptRun::abandonedRunning() == 0) return code;
-        std::fflush(nullptr);
-        std::_Exit(code);  // a script that does not end would run on among what is taken down
-    } catch (const std::exception& surprise) {
-        // From a library: this program's own code does not throw. Devices were switched off when their bench was
-        // unwound.
-        say(stderr, "tactoscope-cli: {}: unexpected error: {}\n", command.name, surprise.what());
-        return kCouldNotRun;
-    }
+    const int code = runCommand(command, words);
+    if (ScriptRun::abandonedRunning() == 0) return code;
+    std::fflush(nullptr);
+    std::_Exit(code);  // a script that does not end would run on among what is taken down
 }
 
 }  // namespace
@@ -127,7 +73,7 @@ int main(int argc, char** argv) {
     }
     std::string known;
     for (const auto& command : commands()) {
-        if (std::strcmp(name, command.name) == 0) return runCommand(command, argc, argv);
+        if (std::strcmp(name, command.name) == 0) return runNamed(command, argc, argv);
         known += fmt::format("{}{}", known.empty() ? "" : ", ", command.name);
     }
     return usage(fmt::format("there is no command \"{}\"; the commands are {}", name, known));

@@ -132,6 +132,23 @@ TEST(NotASession, ExitsThreeWithOneSentence) {
     EXPECT_EQ(desk.files().size(), 2U);
 }
 
+TEST_F(Session, WhereTheProgramThatDrawsReportsIsMissingThatIsSaid) {
+    const auto program = desk.at("tactoscope-cli");
+    std::filesystem::copy_file(TACTO_CLI, program);
+    const auto said = desk.at("said");
+    const auto alone = program + " report '" + session + "' --out '" + desk.at("r.pdf") + "' 2>'" + said + "'";
+    EXPECT_EQ(WEXITSTATUS(std::system(alone.c_str())), 3);
+    EXPECT_THAT(contentOf(said),
+                HasSubstr(desk.at("tactoscope-report") + " does not start (No such file or directory)"));
+    EXPECT_FALSE(std::filesystem::exists(desk.at("r.pdf")));
+    const auto resources = "TACTOSCOPE_RESOURCES='" + (sourceDir() / "resources").string() + "' ";
+    const auto run = resources + program + " run variation --set participants=20 --report pdf --json --out '" +
+                     desk.at("ran") + "' >'" + desk.at("value") + "' 2>'" + said + "'";
+    EXPECT_NE(WEXITSTATUS(std::system(run.c_str())), 3) << contentOf(said);
+    EXPECT_THAT(contentOf(said), HasSubstr("no report: " + desk.at("tactoscope-report") + " does not start"));
+    EXPECT_TRUE(Json::parse(contentOf(desk.at("value")))["report"].is_null());
+}
+
 TEST_F(Session, AReportForWhichTheDiskHasNoRoomIsNoSuccessAndKeepsTheEarlierOne) {
     RecordProperty("hazard", "H8");
     for (const auto* name : {"r.pdf", "r.html"}) {

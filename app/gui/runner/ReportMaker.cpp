@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDamaged = 1;  // of tactoscope-cli report: written, of a session that was altered
+constexpr int kDamaged = 1;  // of tactoscope-report: written, of a session that was altered
 
 /// What a killed program leaves beside `out` while it writes: QSaveFile's "report.pdf.AbCdEf".
 void removeHalfWritten(const QString& out) {
@@ -61,11 +61,11 @@ void ReportMaker::next() {
     out_ = order.out;
     assurance_ = order.assurance;
     cancelled_ = false;
-    start(QStringList{"report", order.record, "--out", order.out} + order.more, order.passphrase.get());
+    start(QStringList{order.record, "--out", order.out} + order.more, order.passphrase.get());
 }
 
 void ReportMaker::start(const QStringList& words, const Secret* passphrase) {
-    const auto program = QCoreApplication::applicationDirPath() + "/tactoscope-cli";
+    const auto program = QCoreApplication::applicationDirPath() + "/tactoscope-report";
     process_.setStandardInputFile(QProcess::nullDevice());
     std::array<int, 2> ends{-1, -1};
     const bool piped = passphrase != nullptr && ::pipe2(ends.data(), O_CLOEXEC) == 0;

@@ -1,0 +1,59 @@
+#include "app/cli/ReportProgram.h"
+
+#include <QProcess>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include "app/cli/Command.h"
+#include "core/base/ProgramPath.h"
+
+namespace tacto::cli {
+
+namespace {
+
+std::string programPath() { return programBeside("tactoscope-report").string(); }
+
+Error missing(const std::string& why) {
+    return {ErrorCode::NotFound, fmt::format("{} does not start ({}); install Tactoscope again", programPath(), why)};
+}
+
+/// What it says, without the name that its lines begin with.
+std::string sentenceIn(QByteArray said) {
+    constexpr std::string_view kName = "tactoscope-cli: ";
+    auto text = said.trimmed().toStdString();
+    return text.starts_with(kName) ? text.substr(kName.size()) : text;
+}
+
+}  // namespace
+
+int becomeReportProgram(char** argv) {
+    auto path = programPath();
+    char** words = argv + 1;  // after the program's name there follows what followed "report"
+    words[0] = path.data();
+    ::execv(path.c_str(), words);
+    return couldNotRun(missing(std::strerror(errno)));
+}
+
+Result<void> makeReport(const std::filesystem::path& session, const std::filesystem::path& out) {
+    QProcess program;
+    program.setProgram(QString::fromStdString(programPath()));
+    program.setArguments({QString::fromStdString(session.string()), "--out", QString::fromStdString(out.string())});
+    program.setStandardInputFile(QProcess::nullDevice());
+    program.setStandardOutputFile(QProcess::nullDevice());
+    program.setChildProcessModifier([] { ::prctl(PR_SET_PDEATHSIG, SIGKILL); });
+    program.start();
+    if (!program.waitForStarted()) return tl::unexpected(missing(program.errorString().toStdString()));
+    program.waitForFinished(-1);
+    const auto sentence = sentenceIn(program.readAllStandardError());
+    if (program.exitStatus() != QProcess::NormalExit)
+        return fail(ErrorCode::Io, "{} ended unexpectedly while it wrote {}", programPath(), out.string());
+    if (program.exitCode() == kDone) return {};
+    if (program.exitCode() != kVerdictFailed) return fail(ErrorCode::Io, "{}", sentence);
+    say(stderr, "tactoscope-cli: {}\n", lines(sentence));
+    return {};
+}
+
+}  // namespace tacto::cli
