@@ -48,6 +48,12 @@ int usage(const std::string& sentence) {
     return kUsage;
 }
 
+void printFatalOnly() {
+    qInstallMessageHandler([](QtMsgType type, const QMessageLogContext&, const QString& text) {
+        if (type == QtFatalMsg || type == QtCriticalMsg) say(stderr, "{}\n", lines(text.toStdString()));
+    });
+}
+
 std::string howToCall(const Command& command, std::string_view program) {
     const std::string_view arguments = command.arguments;
     const auto end = arguments.starts_with('{') ? arguments.find('}') : std::string_view::npos;

@@ -46,6 +46,8 @@ struct Command {
     int (*run)(const QCommandLineParser& parser);
 };
 
+/// Qt's own warnings are for developers: from here on its fatal errors alone are printed.
+void printFatalOnly();
 /// "PROGRAM NAME ARGUMENTS"; a line for each of {these | and these} arguments.
 [[nodiscard]] std::string howToCall(const Command& command, std::string_view program);
 /// Parses `words`, the program's name first, and runs the command. A QCoreApplication is there.

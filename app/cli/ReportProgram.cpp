@@ -43,7 +43,10 @@ Result<void> makeReport(const std::filesystem::path& session, const std::filesys
     program.setArguments({QString::fromStdString(session.string()), "--out", QString::fromStdString(out.string())});
     program.setStandardInputFile(QProcess::nullDevice());
     program.setStandardOutputFile(QProcess::nullDevice());
-    program.setChildProcessModifier([] { ::prctl(PR_SET_PDEATHSIG, SIGKILL); });
+    program.setChildProcessModifier([] {
+        ::setpgid(0, 0);  // Ctrl+C is for this program, which says what is left undone
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    });
     program.start();
     if (!program.waitForStarted()) return tl::unexpected(missing(program.errorString().toStdString()));
     program.waitForFinished(-1);

@@ -43,6 +43,7 @@ void printHelp(std::FILE* to) {
 
 int runNamed(const Command& command, int argc, char** argv) {
     if (command.run == nullptr) return becomeReportProgram(argv);
+    printFatalOnly();
     const QCoreApplication application(argc, argv);
     auto words = QCoreApplication::arguments();
     words.removeAt(1);  // the command's name

@@ -34,6 +34,7 @@ Run largerRun(const Run& a, const Run& b) noexcept {
     r.energy = larger(a.energy, b.energy);
     r.pulse = larger(a.pulse, b.pulse);
     r.cut = larger(a.cut, b.cut);
+    r.cutTrain = larger(a.cutTrain, b.cutTrain);
     r.inDuration = largerSums(a.inDuration, b.inDuration);
     r.whole = largerSums(a.whole, b.whole);
     r.endOfTrain = larger(std::abs(a.endOfTrain), std::abs(b.endOfTrain));
@@ -53,6 +54,7 @@ struct Held {
     }
 };
 
+constexpr double kAlike = 1e-12;  // Voltages that differ by less, relative to the largest, are one
 constexpr Held kNothing{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
 double voltageSquared(const SegmentResponse& response) noexcept {
@@ -80,6 +82,27 @@ void addTo(TrainSums& total, const Sums& sums, double times = 1) noexcept {
     total.dissipated_J += times * sums.dissipated;
 }
 
+/// What one stretch holds more than either of two alike: late(a) + early(b) = a + early(b) - early(a). With f the
+/// square of a quantity x, the integral of |f_b - f_a| is at most 2 sqrt(most) |x_b - x_a| by the Cauchy-Schwarz
+/// inequality. `difference` is the sums of x_b - x_a; heat is the sum of two squares. At most the stretch itself.
+Sums extraOfCut(const Sums& most, const Sums& difference) noexcept {
+    const auto of = [](double sum, double apart) {
+        const double bound = 2 * std::sqrt(sum * apart);
+        return bound > sum ? sum : bound;  // NaN stays
+    };
+    return {of(most.squares, difference.squares), of(most.volts, difference.volts),
+            of(most.dissipated, difference.dissipated)};
+}
+
+/// The sums of the difference of two answers to one drive, whose capacitors begin `apart` V from each other. A linear
+/// load's difference is its undriven answer; beyond the compliance, too, it never grows, and a current differs by at
+/// most what the series resistance makes of it.
+Sums differenceBound(const Plan& plan, double seconds, double apart) noexcept {
+    const double square = apart * apart * seconds;
+    const double rs = plan.circuit.seriesOhm, rp = plan.circuit.parallelOhm;
+    return {square / (rs * rs), square, square * (1 / rs + 1 / rp)};
+}
+
 /// What the pulses of a train hold where they are not alike, because each finds another voltage on the capacitor.
 class PulseParts {
 public:
@@ -99,20 +122,19 @@ public:
         for (const Part& part : parts_) sum += part.most;
         return sum;
     }
-    /// How much more than n pulses a stretch of n periods holds that begins late in a part of one pulse, a, and ends
-    /// early in the same part of another, b. With f the square of a quantity x that is linear in what the capacitor
-    /// holds: late(a) + early(b) = a + early(b) - early(a), and the integral of |f_b - f_a| is at most
-    /// 2 sqrt(most) |x_b - x_a| by the Cauchy-Schwarz inequality, where x_b - x_a is the undriven response to the
-    /// difference of what both began with. Heat is the sum of two such squares. Beyond its compliance a source is not
-    /// linear: at most the part itself.
+    /// How much more than n pulses a stretch of n periods holds that begins late in a part of one pulse and ends early
+    /// in the same part of another.
     [[nodiscard]] Sums cut() const noexcept {
+        double largest = 0;
+        for (const Part& part : parts_) largest = larger(larger(part.held.most, -part.held.least), largest);
         Sums most;
         for (std::size_t s = 0; s < kParts; ++s) {
-            const Part& part = parts_[s];
-            const double apart = part.held.most - part.held.least;
-            if (apart <= 0) continue;  // Also where no pulse has this part
-            most =
-                larger(std::isinf(plan_.limits.compliance_V) ? extra(part.most, undriven(s, apart)) : part.most, most);
+            const double apart = parts_[s].held.most - parts_[s].held.least;
+            if (apart <= kAlike * largest) continue;  // Also where no pulse has this part
+            DriveSegment segment = plan_.betweenPulses;
+            segment.duration_s = plan_.mostBetweenPulses_s;
+            if (s < kRest) segment = plan_.pulse.items[s];
+            most = larger(extraOfCut(parts_[s].most, differenceOver(segment, apart)), most);
         }
         return most;
     }
@@ -123,20 +145,11 @@ private:
         Sums most;
         Held held = kNothing;
     };
-    [[nodiscard]] Sums undriven(std::size_t segment, double voltage) const noexcept {
-        DriveSegment still = plan_.betweenPulses;
-        still.duration_s = plan_.mostBetweenPulses_s;
-        if (segment < kRest) still = plan_.pulse.items[segment];
-        still.start = still.end = 0;
-        return larger(sumsOf(plan_, respond(plan_.circuit, still, voltage), voltage), Sums{});  // rounded below 0, say
-    }
-    [[nodiscard]] static Sums extra(const Sums& most, const Sums& between) noexcept {
-        const auto of = [](double sum, double difference) {
-            const double bound = 2 * std::sqrt(sum * difference);
-            return bound > sum ? sum : bound;  // NaN stays
-        };
-        return {of(most.squares, between.squares), of(most.volts, between.volts),
-                of(most.dissipated, between.dissipated)};
+    [[nodiscard]] Sums differenceOver(DriveSegment segment, double apart) const noexcept {
+        if (!std::isinf(plan_.limits.compliance_V)) return differenceBound(plan_, segment.duration_s, apart);
+        segment.start = segment.end = 0;
+        // Rounding may end below 0.
+        return larger(sumsOf(plan_, respond(plan_.circuit, segment, apart), apart), Sums{});
     }
     const Plan& plan_;
     std::array<Part, kParts> parts_{};
@@ -176,7 +189,7 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
 
         // Once a pulse leaves the capacitor as it found it, all further pulses are this one.
         const double moved = std::abs(response.capacitorVoltage() - capacitorVoltage);
-        const bool settled = moved <= 1e-12 * totals.peakVoltage_V;
+        const bool settled = moved <= kAlike * totals.peakVoltage_V;
         const int alike = settled ? plan.pulses - done : 1;
         done += alike;
 
@@ -217,13 +230,30 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
     return run;
 }
 
+/// As Run::cut, of a window that begins in one train and ends in another, which found the load up to `apart` V
+/// differently.
+Sums cutBetween(const Plan& plan, const Run& worst, double apart) noexcept {
+    const Sums train{worst.whole.currentSquared_A2s, worst.whole.voltageSquared_V2s, worst.whole.dissipated_J};
+    if (!std::isinf(plan.limits.compliance_V)) {
+        double pulse_s = plan.mostBetweenPulses_s;
+        for (const DriveSegment& segment : plan.pulse.span()) pulse_s += segment.duration_s;
+        return extraOfCut(train, differenceBound(plan, plan.pulses * pulse_s + plan.afterTrain.duration_s, apart));
+    }
+    Plan undriven = plan;
+    for (DriveSegment& segment : undriven.pulse.items) segment.start = segment.end = 0;
+    const TrainSums whole = runFrom(undriven, apart).whole;
+    const Sums difference{whole.currentSquared_A2s, whole.voltageSquared_V2s, whole.dissipated_J};
+    return extraOfCut(train, larger(difference, Sums{}));
+}
+
 /// Worst over every state in which a train can find the load. A linear load's state moves toward its steady one
-/// monotonically, and all figures are convex in it, so the ends of the range hold the worst.
-Run worstOfStates(const Plan& plan, double carried) noexcept {
+/// monotonically, and all figures are convex in it, so the ends of the range hold the worst. `found` becomes that
+/// range.
+Run worstOfStates(const Plan& plan, double carried, Held& found) noexcept {
     const Run rested = runFrom(plan, 0);
     Run worst = rested;
     if (!plan.circuit.hasCapacitor()) return worst;
-    const double small = 1e-12 * rested.peakVoltage;
+    const double small = kAlike * rested.peakVoltage;
     if (!(std::abs(rested.endOfInterval) <= small)) {
         // The state maps linearly from train to train: x' = f(0) + slope·x.
         const double probe = rested.peakVoltage;
@@ -231,9 +261,12 @@ Run worstOfStates(const Plan& plan, double carried) noexcept {
         // Below 1 whenever charge can leak; a load that only collects has no steady state and is refused as NaN.
         const double steady = slope < 1 ? rested.endOfInterval / (1 - slope) : kNaN;
         worst = largerRun(worst, runFrom(plan, steady));
+        found.include(steady);
     }
     if (!(carried <= small)) {
         worst = largerRun(worst, largerRun(runFrom(plan, carried), runFrom(plan, -carried)));
+        found.include(carried);
+        found.include(-carried);
     }
     return worst;
 }
@@ -339,9 +372,13 @@ Run enclosed(const Plan& plan, double carried) noexcept {
 }  // namespace
 
 Run worstRun(const Plan& plan, double carried) noexcept {
-    const Run worst = worstOfStates(plan, carried);
+    Held found;
+    Run worst = worstOfStates(plan, carried, found);
     const bool spread = plan.mostBetweenPulses_s > plan.betweenPulses.duration_s;
-    return spread && plan.circuit.hasCapacitor() ? largerRun(worst, enclosed(plan, carried)) : worst;
+    if (spread && plan.circuit.hasCapacitor()) worst = largerRun(worst, enclosed(plan, carried));
+    const double apart = found.most - found.least;
+    if (!(apart <= kAlike * worst.peakVoltage)) worst.cutTrain = cutBetween(plan, worst, apart);
+    return worst;
 }
 
 }  // namespace tacto::exposure

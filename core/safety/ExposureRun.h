@@ -37,6 +37,7 @@ struct Run {
     // A stretch of n periods holds at most n times `pulse`, part by part the most of any pulse, and `cut`: it may begin
     // in a part of one pulse and end in the same part of another.
     Sums pulse, cut;
+    Sums cutTrain;             // The same of whole trains, which may find the load differently
     TrainSums inDuration;      // Over n / rate
     TrainSums whole;           // The same with the rest until the next train
     double endOfTrain = 0;     // Capacitor voltage after n / rate, V
@@ -52,7 +53,7 @@ struct Plan {
     double mostBetweenPulses_s = 0;        // and the rest after them
     DriveSegment afterTrain;
     int pulses = 1;
-    bool outlastsWindow = false;  // the train, even the shortest window: Run::cut is needed
+    bool outlastsWindow = false;  // the train is longer than the shortest window, so Run::cut counts
     SourceLimits limits;          // Infinite: what clipping takes away is counted as delivered
 };
 

@@ -63,9 +63,13 @@ std::uint64_t checksumOf(const void* data, std::size_t size) noexcept {
 }
 
 std::string programOf(std::int64_t process) {
+    // The system's short name has 15 characters; the file's has them all, where it may be read.
     std::string program;
     std::ifstream in(fmt::format("/proc/{}/comm", process));
     std::getline(in, program);
+    std::error_code error;
+    const auto file = std::filesystem::read_symlink(fmt::format("/proc/{}/exe", process), error).filename().string();
+    if (!program.empty() && file.starts_with(program)) program = file;
     return fmt::format("{} (process {})", program.empty() ? "a program" : program, process);
 }
 

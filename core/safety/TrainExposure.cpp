@@ -22,9 +22,11 @@ using exposure::worstRun;
 /// How many whole periods any window touches at most; a billionth keeps 5 s / 0.5 s at 10.
 double periodsIn(double window_s, double period_s) noexcept { return std::ceil(window_s / period_s - 1e-9); }
 
-TrainSums times(double factor, const TrainSums& sums) noexcept {
-    return {factor * sums.currentSquared_A2s, factor * sums.voltageSquared_V2s, factor * sums.netCharge_C,
-            factor * sums.dissipated_J, sums.stored_J};
+/// What any `intervals` intervals hold.
+TrainSums trainsOf(const Run& run, double intervals) noexcept {
+    return {intervals * run.whole.currentSquared_A2s + run.cutTrain.squares,
+            intervals * run.whole.voltageSquared_V2s + run.cutTrain.volts, intervals * run.whole.netCharge_C,
+            intervals * run.whole.dissipated_J + run.cutTrain.dissipated, run.whole.stored_J};
 }
 
 /// What any `periods` periods within a train hold.
@@ -151,8 +153,8 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
     exposure.in1s = smallerSums(run.whole, pulses1s);
     exposure.in5s = smallerSums(run.whole, pulses5s);
     exposure.residual_V = std::abs(run.endOfTrain);
-    const TrainSums second = smallerSums(times(periodsIn(1, T), run.whole), pulses1s);
-    const TrainSums five = smallerSums(times(periodsIn(5, T), run.whole), pulses5s);
+    const TrainSums second = smallerSums(trainsOf(run, periodsIn(1, T)), pulses1s);
+    const TrainSums five = smallerSums(trainsOf(run, periodsIn(5, T)), pulses5s);
 
     const auto set = [&exposure](Quantity q, double value) { exposure.values[indexOf(q)] = value; };
     set(Quantity::CommandVoltage, commandVoltage(train, load, source));

@@ -141,8 +141,9 @@ TEST_F(Session, WhereTheProgramThatDrawsReportsIsMissingThatIsSaid) {
     EXPECT_THAT(contentOf(said),
                 HasSubstr(desk.at("tactoscope-report") + " does not start (No such file or directory)"));
     EXPECT_FALSE(std::filesystem::exists(desk.at("r.pdf")));
-    const auto resources = "TACTOSCOPE_RESOURCES='" + (sourceDir() / "resources").string() + "' ";
-    const auto run = resources + program + " run variation --set participants=20 --report pdf --json --out '" +
+    const auto own = "HOME='" + desk.path().string() + "' XDG_DATA_HOME='" + desk.at("data") +
+                     "' TACTOSCOPE_RESOURCES='" + (sourceDir() / "resources").string() + "' ";
+    const auto run = own + program + " run variation --set participants=20 --report pdf --json --out '" +
                      desk.at("ran") + "' >'" + desk.at("value") + "' 2>'" + said + "'";
     EXPECT_NE(WEXITSTATUS(std::system(run.c_str())), 3) << contentOf(said);
     EXPECT_THAT(contentOf(said), HasSubstr("no report: " + desk.at("tactoscope-report") + " does not start"));

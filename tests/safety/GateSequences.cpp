@@ -393,7 +393,9 @@ private:
             if (!approved) return;
             if (step != kSteps.back()) amplitude /= 1 - step;
         }
+        const int before = delivered_;
         deliverPending();
+        if (delivered_ > before) ++total_.edges;
     }
 
     bool ask(const PulseTrain& train, double interval) {

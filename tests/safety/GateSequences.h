@@ -20,6 +20,7 @@ struct SequenceCount {
     std::uint64_t sequences = 0;
     std::uint64_t delivering = 0;  ///< at least one train was delivered
     std::uint64_t close = 0;       ///< something delivered came within 5 % of a limit
+    std::uint64_t edges = 0;       ///< the most that the gate approves was delivered
     std::uint64_t trains = 0;
     std::uint64_t refused = 0;
     std::array<std::uint64_t, static_cast<std::size_t>(Near::Count)> near{};

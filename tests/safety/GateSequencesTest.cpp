@@ -36,6 +36,7 @@ TEST(GateSequences, NeverDeliverAboveALimit) {
         total.sequences += one.sequences;
         total.delivering += one.delivering;
         total.close += one.close;
+        total.edges += one.edges;
         total.trains += one.trains;
         total.refused += one.refused;
         for (std::size_t k = 0; k < one.near.size(); ++k) total.near[k] += one.near[k];
@@ -49,7 +50,7 @@ TEST(GateSequences, NeverDeliverAboveALimit) {
     RecordProperty("trains", std::to_string(total.trains));
     std::cout << total.sequences << " sequences, " << total.trains << " trains delivered, " << total.refused
               << " refused; " << 100 * fraction(total.delivering) << " % deliver, " << 100 * fraction(total.close)
-              << " % come within 5 % of a limit; by kind:";
+              << " % come within 5 % of a limit, " << 100 * fraction(total.edges) << " % to the gate's edge; by kind:";
     for (const auto n : total.near) std::cout << ' ' << n;
     std::cout << '\n';
     if (!held) return;
@@ -57,6 +58,7 @@ TEST(GateSequences, NeverDeliverAboveALimit) {
     EXPECT_GE(total.sequences, wantedSequences());
     EXPECT_GE(fraction(total.delivering), 0.30);
     EXPECT_GE(fraction(total.close), 0.10);
+    EXPECT_GE(fraction(total.edges), 0.01);
     // Every kind of limit was approached, or its check was not really tried.
     for (std::size_t k = 0; k < total.near.size(); ++k)
         EXPECT_GT(total.near[k], total.sequences / 5000) << "kind " << k;
