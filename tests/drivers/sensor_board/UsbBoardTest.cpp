@@ -69,7 +69,8 @@ TEST_F(SensorBoardOnUsb, IsFoundAndOpenedBySerialNumberWhicheverInterfaceItShows
         EXPECT_EQ(devices_.sensor->identity().serial, number);
         ASSERT_IN_TIME(readFor(300ms));
         EXPECT_IN_TIME(blocks_[0].samples() > 400U);
-        EXPECT_EQ(blocks_[1].samples(), blocks_[2].samples());
+        // The last read may have ended between a block of the one and the block of the other, of two samples each.
+        EXPECT_NEAR(static_cast<double>(blocks_[1].samples()), static_cast<double>(blocks_[2].samples()), 2);
         for (auto& block : blocks_) block.clear();
     }
 }
