@@ -21,7 +21,7 @@ Error missing(const std::string& why) {
 }
 
 /// What it says, without the name that its lines begin with.
-std::string sentenceIn(QByteArray said) {
+std::string sentenceIn(const QByteArray& said) {
     constexpr std::string_view kName = "tactoscope-cli: ";
     auto text = said.trimmed().toStdString();
     return text.starts_with(kName) ? text.substr(kName.size()) : text;

@@ -87,8 +87,8 @@ private:
     }
 
     std::string axis() const {
-        const auto left = static_cast<std::size_t>(margin_ + 1);
-        std::string line(static_cast<std::size_t>(width_ + 1), '-');
+        const auto left = static_cast<std::size_t>(margin_) + 1;
+        std::string line(static_cast<std::size_t>(width_) + 1, '-');
         std::string labels(static_cast<std::size_t>(columns_), ' ');
         line[0] = '+';
         const double every = roundUp(length() / 6, {1, 2, 5});

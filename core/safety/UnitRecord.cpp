@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <random>
+#include <span>
 #include <unistd.h>
 
 #include "core/safety/UnitClaim.h"
@@ -48,7 +49,8 @@ struct Train {
 /// All bits 0, as a new file is.
 bool isEmpty(const Checked<Train>& train) {
     static const std::array<std::byte, sizeof train> kZeros{};
-    return std::memcmp(&train, kZeros.data(), kZeros.size()) == 0;
+    const auto bytes = std::as_bytes(std::span(&train, 1));
+    return std::memcmp(bytes.data(), kZeros.data(), bytes.size()) == 0;
 }
 
 struct Fault {
