@@ -233,7 +233,10 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
 /// As Run::cut, of a window that begins in one train and ends in another, which found the load up to `apart` V
 /// differently.
 Sums cutBetween(const Plan& plan, const Run& worst, double apart) noexcept {
-    const Sums train{worst.whole.currentSquared_A2s, worst.whole.voltageSquared_V2s, worst.whole.dissipated_J};
+    const auto sumsIn = [](const TrainSums& all) {
+        return Sums{all.currentSquared_A2s, all.voltageSquared_V2s, all.dissipated_J};
+    };
+    const Sums train = sumsIn(worst.whole);
     if (!std::isinf(plan.limits.compliance_V)) {
         double pulse_s = plan.mostBetweenPulses_s;
         for (const DriveSegment& segment : plan.pulse.span()) pulse_s += segment.duration_s;
@@ -241,9 +244,7 @@ Sums cutBetween(const Plan& plan, const Run& worst, double apart) noexcept {
     }
     Plan undriven = plan;
     for (DriveSegment& segment : undriven.pulse.items) segment.start = segment.end = 0;
-    const TrainSums whole = runFrom(undriven, apart).whole;
-    const Sums difference{whole.currentSquared_A2s, whole.voltageSquared_V2s, whole.dissipated_J};
-    return extraOfCut(train, larger(difference, Sums{}));
+    return extraOfCut(train, larger(sumsIn(runFrom(undriven, apart).whole), Sums{}));
 }
 
 /// Worst over every state in which a train can find the load. A linear load's state moves toward its steady one
@@ -314,7 +315,7 @@ Run enclosedFrom(const Plan& plan, Held& held) noexcept {
         Sums rest = add(plan.betweenPulses, plan.betweenPulses.duration_s, plan.mostBetweenPulses_s);
         pulse += rest;
         const double moved = larger(std::abs(held.least - found.least), std::abs(held.most - found.most));
-        const int alike = moved <= 1e-12 * larger(held.most, -held.least) ? plan.pulses - done : 1;
+        const int alike = moved <= kAlike * larger(held.most, -held.least) ? plan.pulses - done : 1;
         done += alike;
         addTo(run.inDuration, pulse, alike);
         if (done >= plan.pulses) {
@@ -347,7 +348,7 @@ Run enclosed(const Plan& plan, double carried) noexcept {
     const auto within = [](const Held& inner, const Held& outer, double slack) {
         return inner.least >= outer.least - slack && inner.most <= outer.most + slack;
     };
-    const double small = 1e-12 * larger(once.most, -once.least);
+    const double small = kAlike * larger(once.most, -once.least);
     if (within(once, first, small)) return fromFirst;
     Held second = first;
     second.include(once.least);

@@ -10,12 +10,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include "core/base/Clock.h"
 #include "core/base/NaN.h"
 #include "core/safety/SourceTraits.h"
+#include "tests/safety/Dice.h"
 #include "tests/safety/GateSequences.h"
 #include "tests/safety/IndependentBody.h"
 
@@ -24,19 +24,6 @@ namespace tacto::test {
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 inline constexpr std::size_t kKinds = static_cast<std::size_t>(Near::Count);
 inline constexpr double kSlack = 1 + 2e-6;  // The error of the referee's quadrature
-
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : engine_(seed) {}
-    double unit() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
-    double between(double low, double high) { return low + (high - low) * unit(); }
-    double decade(double low, double high) { return low * std::pow(high / low, unit()); }
-    bool chance(double p) { return unit() < p; }
-    int pick(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
-
-private:
-    std::mt19937_64 engine_;
-};
 
 /// The referee's own view of what is allowed now.
 struct Allowed {

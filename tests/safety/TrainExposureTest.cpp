@@ -1,14 +1,15 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <vector>
 
 #include "core/base/NaN.h"
 #include "core/safety/SafetyGate.h"
 #include "core/safety/SourceTrain.h"
 #include "core/safety/TrainExposure.h"
+#include "tests/safety/Dice.h"
 #include "tests/safety/GateFixtures.h"
 #include "tests/safety/IndependentBody.h"
 #include "tests/support/Figures.h"
@@ -165,6 +166,17 @@ struct LongTrain {
     Body body;
     PulseTrain train;
     SourceTraits source;
+    /// With a current in so many of the cases, and a capacitance in that range, F; the train's form is left open.
+    static LongTrain drawn(Dice& dice, double currents, std::array<double, 2> capacitance) {
+        const bool current = dice.chance(currents);
+        const double rs = dice.decade(80, 2000), rp = dice.decade(1000, 50'000);
+        LongTrain some{{rs, rp, dice.decade(capacitance[0], capacitance[1])},
+                       current ? milliamps(1) : volts(1),
+                       current ? currentSource() : voltageSource()};
+        some.source.gap = dice.chance(0.5) ? GapState::HoldsZero : GapState::HighImpedance;
+        some.source.compliance = Volts(1e9);
+        return some;
+    }
     [[nodiscard]] TrainSums booked() const {
         const Load load = Load::skin(Ohms(body.rs), Ohms(body.rp), Nanofarads(body.c * 1e9));
         return exposureOf(train, Seconds(2 * train.duration().count()), load, source, 1).in1s;
@@ -209,25 +221,18 @@ TEST(TrainExposure, ASecondMayBeginAndEndWithinAPulse) {
 
 TEST(TrainExposure, NoSecondOfALongTrainHoldsMoreThanIsBooked) {
     RecordProperty("hazard", "H1");
-    std::mt19937_64 engine(20261128);
-    const auto unit = [&] { return static_cast<double>(engine() >> 11U) * 0x1p-53; };
-    const auto decade = [&](double low, double high) { return low * std::pow(high / low, unit()); };
+    Dice dice(20261128);
     int close = 0;
     for (int k = 0; k < 20'000; ++k) {
-        const bool current = unit() < 0.5;
-        LongTrain some{{decade(80, 2000), decade(1000, 50'000), decade(5e-9, 2e-6)},
-                       current ? milliamps(1) : volts(1),
-                       current ? currentSource() : voltageSource()};
-        some.source.gap = unit() < 0.5 ? GapState::HoldsZero : GapState::HighImpedance;
-        some.source.compliance = Volts(1e9);
+        LongTrain some = LongTrain::drawn(dice, 0.5, {5e-9, 2e-6});
         some.train.shape = std::array{PulseShape::SymmetricBiphasic, PulseShape::Monophasic,
-                                      PulseShape::AsymmetricBiphasic}[static_cast<std::size_t>(3 * unit())];
-        some.train.rechargeRatio = 2 + 8 * unit();
-        some.train.phaseWidth = Micros(decade(20, 400'000));
-        some.train.interPhaseGap = Micros(unit() < 0.3 ? 0 : 200 * unit());
-        const int periods = 1 + static_cast<int>(8 * unit());
-        some.train.rate = Hertz(periods / (1 + decade(1e-8, 1e-2)));  // they are hardly longer than a second
-        some.train.pulses = periods + 1 + static_cast<int>(4 * unit());
+                                      PulseShape::AsymmetricBiphasic}[static_cast<std::size_t>(3 * dice.unit())];
+        some.train.rechargeRatio = 2 + 8 * dice.unit();
+        some.train.phaseWidth = Micros(dice.decade(20, 400'000));
+        some.train.interPhaseGap = Micros(dice.unit() < 0.3 ? 0 : 200 * dice.unit());
+        const int periods = 1 + static_cast<int>(8 * dice.unit());
+        some.train.rate = Hertz(periods / (1 + dice.decade(1e-8, 1e-2)));  // they are hardly longer than a second
+        some.train.pulses = periods + 1 + static_cast<int>(4 * dice.unit());
         if (!validate(some.train)) continue;
         const TrainSums booked = some.booked();
         const IndependentBody truth = some.delivered();
@@ -330,25 +335,18 @@ TEST(TrainExposure, NoSecondThatCutsAPhaseHoldsMoreThanIsBooked) {
     EXPECT_LE(Course(slow).worstSecond().volts, slow.booked().voltageSquared_V2s);
     EXPECT_LE(slow.booked().voltageSquared_V2s, 1.5 * Course(slow).worstSecond().volts) << "a phase more at most";
 
-    std::mt19937_64 engine(1128);
-    const auto unit = [&] { return static_cast<double>(engine() >> 11U) * 0x1p-53; };
-    const auto decade = [&](double low, double high) { return low * std::pow(high / low, unit()); };
+    Dice dice(1128);
     for (int k = 0; k < 400; ++k) {
-        const bool current = unit() < 0.8;
-        LongTrain some{{decade(80, 2000), decade(1000, 50'000), decade(5e-8, 2e-5)},
-                       current ? milliamps(1) : volts(1),
-                       current ? currentSource() : voltageSource()};
-        some.source.gap = unit() < 0.5 ? GapState::HoldsZero : GapState::HighImpedance;
-        some.source.compliance = Volts(1e9);
-        some.train.shape = unit() < 0.7 ? PulseShape::SymmetricBiphasic : PulseShape::AsymmetricBiphasic;
-        some.train.rechargeRatio = 2 + 3 * unit();
+        LongTrain some = LongTrain::drawn(dice, 0.8, {5e-8, 2e-5});
+        some.train.shape = dice.unit() < 0.7 ? PulseShape::SymmetricBiphasic : PulseShape::AsymmetricBiphasic;
+        some.train.rechargeRatio = 2 + 3 * dice.unit();
         some.train.interPhaseGap = Micros(0);
-        const int periods = 1 + static_cast<int>(4 * unit());
+        const int periods = 1 + static_cast<int>(4 * dice.unit());
         const double period_us = 1e6 / periods;
         const double phases = some.train.shape == PulseShape::SymmetricBiphasic ? 2 : 1 + some.train.rechargeRatio;
-        some.train.phaseWidth = Micros(std::min(4e5, period_us / phases * (1 - decade(1e-3, 0.5))));
-        some.train.rate = Hertz(periods / (1 + decade(1e-8, 1e-5)));
-        some.train.pulses = periods + 2 + static_cast<int>(3 * unit());
+        some.train.phaseWidth = Micros(std::min(4e5, period_us / phases * (1 - dice.decade(1e-3, 0.5))));
+        some.train.rate = Hertz(periods / (1 + dice.decade(1e-8, 1e-5)));
+        some.train.pulses = periods + 2 + static_cast<int>(3 * dice.unit());
         const TrainSums booked = some.booked();
         const auto worst = Course(some).worstSecond();
         ASSERT_LE(worst.volts, booked.voltageSquared_V2s * (1 + 1e-9)) << k;
