@@ -43,7 +43,7 @@ struct Command {
     const char* summary;
     /// Declares options, then gets the parsed command line.
     void (*declare)(QCommandLineParser& parser);
-    int (*run)(const QCommandLineParser& parser);
+    int (*run)(const QCommandLineParser& parser);  ///< null: another program does it (ReportProgram.h)
 };
 
 /// Qt's own warnings are for developers: from here on its fatal errors alone are printed.
