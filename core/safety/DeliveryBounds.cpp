@@ -1,6 +1,8 @@
 #include "core/safety/DeliveryBounds.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "core/safety/Rules.h"
 
@@ -40,6 +42,12 @@ constexpr gate::Condition<Level> kLevelConditions[] = {
      [](auto& level) noexcept { return siAmplitude(level.delivered) > siAmplitude(level.programmed); }},
 };
 
+/// Net charges, and what is made of them.
+std::array<double*, 4> netChargesIn(TrainExposure& exposure) noexcept {
+    return {&exposure.values[indexOf(Quantity::NetCharge)], &exposure.values[indexOf(Quantity::DcCurrent)],
+            &exposure.in1s.netCharge_C, &exposure.in5s.netCharge_C};
+}
+
 std::optional<CalibrationLine> lineIn(const KnownLines& known,
                                       std::optional<CalibrationLine> StimulatorCalibration::*line) noexcept {
     return known ? (*known).*line : std::nullopt;
@@ -75,6 +83,21 @@ double QuantityBounds::leastRatio(double programmed) const noexcept {
     return std::clamp(ratio, kMinRatio, 1.0);
 }
 
+void Corners::add(const TrainExposure& corner) noexcept {
+    worst_ = count_ == 0 ? corner : worse(worst_, corner);
+    TrainExposure one = corner;
+    const auto sums = netChargesIn(sum_), charges = netChargesIn(one);
+    for (std::size_t k = 0; k < sums.size(); ++k) *sums[k] += *charges[k];
+    ++count_;
+}
+
+TrainExposure Corners::worst(TrainExposure middle) const noexcept {
+    TrainExposure worst = worst_, sum = sum_;
+    const auto charges = netChargesIn(worst), sums = netChargesIn(sum), ofMiddle = netChargesIn(middle);
+    for (std::size_t k = 0; k < charges.size(); ++k) *charges[k] += 2 * std::abs(*ofMiddle[k] - *sums[k] / count_);
+    return worst;
+}
+
 DeliveryBounds::DeliveryBounds(const GateSetup& setup) noexcept
     : known_(setup.calibration),
       applied_(setup.calibrated && setup.calibration.has_value()),
@@ -82,8 +105,8 @@ DeliveryBounds::DeliveryBounds(const GateSetup& setup) noexcept
                  setup.source.accuracy.amplitude),
       width_(lineIn(setup.calibration, &StimulatorCalibration::phaseWidth), applied_, setup.source.accuracy.phaseWidth),
       gap_(lineIn(setup.calibration, &StimulatorCalibration::gap), applied_, setup.source.accuracy.gap),
-      interval_(lineIn(setup.calibration, &StimulatorCalibration::interval), applied_, setup.source.accuracy.interval) {
-}
+      interval_(lineIn(setup.calibration, &StimulatorCalibration::interval), applied_, setup.source.accuracy.interval),
+      rate_(std::nullopt, applied_, setup.source.accuracy.rate) {}
 
 PulseTrain DeliveryBounds::commandOf(const PulseTrain& programmed) const noexcept {
     return applied_ ? deliveredBy(programmed, *known_) : programmed;
@@ -99,10 +122,17 @@ PulseTrain DeliveryBounds::acceptedAs(const PulseTrain& programmed) const noexce
     return siAmplitude(delivered) < siAmplitude(programmed) ? delivered : programmed;
 }
 
-PulseTrain DeliveryBounds::largest(const PulseTrain& programmed) const noexcept {
+PulseTrain DeliveryBounds::densest(const PulseTrain& programmed) const noexcept {
     PulseTrain out = withAmplitude(programmed, [this](double amplitude) { return amplitude_.most(amplitude); });
     out.phaseWidth = width_.times(programmed.phaseWidth).most;
     out.interPhaseGap = gap_.times(programmed.interPhaseGap).most;
+    out.rate = rates(programmed.rate).most;
+    return out;
+}
+
+PulseTrain DeliveryBounds::longest(const PulseTrain& programmed) const noexcept {
+    PulseTrain out = densest(programmed);
+    out.rate = rates(programmed.rate).least;
     return out;
 }
 

@@ -1,9 +1,10 @@
 // DeliveryBounds.h - what may come out of a train that is programmed: the gate judges the worst of it (H1, H9).
 //
-// Each of amplitude, phase width, gap and interval comes out between two bounds. A calibration that is applied gives
-// them: its line, its uncertainty and its largest residual. Without one they are the accuracy that the driver states,
-// ± 5 % where it states none; and where an old calibration is known that is not applied, the wider of both. What is
-// programmed lies inside the bounds in any case.
+// Each of amplitude, phase width, gap, interval and rate comes out between two bounds. A calibration that is applied
+// gives them: its line, its uncertainty and its largest residual. Without one they are the accuracy that the driver
+// states, ± 5 % where it states none; and where an old calibration is known that is not applied, the wider of both. No
+// calibration measures the rate within a train: it is judged by what the driver states. What is programmed lies inside
+// the bounds in any case.
 //
 // Thread-safety: a value; nothing allocates.
 #pragma once
@@ -13,11 +14,18 @@
 
 namespace tacto {
 
-/// Between which a time may come out.
-template <class Time>
-struct TimeRange {
-    Time least{0};
-    Time most{0};
+/// Between which a quantity may come out.
+template <class Value>
+struct Range {
+    Value least{0};
+    Value most{0};
+    [[nodiscard]] Value middle() const { return least + 0.5 * (most - least); }
+    /// Calls `use` with both, or once where they are the same.
+    template <class Use>
+    void eachEnd(Use use) const {
+        use(least);
+        if (most != least) use(most);
+    }
 };
 
 /// The bounds of one quantity, in its own unit.
@@ -29,7 +37,7 @@ public:
     [[nodiscard]] double least(double programmed) const noexcept;
     /// The same of a time; one that has no spread stays as it is to the last bit.
     template <class Time>
-    [[nodiscard]] TimeRange<Time> times(Time programmed) const noexcept {
+    [[nodiscard]] Range<Time> times(Time programmed) const noexcept {
         const double s = Seconds(programmed).count();
         const auto bound = [&](double at) { return at == s ? programmed : Time(Seconds(at)); };
         return {bound(least(s)), bound(most(s))};
@@ -44,6 +52,20 @@ private:
     bool applied_;  // the line holds: what is stated no longer counts
 };
 
+/// The worst of what the corners of a range of trains give. Sums of squares between them are enclosed (TrainRange), and
+/// nothing else is larger there but the charges that two phases leave over: by little, which twice the distance of the
+/// middle from the corners' mean covers (as of 180 000 random trains; a parabola exceeds its ends by once as much at
+/// most).
+class Corners {
+public:
+    void add(const TrainExposure& corner) noexcept;
+    [[nodiscard]] TrainExposure worst(TrainExposure middle) const noexcept;
+
+private:
+    TrainExposure worst_, sum_;
+    int count_ = 0;
+};
+
 class DeliveryBounds {
 public:
     explicit DeliveryBounds(const GateSetup& setup) noexcept;
@@ -56,38 +78,55 @@ public:
     [[nodiscard]] PulseTrain acceptedAs(const PulseTrain& programmed) const noexcept;
 
     /// Between which an interval may come out: the shortest gives the most exposure, the longest the lowest band.
-    [[nodiscard]] TimeRange<Seconds> intervals(Seconds programmed) const noexcept {
-        return interval_.times(programmed);
-    }
+    [[nodiscard]] Range<Seconds> intervals(Seconds programmed) const noexcept { return interval_.times(programmed); }
     /// How much longer a window of real time may last by the clock that trains are booked on: 1 or more.
     [[nodiscard]] double stretch(Seconds programmed) const noexcept {
         return 1 / interval_.leastRatio(programmed.count());
     }
-    /// `programmed` with the most amplitude, phase width and gap.
-    [[nodiscard]] PulseTrain largest(const PulseTrain& programmed) const noexcept;
-    /// `exposure`, a function of a train and of a TrainRange, at its worst over what may come out of `programmed`.
+    /// `programmed` with the most amplitude, phase width and gap, at the highest rate and at the lowest.
+    [[nodiscard]] PulseTrain densest(const PulseTrain& programmed) const noexcept;
+    [[nodiscard]] PulseTrain longest(const PulseTrain& programmed) const noexcept;
+    /// `exposure` on `load`, a function of a train and of a TrainRange, at its worst over what may come out of
+    /// `programmed`. A load that keeps no charge has it of the densest train; else it lies at a corner of the range, or
+    /// near one (Corners).
     template <class Exposure>
-    [[nodiscard]] TrainExposure worst(const PulseTrain& programmed, Exposure exposure) const noexcept {
-        const PulseTrain first = largest(programmed);
+    [[nodiscard]] TrainExposure worst(const PulseTrain& programmed, const LoadRange& load,
+                                      Exposure exposure) const noexcept {
+        const PulseTrain first = densest(programmed);
+        if (!load.keepsCharge()) return exposure(first);
         const auto width = width_.times(programmed.phaseWidth), gap = gap_.times(programmed.interPhaseGap);
+        const auto rate = rates(programmed.rate);
         PulseTrain out = first;
         out.phaseWidth = width.least;
         out.interPhaseGap = gap.least;
-        TrainExposure worst = exposure(TrainRange{out, first});
-        for (const Micros w : {width.least, width.most}) {
-            for (const Micros g : {gap.least, gap.most}) {
-                out.phaseWidth = w;
-                out.interPhaseGap = g;
-                if (out != first) worst = worse(worst, exposure(out));
-            }
-        }
-        return worst;
+        out.rate = rate.least;
+        const TrainExposure enclosed = exposure(TrainRange{out, first});
+        if (out == first) return enclosed;
+        Corners corners;
+        width.eachEnd([&](Micros ofWidth) {
+            gap.eachEnd([&](Micros ofGap) {
+                rate.eachEnd([&](Hertz ofRate) {
+                    out.phaseWidth = ofWidth;
+                    out.interPhaseGap = ofGap;
+                    out.rate = ofRate;
+                    corners.add(out == first ? enclosed : exposure(out));
+                });
+            });
+        });
+        out.phaseWidth = width.middle();
+        out.interPhaseGap = gap.middle();
+        out.rate = rate.middle();
+        return worse(enclosed, corners.worst(exposure(out)));
     }
 
 private:
+    [[nodiscard]] Range<Hertz> rates(Hertz programmed) const noexcept {
+        return {Hertz(rate_.least(programmed.value())), Hertz(rate_.most(programmed.value()))};
+    }
+
     KnownLines known_;
     bool applied_;
-    QuantityBounds amplitude_, width_, gap_, interval_;
+    QuantityBounds amplitude_, width_, gap_, interval_, rate_;
 };
 
 }  // namespace tacto

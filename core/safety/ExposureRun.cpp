@@ -7,16 +7,21 @@
 
 namespace tacto::exposure {
 
-std::array<double, 3> leastDurations(const PulseSegments& longest, const PulseSegments& shortest) noexcept {
+std::array<double, 3> leastDurations(const PulseSegments& densest, const PulseSegments& sparsest) noexcept {
     std::array<double, 3> durations{};
-    durations[0] = shortest.items[0].duration_s;
-    if (longest.count > 1) durations[longest.count - 1] = shortest.items[shortest.count - 1].duration_s;
-    if (shortest.count == 3) durations[1] = shortest.items[1].duration_s;
+    durations[0] = sparsest.items[0].duration_s;
+    if (densest.count > 1) durations[densest.count - 1] = sparsest.items[sparsest.count - 1].duration_s;
+    if (sparsest.count == 3) durations[1] = sparsest.items[1].duration_s;
     return durations;
 }
 
 double storedAt(const Plan& plan, double capacitorVoltage) noexcept {
     return plan.circuit.hasCapacitor() ? 0.5 * plan.circuit.capacitance_F * capacitorVoltage * capacitorVoltage : 0;
+}
+
+/// And the voltage at which it holds that.
+double voltageOf(const Plan& plan, double stored_J) noexcept {
+    return plan.circuit.hasCapacitor() ? std::sqrt(2 * stored_J / plan.circuit.capacitance_F) : 0;
 }
 
 TrainSums largerSums(const TrainSums& a, const TrainSums& b) noexcept {
@@ -319,7 +324,7 @@ Run enclosedFrom(const Plan& plan, Held& held) noexcept {
         done += alike;
         addTo(run.inDuration, pulse, alike);
         if (done >= plan.pulses) {
-            tail = add(plan.afterTrain, plan.afterTrain.duration_s, plan.afterTrain.duration_s);
+            tail = add(plan.afterTrain, plan.leastAfterTrain_s, plan.afterTrain.duration_s);
             rest += tail;
         }
         parts.add(PulseParts::kRest, rested, rest);
@@ -342,32 +347,35 @@ Run unknownRun() noexcept {
 /// The same for any number of trains, the first of which finds up to `carried` on the load. What holds more bounds
 /// more: the widest run is the bound of all.
 Run enclosed(const Plan& plan, double carried) noexcept {
-    Held first{-carried, carried};
-    Held once = first;
-    const Run fromFirst = enclosedFrom(plan, once);
-    const auto within = [](const Held& inner, const Held& outer, double slack) {
-        return inner.least >= outer.least - slack && inner.most <= outer.most + slack;
-    };
-    const double small = kAlike * larger(once.most, -once.least);
-    if (within(once, first, small)) return fromFirst;
-    Held second = first;
-    second.include(once.least);
-    second.include(once.most);
-    Held twice = second;
-    const Run fromSecond = enclosedFrom(plan, twice);
-    if (within(twice, second, small)) return fromSecond;
-    // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady one.
-    const auto steady = [](double from, double to, double fromNext, double toNext) {
-        const double slope = fromNext == from ? 0 : (toNext - to) / (fromNext - from);
-        return slope < 1 ? from + (to - from) / (1 - slope) : kNaN;
-    };
-    second.include(steady(first.least, once.least, second.least, twice.least));
-    second.include(steady(first.most, once.most, second.most, twice.most));
-    Held last = second;
-    const Run fromLast = enclosedFrom(plan, last);
+    // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady one. Which duration
+    // makes an end may change on the way there, and the slope with it.
+    constexpr int kMostSlopes = 8;
+    Held found{-carried, carried};
+    for (int tries = 0; tries < kMostSlopes; ++tries) {
+        Held left = found;
+        const Run run = enclosedFrom(plan, left);
+        const double small = kAlike * voltageOf(plan, run.whole.stored_J);
+        const auto within = [small](const Held& inner, const Held& outer) {
+            return inner.least >= outer.least - small && inner.most <= outer.most + small;
+        };
+        if (within(left, found)) return run;
+        Held next = found;
+        next.include(left.least);
+        next.include(left.most);
+        Held leftNext = next;
+        const Run runNext = enclosedFrom(plan, leftNext);
+        if (within(leftNext, next)) return runNext;
+        const auto steady = [small](double from, double to, double fromNext, double toNext) {
+            if (std::abs(fromNext - from) <= small) return fromNext;
+            const double slope = (toNext - to) / (fromNext - from);
+            return slope < 1 ? from + (to - from) / (1 - slope) : kNaN;
+        };
+        next.include(steady(found.least, left.least, next.least, leftNext.least));
+        next.include(steady(found.most, left.most, next.most, leftNext.most));
+        found = next;
+    }
     // Beyond its compliance a source is not linear; what is not enclosed then is not known, and refused.
-    if (!within(last, second, 1e-6 * larger(second.most, -second.least))) return unknownRun();
-    return fromLast;
+    return unknownRun();
 }
 
 }  // namespace

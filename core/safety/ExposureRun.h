@@ -49,17 +49,18 @@ struct Plan {
     Circuit circuit;
     PulseSegments pulse;
     DriveSegment betweenPulses;
-    std::array<double, 3> leastPulse_s{};  // each segment of the shortest train of the range
+    std::array<double, 3> leastPulse_s{};  // each segment of the sparsest train of the range
     double mostBetweenPulses_s = 0;        // and the rest after them
     DriveSegment afterTrain;
+    double leastAfterTrain_s = 0;  // of the sparsest train of the range, whose pulses take longest
     int pulses = 1;
     bool outlastsWindow = false;  // the train is longer than the shortest window, so Run::cut counts
     SourceLimits limits;          // Infinite: what clipping takes away is counted as delivered
 };
 
-/// How long each segment of `longest` lasts in the shortest train, which may lack its gap; in s.
-[[nodiscard]] std::array<double, 3> leastDurations(const PulseSegments& longest,
-                                                   const PulseSegments& shortest) noexcept;
+/// How long each segment of `densest` lasts in the sparsest train, which may lack its gap; in s.
+[[nodiscard]] std::array<double, 3> leastDurations(const PulseSegments& densest,
+                                                   const PulseSegments& sparsest) noexcept;
 
 /// What the capacitor holds at that voltage, J; 0 without one.
 [[nodiscard]] double storedAt(const Plan& plan, double capacitorVoltage) noexcept;

@@ -47,12 +47,10 @@ std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain&
     const double area = gate::areaOf(setup);
     const DeliveryBounds bounds(setup);
     const auto [shortest, longest] = bounds.intervals(interval);
-    TrainExposure overRange = bounds.worst(train, [&, least = shortest](const auto& out) {
+    TrainExposure overRange = bounds.worst(train, setup.load, [&, least = shortest](const auto& out) {
         return worstExposure(out, least, setup.load, setup.source, area);
     });
-    TrainExposure at500 = bounds.worst(train, [&, least = shortest](const auto& out) {
-        return exposureOf(out, least, Load::resistor(Ohms(500)), setup.source, area);
-    });
+    TrainExposure at500 = exposureOf(bounds.densest(train), shortest, Load::resistor(Ohms(500)), setup.source, area);
     // The command is judged as it is; that a train cannot be judged stays.
     for (TrainExposure* exposure : {&overRange, &at500}) {
         double& command = exposure->values[indexOf(Quantity::CommandVoltage)];

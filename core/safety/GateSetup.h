@@ -37,6 +37,10 @@ struct LoadRange {
     [[nodiscard]] static LoadRange measured(Ohms magnitude);
     /// Resistances from `low` to `high`, nominal their geometric mean: previews, and a person before the check pulse.
     [[nodiscard]] static LoadRange between(Ohms low, Ohms high);
+    /// Whether what one pulse leaves may be found by the next.
+    [[nodiscard]] bool keepsCharge() const noexcept {
+        return min.kind == LoadKind::SkinEquivalent || max.kind == LoadKind::SkinEquivalent;
+    }
 };
 
 /// A profile's own limit on a quantity, judged over the load range. It may tighten what the limit sets say and never

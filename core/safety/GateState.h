@@ -59,11 +59,11 @@ struct State {
 
 /// A train on its way through the limits.
 struct JudgedTrain {
-    PulseTrain command;            // what it should come out as, for the figure beside the worst case
-    Seconds interval{0};           // as it was asked for
-    TimeRange<Seconds> intervals;  // between which it may come out
-    double stretch = 1;            // as DeliveryBounds::stretch()
-    double carried_V = 0;          // what it may find on the load
+    PulseTrain command;        // what it should come out as, for the figure beside the worst case
+    Seconds interval{0};       // as it was asked for
+    Range<Seconds> intervals;  // between which it may come out
+    double stretch = 1;        // as DeliveryBounds::stretch()
+    double carried_V = 0;      // what it may find on the load
     TrainExposure overRange, at500;
     /// For frequency bands: the lowest.
     [[nodiscard]] double hz() const noexcept { return 1 / intervals.most.count(); }

@@ -268,19 +268,17 @@ Result<ApprovedTrain> SafetyGate::grant(const AskedTrain& asked, std::uint64_t e
     judged.carried_V = s.carriedAt(now);
     judged.command = bounds.commandOf(train);
     const auto& source = s.setup->source;
-    judged.overRange = bounds.worst(train, [&](const auto& out) {
+    judged.overRange = bounds.worst(train, s.load, [&](const auto& out) {
         return worstExposure(out, judged.intervals.least, s.load, source, s.area, {judged.carried_V});
     });
-    judged.at500 = bounds.worst(train, [&](const auto& out) {
-        return exposureOf(out, judged.intervals.least, Load::resistor(Ohms(500)), source, s.area);
-    });
+    judged.at500 = exposureOf(bounds.densest(train), judged.intervals.least, Load::resistor(Ohms(500)), source, s.area);
     const double command_V = commandVoltage(judged.command, s.load.nominal, source);
     for (TrainExposure* exposure : {&judged.overRange, &judged.at500})
         exposure->values[indexOf(Quantity::CommandVoltage)] = command_V;
     if (auto kept = checkLimits(s, judged, now); !kept) return failure(kept);
 
     const Instant expires = now + kApprovalLife;
-    const Instant ended = expires + toInstant(train.duration());
+    const Instant ended = expires + toInstant(bounds.longest(train).duration());
     const BookedTrain booked{now, ended, judged.hz(), judged.overRange, judged.at500};
     auto& residual = s.residuals[static_cast<std::size_t>(source.gap)];
     residual = {std::max(judged.carried_V, judged.overRange.residual_V), std::max(residual.at, ended)};

@@ -103,7 +103,8 @@ Result<void> checkLimits(const GateSetup& setup) {
 
 /// The first stated accuracy that is none.
 std::optional<Spread> unsoundAccuracy(const SourceTraits& s) noexcept {
-    for (const auto& stated : {s.accuracy.amplitude, s.accuracy.phaseWidth, s.accuracy.gap, s.accuracy.interval}) {
+    const auto& of = s.accuracy;
+    for (const auto& stated : {of.amplitude, of.phaseWidth, of.gap, of.interval, of.rate}) {
         if (stated && !stated->sound()) return stated;
     }
     return std::nullopt;

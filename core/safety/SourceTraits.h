@@ -18,8 +18,9 @@ struct StatedAccuracy {
     std::optional<Spread> phaseWidth{};  ///< s
     std::optional<Spread> gap{};         ///< s
     std::optional<Spread> interval{};    ///< s
+    std::optional<Spread> rate{};        ///< Hz, of the pulses within a train; no calibration measures it
     /// The accuracy of an ideal source.
-    [[nodiscard]] static StatedAccuracy exact() noexcept { return {Spread{}, Spread{}, Spread{}, Spread{}}; }
+    [[nodiscard]] static StatedAccuracy exact() noexcept { return {Spread{}, Spread{}, Spread{}, Spread{}, Spread{}}; }
 };
 
 /// The longest train of a source without a dead-man: nothing ends it when the program is gone.

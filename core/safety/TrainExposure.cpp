@@ -124,20 +124,21 @@ TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& 
 
 TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load& load, const SourceTraits& source,
                          double area_cm2, Carried carried) noexcept {
-    const PulseTrain& train = trains.longest;
-    const double duration = train.duration().count();
+    const PulseTrain& train = trains.densest;
+    const double duration = train.duration().count(), mostDuration = trains.sparsest.duration().count();
     const double T = interval.count();
-    if (!validate(train) || !validate(trains.shortest) || !std::isfinite(T) || !(duration <= T * (1 + 1e-9)))
-        return unknownExposure();
+    const bool valid = validate(train) && validate(trains.sparsest) && std::isfinite(T);
+    if (!valid || !(std::max(duration, mostDuration) <= T * (1 + 1e-9))) return unknownExposure();
 
     const bool current = isCurrent(train.amplitude);
     Plan plan;
     plan.pulse = segmentsOf(train, source.gap);
     plan.circuit = circuitAt(steadyLoad(load), 0, plan.pulse.span());
     plan.betweenPulses = restOf(source.gap, restBetweenPulses(train));
-    plan.leastPulse_s = exposure::leastDurations(plan.pulse, segmentsOf(trains.shortest, source.gap));
-    plan.mostBetweenPulses_s = restBetweenPulses(trains.shortest).count();
+    plan.leastPulse_s = exposure::leastDurations(plan.pulse, segmentsOf(trains.sparsest, source.gap));
+    plan.mostBetweenPulses_s = restBetweenPulses(trains.sparsest).count();
     plan.afterTrain = restOf(source.gap, Seconds(std::max(T - duration, 0.0)));
+    plan.leastAfterTrain_s = std::max(T - mostDuration, 0.0);
     plan.pulses = train.pulses;
     const double period = 1 / train.rate.value();
     plan.outlastsWindow = train.pulses > periodsIn(1, period);
@@ -203,7 +204,7 @@ TrainExposure worstExposure(const TrainRange& trains, Seconds interval, const Lo
                                 exposureOf(trains, interval, load.max, source, area_cm2, carried));
     double& command = worst.values[indexOf(Quantity::CommandVoltage)];
     // A train that is not valid stays NaN.
-    if (!std::isnan(command)) command = commandVoltage(trains.longest, load.nominal, source);
+    if (!std::isnan(command)) command = commandVoltage(trains.densest, load.nominal, source);
     return worst;
 }
 

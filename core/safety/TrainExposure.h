@@ -2,12 +2,11 @@
 //
 // Closed forms per segment (core/electrode); the charge that a pulse leaves on the load is carried into
 // the next pulse and the next train, and the larger of "first train from rest" and "steady state" is
-// given, so that the figures hold for any number of trains. What a device makes of a phase width and a gap is known to
-// a range: on a load with a capacitor the sums of squares may be largest inside it, because what a longer phase adds a
-// shorter rest no longer discharges. They are enclosed there: every segment at its longest, from each end of what the
-// load may hold. A current source that would exceed its compliance
-// is judged both with and without it. A load's drift and lost contact are left out: they
-// would only make a limit look farther away than it is.
+// given, so that the figures hold for any number of trains. What a device makes of a phase width, a gap and a rate is
+// known to a range: on a load with a capacitor the sums of squares may be largest inside it, because what a longer
+// phase adds a shorter rest no longer discharges. They are enclosed there: every segment at its longest, from each end
+// of what the load may hold. A current source that would exceed its compliance is judged both with and without it. A
+// load's drift and lost contact are left out: they would only make a limit look farther away than it is.
 //
 // Thread-safety: pure functions. Nothing here allocates, except exposureTable().
 #pragma once
@@ -40,10 +39,10 @@ struct TrainExposure {
     [[nodiscard]] double at(Quantity q) const noexcept { return values[indexOf(q)]; }
 };
 
-/// Trains that differ in phase width and inter-phase gap alone: what may come out of one that is programmed.
+/// Trains that differ in phase width, inter-phase gap and rate alone: what may come out of one that is programmed.
 struct TrainRange {
-    PulseTrain shortest;  ///< both at their least
-    PulseTrain longest;   ///< both at their most
+    PulseTrain sparsest;  ///< all three at their least
+    PulseTrain densest;   ///< all three at their most
 };
 
 /// Where a train finds the load: with up to this |voltage| on its capacitor, of either sign, from trains before it.
@@ -58,7 +57,7 @@ struct Carried {
 [[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
-/// The same of `trains`: of the longest one, but ∫i², ∫v² and heat are upper bounds for every train of the range.
+/// The same of `trains`: of the densest one, but ∫i², ∫v² and heat are upper bounds for every train of the range.
 [[nodiscard]] TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 

@@ -181,21 +181,25 @@ constexpr Rule<AskedTrain> kCheckRules[] = {
 // --- times, and the unit's past -------------------------------------------------------------------------------------
 
 Seconds shortestInterval(const AskedTrain& a) noexcept { return a.state.bounds->intervals(a.interval).least; }
-PulseTrain longestOf(const AskedTrain& a) noexcept { return a.state.bounds->largest(a.train); }
+PulseTrain densestOf(const AskedTrain& a) noexcept { return a.state.bounds->densest(a.train); }
+PulseTrain longestOf(const AskedTrain& a) noexcept { return a.state.bounds->longest(a.train); }
 
 constexpr Rule<AskedTrain> kTimeRules[] = {
-    {IntervalMayBeBelowTrain, [](auto& a) { return !(a.train.duration() <= shortestInterval(a) * (1 + kRounding)); },
+    {IntervalMayBeBelowTrain,
+     [](auto& a) { return !(longestOf(a).duration() <= shortestInterval(a) * (1 + kRounding)); },
      [](auto& a) {
-         return fail(ErrorCode::InvalidArgument,
-                     "interval {:.6g} s would come out as {:.6g} s, which is shorter than the train, {:.6g} s",
-                     a.interval.count(), shortestInterval(a).count(), a.train.duration().count());
+         return fail(
+             ErrorCode::InvalidArgument,
+             "interval {:.6g} s may come out as {:.6g} s and the train of {:.6g} s as {:.6g} s, which is longer",
+             a.interval.count(), shortestInterval(a).count(), a.train.duration().count(),
+             longestOf(a).duration().count());
      }},
-    {PulseBeyondPeriod, [](auto& a) { return !validate(longestOf(a)); },
+    {PulseBeyondPeriod, [](auto& a) { return !validate(densestOf(a)); },
      [](auto& a) {
          return fail(ErrorCode::InvalidArgument,
                      "a pulse of {:.6g} us may come out as {:.6g} us, which is longer than its period of {:.6g} us",
-                     Micros(a.train.pulseDuration()).count(), Micros(longestOf(a).pulseDuration()).count(),
-                     1e6 / a.train.rate.value());
+                     Micros(a.train.pulseDuration()).count(), Micros(densestOf(a).pulseDuration()).count(),
+                     1e6 / densestOf(a).rate.value());
      }},
     {LongWithoutDeadMan,
      [](auto& a) {

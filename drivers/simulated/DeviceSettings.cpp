@@ -125,7 +125,8 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
         .amplitude = off <= kLargestMiscalibration ? std::optional(Spread{off + cold, offset}) : std::nullopt,
         .phaseWidth = Spread{std::abs(settings.widthGain - 1), std::max(timing, std::abs(settings.widthError.count()))},
         .gap = Spread{0, std::max(timing, std::abs(settings.gapError.count()))},
-        .interval = Spread{}};
+        .interval = Spread{},
+        .rate = Spread{}};
     settings.calibration = statedBy(traits);
     settings.rise = Seconds(from.quantity("rise", "s", settings.rise.count(), 0, 1e-3));
     settings.latency = Seconds(from.quantity("latency", "s", settings.latency.count(), 0, 0.04));

@@ -57,6 +57,7 @@ void addConfigureCases(std::vector<GateCase>& cases) {
         "no compliance");
     for (const Spread wrong : {Spread{1, 0}, Spread{-0.1, 0}, Spread{kNaN, 0}, Spread{0, -1}, Spread{0, kNaN}}) {
         add(SourceAccuracy, bench([wrong](auto& s) { s.source.accuracy.gap = wrong; }), "states an accuracy");
+        add(SourceAccuracy, bench([wrong](auto& s) { s.source.accuracy.rate = wrong; }), "states an accuracy");
         add(BadCalibration, bench([wrong](auto& s) {
                 s.calibration = StimulatorCalibration{CalibrationLine{1, 0, 10, 40, wrong}};
             }),
@@ -245,6 +246,14 @@ void addStateCases(std::vector<GateCase>& cases) {
         setup.calibration = StimulatorCalibration{known, exactLine(0.99, 0, 0.1, 10), {}, {}};
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::InvalidArgument, "come out as 0.495 s");
     });
+    add(IntervalMayBeBelowTrain, "a train that comes out longer than its interval", [=] {
+        GateSetup setup = benchSetup();
+        PulseTrain train = volts(10);
+        train.pulses = 48;  // at 100 Hz
+        const bool fine = Rig(setup).ask(train, 0.5).has_value();
+        setup.source.accuracy.rate = Spread{0.05, 0};
+        return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::InvalidArgument, "of 0.48 s as 0.505263 s");
+    });
     // Each quantity's spread alone makes the difference: of an applied calibration, of an old one, of the source.
     for (const auto part : {0, 1, 2, 3}) {
         static constexpr std::array kNames{"amplitude", "phase width", "gap", "interval"};
@@ -270,7 +279,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         add(Uncertainty, std::string("a stated inaccuracy of the ") + kNames[static_cast<std::size_t>(part)], [=] {
             return refusedWith([&](GateSetup& setup) {
                 const auto all = spoilt(Spread{0.05, 0});
-                setup.source.accuracy = {all[0], all[1], all[2], all[3]};
+                setup.source.accuracy = {all[0], all[1], all[2], all[3], Spread{}};
             });
         });
         for (const bool applied : {true, false}) {
@@ -286,6 +295,16 @@ void addStateCases(std::vector<GateCase>& cases) {
                 });
         }
     }
+    add(Uncertainty, "a stated inaccuracy of the rate", [=] {
+        GateSetup setup = benchSetup();
+        PulseTrain train = volts(10);
+        train.pulses = 120;  // at 100 Hz: longer than a second, which holds more of them if the clock is fast
+        const auto exact = worstExposure(train, Seconds(2), setup.load, setup.source, kNaN);
+        setup.limits = {limitsOf({rowFor(Quantity::RmsCurrent1s, exact.at(Quantity::RmsCurrent1s) * 1.01)})};
+        const bool fine = Rig(setup).ask(train, 2).has_value();
+        setup.source.accuracy.rate = Spread{0.03, 0};
+        return fine && refuses(Rig(setup).ask(train, 2), ErrorCode::LimitExceeded, "1 s");
+    });
     add(Uncertainty, "a source that states no accuracy, and a calibration that states no uncertainty", [=] {
         const auto refused = [](auto spoil) {
             GateSetup setup = benchSetup();
@@ -300,9 +319,10 @@ void addStateCases(std::vector<GateCase>& cases) {
                });
     });
     add(LongWithoutDeadMan, "a train over 2 s of a source without a dead-man switch", [] {
-        const auto asked = [](double deadMan_s, int pulses) {
+        const auto asked = [](double deadMan_s, int pulses, const Spread& ofRate = {}) {
             GateSetup setup = benchSetup();
             setup.source.deadMan = Seconds(deadMan_s);
+            setup.source.accuracy.rate = ofRate;
             PulseTrain train = volts(1);
             train.pulses = pulses;  // at 100 Hz: the 201st begins after 2 s
             return Rig(setup).ask(train, 4);
@@ -310,7 +330,8 @@ void addStateCases(std::vector<GateCase>& cases) {
         constexpr std::string_view kWords = "no dead-man switch";
         return asked(0, 200).has_value() && refuses(asked(0, 201), ErrorCode::LimitExceeded, kWords) &&
                refuses(asked(-1, 201), ErrorCode::LimitExceeded, kWords) &&
-               refuses(asked(kNaN, 201), ErrorCode::LimitExceeded, kWords) && asked(2, 201).has_value();
+               refuses(asked(kNaN, 201), ErrorCode::LimitExceeded, kWords) && asked(2, 201).has_value() &&
+               refuses(asked(0, 200, {0.01, 0}), ErrorCode::LimitExceeded, kWords);
     });
     add(PulseBeyondPeriod, "a pulse that may come out longer than its period", [] {
         GateSetup setup = benchSetup();
@@ -318,7 +339,10 @@ void addStateCases(std::vector<GateCase>& cases) {
         train.rate = Hertz(1990);
         const bool fine = Rig(setup).ask(train).has_value();
         setup.source.accuracy.phaseWidth = Spread{0, 5e-6};
-        return fine && refuses(Rig(setup).ask(train), ErrorCode::InvalidArgument, "longer than its period");
+        const bool wider = refuses(Rig(setup).ask(train), ErrorCode::InvalidArgument, "longer than its period");
+        setup.source.accuracy = StatedAccuracy::exact();
+        setup.source.accuracy.rate = Spread{0.01, 0};
+        return fine && wider && refuses(Rig(setup).ask(train), ErrorCode::InvalidArgument, "period of 497.5");
     });
     // 40 V into 100 ohm: four trains fill 5 s.
     const auto fills = [](SafetyGate& gate, VirtualClock& clock) {

@@ -154,10 +154,11 @@ private:
             return Spread{dice_.chance(0.4) ? 0 : dice_.between(0, 0.03),
                           dice_.chance(0.5) ? 0 : dice_.between(0, most)};
         };
-        const auto ofAmplitude = doubt(0.2), ofWidth = doubt(2e-6), ofGap = doubt(2e-6), ofInterval = doubt(1e-4);
+        const auto ofAmplitude = doubt(0.2), ofWidth = doubt(2e-6), ofGap = doubt(2e-6), ofInterval = doubt(1e-4),
+                   ofRate = doubt(1e-3);
         device_ = {truly(known_.amplitude, ofAmplitude, 1), truly(known_.width, ofWidth, 1e6),
-                   truly(known_.gap, ofGap, 1e6)};
-        setup.source.accuracy = {ofAmplitude, ofWidth, ofGap, ofInterval};
+                   truly(known_.gap, ofGap, 1e6), truly(known_.rate, ofRate, 1)};
+        setup.source.accuracy = {ofAmplitude, ofWidth, ofGap, ofInterval, ofRate};
         // Known in any case where it is off by more than is stated; sometimes it no longer holds.
         if (allowed.person || !known_.none() || pace_ != 1) {
             const auto time = [](const Flaw& flaw, const std::optional<Spread>& spread) {

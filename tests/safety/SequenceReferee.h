@@ -42,8 +42,8 @@ struct Flaw {
     [[nodiscard]] bool none() const { return gain == 1 && offset == 0; }
 };
 struct Miscalibration {
-    Flaw amplitude, width, gap;  // V or mA, and µs
-    [[nodiscard]] bool none() const { return amplitude.none() && width.none() && gap.none(); }
+    Flaw amplitude, width, gap, rate;  // V or mA, µs and Hz
+    [[nodiscard]] bool none() const { return amplitude.none() && width.none() && gap.none() && rate.none(); }
     [[nodiscard]] PulseTrain outOf(PulseTrain train) const {
         if (isCurrent(train.amplitude)) {
             train.amplitude = Milliamps(amplitude.outOf(siValue(train.amplitude) * 1e3));
@@ -52,6 +52,7 @@ struct Miscalibration {
         }
         train.phaseWidth = Micros(width.outOf(train.phaseWidth.count()));
         train.interPhaseGap = Micros(gap.outOf(train.interPhaseGap.count()));
+        train.rate = Hertz(rate.outOf(train.rate.value()));
         return train;
     }
 };
@@ -175,11 +176,12 @@ protected:
                 const double window = slow ? 5 : 1;
                 const double pulses = (slow ? 5.2 : 1.1) / period;
                 if (pulses < 200) train.pulses = std::max(1, static_cast<int>(pulses));
-                // Periods that fill the window leave no room in which a bound of whole pulses could hide.
+                // Periods that come out as filling the window leave no room in which a bound of whole pulses could
+                // hide.
                 const double whole = std::floor(window / period);
                 fills_ = whole >= 1 && pulses < 200 && dice_.chance(0.3);
                 if (fills_) {
-                    train.rate = Hertz(whole / window / (1 + dice_.decade(1e-8, 1e-3)));
+                    train.rate = Hertz(whole / window / (1 + dice_.decade(1e-8, 1e-3)) / device_.rate.gain);
                     train.pulses = static_cast<int>(whole) + 1 + dice_.pick(3);
                 }
             }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/NaN.h"
+#include "core/safety/DeliveryBounds.h"
 #include "core/safety/SafetyGate.h"
 #include "core/safety/SourceTrain.h"
 #include "core/safety/TrainExposure.h"
@@ -13,6 +14,7 @@
 #include "tests/safety/GateFixtures.h"
 #include "tests/safety/IndependentBody.h"
 #include "tests/support/Figures.h"
+#include "tests/support/Trials.h"
 
 namespace tacto::test {
 
@@ -161,6 +163,15 @@ TEST(TrainExposure, ASecondMayEndWithTheCapacitorFull) {
     EXPECT_LE(e.at(Quantity::PowerDensity), 1.05 * worst) << "and not much more than that";
 }
 
+/// Any shape, with phases of 20 us to `widest`.
+void drawPulse(PulseTrain& train, Dice& dice, Micros widest) {
+    train.shape = std::array{PulseShape::SymmetricBiphasic, PulseShape::Monophasic,
+                             PulseShape::AsymmetricBiphasic}[static_cast<std::size_t>(3 * dice.unit())];
+    train.rechargeRatio = 2 + 8 * dice.unit();
+    train.phaseWidth = Micros(dice.decade(20, widest.count()));
+    train.interPhaseGap = Micros(dice.chance(0.3) ? 0 : 200 * dice.unit());
+}
+
 /// A second of a train that lasts longer, at 1 V or 1 mA, into the body, and what is booked of it.
 struct LongTrain {
     Body body;
@@ -177,10 +188,11 @@ struct LongTrain {
         some.source.compliance = Volts(1e9);
         return some;
     }
-    [[nodiscard]] TrainSums booked() const {
-        const Load load = Load::skin(Ohms(body.rs), Ohms(body.rp), Nanofarads(body.c * 1e9));
-        return exposureOf(train, Seconds(2 * train.duration().count()), load, source, 1).in1s;
+    [[nodiscard]] TrainSums booked() const { return booked({train, train}); }
+    [[nodiscard]] TrainSums booked(const TrainRange& range) const {
+        return exposureOf(range, 2 * range.sparsest.duration(), load(), source, 1).in1s;
     }
+    [[nodiscard]] Load load() const { return Load::skin(Ohms(body.rs), Ohms(body.rp), Nanofarads(body.c * 1e9)); }
     [[nodiscard]] IndependentBody delivered() const {
         IndependentBody truth;
         truth.fit(body);
@@ -225,11 +237,7 @@ TEST(TrainExposure, NoSecondOfALongTrainHoldsMoreThanIsBooked) {
     int close = 0;
     for (int k = 0; k < 20'000; ++k) {
         LongTrain some = LongTrain::drawn(dice, 0.5, {5e-9, 2e-6});
-        some.train.shape = std::array{PulseShape::SymmetricBiphasic, PulseShape::Monophasic,
-                                      PulseShape::AsymmetricBiphasic}[static_cast<std::size_t>(3 * dice.unit())];
-        some.train.rechargeRatio = 2 + 8 * dice.unit();
-        some.train.phaseWidth = Micros(dice.decade(20, 400'000));
-        some.train.interPhaseGap = Micros(dice.unit() < 0.3 ? 0 : 200 * dice.unit());
+        drawPulse(some.train, dice, Micros(400'000));
         const int periods = 1 + static_cast<int>(8 * dice.unit());
         some.train.rate = Hertz(periods / (1 + dice.decade(1e-8, 1e-2)));  // they are hardly longer than a second
         some.train.pulses = periods + 1 + static_cast<int>(4 * dice.unit());
@@ -528,13 +536,14 @@ TEST(ExposureTable, TheImpedanceIsThatOfAPulseOfAnyHeight) {
     }
 }
 
-/// What trains of `range` really put into a second, one per `interval`, at the phase width and gap that lie `share` of
-/// the way from its shortest to its longest; mA.
+/// What trains of `range` really put into a second, one per `interval`, at the phase width, gap and rate that lie
+/// `share` of the way from its sparsest to its densest; mA.
 double deliveredRms1s(const TrainRange& range, double share, Seconds interval, const Body& body) {
-    PulseTrain train = range.longest;
+    PulseTrain train = range.densest;
     const auto between = [share](Micros a, Micros b) { return Micros(a.count() + share * (b.count() - a.count())); };
-    train.phaseWidth = between(range.shortest.phaseWidth, range.longest.phaseWidth);
-    train.interPhaseGap = between(range.shortest.interPhaseGap, range.longest.interPhaseGap);
+    train.phaseWidth = between(range.sparsest.phaseWidth, range.densest.phaseWidth);
+    train.interPhaseGap = between(range.sparsest.interPhaseGap, range.densest.interPhaseGap);
+    train.rate = range.sparsest.rate + share * (range.densest.rate - range.sparsest.rate);
     IndependentBody into;
     into.fit(body);
     for (int k = 0; k * interval.count() < 3; ++k) into.deliver(train, Drain{false, 1e9}, k * interval.count());
@@ -550,8 +559,8 @@ TEST(TrainExposure, ThePhaseWidthThatIsWorstMayLieBetweenItsBounds) {
     train.pulses = 7;
     train.rate = Hertz(33651.6);
     TrainRange range{train, train};
-    range.shortest.phaseWidth = Micros(26.75);
-    range.longest.phaseWidth = Micros(29.25);
+    range.sparsest.phaseWidth = Micros(26.75);
+    range.densest.phaseWidth = Micros(29.25);
     const Body body{142.9, 2905, 11.778e-9};
     const Seconds interval(0.307);
     const Load load = Load::skin(Ohms(body.rs), Ohms(body.rp), Nanofarads(body.c * 1e9));
@@ -562,7 +571,7 @@ TEST(TrainExposure, ThePhaseWidthThatIsWorstMayLieBetweenItsBounds) {
     };
     double most = 0;
     for (int k = 0; k <= 50; ++k) most = std::max(most, deliveredRms1s(range, k / 50.0, interval, body));
-    EXPECT_GT(most, 1.01 * std::max(rms1s(range.shortest), rms1s(range.longest))) << "the ends do not hold it";
+    EXPECT_GT(most, 1.01 * std::max(rms1s(range.sparsest), rms1s(range.densest))) << "the ends do not hold it";
     EXPECT_GE(rms1s(range), most);
     EXPECT_LE(rms1s(range), 1.35 * most) << "a bound that refuses too much";
 }
@@ -581,10 +590,12 @@ TEST(TrainExposure, TheBoundOverARangeIsCloseWhereTheLoadRestsBetweenPulses) {
         train.pulses = 5;
         train.rate = Hertz(300);
         TrainRange range{train, train};
-        range.shortest.phaseWidth = Micros(190);
-        range.longest.phaseWidth = Micros(210);
-        range.shortest.interPhaseGap = Micros(47.5);
-        range.longest.interPhaseGap = Micros(52.5);
+        range.sparsest.phaseWidth = Micros(190);
+        range.densest.phaseWidth = Micros(210);
+        range.sparsest.interPhaseGap = Micros(47.5);
+        range.densest.interPhaseGap = Micros(52.5);
+        range.sparsest.rate = Hertz(285);
+        range.densest.rate = Hertz(315);
         SourceTraits source = currentSource();
         source.gap = GapState::HoldsZero;
         const auto bound = exposureOf(range, Seconds(0.5), load, source, kNaN).at(Quantity::RmsCurrent1s);
@@ -593,6 +604,114 @@ TEST(TrainExposure, TheBoundOverARangeIsCloseWhereTheLoadRestsBetweenPulses) {
         EXPECT_GE(bound, most);
         EXPECT_LE(bound, 1.01 * most);
     }
+}
+
+TEST(TrainExposure, IntoAResistorTheDensestTrainIsTheWorst) {
+    RecordProperty("hazard", "H1");
+    Dice dice(20261130);
+    for (int k = 0; k < 2'000; ++k) {
+        const bool current = dice.chance(0.5);
+        PulseTrain train = current ? milliamps(dice.decade(0.1, 100)) : volts(dice.decade(1, 40));
+        drawPulse(train, dice, Micros(4000));
+        train.pulses = 1 + static_cast<int>(300 * dice.unit());
+        train.rate = Hertz(1 / (1.2 * train.pulseDuration().count() * dice.decade(1, 100)));
+        SourceTraits source = current ? currentSource() : voltageSource();
+        source.gap = dice.chance(0.5) ? GapState::HoldsZero : GapState::HighImpedance;
+        source.compliance = Volts(dice.decade(10, 1000));
+        const Load load = Load::resistor(Ohms(dice.decade(60, 20'000)));
+        const Seconds interval(1.1 * train.duration().count());
+        const auto of = [&](double width, double gap, double rate) {
+            PulseTrain out = train;
+            out.phaseWidth *= width;
+            out.interPhaseGap *= gap;
+            out.rate *= rate;
+            return exposureOf(out, interval, load, source, 1);
+        };
+        const auto worst = of(1.05, 1.05, 1.05);
+        for (const double width : {0.95, 1.05}) {
+            for (const double gap : {0.95, 1.05}) {
+                for (const double rate : {0.95, 1.05}) {
+                    const auto some = of(width, gap, rate);
+                    for (std::size_t q = 0; q < kQuantityCount; ++q)
+                        ASSERT_LE(some.values[q], worst.values[q] * (1 + 1e-12) + 1e-12) << k << ' ' << q;
+                    ASSERT_LE(some.in1s.currentSquared_A2s, worst.in1s.currentSquared_A2s * (1 + 1e-12)) << k;
+                    ASSERT_LE(some.in5s.dissipated_J, worst.in5s.dissipated_J * (1 + 1e-12)) << k;
+                }
+            }
+        }
+    }
+}
+
+// Wherever phase width, gap and rate lie between their bounds. The charge over 5 s is that of the other model: a bound
+// of it that adds up magnitudes may be larger between the ends, the charge itself is not.
+TEST(TrainExposure, NothingThatMayComeOutGivesMoreThanIsJudged) {
+    RecordProperty("hazard", "H1");
+    Dice dice(20261201);
+    const int count = trials<int>({.local = 2'000, .ci = 5'000, .campaign = 200'000});
+    int close = 0;
+    for (int k = 0; k < count; ++k) {
+        LongTrain some = LongTrain::drawn(dice, 0.5, {5e-9, 2e-6});
+        drawPulse(some.train, dice, Micros(4000));
+        some.train.pulses = 1 + static_cast<int>(40 * dice.unit());
+        some.train.rate = Hertz(1 / (some.train.pulseDuration().count() * dice.decade(1.12, 30)));
+        const Seconds interval(some.train.duration() * dice.decade(1.06, 10));
+        GateSetup setup;
+        setup.source = some.source;
+        setup.source.accuracy = StatedAccuracy::exact();
+        auto& accuracy = setup.source.accuracy;
+        accuracy.phaseWidth = accuracy.gap = accuracy.rate = Spread{0.05, 0};
+        const auto judged = DeliveryBounds(setup).worst(
+            some.train, LoadRange::declared(some.load()),
+            [&](const auto& out) { return exposureOf(out, interval, some.load(), some.source, 1); });
+        const auto off = [&] { return dice.chance(0.5) ? (dice.chance(0.5) ? 0.95 : 1.05) : 0.95 + 0.1 * dice.unit(); };
+        for (int tries = 0; tries < 3; ++tries) {
+            PulseTrain out = some.train;
+            out.phaseWidth *= off();
+            out.interPhaseGap *= off();
+            out.rate *= off();
+            const auto truth = exposureOf(out, interval, some.load(), some.source, 1);
+            LongTrain delivered = some;
+            delivered.train = out;
+            const double quadrature = 2e-6 * judged.at(Quantity::PhaseCharge) * 1e-6 * out.pulses;
+            ASSERT_LE(delivered.delivered().charge5s(), judged.in5s.netCharge_C + quadrature) << k;
+            for (std::size_t q = 0; q < kQuantityCount; ++q) {
+                if (q == indexOf(Quantity::DcCurrent)) continue;
+                ASSERT_LE(truth.values[q], judged.values[q] * (1 + 1e-9) + 1e-12) << k << ' ' << q;
+                close += truth.values[q] > 0.99 * judged.values[q] ? 1 : 0;
+            }
+            ASSERT_LE(truth.residual_V, judged.residual_V * (1 + 1e-9) + 1e-12) << k;
+        }
+    }
+    EXPECT_GT(close, 14 * count) << "a bound that refuses too much";
+}
+
+// A clock that is fast puts more pulses into a second, and leaves less rest in which the charge of one flows back.
+TEST(TrainExposure, NoTrainOfARangeOfRatesHoldsMoreThanIsBooked) {
+    RecordProperty("hazard", "H1");
+    Dice dice(20261129);
+    int close = 0, tried = 0;
+    for (int k = 0; k < 2'000; ++k) {
+        LongTrain some = LongTrain::drawn(dice, 0.5, {5e-9, 2e-6});
+        some.train.shape = dice.unit() < 0.5 ? PulseShape::SymmetricBiphasic : PulseShape::Monophasic;
+        some.train.phaseWidth = Micros(dice.decade(20, 400'000));
+        const int periods = 1 + static_cast<int>(8 * dice.unit());
+        some.train.pulses = periods + 1 + static_cast<int>(4 * dice.unit());
+        TrainRange range{some.train, some.train};
+        range.densest.rate = Hertz(periods / (1 + dice.decade(1e-8, 1e-2)));
+        range.sparsest.rate = range.densest.rate * (0.95 / 1.05);
+        if (!validate(range.densest)) continue;
+        ++tried;
+        const TrainSums booked = some.booked(range);
+        for (const double share : {0.0, dice.unit(), 1.0}) {
+            some.train.rate = range.sparsest.rate + share * (range.densest.rate - range.sparsest.rate);
+            const IndependentBody truth = some.delivered();
+            constexpr double kSlack = 1 + 2e-6;  // the other model's quadrature
+            ASSERT_LE(truth.worstI2(1), booked.currentSquared_A2s * kSlack) << k;
+            ASSERT_LE(truth.worstEnergy(1), (booked.dissipated_J + booked.stored_J) * kSlack) << k;
+            close += truth.worstI2(1) > 0.99 * booked.currentSquared_A2s ? 1 : 0;
+        }
+    }
+    EXPECT_GT(close, tried / 2) << "a bound that refuses too much, or nothing was tried";
 }
 
 }  // namespace tacto::test
