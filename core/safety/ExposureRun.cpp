@@ -349,9 +349,9 @@ Run unknownRun() noexcept {
 Run enclosed(const Plan& plan, double carried) noexcept {
     // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady one. Which duration
     // makes an end may change on the way there, and the slope with it.
-    constexpr int kMostSlopes = 8;
+    constexpr int kMaxSlopes = 8;
     Held found{-carried, carried};
-    for (int tries = 0; tries < kMostSlopes; ++tries) {
+    for (int tries = 0; tries < kMaxSlopes; ++tries) {
         Held left = found;
         const Run run = enclosedFrom(plan, left);
         const double small = kAlike * voltageOf(plan, run.whole.stored_J);

@@ -1,6 +1,8 @@
 // Game pads on the real hidapi, over emulated devices.
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <vector>
 
 #include "drivers/hid_input/HidInput.h"
 #include "tests/drivers/hid_input/PadDescriptors.h"
@@ -45,10 +47,8 @@ TEST_F(SystemInput, APadIsListedAndItsButtonsAreHeardUntilItIsUnpluggedAndAfterI
     EXPECT_EQ(list[0].buttons.size(), 12U);
     const auto opened = devices->open(list[0], listener());
     ASSERT_TRUE(opened) << opened.error().message;
-    const auto before = std::chrono::steady_clock::now();
     pad.send(padReport({6}));
     ASSERT_IN_TIME(wait(1));
-    EXPECT_IN_TIME(std::chrono::steady_clock::now() - before <= std::chrono::milliseconds(5));
     pad.send(padReport({}));
     ASSERT_IN_TIME(wait(2));
     pad.unplug();
@@ -59,6 +59,23 @@ TEST_F(SystemInput, APadIsListedAndItsButtonsAreHeardUntilItIsUnpluggedAndAfterI
     ASSERT_IN_TIME(wait(5));
     const std::scoped_lock lock(mutex);
     EXPECT_THAT(heard, ElementsAre(6, -6, -1000, 1000, 1));
+}
+
+TEST_F(SystemInput, APressIsHeardWithinFiveMilliseconds) {
+    RecordProperty("hazard", "H2");
+    EmulatedHidDevice pad(bed, 0x046D, 0xC216, "", padDescriptor(), {});
+    const auto devices = hid::systemHidInput();
+    const auto opened = devices->open(devices->list().at(0), listener());
+    ASSERT_TRUE(opened) << opened.error().message;
+    std::vector<std::chrono::nanoseconds> took;
+    while (took.size() < 100) {
+        const auto before = std::chrono::steady_clock::now();
+        pad.send(padReport(took.size() % 2 == 0 ? std::initializer_list<int>{6} : std::initializer_list<int>{}));
+        ASSERT_IN_TIME(wait(took.size() + 1));
+        took.push_back(std::chrono::steady_clock::now() - before);
+    }
+    std::sort(took.begin(), took.end());
+    EXPECT_IN_TIME(took[94] <= std::chrono::milliseconds(5)) << took[94].count() << " ns, p95 of 100";
 }
 
 TEST_F(SystemInput, AFootSwitchOfProgrammableButtons) {

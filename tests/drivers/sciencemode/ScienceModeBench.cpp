@@ -76,7 +76,7 @@ ApprovedTrain ScienceModeBench::approved(double milliamps, int pulses, double ra
 }
 
 ApprovedTrain ScienceModeBench::approved(const PulseTrain& train, Seconds interval) {
-    return approve(*gate_, clock, train, std::max(interval, 1.1 * train.duration()));
+    return approve(*gate_, clock, train, std::max(interval, 1.2 * train.duration()));
 }
 
 Result<void> ScienceModeBench::deliver(const PulseTrain& train) {
