@@ -20,6 +20,18 @@ void sayWhere(int signal) {
     std::raise(signal);  // as if there were no handler
 }
 
+/// A test leaves theme and text as it likes: they are set again once its windows are gone, which takes no time then.
+struct OwnLook final : testing::EmptyTestEventListener {
+    OwnLook() { set(); }
+    void OnTestEnd(const testing::TestInfo&) override { set(); }
+
+private:
+    static void set() {
+        tacto::gui::applyTheme(tacto::gui::Theme::Light);
+        tacto::gui::applyTextSize(100);  // the program's own font, as its window begins
+    }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -38,7 +50,6 @@ int main(int argc, char** argv) {
     QApplication::setApplicationName("tactoscope");
     QApplication::setOrganizationName("tactoscope");
     QApplication::setQuitOnLastWindowClosed(false);
-    tacto::gui::applyTheme(tacto::gui::Theme::Light);
-    tacto::gui::applyTextSize(100);  // the program's own font, as its window begins
+    testing::UnitTest::GetInstance()->listeners().Append(new OwnLook);
     return RUN_ALL_TESTS();
 }

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "app/gui/theme/Theme.h"
+
 namespace tacto::test {
 
 /// WCAG 2: 1 to 21.
@@ -29,12 +31,21 @@ namespace tacto::test {
 /// right.
 [[nodiscard]] std::string faultsOf(const QWidget& in);
 
+/// Places do not depend on colours: in a local run each theme is judged, and each size, but not each pair of them; in
+/// CI, and where pictures are kept, all. A change of theme takes a quarter of a second in the whole window.
+[[nodiscard]] bool everyPairIsJudged();
+/// The present theme, then the other; or the other, then the present, which at 200 % may do.
+[[nodiscard]] std::vector<gui::Theme> bothThemes();
+[[nodiscard]] std::vector<gui::Theme> themesAt(int percent);
+/// The sizes in which `theme` is judged: in the dark one the first may do.
+[[nodiscard]] std::vector<QSize> sizesIn(gui::Theme theme, std::vector<QSize> sizes);
+
 /// A size for each size of text; an invalid one leaves the widget as large as it is.
 struct LookedAtSizes {
     QSize at100, at200;
 };
-/// Looks at the shown widget in both themes, with text at 100 and at 200 %: it has no faults, and there is a picture of
-/// each (NAME-light-100 …, see shot()). Theme, text and size are then as they were.
+/// Looks at the shown widget in both themes, with text at 100 and at 200 % (themesAt()): it has no faults, and there is
+/// a picture of each (NAME-light-100 …, see shot()). Theme and size are then as they were, the text at 100 %.
 /// `frame`: what is resized and pictured, where that is more than what is judged.
 void looksRight(QWidget& widget, const QString& name, const LookedAtSizes& sizes = {}, QWidget* frame = nullptr);
 

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <typeinfo>
 
 #include "app/gui/theme/MnemonicStyle.h"
@@ -15,11 +16,11 @@ namespace tacto::gui {
 
 namespace {
 
-Theme theme = Theme::Light;
+std::optional<Theme> applied;
 
 constexpr double kSmallestText_pt = 10.5;
 
-void applySheet() { qApp->setStyleSheet(styleSheetOf(theme, QApplication::font())); }
+void applySheet() { qApp->setStyleSheet(styleSheetOf(currentTheme(), QApplication::font())); }
 
 /// A property that the style sheet knows.
 void setStyled(QWidget& widget, const char* name, const QString& value) {
@@ -32,7 +33,8 @@ void setStyled(QWidget& widget, const char* name, const QString& value) {
 }  // namespace
 
 void applyTheme(Theme wanted) {
-    theme = wanted;
+    if (applied == wanted) return;
+    applied = wanted;
     qApp->setStyleSheet({});  // else it is laid on every widget with each of the three
     QApplication::setStyle(new MnemonicStyle);
     QApplication::setPalette(paletteOf(colours()));
@@ -47,6 +49,7 @@ void applyTextSize(int percent) {
     font.setFamilies({"Noto Sans", "Noto Sans Math", "DejaVu Sans"});
     font.setPointSizeF(std::max(desktops_pt, kSmallestText_pt) * (percent < 100 || percent > 200 ? 100 : percent) /
                        100);
+    if (font == QApplication::font()) return;
     // A style sheet keeps the fonts it met: without it for a moment, widgets take the new one.
     qApp->setStyleSheet({});
     QApplication::setFont(font);
@@ -56,9 +59,9 @@ void applyTextSize(int percent) {
     applySheet();
 }
 
-Theme currentTheme() { return theme; }
+Theme currentTheme() { return applied.value_or(Theme::Light); }
 
-const Colours& colours() { return coloursOf(theme); }
+const Colours& colours() { return coloursOf(currentTheme()); }
 
 QFont textFont(TextSize size, QFont::Weight weight) {
     auto font = QApplication::font();
@@ -108,7 +111,7 @@ ConditionStyle conditionInTheme(const QString& name, int index) {
     static const std::map<QString, QColor> onDark{
         {"smooth-low", "#8CCBF0"}, {"smooth-high", "#56B4E9"}, {"rough-low", "#F0AE1D"}, {"rough-high", "#F07F2E"}};
     auto style = conditionStyle(name, index);
-    if (theme != Theme::Dark) return style;
+    if (currentTheme() != Theme::Dark) return style;
     if (const auto found = onDark.find(name); found != onDark.end()) style.color = found->second;
     // The darkest of the others would sink into a dark ground.
     if (style.color.lightnessF() < 0.4) style.color = style.color.lighter(165);

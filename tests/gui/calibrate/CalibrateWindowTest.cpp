@@ -18,7 +18,6 @@ using testing::HasSubstr;
 
 class CalibrateWindow : public Window {
 protected:
-    ~CalibrateWindow() override { gui::applyTheme(gui::Theme::Light); }
     [[nodiscard]] QLabel& label() { return *window.findChild<QLabel*>("calibrationAge"); }
     [[nodiscard]] std::string says() { return label().text().toStdString(); }
     /// Whether something of the label is drawn in the warning colour, as it stands on the screen.

@@ -34,7 +34,6 @@ protected:
         });
         frame.start(33);
     }
-    ~Calibrate() override { gui::applyTheme(gui::Theme::Light); }
     void show(QSize size) {
         workspace.resize(size);
         workspace.show();
@@ -240,7 +239,6 @@ TEST_F(Calibrate, TheWiringIsDrawnBeforeTheRun) {
         pixelsOf(workspace.grab(QRect(drawing->mapTo(&workspace, QPoint()), drawing->size())).toImage(), Qt::white), 0)
         << "no white sheet";
     shot(workspace, "calibrate_wiring_dark");
-    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace

@@ -108,7 +108,6 @@ TEST_F(Book, TheListKeepsWhatWasSuperseded) {
 
 class Trend : public Book {
 protected:
-    ~Trend() override { gui::applyTheme(gui::Theme::Light); }
     void keep(int daysAgo, double gain, double offset, double u_pct, int validFor = 365) {
         auto one = calibration(daysAgo, validFor);
         one.amplitude = {{gain, offset, 10, 40}, u_pct};

@@ -137,7 +137,6 @@ TEST_F(CertificateWindow, FitsASmallScreenWithLargeTextByScrolling) {
         EXPECT_TRUE(enter().isVisible() &&
                     dialog->rect().contains(enter().mapTo(dialog.get(), enter().rect().center())));
     }
-    gui::applyTextSize(100);
 }
 
 TEST_F(CertificateWindow, RefusesInPlace) {
@@ -173,7 +172,6 @@ TEST_F(CertificateWindow, AnExpiredOneIsGreyAndSaysSo) {
     gui::applyTheme(gui::Theme::Dark);
     QCoreApplication::processEvents();
     EXPECT_EQ(table().item(0, 0)->foreground().color(), grey());
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(CertificateWindow, WithdrawsAfterASecondPress) {
@@ -223,7 +221,6 @@ TEST_F(CertificateWindow, LooksRightInBothThemes) {
         EXPECT_GE(table().horizontalHeader()->height(), 2 * table().horizontalHeader()->fontMetrics().lineSpacing());
         EXPECT_EQ(faultsOf(*dialog), "");
     }
-    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace

@@ -18,7 +18,6 @@ using testing::HasSubstr;
 
 class InstrumentWindow : public testing::Test {
 protected:
-    ~InstrumentWindow() override { gui::applyTheme(gui::Theme::Light); }
     void showDialog() {
         dialog = std::make_unique<gui::InstrumentDialog>(nullptr);
         QObject::connect(dialog.get(), &gui::InstrumentDialog::chosen,

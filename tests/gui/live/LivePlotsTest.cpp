@@ -333,7 +333,6 @@ TEST_F(Plots, WhatConfirmsTheTrainsIsNamedInANarrowWindowToo) {
     gui::applyTheme(gui::Theme::Dark);
     draw();
     shot(plots, "strips-narrow-confirmed-dark");
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Plots, NumbersOfALowStripDoNotLieOnEachOther) {

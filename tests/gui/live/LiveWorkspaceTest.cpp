@@ -527,7 +527,6 @@ TEST_F(LiveBench, LooksRightInBothThemesAndSizes) {
     gui::applyTheme(gui::Theme::Dark);
     live.resize(1500, 950);
     looks("live_dark");
-    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace

@@ -236,7 +236,6 @@ TEST_F(Editor, LooksRightInBothThemes) {
     looks("profile_dark");
     showTab(2);
     looks("profile_touch");
-    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace

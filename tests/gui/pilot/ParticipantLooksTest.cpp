@@ -15,10 +15,6 @@ constexpr QSize kSizes[] = {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080
 
 class ParticipantLooks : public Seated {
 protected:
-    ~ParticipantLooks() override {
-        gui::applyTextSize(100);
-        gui::applyTheme(gui::Theme::Light);
-    }
     [[nodiscard]] QImage picture() {
         QCoreApplication::processEvents();
         return window.grab().toImage();
@@ -144,7 +140,7 @@ TEST_F(ParticipantLooks, TargetsHave20mmAndNothingIsCutInBothThemesAndSizes) {
     RecordProperty("least_px", least);
     for (const int percent : {100, 200}) {
         gui::applyTextSize(percent);
-        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        for (const auto theme : themesAt(percent)) {
             gui::applyTheme(theme);
             for (const auto& size : kSizes) {
                 window.resize(size);

@@ -388,7 +388,6 @@ TEST_F(SeatedWithPad, ButtonsOnTheTargetsLookRightAndAreTheSameForEveryCondition
         click("theirs", 1);
         ASSERT_TRUE(answered());
     }
-    gui::applyTextSize(100);
 }
 
 /// A pad over its real driver, and what it told on its own thread.
@@ -479,10 +478,6 @@ TEST_F(OwnThread, ABouncingContactAmongReportsOfEachMillisecondIsHeardAtItsFirst
 
 class Inputs : public testing::Test {
 protected:
-    ~Inputs() override {
-        gui::applyTextSize(100);
-        gui::applyTheme(gui::Theme::Light);
-    }
     void show(std::vector<ButtonDeviceInfo> devices) {
         plugged->set(std::move(devices));
         rows.setDevices(plugged);

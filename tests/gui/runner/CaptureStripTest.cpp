@@ -93,7 +93,6 @@ TEST(CaptureStrip, TheNumbersAtItsAxesNeverTouch) {
             }
         }
     }
-    gui::applyTextSize(100);
 }
 
 }  // namespace

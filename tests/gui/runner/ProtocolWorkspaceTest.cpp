@@ -25,7 +25,6 @@ using testing::HasSubstr;
 
 class Workspace : public Lab {
 protected:
-    ~Workspace() override { gui::applyTheme(gui::Theme::Light); }
 };
 
 constexpr const char* kLoop =
@@ -182,7 +181,6 @@ TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
 
 struct WorkspaceInLargeText : Workspace {
     WorkspaceInLargeText() { gui::applyTextSize(200); }
-    ~WorkspaceInLargeText() override { gui::applyTextSize(100); }
 };
 
 TEST_F(WorkspaceInLargeText, ThePathIsARowAndThePlotKeepsItsRoom) {
@@ -272,7 +270,6 @@ TEST_F(Workspace, LooksRightDarkAndSmall) {
     ASSERT_IN_TIME(ends());
     EXPECT_IN_TIME(comesTrue([this] { return faultsOf(*workspace).empty(); })) << faultsOf(*workspace);
     shot(*workspace, "small_dark_result");
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Workspace, RefusesAWrongSettingInPlaceAndRunsNothing) {

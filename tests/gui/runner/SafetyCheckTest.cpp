@@ -23,7 +23,6 @@ using testing::HasSubstr;
 
 class SafetyCheck : public Lab {
 protected:
-    ~SafetyCheck() override { gui::applyTheme(gui::Theme::Light); }
     /// Saves what is shown by the tool and the dialog; what is in the file then.
     std::string savedPicture(const QString& path) {
         click(the<QToolButton>("Save picture"));

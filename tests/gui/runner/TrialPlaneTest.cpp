@@ -75,7 +75,6 @@ TEST_F(Plane, EachClusterIsNamedAtItsPointsAndNothingIsCovered) {
     QCoreApplication::processEvents();
     draw();
     shot(plane, "plane-dark");
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Plane, WhereClustersLieInEachOtherALegendNamesThem) {

@@ -161,7 +161,6 @@ TEST_F(Summary, ShowsTheLatestCapturesFiguresByChannel) {
     QCoreApplication::processEvents();
     QCoreApplication::processEvents();
     shot(summary, "summary-dark");
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Summary, ShowsWhatIsChosenAndUnfoldsItsStatistics) {

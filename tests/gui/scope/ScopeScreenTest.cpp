@@ -508,7 +508,6 @@ TEST_F(Screen, TakesTheColoursOfTheTheme) {
     const auto ground = screen.grab().toImage().pixelColor(2, 2);
     EXPECT_EQ(ground, gui::colours().base);
     shot(screen, "view-dark");
-    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace

@@ -142,7 +142,6 @@ TEST_F(Scope, StaysLegibleSmallLargeAndDark) {
         EXPECT_EQ(scope.size(), size) << "nothing forces it to be larger";
         EXPECT_GT(scope.screen().axisRect()->height(), 100);
     }
-    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace

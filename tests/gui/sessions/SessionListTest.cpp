@@ -328,7 +328,6 @@ TEST_F(Sessions, WhereALongNameLeavesNoRoomForTheNoteItsColumnGoes) {
         EXPECT_IN_TIME(comesTrue([&] { return table().horizontalScrollBar()->maximum() == 0; })) << width;
     }
     EXPECT_FALSE(table().isColumnHidden(gui::SessionModel::kNote)) << "it has room";
-    gui::applyTextSize(100);
 }
 
 TEST_F(Sessions, NoWidthMakesAListWithAScrollBarScrollSideways) {

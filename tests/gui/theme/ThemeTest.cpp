@@ -36,7 +36,6 @@ using gui::Theme;
 class InTheme : public testing::TestWithParam<Theme> {
 protected:
     InTheme() { gui::applyTheme(GetParam()); }
-    ~InTheme() override { gui::applyTheme(Theme::Light); }
 };
 INSTANTIATE_TEST_SUITE_P(Both, InTheme, testing::Values(Theme::Light, Theme::Dark),
                          [](const auto& theme) { return theme.param == Theme::Dark ? "Dark" : "Light"; });
@@ -356,7 +355,6 @@ TEST_P(InTheme, TheHandleOfASliderIsWholeAndSeenFromEndToEnd) {
         EXPECT_TRUE(isLike(handleOf(*slider, kThere).size(), size));
         EXPECT_TRUE(handleOf(*slider, kSeen).isEmpty()) << "and does not look as if it took a hand";
     }
-    gui::applyTextSize(100);
 }
 
 TEST_P(InTheme, EdgesOfFieldsAreSeen) {

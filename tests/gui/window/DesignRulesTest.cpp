@@ -164,7 +164,6 @@ TEST_F(DesignRules, StackedPlotsHaveBothEdgesInLine) {
         EXPECT_EQ(rights.size(), 1U) << percent;
         EXPECT_GE(strips.axisRects().size(), 5);
     }
-    gui::applyTextSize(100);
 }
 
 TEST_F(DesignRules, APageHasOneFilledButtonAtMost) {

@@ -240,7 +240,6 @@ TEST_F(Habits, TheWindowIsAsItWasLeft) {
         again.close();
     }
     QSettings().clear();
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Habits, ADamagedWindowStateDoesNotHideStop) {

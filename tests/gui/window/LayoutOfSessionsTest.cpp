@@ -20,10 +20,6 @@ namespace {
 
 class LayoutOfSessions : private OwnDataHome, public Window {
 protected:
-    ~LayoutOfSessions() override {
-        gui::applyTextSize(100);
-        gui::applyTheme(gui::Theme::Light);
-    }
     void run() {
         window.showWorkspace(3);
         runsToItsEnd();
@@ -49,7 +45,7 @@ protected:
     void walk(QTabWidget& pages, QWidget& frame, const QSize& size, const QString& name) {
         for (const int percent : {100, 200}) {
             gui::applyTextSize(percent);
-            for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+            for (const auto theme : themesAt(percent)) {
                 gui::applyTheme(theme);
                 frame.resize(size);
                 for (int page = 0; page < pages.count(); ++page) {
@@ -67,8 +63,6 @@ protected:
                 }
             }
         }
-        gui::applyTextSize(100);
-        gui::applyTheme(gui::Theme::Light);
     }
     [[nodiscard]] gui::SessionDetails& details() { return *window.findChild<gui::SessionDetails*>(); }
     [[nodiscard]] QTableWidget& tableOf(const char* name) { return *find<QTableWidget>(details(), name); }
@@ -93,22 +87,21 @@ TEST_F(LayoutOfSessions, EachStreamOfALiveSessionIsReadWhole) {
     auto& streams = *details().findChild<QTableWidget*>("streamsTable");
     ASSERT_IN_TIME(comesTrue([&] { return streams.rowCount() > 2; }));
     const auto* plot = details().findChild<QCustomPlot*>("chosenStream");
-    for (int row = 0; row < streams.rowCount(); ++row) {
-        details().setCurrentIndex(2);
-        ASSERT_IN_TIME(comesTrue([&] {
-            if (streams.currentRow() != row) streams.setCurrentCell(row, 0);  // a list that is read again fills it anew
-            return plot->graphCount() > 0;
-        })) << row;
-        for (const int percent : {100, 200}) {
-            gui::applyTextSize(percent);
-            window.resize(1280, 720);
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        window.resize(1280, 720);
+        for (int row = 0; row < streams.rowCount(); ++row) {
+            details().setCurrentIndex(2);
+            ASSERT_IN_TIME(comesTrue([&] {
+                if (streams.currentRow() != row) streams.setCurrentCell(row, 0);  // it may be filled anew
+                return plot->graphCount() > 0;
+            })) << row;
             static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 2000));
             const auto at = QString("session-stream-%1-%2").arg(row).arg(percent);
             shot(window, at);
             EXPECT_EQ(faultsOf(window), "") << at.toStdString();
         }
     }
-    gui::applyTextSize(100);
     streams.setCurrentCell(0, 0);
     ASSERT_NO_FATAL_FAILURE(walk(details(), window, {1280, 720}, "session-live"));
 }

@@ -477,7 +477,6 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
     shot(window, "docks-open-200-live");
     EXPECT_IN_TIME(comesTrue([this] { return plotWordFaults(window).isEmpty(); }))
         << plotWordFaults(window).join('\n').toStdString();
-    gui::applyTextSize(100);
 }
 
 TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
@@ -800,7 +799,6 @@ TEST_F(LayoutUnderANotice, ItStaysAtTheLowerEdgeBelowAMarksLine) {
     shot(window, "arming-refused-and-mark");
     gui::applyTheme(gui::Theme::Dark);
     shot(window, "arming-refused-and-mark-dark");
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Layout, ArmingSaysWhatTheFirstTrainIs) {

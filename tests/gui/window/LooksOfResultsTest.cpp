@@ -51,8 +51,6 @@ const QLabel* lowestText(const QWidget& page) {
 
 class ResultsInTheWindow : public Window {
 protected:
-    ~ResultsInTheWindow() override { gui::applyTheme(gui::Theme::Light); }
-
     /// How far the page and the reasons of a verdict scroll, in pixels.
     [[nodiscard]] int scrolls() const {
         int all = 0;
@@ -62,9 +60,9 @@ protected:
     }
 
     void looksRight(const QString& name) {
-        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        for (const auto theme : bothThemes()) {
             gui::applyTheme(theme);
-            for (const auto size : {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)}) {
+            for (const auto size : sizesIn(theme, {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)})) {
                 window.resize(size);
                 static_cast<void>(comesTrue([&] { return faultsOf(window).empty() && scrolls() == 0; }, 2'000));
                 const auto file =
@@ -74,7 +72,6 @@ protected:
                 EXPECT_EQ(scrolls(), 0) << "laid out whole: " << file.toStdString();
             }
         }
-        gui::applyTheme(gui::Theme::Light);
     }
     /// How much of the column between the verdict's head and the buttons below the main plot has: 0 to 1.
     [[nodiscard]] double shareOf(const QWidget& plot) {
@@ -87,9 +84,9 @@ protected:
     template <class Plot>
     void plotHas(double least, const char* name,
                  const std::vector<QSize>& sizes = {QSize(1280, 720), QSize(1920, 1080)}) {
-        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        for (const auto theme : bothThemes()) {
             gui::applyTheme(theme);
-            for (const auto size : sizes) {
+            for (const auto size : sizesIn(theme, sizes)) {
                 window.resize(size);
                 letLive(200);
                 Plot* plot = nullptr;
@@ -101,7 +98,6 @@ protected:
                 RecordProperty(QString("%1 %2").arg(name).arg(size.height()).toStdString(), std::to_string(share));
             }
         }
-        gui::applyTheme(gui::Theme::Light);
     }
     [[nodiscard]] static QStringList texts(const QCustomPlot& plot) {
         QStringList all;
@@ -207,16 +203,14 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
     };
     ASSERT_IN_TIME(comesTrue(reported, 60'000));
     const auto isWhole = [this](const char* name) {
-        gui::applyTextSize(200);
         window.resize(1280, 720);
         static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 3000));
         EXPECT_EQ(faultsOf(window), "") << name;
         shot(window, QString("large-%1").arg(name));
-        std::vector<QScrollBar*> scrolled;
+        std::vector<std::pair<QScrollBar*, int>> before;
         for (const auto* area : window.findChildren<QAbstractScrollArea*>())
-            if (area->isVisible() && area->verticalScrollBar()->value() == 0)
-                scrolled.push_back(area->verticalScrollBar());
-        for (auto* bar : scrolled) bar->setValue(bar->maximum());
+            if (area->isVisible()) before.emplace_back(area->verticalScrollBar(), area->verticalScrollBar()->value());
+        for (const auto& [bar, value] : before) bar->setValue(bar->maximum());
         letLive(50);
         EXPECT_EQ(faultsOf(window), "") << name << ", its end";
         for (const auto* area : window.findChildren<QScrollArea*>()) {
@@ -227,13 +221,12 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
             EXPECT_GE(place.bottom(), 0) << name << ": " << widgetName(*lowest);
         }
         shot(window, QString("large-%1-end").arg(name));
-        for (auto* bar : scrolled) bar->setValue(0);
-        gui::applyTextSize(100);
+        for (const auto& [bar, value] : before) bar->setValue(value);
     };
+    gui::applyTextSize(200);
     isWhole("safety-result");
     const auto* matrix = find<gui::LimitMatrixView>(window, "limitMatrix");
     ASSERT_TRUE(matrix != nullptr && matrix->rowCount() > 10);
-    gui::applyTextSize(200);
     EXPECT_IN_TIME(comesTrue([&] { return matrix->horizontalHeader()->length() <= matrix->viewport()->width(); }));
     EXPECT_EQ(matrix->horizontalHeaderItem(6)->text(), "100\nkΩ") << "in two lines where one has no room";
     const auto* header = matrix->horizontalHeader();
@@ -248,9 +241,9 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
     }
     gui::applyTextSize(100);
     EXPECT_IN_TIME(comesTrue([&] { return matrix->horizontalHeaderItem(6)->text() == "100\u00a0kΩ"; }));
+    gui::applyTextSize(200);
     LargeBesideDocks(*this).fits("safety-result", "limitMatrix");  // which scrolls by itself there
     click(*find<QPushButton>(window, "Tables"));
-    gui::applyTextSize(200);
     const auto numbersCut = [this] { return cutCells(window).filter("no tool tip"); };
     EXPECT_IN_TIME(comesTrue([&] { return numbersCut().isEmpty(); })) << numbersCut().join('\n').toStdString();
     EXPECT_THAT(cutCells(window).filter("pass").join('\n').toStdString(), "") << "a verdict keeps its word";
@@ -263,7 +256,6 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
     }
     EXPECT_GE(tables, 2);
     shot(window, "large-safety-tables");
-    gui::applyTextSize(100);
     LargeBesideDocks(*this).fits("safety-tables", "QTableWidget");  // numbers are not cut: they scroll
     click(*find<QPushButton>(window, "Sign report…"));
     isWhole("sign");
@@ -425,7 +417,6 @@ TEST_F(ResultsInTheWindow, InLargeTextTheDialogsOfTheBenchFitASmallScreen) {
     auto* second = window.findChild<QPushButton*>("armOutput");
     ASSERT_NE(second, nullptr);
     fits(*second->window());
-    gui::applyTextSize(100);
 }
 
 TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {

@@ -37,9 +37,9 @@ TEST_F(Window, LooksRightInBothThemesAndSizes) {
         const auto touch = window.controller().telemetry();
         return std::isfinite(touch.roughness) && std::isfinite(touch.pressure);
     })) << "the fingertip's R and P are on the screen";
-    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+    for (const auto theme : bothThemes()) {
         gui::applyTheme(theme);
-        for (const auto size : {QSize(1920, 1080), QSize(1280, 720), QSize(1024, 640)}) {
+        for (const auto size : sizesIn(theme, {QSize(1920, 1080), QSize(1280, 720), QSize(1024, 640)})) {
             window.resize(size);
             for (int page = 0; page < 7; ++page) {
                 window.showWorkspace(page);
@@ -54,15 +54,14 @@ TEST_F(Window, LooksRightInBothThemesAndSizes) {
             EXPECT_LE(window.width(), size.width()) << "everything fits a small screen";
         }
     }
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Window, LooksRightWithTextAtTwiceTheSize) {
     open();
     gui::applyTextSize(200);
-    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+    for (const auto theme : bothThemes()) {
         gui::applyTheme(theme);
-        for (const auto size : {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)}) {
+        for (const auto size : sizesIn(theme, {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)})) {
             window.resize(size);
             for (int page = 0; page < 8; ++page) {  // the oscilloscope is the last
                 window.showWorkspace(page % 7);
@@ -80,8 +79,6 @@ TEST_F(Window, LooksRightWithTextAtTwiceTheSize) {
         }
     }
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
-    gui::applyTextSize(100);
-    gui::applyTheme(gui::Theme::Light);
 }
 
 class DocksOfTheWindow : public Window {
@@ -173,9 +170,9 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
     ASSERT_TRUE(model.cursors().time_s());
     model.dragTimeCursor(0, 0, width / 50);
     model.dragTimeCursor(1, 200e-6, width / 50);
-    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+    for (const auto theme : bothThemes()) {
         gui::applyTheme(theme);
-        for (const auto size : {QSize(1280, 720), QSize(1920, 1080)}) {
+        for (const auto size : sizesIn(theme, {QSize(1280, 720), QSize(1920, 1080)})) {
             window.resize(size);
             letLive(200);
             // Docks share the column anew in turns of the event loop, as many as their contents change.
@@ -213,9 +210,9 @@ TEST_F(DocksOfTheWindow, TheOscilloscopesPanelsLookRight) {
     for (const auto* panel : {"All measurements", "Spectrum tool", "Controls"}) set(panel, false);
     const std::vector<const char*> all[] = {
         {"All measurements"}, {"Spectrum tool"}, {"All measurements", "Spectrum tool"}, {"Controls"}};
-    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+    for (const auto theme : bothThemes()) {
         gui::applyTheme(theme);
-        for (const auto size : {QSize(1280, 720), QSize(1920, 1080)}) {
+        for (const auto size : sizesIn(theme, {QSize(1280, 720), QSize(1920, 1080)})) {
             window.resize(size);
             letLive(100);
             for (const auto& panels : all) {
@@ -231,7 +228,6 @@ TEST_F(DocksOfTheWindow, TheOscilloscopesPanelsLookRight) {
             }
         }
     }
-    gui::applyTheme(gui::Theme::Light);
 }
 
 /// Its list of sessions is empty: the word of one that ended in a fault is red by right.
@@ -271,7 +267,6 @@ TEST(LimitBarColour, IsAmberFromEightyPercent) {
         EXPECT_GT(amberAt(0.80), 100);
         EXPECT_GT(amberAt(0.99), amberAt(0.80)) << "it fills towards the limit";
     }
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Window, EveryPlotOfSimulatedDataSaysSo) {

@@ -117,7 +117,6 @@ TEST(LimitBar, InADockNoRowIsCutAtTheUsualWidth) {
             }
         }
     }
-    gui::applyTextSize(100);
 }
 
 TEST(LimitBar, NeverShowsANumberForWhatWasNotEvaluated) {
@@ -228,7 +227,6 @@ TEST_F(Bar, StatesStandOutOnTheScreenInBothThemes) {
         EXPECT_GT(pixelsOf(stop, red.ground), stop.width() * stop.height() / 2);
         EXPECT_GT(pixelsOf(stop, red.ink), stop.width() * stop.height() / 100);
     }
-    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST(LimitBarRow, ShowsThoseNearestToTheirLimitsWhereNotAllFit) {

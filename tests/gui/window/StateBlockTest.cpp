@@ -70,10 +70,6 @@ TEST(StateWords, SayInEveryStateWhatToDo) {
 
 class StateOnTheBar : public testing::Test {
 protected:
-    ~StateOnTheBar() override {
-        gui::applyTextSize(100);
-        gui::applyTheme(gui::Theme::Light);
-    }
     QLabel& word() { return *bar.findChild<QLabel*>("interlockState"); }
     gui::ElidedLabel& says() { return *static_cast<gui::ElidedLabel*>(bar.findChild<QLabel*>("interlockReason")); }
     gui::BenchController controller{simulatedRegistry};

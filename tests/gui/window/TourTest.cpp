@@ -224,7 +224,7 @@ TEST_F(TourOfTheWindow, LooksRightInEverySizeAndTheme) {
         gui::applyTextSize(percent);
         for (const auto size : {QSize(1280, 720), QSize(1920, 1080)}) {
             window.resize(size);
-            for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+            for (const auto theme : themesAt(percent)) {
                 gui::applyTheme(theme);
                 QSettings().remove("tourStep");
                 window.beginTour();

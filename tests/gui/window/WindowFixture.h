@@ -111,8 +111,7 @@ protected:
                 all += fmt::format("{} {} {}\n", widgetName(*each), each->minimumSizeHint().width(), each->width());
         return all;
     }
-    /// While it lives, text is at 200 %, the window 1280 x 720, and the docks are opened by hand. Laying the style
-    /// sheet on a window twice takes a second: one of these is for several pages.
+    /// While it lives, text is at 200 % (as it stays), the window 1280 x 720, and the docks are opened by hand.
     class LargeBesideDocks {
     public:
         explicit LargeBesideDocks(Window& of)
@@ -126,7 +125,6 @@ protected:
         }
         ~LargeBesideDocks() {
             docks_->setCollapsed(collapsed_);
-            gui::applyTextSize(100);
             of_.window.resize(size_);
         }
         LargeBesideDocks(const LargeBesideDocks&) = delete;
