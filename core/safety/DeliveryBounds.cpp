@@ -42,12 +42,6 @@ constexpr gate::Condition<Level> kLevelConditions[] = {
      [](auto& level) noexcept { return siAmplitude(level.delivered) > siAmplitude(level.programmed); }},
 };
 
-/// Net charges, and what is made of them.
-std::array<double*, 4> netChargesIn(TrainExposure& exposure) noexcept {
-    return {&exposure.values[indexOf(Quantity::NetCharge)], &exposure.values[indexOf(Quantity::DcCurrent)],
-            &exposure.in1s.netCharge_C, &exposure.in5s.netCharge_C};
-}
-
 std::optional<CalibrationLine> lineIn(const KnownLines& known,
                                       std::optional<CalibrationLine> StimulatorCalibration::*line) noexcept {
     return known ? (*known).*line : std::nullopt;
@@ -83,18 +77,38 @@ double QuantityBounds::leastRatio(double programmed) const noexcept {
     return std::clamp(ratio, kMinRatio, 1.0);
 }
 
-void Corners::add(const TrainExposure& corner) noexcept {
-    worst_ = count_ == 0 ? corner : worse(worst_, corner);
-    TrainExposure one = corner;
-    const auto sums = netChargesIn(sum_), charges = netChargesIn(one);
-    for (std::size_t k = 0; k < sums.size(); ++k) *sums[k] += *charges[k];
+WorstOfRange::NetCharges WorstOfRange::netChargesOf(const TrainExposure& exposure) noexcept {
+    return {exposure.at(Quantity::NetCharge), exposure.at(Quantity::DcCurrent), exposure.in1s.netCharge_C,
+            exposure.in5s.netCharge_C};
+}
+
+void WorstOfRange::addCorner(const TrainExposure& corner) noexcept {
+    worst_ = worse(worst_, corner);
+    const auto charges = netChargesOf(corner);
+    for (std::size_t k = 0; k < charges.size(); ++k) corners_[k] += charges[k];
     ++count_;
 }
 
-TrainExposure Corners::worst(TrainExposure middle) const noexcept {
-    TrainExposure worst = worst_, sum = sum_;
-    const auto charges = netChargesIn(worst), sums = netChargesIn(sum), ofMiddle = netChargesIn(middle);
-    for (std::size_t k = 0; k < charges.size(); ++k) *charges[k] += 2 * std::abs(*ofMiddle[k] - *sums[k] / count_);
+void WorstOfRange::addAxis(const TrainExposure& least, const TrainExposure& most) noexcept {
+    worst_ = worse(worst_, worse(least, most));
+    const auto low = netChargesOf(least), middle = netChargesOf(middle_), high = netChargesOf(most);
+    for (std::size_t k = 0; k < middle.size(); ++k) {
+        const double bend = middle[k] - 0.5 * (low[k] + high[k]);
+        bends_[k] += bend;
+        sizes_[k] += std::abs(bend);
+    }
+}
+
+TrainExposure WorstOfRange::worst() const noexcept {
+    const auto middle = netChargesOf(middle_);
+    NetCharges more{};
+    for (std::size_t k = 0; k < more.size(); ++k)
+        more[k] = 2 * (sizes_[k] + std::abs(middle[k] - corners_[k] / count_ - bends_[k]));
+    TrainExposure worst = worst_;
+    worst.values[indexOf(Quantity::NetCharge)] += more[0];
+    worst.values[indexOf(Quantity::DcCurrent)] += more[1];
+    worst.in1s.netCharge_C += more[2];
+    worst.in5s.netCharge_C += more[3];
     return worst;
 }
 
@@ -126,13 +140,13 @@ PulseTrain DeliveryBounds::densest(const PulseTrain& programmed) const noexcept 
     PulseTrain out = withAmplitude(programmed, [this](double amplitude) { return amplitude_.most(amplitude); });
     out.phaseWidth = width_.times(programmed.phaseWidth).most;
     out.interPhaseGap = gap_.times(programmed.interPhaseGap).most;
-    out.rate = rates(programmed.rate).most;
+    out.rate = ratesOf(programmed.rate).most;
     return out;
 }
 
 PulseTrain DeliveryBounds::longest(const PulseTrain& programmed) const noexcept {
     PulseTrain out = densest(programmed);
-    out.rate = rates(programmed.rate).least;
+    out.rate = ratesOf(programmed.rate).least;
     return out;
 }
 

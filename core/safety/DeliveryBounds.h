@@ -9,6 +9,8 @@
 // Thread-safety: a value; nothing allocates.
 #pragma once
 
+#include <array>
+
 #include "core/safety/GateSetup.h"
 #include "core/safety/TrainExposure.h"
 
@@ -52,17 +54,24 @@ private:
     bool applied_;  // the line holds: what is stated no longer counts
 };
 
-/// The worst of what the corners of a range of trains give. Sums of squares between them are enclosed (TrainRange), and
-/// nothing else is larger there but the charges that two phases leave over: by little, which twice the distance of the
-/// middle from the corners' mean covers (as of 180 000 random trains; a parabola exceeds its ends by once as much at
-/// most).
-class Corners {
+/// The worst of trains of a range. Between its corners sums of squares are enclosed (TrainRange), and nothing else is
+/// larger but the charge that pulses leave over: by little, which twice the bends of the axes through the middle cover
+/// in random trains. (A parabola exceeds its ends by its bend at most, its middle less the mean of its ends; the bends
+/// of all axes together are the middle less the mean of the corners.)
+class WorstOfRange {
 public:
-    void add(const TrainExposure& corner) noexcept;
-    [[nodiscard]] TrainExposure worst(TrainExposure middle) const noexcept;
+    WorstOfRange(const TrainExposure& enclosed, const TrainExposure& middle) noexcept
+        : worst_(worse(enclosed, middle)), middle_(middle) {}
+    void addCorner(const TrainExposure& corner) noexcept;
+    /// The ends of an axis: of all that have any but one.
+    void addAxis(const TrainExposure& least, const TrainExposure& most) noexcept;
+    [[nodiscard]] TrainExposure worst() const noexcept;
 
 private:
-    TrainExposure worst_, sum_;
+    using NetCharges = std::array<double, 4>;
+    static NetCharges netChargesOf(const TrainExposure& exposure) noexcept;
+    TrainExposure worst_, middle_;
+    NetCharges corners_{}, bends_{}, sizes_{};  // sums: of the bends, and of their magnitudes
     int count_ = 0;
 };
 
@@ -88,39 +97,42 @@ public:
     [[nodiscard]] PulseTrain longest(const PulseTrain& programmed) const noexcept;
     /// `exposure` on `load`, a function of a train and of a TrainRange, at its worst over what may come out of
     /// `programmed`. A load that keeps no charge has it of the densest train; else it lies at a corner of the range, or
-    /// near one (Corners).
+    /// near one (WorstOfRange).
     template <class Exposure>
     [[nodiscard]] TrainExposure worst(const PulseTrain& programmed, const LoadRange& load,
                                       Exposure exposure) const noexcept {
         const PulseTrain first = densest(programmed);
         if (!load.keepsCharge()) return exposure(first);
         const auto width = width_.times(programmed.phaseWidth), gap = gap_.times(programmed.interPhaseGap);
-        const auto rate = rates(programmed.rate);
+        const auto rate = ratesOf(programmed.rate);
         PulseTrain out = first;
         out.phaseWidth = width.least;
         out.interPhaseGap = gap.least;
         out.rate = rate.least;
         const TrainExposure enclosed = exposure(TrainRange{out, first});
         if (out == first) return enclosed;
-        Corners corners;
+        const auto with = [&](Micros ofWidth, Micros ofGap, Hertz ofRate) {
+            out.phaseWidth = ofWidth;
+            out.interPhaseGap = ofGap;
+            out.rate = ofRate;
+            return out == first ? enclosed : exposure(out);
+        };
+        const Micros w = width.middle(), g = gap.middle();
+        const Hertz r = rate.middle();
+        WorstOfRange worst(enclosed, with(w, g, r));
         width.eachEnd([&](Micros ofWidth) {
             gap.eachEnd([&](Micros ofGap) {
-                rate.eachEnd([&](Hertz ofRate) {
-                    out.phaseWidth = ofWidth;
-                    out.interPhaseGap = ofGap;
-                    out.rate = ofRate;
-                    corners.add(out == first ? enclosed : exposure(out));
-                });
+                rate.eachEnd([&](Hertz ofRate) { worst.addCorner(with(ofWidth, ofGap, ofRate)); });
             });
         });
-        out.phaseWidth = width.middle();
-        out.interPhaseGap = gap.middle();
-        out.rate = rate.middle();
-        return worse(enclosed, corners.worst(exposure(out)));
+        const bool widths = width.least != width.most, gaps = gap.least != gap.most, rates = rate.least != rate.most;
+        if (gaps && widths) worst.addAxis(with(w, gap.least, r), with(w, gap.most, r));
+        if (rates && (widths || gaps)) worst.addAxis(with(w, g, rate.least), with(w, g, rate.most));
+        return worst.worst();
     }
 
 private:
-    [[nodiscard]] Range<Hertz> rates(Hertz programmed) const noexcept {
+    [[nodiscard]] Range<Hertz> ratesOf(Hertz programmed) const noexcept {
         return {Hertz(rate_.least(programmed.value())), Hertz(rate_.most(programmed.value()))};
     }
 

@@ -231,7 +231,7 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
         parts.add(PulseParts::kRest, {rested, rested}, rest);
     }
     run.pulse = parts.pulse();
-    if (plan.outlastsWindow) run.cut = parts.cut();
+    run.cut = parts.cut();
     return run;
 }
 
@@ -252,6 +252,22 @@ Sums cutBetween(const Plan& plan, const Run& worst, double apart) noexcept {
     return extraOfCut(train, larger(sumsIn(runFrom(undriven, apart).whole), Sums{}));
 }
 
+/// How much of what a train finds on the capacitor is left when the next begins.
+double slopeOf(const Plan& plan, const Run& rested) noexcept {
+    if (!std::isinf(plan.limits.compliance_V)) {
+        const double probe = rested.peakVoltage;
+        return (runFrom(plan, probe).endOfInterval - rested.endOfInterval) / probe;
+    }
+    const double rs = plan.circuit.seriesOhm, rp = plan.circuit.parallelOhm;
+    const auto decays = [&](const DriveSegment& segment) {  // in time constants; only a voltage flows through R_s
+        const double ohm = segment.drive == Drive::Voltage ? rs * rp / (rs + rp) : rp;
+        return segment.duration_s / (ohm * plan.circuit.capacitance_F);
+    };
+    double pulse = decays(plan.betweenPulses);
+    for (const DriveSegment& segment : plan.pulse.span()) pulse += decays(segment);
+    return std::exp(-(plan.pulses * pulse + decays(plan.afterTrain)));
+}
+
 /// Worst over every state in which a train can find the load. A linear load's state moves toward its steady one
 /// monotonically, and all figures are convex in it, so the ends of the range hold the worst. `found` becomes that
 /// range.
@@ -262,8 +278,7 @@ Run worstOfStates(const Plan& plan, double carried, Held& found) noexcept {
     const double small = kAlike * rested.peakVoltage;
     if (!(std::abs(rested.endOfInterval) <= small)) {
         // The state maps linearly from train to train: x' = f(0) + slope·x.
-        const double probe = rested.peakVoltage;
-        const double slope = (runFrom(plan, probe).endOfInterval - rested.endOfInterval) / probe;
+        const double slope = slopeOf(plan, rested);
         // Below 1 whenever charge can leak; a load that only collects has no steady state and is refused as NaN.
         const double steady = slope < 1 ? rested.endOfInterval / (1 - slope) : kNaN;
         worst = largerRun(worst, runFrom(plan, steady));
@@ -330,7 +345,7 @@ Run enclosedFrom(const Plan& plan, Held& held) noexcept {
         parts.add(PulseParts::kRest, rested, rest);
     }
     run.pulse = parts.pulse();
-    if (plan.outlastsWindow) run.cut = parts.cut();
+    run.cut = parts.cut();
     run.inDuration.stored_J = stored;
     run.whole = run.inDuration;
     addTo(run.whole, tail);
@@ -350,11 +365,17 @@ Run enclosed(const Plan& plan, double carried) noexcept {
     // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady one. Which duration
     // makes an end may change on the way there, and the slope with it.
     constexpr int kMaxSlopes = 8;
+    constexpr double kRounding = 1e-15;  // of the voltage towards which a phase charges the capacitor
+    double rounding = 0;
+    for (const DriveSegment& phase : plan.pulse.span()) {
+        const double ohm = phase.drive == Drive::Current ? plan.circuit.parallelOhm : 1;
+        rounding = std::max(rounding, kRounding * ohm * std::abs(phase.start));
+    }
     Held found{-carried, carried};
     for (int tries = 0; tries < kMaxSlopes; ++tries) {
         Held left = found;
         const Run run = enclosedFrom(plan, left);
-        const double small = kAlike * voltageOf(plan, run.whole.stored_J);
+        const double small = kAlike * voltageOf(plan, run.whole.stored_J) + rounding;
         const auto within = [small](const Held& inner, const Held& outer) {
             return inner.least >= outer.least - small && inner.most <= outer.most + small;
         };

@@ -54,8 +54,7 @@ struct Plan {
     DriveSegment afterTrain;
     double leastAfterTrain_s = 0;  // of the sparsest train of the range, whose pulses take longest
     int pulses = 1;
-    bool outlastsWindow = false;  // the train is longer than the shortest window, so Run::cut counts
-    SourceLimits limits;          // Infinite: what clipping takes away is counted as delivered
+    SourceLimits limits;  // Infinite: what clipping takes away is counted as delivered
 };
 
 /// How long each segment of `densest` lasts in the sparsest train, which may lack its gap; in s.

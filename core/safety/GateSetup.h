@@ -7,6 +7,7 @@
 // Thread-safety: values; pure functions.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,8 +88,11 @@ struct GateSetup {
     bool calibrated = false;
 };
 
-/// The interval at which impedance checks are judged, and their shortest.
-inline constexpr Seconds kCheckInterval{0.5};
+inline constexpr Seconds kCheckInterval{0.5};  ///< of impedance checks, at the shortest
+/// At which a check is judged: it has room to last longer than it is programmed.
+[[nodiscard]] inline Seconds checkInterval(const PulseTrain& check) noexcept {
+    return std::max(kCheckInterval, 1.2 * check.duration());
+}
 /// The impedance check: the setup's check pulse with the source's check amplitude, rounded to its grid toward zero (one
 /// step at least).
 [[nodiscard]] PulseTrain checkTrainOf(const GateSetup& setup);

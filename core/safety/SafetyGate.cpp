@@ -247,7 +247,7 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
 Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
     const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);
     const State& s = *state_;
-    const AskedTrain asked{s, s.check, std::max(kCheckInterval, s.check.duration()), onset, clock_.now()};
+    const AskedTrain asked{s, s.check, checkInterval(s.check), onset, clock_.now()};
     // No rule: there is nothing to judge with.
     if (!s.setup) return fail(ErrorCode::NotArmed, "limits, source and load are not set");
     if (auto kept = checkAskedCheck(asked); !kept) return failure(kept);

@@ -262,7 +262,7 @@ Result<void> checkPerson(const GateSetup& setup) {
 
 Result<void> checkCheckTrain(const GateSetup& setup) {
     const PulseTrain check = checkTrainOf(setup);
-    return checkRequest(check, std::max(kCheckInterval, check.duration()), setup.source);
+    return checkRequest(check, checkInterval(check), setup.source);
 }
 
 constexpr Rule<GateSetup> kCheckTrainRules[] = {

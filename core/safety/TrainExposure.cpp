@@ -35,6 +35,13 @@ TrainSums pulsesOf(const Run& run, double periods) noexcept {
             periods * run.netCharge, periods * run.pulse.dissipated + run.cut.dissipated, run.whole.stored_J};
 }
 
+/// The same of trains that may find the load differently.
+TrainSums pulsesOfTrains(const Run& run, double periods) noexcept {
+    TrainSums sums = pulsesOf(run, periods);
+    sums += {run.cutTrain.squares, run.cutTrain.volts, 0, run.cutTrain.dissipated, 0};
+    return sums;
+}
+
 TrainSums smallerSums(const TrainSums& a, const TrainSums& b) noexcept {
     // a < b is false for NaN in either, and then the other must not hide it.
     const auto smaller = [](double x, double y) { return std::isnan(x) || x < y ? x : y; };
@@ -141,7 +148,6 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
     plan.leastAfterTrain_s = std::max(T - mostDuration, 0.0);
     plan.pulses = train.pulses;
     const double period = 1 / train.rate.value();
-    plan.outlastsWindow = train.pulses > periodsIn(1, period);
     Run run = worstRun(plan, carried.voltage_V);
 
     const double compliance = source.compliance.value();
@@ -149,13 +155,11 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
 
     TrainExposure exposure;
     // A train longer than a window cannot put all of itself into it.
-    const TrainSums pulses1s = pulsesOf(run, periodsIn(1, period));
-    const TrainSums pulses5s = pulsesOf(run, periodsIn(5, period));
-    exposure.in1s = smallerSums(run.whole, pulses1s);
-    exposure.in5s = smallerSums(run.whole, pulses5s);
+    exposure.in1s = smallerSums(run.whole, pulsesOf(run, periodsIn(1, period)));
+    exposure.in5s = smallerSums(run.whole, pulsesOf(run, periodsIn(5, period)));
     exposure.residual_V = std::abs(run.endOfTrain);
-    const TrainSums second = smallerSums(trainsOf(run, periodsIn(1, T)), pulses1s);
-    const TrainSums five = smallerSums(trainsOf(run, periodsIn(5, T)), pulses5s);
+    const TrainSums second = smallerSums(trainsOf(run, periodsIn(1, T)), pulsesOfTrains(run, periodsIn(1, period)));
+    const TrainSums five = smallerSums(trainsOf(run, periodsIn(5, T)), pulsesOfTrains(run, periodsIn(5, period)));
 
     const auto set = [&exposure](Quantity q, double value) { exposure.values[indexOf(q)] = value; };
     set(Quantity::CommandVoltage, commandVoltage(train, load, source));

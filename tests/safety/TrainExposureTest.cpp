@@ -380,11 +380,13 @@ TEST(TrainExposure, ASecondOfRepeatedTrainsHoldsNoMoreThanIsShown) {
     truth.fit(body);
     truth.deliver(many, {true, 1e9}, 0);
     const double worst = std::sqrt(truth.worstI2(1)) * 1e3;
-    const double shown =
-        exposureOf(train, Seconds(interval), Load::skin(Ohms(200), Ohms(48'000), Nanofarads(1750)), source, kNaN)
-            .at(Quantity::RmsCurrent1s);
-    EXPECT_GE(shown, worst);
-    EXPECT_LE(shown, 1.05 * worst);
+    const Load load = Load::skin(Ohms(body.rs), Ohms(body.rp), Nanofarads(body.c * 1e9));
+    for (const double rate : {100.0, 1 / interval}) {  // also of one pulse that takes the whole interval
+        train.rate = Hertz(rate);
+        const double shown = exposureOf(train, Seconds(interval), load, source, kNaN).at(Quantity::RmsCurrent1s);
+        EXPECT_GE(shown, worst);
+        EXPECT_LE(shown, 1.05 * worst);
+    }
 }
 
 TEST(TrainExposure, ChargeLeftBehindIsCarriedIntoTheSteadyState) {
@@ -640,6 +642,50 @@ TEST(TrainExposure, IntoAResistorTheDensestTrainIsTheWorst) {
             }
         }
     }
+}
+
+// Found by climbing: width, gap and rate are 5 % off at most, and the net charges, all of one sign, are largest at a
+// width between its bounds.
+TEST(TrainExposure, TheChargeOver5sMayBeLargestBetweenTheBounds) {
+    RecordProperty("hazard", "H1");
+    GateSetup setup;
+    setup.source = voltageSource();
+    setup.source.gap = GapState::HighImpedance;
+    setup.source.accuracy = {Spread{}, {}, {}, Spread{}, {}};
+    const Load load = Load::skin(Ohms(1924.5786), Ohms(29690.573), Nanofarads(582.6018919));
+    const Seconds interval(1.66795904008);
+    PulseTrain train = volts(20);
+    train.phaseWidth = Micros(1624.175547);
+    train.interPhaseGap = Micros(0);
+    train.pulses = 10;
+    train.rate = Hertz(194.910293047);
+    const auto dcOf = [&](const auto& out) { return exposureOf(out, interval, load, setup.source, kNaN); };
+    const double judged = DeliveryBounds(setup).worst(train, LoadRange::declared(load), dcOf).at(Quantity::DcCurrent);
+    train.phaseWidth = Micros(1623.5638);
+    train.rate = Hertz(185.164778);
+    const double truth = dcOf(train).at(Quantity::DcCurrent);
+    EXPECT_GE(judged, truth);
+    EXPECT_LE(judged, 1.02 * truth);
+}
+
+// A capacitor that hardly leaks: what a phase charges it towards is ten thousand times what it holds in the end.
+TEST(TrainExposure, OfALoadThatHardlyLeaksTheBoundIsKnown) {
+    RecordProperty("hazard", "H1");
+    GateSetup setup;
+    setup.source = currentSource();
+    setup.source.gap = GapState::HighImpedance;
+    setup.source.accuracy = StatedAccuracy::exact();
+    setup.source.accuracy.rate.reset();
+    const Load load = Load::skin(Ohms(1515.7240587), Ohms(212968.696961734), Nanofarads(18496.298933382852));
+    PulseTrain train = milliamps(1.1847701157896072);
+    train.phaseWidth = Micros(352.55408430926536);
+    train.interPhaseGap = Micros(0);
+    train.pulses = 4;
+    train.rate = Hertz(4.0000023065385486);
+    const auto judged = DeliveryBounds(setup).worst(train, LoadRange::declared(load), [&](const auto& out) {
+        return exposureOf(out, Seconds(1.05263097196389), load, setup.source, kNaN);
+    });
+    EXPECT_GT(judged.at(Quantity::RmsCurrent1s), 0);
 }
 
 // Wherever phase width, gap and rate lie between their bounds. The charge over 5 s is that of the other model: a bound

@@ -38,7 +38,7 @@ std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds int
 /// What forbids arming on this load: every arming gives an impedance check first.
 std::string forbidsCheck(const GateSetup& setup) {
     const PulseTrain check = checkTrainOf(setup);
-    const auto why = forbids(setup, check, std::max(kCheckInterval, check.duration()));
+    const auto why = forbids(setup, check, checkInterval(check));
     if (why.empty()) return {};
     return fmt::format("impedance check of {:.3g} {}: {}", inItsUnit(check.amplitude), amplitudeUnit(check.amplitude),
                        why);
