@@ -63,7 +63,7 @@ public:
     WorstOfRange(const TrainExposure& enclosed, const TrainExposure& middle) noexcept
         : worst_(worse(enclosed, middle)), middle_(middle) {}
     void addCorner(const TrainExposure& corner) noexcept;
-    /// The ends of an axis: of all that have any but one.
+    /// The ends of an axis through the middle. One axis need not be given: its bend is what the others leave.
     void addAxis(const TrainExposure& least, const TrainExposure& most) noexcept;
     [[nodiscard]] TrainExposure worst() const noexcept;
 

@@ -19,11 +19,6 @@ double storedAt(const Plan& plan, double capacitorVoltage) noexcept {
     return plan.circuit.hasCapacitor() ? 0.5 * plan.circuit.capacitance_F * capacitorVoltage * capacitorVoltage : 0;
 }
 
-/// And the voltage at which it holds that.
-double voltageOf(const Plan& plan, double stored_J) noexcept {
-    return plan.circuit.hasCapacitor() ? std::sqrt(2 * stored_J / plan.circuit.capacitance_F) : 0;
-}
-
 TrainSums largerSums(const TrainSums& a, const TrainSums& b) noexcept {
     return {larger(a.currentSquared_A2s, b.currentSquared_A2s), larger(a.voltageSquared_V2s, b.voltageSquared_V2s),
             larger(a.netCharge_C, b.netCharge_C), larger(a.dissipated_J, b.dissipated_J),
@@ -357,6 +352,11 @@ Run unknownRun() noexcept {
     run.pulse = run.cut = {kNaN, kNaN, kNaN};
     run.inDuration = run.whole = {kNaN, kNaN, kNaN, kNaN, kNaN};
     return run;
+}
+
+/// The voltage at which the capacitor holds so much.
+double voltageOf(const Plan& plan, double stored_J) noexcept {
+    return plan.circuit.hasCapacitor() ? std::sqrt(2 * stored_J / plan.circuit.capacitance_F) : 0;
 }
 
 /// The same for any number of trains, the first of which finds up to `carried` on the load. What holds more bounds
