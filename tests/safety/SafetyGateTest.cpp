@@ -414,4 +414,13 @@ TEST(SafetyGate, VibrationNeedsNoElectrodes) {
     }
 }
 
+TEST(SafetyGate, ALongCheckHasRoomForTimesThatAreNotKnown) {
+    RecordProperty("hazard", "H3");
+    GateSetup setup = benchSetup();
+    setup.source.accuracy = {};  // unknown: 5 %
+    setup.check.pulses = 50;     // half a second at 100 Hz
+    Rig rig(setup);
+    EXPECT_TRUE(rig.gate.approveCheck(rig.clock.now()));
+}
+
 }  // namespace tacto::test
