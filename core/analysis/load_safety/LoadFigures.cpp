@@ -146,6 +146,19 @@ void LoadFigures::addVoltage(LoadReading& out) const {
     out.peak_v = figure(peak, std::move(top));
 }
 
+/// The uncertainty of where the first and the last pulse of a train begin, relative to what lies between them.
+void LoadFigures::addOnsets(BudgetRows& rows, double rate_hz, double sensitivity) const {
+    addNormal(rows, "sampling of the onsets", dt_ / std::sqrt(6.0) * rate_hz / (expected_.pulses - 1), sensitivity);
+}
+
+void LoadFigures::addRate(LoadReading& out) const {
+    const double fastest = largestOf(trains_, &TrainFigures::rate_hz);
+    BudgetRows rows;
+    addTimeBase(rows, fastest);
+    addOnsets(rows, fastest, fastest);
+    out.rate_hz = figure(fastest, std::move(rows));
+}
+
 void LoadFigures::addInterval(LoadReading& out, const Capture* rhythm) const {
     double shortest = std::numeric_limits<double>::infinity();
     BudgetRows rows;
@@ -231,8 +244,11 @@ void LoadFigures::addCurrent(LoadReading& out) const {
     i_.addGain(heat, 2 * squares);
     i_.addLevel(heat, 2 * largestOf(trains_, &TrainFigures::magnitude_a));
     addWidth(heat, squares);
-    const Reading train = figure(squares, std::move(heat));
-    out.rms_train_ma = rootOf(train, pulses / expected_.rate_hz, 1e3);
+    const Reading train = figure(squares, heat);
+    // The window of a train is as long as the device made it. Its time base is in the squares already.
+    const double rate_hz = pulses > 1 ? out.rate_hz.value : expected_.rate_hz;
+    if (pulses > 1) addOnsets(heat, rate_hz, squares);
+    out.rms_train_ma = rootOf(figure(squares, std::move(heat)), pulses / rate_hz, 1e3);
     out.rms_1s_ma = rootOf(windowOf(1, train, out.interval_s), 1, 1e3);
     out.rms_5s_ma = rootOf(windowOf(5, train, out.interval_s), 5, 1e3);
     out.dc_ma = times(pulses / 5 * 1e-3, windowOf(5, out.net_charge_uc, out.interval_s));

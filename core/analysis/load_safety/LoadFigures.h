@@ -30,6 +30,8 @@ public:
 
     /// Amplitude, width and peak.
     void addVoltage(LoadReading& out) const;
+    /// For trains of more than one pulse.
+    void addRate(LoadReading& out) const;
     /// `rhythm`: readLoad()'s, where the interval is taken from it.
     void addInterval(LoadReading& out, const Capture* rhythm) const;
     /// After addInterval().
@@ -42,6 +44,7 @@ public:
 
 private:
     void addTimeBase(BudgetRows& rows, double sensitivity) const;
+    void addOnsets(BudgetRows& rows, double rate_hz, double sensitivity) const;
     void addWidth(BudgetRows& rows, double sensitivity) const;
     void addEnd(BudgetRows& rows, const LoadTrains& trains, double samples, double sensitivity) const;
     void addAmplitude(LoadReading& out, Reading& amplitude, double TrainFigures::*member, const BudgetRows& rows,

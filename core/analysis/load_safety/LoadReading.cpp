@@ -62,6 +62,7 @@ Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTr
     out.currentLsb = current != nullptr ? current->lsb : 0;
     const LoadFigures figures(trains, expected, captures.front());
     figures.addVoltage(out);
+    if (expected.pulses > 1) figures.addRate(out);
     figures.addInterval(out, stamped ? nullptr : rhythm);
     figures.addVoltageWindows(out);
 

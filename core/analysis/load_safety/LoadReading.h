@@ -50,6 +50,7 @@ struct LoadReading {
     Reading highest_v;      ///< the same, of the train with the highest amplitude
     Reading amplitude_ma;   ///< at the end of the leading phase, from 80 to 97 % of its width; mean
     Reading width_s;        ///< of the leading phase, of what the source drives; mean
+    Reading rate_hz;        ///< of the pulses in a train, from its first onset to its last; NaN for single pulses
     Reading interval_s;     ///< onset to onset of trains; the shortest
     Reading impedance_ohm;  ///< voltage over current at its end, as science.md section 4 means |Z|; mean
     Reading peak_v;         ///< largest |voltage|
@@ -58,7 +59,7 @@ struct LoadReading {
     Reading net_charge_uc;  ///< |charge| of a pulse, gap and tail included
     Reading imbalance;      ///< net_charge_uc / charge_uc, 0..
     Reading energy_mj;      ///< ∫v·i dt of a pulse
-    Reading rms_train_ma;   ///< over n / intra-train rate
+    Reading rms_train_ma;   ///< over n / the measured rate; of a single pulse over 1 / the programmed rate
     /// Over longer windows the trains seen are repeated at the measured interval.
     Reading rms_1s_ma;         ///< worst second
     Reading rms_5s_ma;         ///< worst 5 s

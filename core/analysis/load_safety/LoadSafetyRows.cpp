@@ -81,6 +81,12 @@ Reading highest(const LoadRecord& record, Of of) {
     return most;
 }
 
+/// The error that comes highest, or that is not known.
+Reading higherOf(const Reading& a, const Reading& b) {
+    if (!a.measured()) return a;
+    return !b.measured() || b.value + b.expanded > a.value + a.expanded ? b : a;
+}
+
 /// How far the delivered amplitude lies above the command, % of it; negative below.
 Reading amplitudeError(const LoadStep& step) {
     const Reading& got = step.reading.delivered;
@@ -98,6 +104,13 @@ Reading widthError(const LoadStep& step, const PulseTrain& train) {
     const auto& got = step.reading.width_s;
     const double scale = 100 / wanted;
     return {scale * (got.value - wanted), scale * got.u, scale * got.expanded};
+}
+
+/// Pulses of a train that come closer together heat more within it.
+Reading trainRateError(const LoadStep& step, const PulseTrain& train) {
+    const auto& got = step.reading.rate_hz;
+    const double scale = 100 / train.rate.value();
+    return {scale * (got.value - train.rate.value()), scale * got.u, scale * got.expanded};
 }
 
 /// Trains that follow too soon are too many: the shorter interval counts as the larger error.
@@ -139,6 +152,8 @@ void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const 
 
 void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
     const auto width = [&](const LoadStep& step) { return widthError(step, input.train); };
+    const auto trainRate = [&](const LoadStep& step) { return trainRateError(step, input.train); };
+    const bool hasRate = input.train.pulses > 1;
     const auto within = [](auto error) {
         return [error](const LoadStep& step) {
             const Reading e = error(step);
@@ -158,6 +173,12 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
     }
     addUpper(rows, record, rowOf(record, "width_over", "phase width above the command", highest(record, width), "%"),
              input.tolerances.timing_pct, false, "laboratory", own);
+    if (hasRate) {
+        addUpper(
+            rows, record,
+            rowOf(record, "train_rate_over", "rate within a train above the command", highest(record, trainRate), "%"),
+            input.tolerances.timing_pct, false, "laboratory", own);
+    }
     addUpper(rows, record, rowOf(record, "rate_over", "interval below the command", highest(record, rateError), "%"),
              input.tolerances.timing_pct, false, "laboratory", own);
     for (const auto& set : input.limits) {
@@ -166,7 +187,12 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
             Reading error;
             if (asked.parameter == "amplitude") error = highest(record, within(amplitudeError));
             if (asked.parameter == "width") error = highest(record, within(width));
-            if (asked.parameter == "rate") error = highest(record, within(rateError));
+            if (asked.parameter == "rate") {
+                error = highest(record, [&](const LoadStep& step) {
+                    const Reading ofTrains = within(rateError)(step);
+                    return hasRate ? higherOf(ofTrains, within(trainRate)(step)) : ofTrains;
+                });
+            }
             addUpper(rows, record,
                      rowOf(record, asked.parameter + "_accuracy", "error of the " + asked.parameter, error, "%"),
                      asked.tolerance_pct, false, set.id, asked.source);

@@ -22,13 +22,14 @@ const LoadRecord* recordAt(const LoadSafetyInput& input, double ohm) {
 
 /// What the device makes of a command, relative: of all measured steps the one that delivers most.
 struct Made {
-    Reading amplitude{1, 0, 0}, width{1, 0, 0}, interval{1, 0, 0};
+    Reading amplitude{1, 0, 0}, width{1, 0, 0}, rate{1, 0, 0}, interval{1, 0, 0};
     bool measured = false;
 };
 /// What was measured nowhere is not as commanded, but unknown.
 Made madeOf(const LoadSafetyInput& input) {
     Made out;
     bool widthSeen = false, intervalSeen = false;
+    bool rateSeen = input.train.pulses == 1;  // which has none
     // One that was measured without a known U leaves nothing known.
     const auto take = [](Reading& into, double value, const Reading& got, double scale, bool more) {
         if (std::isnan(got.value)) return;
@@ -36,28 +37,31 @@ Made madeOf(const LoadSafetyInput& input) {
         if (more) into.value = value;
         into.expanded = std::isnan(expanded) || std::isnan(into.expanded) ? kNaN : std::max(into.expanded, expanded);
     };
-    const double width = Seconds(input.train.phaseWidth).count();
+    const double width = Seconds(input.train.phaseWidth).count(), rate = input.train.rate.value();
     for (const auto& record : input.loads) {
         for (const auto& step : record.steps) {
             const auto& got = step.reading;
             take(out.amplitude, got.delivered.value, got.delivered, 1, got.delivered.value > out.amplitude.value);
             take(out.width, got.width_s.value / width, got.width_s, 1 / width,
                  got.width_s.value / width > out.width.value);
+            take(out.rate, got.rate_hz.value / rate, got.rate_hz, 1 / rate, got.rate_hz.value / rate > out.rate.value);
             take(out.interval, got.interval_s.value / step.interval_s, got.interval_s, 1 / step.interval_s,
                  got.interval_s.value / step.interval_s < out.interval.value);
             out.measured = out.measured || !std::isnan(got.delivered.value);
             widthSeen = widthSeen || !std::isnan(got.width_s.value);
+            rateSeen = rateSeen || !std::isnan(got.rate_hz.value);
             intervalSeen = intervalSeen || !std::isnan(got.interval_s.value);
         }
     }
     if (!widthSeen) out.width.expanded = kNaN;
+    if (!rateSeen) out.rate.expanded = kNaN;
     if (!intervalSeen) out.interval.expanded = kNaN;
     return out;
 }
 
 /// What a command is multiplied with, one after the other by its U.
 struct Factors {
-    double amplitude = 1, width = 1, interval = 1, area = 1;
+    double amplitude = 1, width = 1, rate = 1, interval = 1, area = 1;
 };
 
 /// Into `load` at `command_v`; a current source is programmed to A / |Z|.
@@ -70,6 +74,7 @@ TrainExposure exposureAt(const LoadSafetyInput& input, const Load& load, double 
     }
     PulseTrain train = trainAt(input.train, input.source.drive, amplitude);
     train.phaseWidth = Micros(factors.width * train.phaseWidth.count());
+    train.rate = Hertz(factors.rate * train.rate.value());
     const double area = input.area_cm2 ? *input.area_cm2 * factors.area : kNaN;
     return exposureOf(train, Seconds(input.interval_s * factors.interval), load, input.source, area);
 }
@@ -97,7 +102,8 @@ Reading extrapolate(const LoadSafetyInput& input, const std::vector<Place>& plac
         constexpr double kLongestWindow_s = 5, kEdge = 0.01;
         return shorter * kLongestWindow_s / input.interval_s > kEdge ? shorter : 0;
     };
-    const Factors nominal{made.amplitude.value, made.width.value, 1 - beyondTheEdge(1 - made.interval.value), 1};
+    const Factors nominal{made.amplitude.value, made.width.value, made.rate.value,
+                          1 - beyondTheEdge(1 - made.interval.value), 1};
     const double value = worstAt(nominal);
     double squares = 0;
     const auto add = [&](double Factors::*factor, double expanded) {
@@ -108,6 +114,7 @@ Reading extrapolate(const LoadSafetyInput& input, const std::vector<Place>& plac
     };
     add(&Factors::amplitude, made.amplitude.expanded);
     add(&Factors::width, made.width.expanded);
+    add(&Factors::rate, made.rate.expanded);
     const double shorter = made.interval.expanded;
     add(&Factors::interval, std::isnan(shorter) ? kNaN : -beyondTheEdge(shorter));
     if (needsArea(quantity)) add(&Factors::area, -input.tolerances.area_pct / 100);
@@ -160,10 +167,10 @@ LoadReading strongestOf(const LoadRecord& record) {
         const auto& reading = step.reading;
         for (const auto member :
              {&LoadReading::delivered, &LoadReading::amplitude_v, &LoadReading::highest_v, &LoadReading::amplitude_ma,
-              &LoadReading::width_s, &LoadReading::peak_v, &LoadReading::peak_ma, &LoadReading::charge_uc,
-              &LoadReading::net_charge_uc, &LoadReading::imbalance, &LoadReading::energy_mj, &LoadReading::rms_train_ma,
-              &LoadReading::rms_1s_ma, &LoadReading::rms_5s_ma, &LoadReading::rms_5s_v, &LoadReading::dc_ma,
-              &LoadReading::power_1s_w}) {
+              &LoadReading::width_s, &LoadReading::rate_hz, &LoadReading::peak_v, &LoadReading::peak_ma,
+              &LoadReading::charge_uc, &LoadReading::net_charge_uc, &LoadReading::imbalance, &LoadReading::energy_mj,
+              &LoadReading::rms_train_ma, &LoadReading::rms_1s_ma, &LoadReading::rms_5s_ma, &LoadReading::rms_5s_v,
+              &LoadReading::dc_ma, &LoadReading::power_1s_w}) {
             take(most.*member, reading.*member);
         }
         most.trains = first ? reading.trains : std::min(most.trains, reading.trains);  // each figure is of as many

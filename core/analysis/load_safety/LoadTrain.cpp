@@ -83,6 +83,10 @@ std::optional<TrainFigures> readTrain(const Capture& capture, const ExpectedTrai
     TrainFigures out;
     out.onset_s = pulses->trains.front().onset_s;
     out.width_s = pulses->width_s.mean;
+    if (const auto spaces = pulses->pulses.size() - 1; spaces > 0) {
+        const double first_s = pulses->pulses.front().leading.onset_s, last_s = pulses->pulses.back().leading.onset_s;
+        out.rate_hz = static_cast<double>(spaces) / (last_s - first_s);
+    }
     out.biphasic = std::all_of(pulses->pulses.begin(), pulses->pulses.end(),
                                [](const auto& pulse) { return pulse.second.has_value(); });
     const auto voltage = traceOf(capture, "voltage", out.onset_s);

@@ -17,9 +17,9 @@
 
 namespace tacto {
 
-/// The figures of one train, from its own capture. SI units; NaN where not measured.
+/// The figures of one train, from its own capture. SI units; NaN where not measured. A single pulse has no rate.
 struct TrainFigures {
-    double onset_s = kNaN, width_s = kNaN, plateau_v = kNaN, end_v = kNaN, end_a = kNaN;
+    double onset_s = kNaN, width_s = kNaN, rate_hz = kNaN, plateau_v = kNaN, end_v = kNaN, end_a = kNaN;
     double peak_v = kNaN, peak_a = kNaN, step_v = 0, step_a = 0;
     double magnitude_v = 0, magnitude_a = 0;
     double squares_v = kNaN, squares_a = kNaN, net_C = kNaN, phase_C = kNaN, energy_J = kNaN;

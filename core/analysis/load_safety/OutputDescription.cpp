@@ -70,7 +70,7 @@ std::vector<DescribedOutput> describeOutput(const LoadSafetyInput& input) {
         {"pulses per train",
          train.pulses == 1 ? std::string("1")
                            : fmt::format("{} at {}", train.pulses, scaledText(train.rate.value(), "Hz", 3)),
-         {}},
+         train.pulses == 1 ? std::string() : "at " + textOf(most.rate_hz, "Hz")},
         {"symmetry of the phases", symmetryOf(train),
          train.shape == PulseShape::Monophasic ? std::string()
                                                : "net charge " + textOf(most.imbalance, "%", 100) + " of a phase's"},

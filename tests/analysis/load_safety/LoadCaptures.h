@@ -18,7 +18,9 @@ struct LoadTruth {
     double width_s = 200e-6;
     double gap_s = 100e-6;
     double interval_s = 0.5;
-    double second = 1;  ///< of the leading phase's amplitude
+    int pulses = 1;
+    double train_hz = 100;  ///< within the train
+    double second = 1;      ///< of the leading phase's amplitude
     double rate_hz = 10e6;
     double gain_v = 1, gain_i = 1;      ///< of the instrument
     double offset_v = 0, offset_a = 0;  ///< of the instrument
@@ -36,7 +38,7 @@ struct LoadTruth {
 [[nodiscard]] inline std::vector<Capture> loadCaptures(const LoadTruth& truth, int trains = 2) {
     std::vector<Capture> out;
     const double edge = 100e-9, before = 120e-6;
-    const double end = before + 2 * truth.width_s + truth.gap_s + 150e-6;
+    const double end = before + (truth.pulses - 1) / truth.train_hz + 2 * truth.width_s + truth.gap_s + 150e-6;
     Random random(truth.seed, "load captures");
     double shift = 0;  // of the train against the samples
     const auto level = [&](double stated) {
@@ -48,7 +50,12 @@ struct LoadTruth {
             if (x < edge) return x / edge;
             return x > truth.width_s ? 1 - (x - truth.width_s) / edge : 1.0;
         };
-        return truth.volts * (phase(before) - truth.second * phase(before + truth.width_s + truth.gap_s));
+        double sum = 0;
+        for (int pulse = 0; pulse < truth.pulses; ++pulse) {
+            const double onset = before + pulse / truth.train_hz;
+            sum += phase(onset) - truth.second * phase(onset + truth.width_s + truth.gap_s);
+        }
+        return truth.volts * sum;
     };
     for (int k = 0; k < trains; ++k) {
         Capture capture;

@@ -41,6 +41,21 @@ TEST(LoadReading, MeasuresEveryQuantityOfFortyVoltsInto500Ohm) {
     EXPECT_TRUE(found.biphasic);
 }
 
+TEST(LoadReading, TheRateWithinATrainIsMeasuredAndNotBelieved) {
+    RecordProperty("hazard", "H9");
+    LoadTruth truth;
+    truth.pulses = 4;
+    truth.train_hz = 105;
+    truth.rate_hz = 1e6;
+    truth.timeBase = 1 + 50e-6;
+    truth.timeBaseTolerance = 100e-6;
+    const auto found = readLoad(loadCaptures(truth), ExpectedTrain{4, 100}).value();
+    expectTruth(found.rate_hz, 105, 0.001, "rate");
+    const double squares = 0.08 * 0.08 * 4 * 2 * (200e-6 - 100e-9 / 3);
+    expectTruth(found.rms_train_ma, 1e3 * std::sqrt(squares * 105 / 4), 0.02, "in-train RMS");
+    EXPECT_FALSE(read({}).rate_hz.measured()) << "a single pulse has none";
+}
+
 TEST(LoadReading, AnInstrumentsOffsetChangesNothing) {
     RecordProperty("hazard", "H5");
     LoadTruth truth;

@@ -50,6 +50,24 @@ protected:
             readLoad(loadCaptures(truth), ExpectedTrain{.programmed = {out.command_v, out.command_v}}).value();
         return out;
     }
+    /// Trains of three pulses at what the device makes of 100 Hz, into each load.
+    void driveTrains(double hz) {
+        input.train.pulses = 3;
+        input.train.rate = Hertz(100);
+        for (auto& record : input.loads) {
+            for (auto& each : record.steps) {
+                LoadTruth truth;
+                truth.pulses = 3;
+                truth.train_hz = hz;
+                truth.rate_hz = 1e6;
+                truth.ohms = record.load.kind == LoadKind::SkinEquivalent ? 10'200 : record.load.series.value();
+                truth.volts = truth.ohms < 250 ? 10 : 40;
+                each.command_v = truth.volts;
+                const ExpectedTrain expected{.pulses = 3, .rate_hz = 100, .programmed = {truth.volts, truth.volts}};
+                each.reading = readLoad(loadCaptures(truth), expected).value();
+            }
+        }
+    }
     LoadRecord& at(std::string_view name) {
         return *std::find_if(input.loads.begin(), input.loads.end(), [&](const auto& r) { return r.name == name; });
     }
@@ -236,6 +254,44 @@ TEST_F(LoadSafetyCheck, OfACurrentSourceTheVoltageIsJudgedToo) {
     EXPECT_EQ(rowOf(found, "500 ohm", "voltage_over").verdict, RowVerdict::Fail);
     EXPECT_NEAR(rowOf(found, "500 ohm", "voltage_over").value, 10, 0.1);
     EXPECT_EQ(rowOf(found, "1 kohm", "voltage_over").verdict, RowVerdict::Pass);
+}
+
+TEST_F(LoadSafetyCheck, ARateWithinTheTrainThatIsTooFastFails) {
+    RecordProperty("hazard", "H9");
+    EXPECT_THROW(rowOf(judgeLoadSafety(input), "500 ohm", "train_rate_over"), std::runtime_error)
+        << "single pulses have none";
+    LimitSet own;
+    own.id = "own";
+    own.rows.push_back({.quantity = Quantity::RmsCurrentTrain, .max = 1000});
+    input.limits.push_back(own);
+    const auto worst = [&](const LoadSafety& found) {
+        return *std::ranges::find(found.worstCase.rows, "rms_current_train", &SafetyRow::item);
+    };
+    driveTrains(100);
+    const auto sound = judgeLoadSafety(input);
+    EXPECT_EQ(sound.verdict, Verdict::Pass) << sound.reasons.front();
+    EXPECT_EQ(rowOf(sound, "500 ohm", "train_rate_over").verdict, RowVerdict::Pass);
+    driveTrains(104);
+    const auto fast = judgeLoadSafety(input);
+    EXPECT_EQ(fast.verdict, Verdict::Fail);
+    EXPECT_NEAR(rowOf(fast, "500 ohm", "train_rate_over").value, 4, 0.01);
+    EXPECT_EQ(rowOf(fast, "500 ohm", "train_rate_over").verdict, RowVerdict::Fail);
+    EXPECT_NEAR(rowOf(fast, "500 ohm", "rate_accuracy").value, 4, 0.01) << "the interval alone is exact";
+    const double denser = std::sqrt(1.04);
+    EXPECT_NEAR(rowOf(fast, "500 ohm", "rms_current_train").value,
+                denser * rowOf(sound, "500 ohm", "rms_current_train").value, 0.01);
+    EXPECT_NEAR(worst(fast).value, denser * worst(sound).value, 0.01);
+
+    driveTrains(100);
+    at("500 ohm").steps[0].reading.rate_hz.expanded = 4;
+    EXPECT_NEAR(std::hypot(worst(sound).expanded, (denser - 1) * worst(sound).value),
+                worst(judgeLoadSafety(input)).expanded, 0.01)
+        << "what is extrapolated is in doubt as the rate is";
+    at("500 ohm").steps[0].reading.rate_hz = {};
+    EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate) << "one that was not measured";
+    for (auto& record : input.loads)
+        for (auto& each : record.steps) each.reading.rate_hz = {};
+    EXPECT_EQ(worst(judgeLoadSafety(input)).verdict, RowVerdict::NotEvaluated);
 }
 
 TEST_F(LoadSafetyCheck, WhatTheLimitsForbidMustHaveBeenRefused) {

@@ -44,12 +44,13 @@ std::vector<HostFunction> measureFunctions() {
                             .oneOf({"voltage"})
                             .optional()},
          .text = "Measures what trains did to a load: voltage, current, charge, energy, RMS over each window.",
-         .returns = "{ delivered, amplitude_v, highest_v, amplitude_ma, width_s, interval_s, impedance_ohm, peak_v, "
-                    "peak_ma, charge_uc, net_charge_uc, imbalance, energy_mj, rms_train_ma, rms_1s_ma, rms_5s_ma, "
-                    "rms_5s_v, dc_ma, power_1s_w, each with its standard uncertainty in _u and its U (95 %) in "
-                    "_expanded; trains, under_10_lsb, not_stated, warnings, captures }: null what was not measured, "
-                    "and an uncertainty that rests on what the oscilloscope does not state (not_stated says what); "
-                    "delivered is the amplitude over what each train was to have, 1 as programmed.",
+         .returns =
+             "{ delivered, amplitude_v, highest_v, amplitude_ma, width_s, rate_hz, interval_s, impedance_ohm, peak_v, "
+             "peak_ma, charge_uc, net_charge_uc, imbalance, energy_mj, rms_train_ma, rms_1s_ma, rms_5s_ma, "
+             "rms_5s_v, dc_ma, power_1s_w, each with its standard uncertainty in _u and its U (95 %) in "
+             "_expanded; trains, under_10_lsb, not_stated, warnings, captures }: null what was not measured, "
+             "and an uncertainty that rests on what the oscilloscope does not state (not_stated says what); "
+             "delivered is the amplitude over what each train was to have, 1 as programmed.",
          .errors = "Throws for captures that are held no longer, or without a channel of what the source drives and of "
                    "voltage.",
          .call = host::measure::measureLoad},
