@@ -15,8 +15,8 @@ namespace tacto::cli {
 
 enum class Answer { Confirmed, Otherwise, TooLate, Signalled };
 
-/// Forgets what was typed before, prints `prompt` on stderr and waits for one line. Confirmed only for `word` itself.
-/// Returns within 50 ms of a signal.
+/// After half a second, in which what was typed before arrives and is forgotten, prints `prompt` on stderr and waits
+/// for one line. Confirmed only for `word` itself. Returns within 50 ms of a signal.
 [[nodiscard]] Answer askFor(std::string_view word, std::string_view prompt, Seconds within,
                             const SignalStop& interrupts);
 

@@ -1,7 +1,9 @@
 // sciencemode pulse at a terminal: the second of two steps is a typed one, and until then nothing is delivered.
+#include <chrono>
 #include <csignal>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <thread>
 
 #include "tests/cli/ExitsInTime.h"
 #include "tests/cli/TerminalCli.h"
@@ -69,6 +71,21 @@ TEST_F(ScienceModeConfirm, WhatWasTypedBeforeTheQuestionIsNoAnswer) {
     cli.type("no\n");
     expectUnconfirmed(cli);
     EXPECT_EQ(putOut(), 0U);
+}
+
+/// A busy machine's kernel takes 100 ms to hand over what was typed.
+TEST_F(ScienceModeConfirm, WhatIsTypedJustBeforeTheQuestionIsNoAnswerThoughItArrivesLate) {
+    TerminalCli cli(desk_, words());
+    const auto identified = [this] {
+        return pty_->inspect([](auto& device, Instant) { return device.requests(sciencemode::Command::DeviceId); });
+    };
+    while (identified() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    cli.type("bench load\n");
+    ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
+    ASSERT_IN_TIME(cli.screen().starts_with("bench load")) << cli.screen();
+    cli.type("no\n");
+    expectUnconfirmed(cli);
 }
 
 TEST_F(ScienceModeConfirm, CtrlCWhileItWaitsDeliversNothing) {

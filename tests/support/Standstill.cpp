@@ -1,14 +1,14 @@
 // Linked into tests that wait by the clock. The program switches its output off when 50 or 100 ms pass without a sign
 // of life, as it should; a virtual machine that is not given its processors for so long makes it do so without a fault.
 //
-// A thread that sleeps a few milliseconds at a time sees how long the machine stood still, and one that it wakes each
-// time how long a word from thread to thread takes (a transfer of an emulated USB device takes ten of them).
-// Linux says how long each thread of the test and of the programs that it started waited for a processor, and how long
-// the processors were taken from the virtual machine: it may be another thread's that stood still, not the watch's. A
-// test that fails on a machine that does all of it in time has failed, and so has one of which anything but a deadline
-// failed (support/InTime.h). One that was only late on another machine is tried again from the start, five times in
-// all, each when the machine has been calm. What fails five times has failed. Every retry is a line of the file that
-// TACTO_RETRIES names: ./dev prints and counts them.
+// A thread that sleeps a few milliseconds at a time and sends a byte through a pseudo-terminal sees how long the
+// machine stood still, and one that it wakes each time how long a word from thread to thread takes (a transfer of an
+// emulated USB device takes ten of them). Linux says how long each thread of the test and of the programs that it
+// started waited for a processor, and how long the processors were taken from the virtual machine: it may be another
+// thread's that stood still, not the watch's. A test that fails on a machine that does all of it in time has failed,
+// and so has one of which anything but a deadline failed (support/InTime.h). One that was only late on another machine
+// is tried again from the start, five times in all, each when the machine has been calm. What fails five times has
+// failed. Every retry is a line of the file that TACTO_RETRIES names: ./dev prints and counts them.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -26,7 +26,9 @@
 #include <string>
 #include <string_view>
 #include <sys/eventfd.h>
+#include <sys/ioctl.h>
 #include <sys/syscall.h>
+#include <termios.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -43,6 +45,38 @@ constexpr Milliseconds kNap{4};       // between two looks: short against kStill
 constexpr Milliseconds kSlowWord{1};  // fifty times the usual: ten of them and back are half of 50 ms
 constexpr int kTries = 5;
 constexpr const char* kTry = "TACTO_TEST_TRY";
+
+/// A pseudo-terminal. What is written at one end waits for a thread of the kernel's, which counts for no process,
+/// before it is read at the other. Not through the C library, as KernelFile.
+class KernelLine {
+public:
+    KernelLine()
+        : master_(static_cast<int>(::syscall(SYS_openat, AT_FDCWD, "/dev/ptmx", O_RDWR | O_NOCTTY | O_CLOEXEC))) {
+        int locked = 0;
+        ::syscall(SYS_ioctl, master_, TIOCSPTLCK, &locked);
+        slave_ = static_cast<int>(::syscall(SYS_ioctl, master_, TIOCGPTPEER, O_RDWR | O_NOCTTY | O_CLOEXEC));
+        termios raw{};
+        if (tcgetattr(slave_, &raw) != 0) return;
+        cfmakeraw(&raw);
+        works_ = tcsetattr(slave_, TCSANOW, &raw) == 0;
+    }
+    ~KernelLine() {
+        ::syscall(SYS_close, slave_);
+        ::syscall(SYS_close, master_);
+    }
+    KernelLine(const KernelLine&) = delete;
+    KernelLine& operator=(const KernelLine&) = delete;
+
+    /// Returns when a byte has come through.
+    void pass() const {
+        char byte = 'x';
+        if (works_ && ::syscall(SYS_write, slave_, &byte, 1) == 1) ::syscall(SYS_read, master_, &byte, 1);
+    }
+
+private:
+    int master_, slave_ = -1;
+    bool works_ = false;
+};
 
 /// Two threads that pass a word to and fro.
 class Words {
@@ -216,6 +250,7 @@ public:
         testing::UnitTest::GetInstance()->listeners().Append(owned_.release());
         // From here on, not from when the thread is first given a processor; and to the end.
         thread_ = std::thread([this, last = Clock::now()]() mutable {
+            const KernelLine line;
             Words words;
             Waits waits;
             const auto look = [&] {
@@ -228,6 +263,7 @@ public:
                 std::this_thread::sleep_for(kNap);
                 look();
                 words.pass();
+                line.pass();
             }
             look();
             waited_ = waits.longest();
