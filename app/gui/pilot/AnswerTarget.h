@@ -9,7 +9,7 @@
 #include <QStringList>
 #include <algorithm>
 
-#include "app/gui/pilot/InputTime.h"
+#include "app/gui/theme/InputTime.h"
 
 class QPainter;
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <map>
 
-#include "app/gui/pilot/InputTime.h"
+#include "app/gui/theme/InputTime.h"
 
 namespace tacto::gui {
 

@@ -15,7 +15,7 @@
 #include <mutex>
 #include <set>
 
-#include "app/gui/pilot/InputTime.h"
+#include "app/gui/theme/InputTime.h"
 #include "core/base/Clock.h"
 #include "core/pilot/Participant.h"
 

@@ -18,7 +18,7 @@
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/controller/SideWork.h"
-#include "app/gui/pilot/InputTime.h"
+#include "app/gui/theme/InputTime.h"
 #include "app/gui/pilot/ParticipantDesk.h"
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SessionInputs.h"

@@ -16,13 +16,13 @@ void ConfirmButton::setMeaning(const QString& text, bool confirms) {
     confirms_ = confirms;
     if (confirms) {
         setDown(false);
-        shown_.start();
+        seen_.reset();
     }
     setText(text);
 }
 
-bool ConfirmButton::listens() const {
-    return !confirms_ || (isVisible() && shown_.isValid() && shown_.elapsed() >= kDebounce_ms);
+bool ConfirmButton::listens(SteadyTime pressed) const {
+    return !confirms_ || (isVisible() && seen_ && pressed - *seen_ >= std::chrono::milliseconds(kDebounce_ms));
 }
 
 bool ConfirmButton::event(QEvent* event) {
@@ -31,12 +31,17 @@ bool ConfirmButton::event(QEvent* event) {
 }
 
 void ConfirmButton::showEvent(QShowEvent* event) {
-    shown_.start();
+    seen_.reset();
     QPushButton::showEvent(event);
 }
 
+void ConfirmButton::paintEvent(QPaintEvent* event) {
+    QPushButton::paintEvent(event);
+    if (!seen_) seen_ = std::chrono::steady_clock::now();
+}
+
 void ConfirmButton::mousePressEvent(QMouseEvent* event) {
-    if (listens()) return QPushButton::mousePressEvent(event);
+    if (listens(timeOf(*event))) return QPushButton::mousePressEvent(event);
     event->accept();
 }
 

@@ -1,15 +1,19 @@
 // ConfirmButton.h - the button of a second step: it takes a press of its own and nothing that was under way when it
 // came (hazard H12).
 //
-// It is deaf for half a second after it is shown, so the second half of a double click does not press it, and it has no
-// mnemonic, since a held Alt+letter repeats. Return presses it through StopKeys, which takes a held key for one press.
+// It is deaf until it has been in sight for half a second, so the second half of a double click does not press it. What
+// counts is when the press was made: while the window stands still, one that was made before may arrive long after the
+// button is in sight. It has no mnemonic, since a held Alt+letter repeats. Return presses it through StopKeys, which
+// takes a held key for one press.
 // A button whose meaning changes while it is shown (Pause, Resume) says so by setMeaning(), and is deaf after that.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QElapsedTimer>
 #include <QPushButton>
+#include <optional>
+
+#include "app/gui/theme/InputTime.h"
 
 namespace tacto::gui {
 
@@ -22,19 +26,20 @@ public:
     /// kDebounce_ms, and a press that is under way does nothing. Otherwise it takes every press at once, as what stops,
     /// pauses or disarms must. The same meaning again changes nothing.
     void setMeaning(const QString& text, bool confirms);
-    /// Whether a press now is meant for what it does now. Those that act on clicked() where the meaning changes ask
-    /// this too: keys and screen readers press without the mouse.
-    [[nodiscard]] bool listens() const;
+    /// Whether a press that was made at `pressed` is meant for what it does now. Those that act on clicked() where the
+    /// meaning changes ask this too: keys and screen readers press without the mouse.
+    [[nodiscard]] bool listens(SteadyTime pressed = std::chrono::steady_clock::now()) const;
 
 protected:
     bool event(QEvent* event) override;
     void showEvent(QShowEvent* event) override;
+    void paintEvent(QPaintEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseDoubleClickEvent(QMouseEvent* event) override;
 
 private:
-    QElapsedTimer shown_;  // with this meaning
-    QString meaning_;      // of setMeaning()
+    std::optional<SteadyTime> seen_;  // first painted with this meaning
+    QString meaning_;                 // of setMeaning()
     bool confirms_ = true;
 };
 

@@ -56,14 +56,14 @@ bool StopKeys::eventFilter(QObject* watched, QEvent* event) {
 
 /// The first press of Return presses the focused button; the others of a held key press no button and enter no line,
 /// wherever the focus is by then.
-bool StopKeys::returnPressed(QObject* watched, bool repeated) {
+bool StopKeys::returnPressed(QObject* watched, const QKeyEvent& key) {
     returnReleased_.stop();
     auto* button = qobject_cast<QAbstractButton*>(watched);
-    if (std::exchange(returnHeld_, true) || repeated)
+    if (std::exchange(returnHeld_, true) || key.isAutoRepeat())
         return button != nullptr || qobject_cast<const QLineEdit*>(watched) != nullptr;
     if (button == nullptr || !button->isEnabled()) return false;
     const auto* confirm = qobject_cast<const ConfirmButton*>(button);
-    if (confirm == nullptr || confirm->listens()) button->click();
+    if (confirm == nullptr || confirm->listens(timeOf(key))) button->click();
     return true;
 }
 
@@ -96,8 +96,7 @@ bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
             return key.type() == QEvent::KeyPress;
         case Qt::Key_Return:
         case Qt::Key_Enter:
-            return key.type() == QEvent::KeyPress && watched->isWidgetType() &&
-                   returnPressed(watched, key.isAutoRepeat());
+            return key.type() == QEvent::KeyPress && watched->isWidgetType() && returnPressed(watched, key);
         case Qt::Key_F5:
             if (key.modifiers() != Qt::ShiftModifier) return false;
             stop_("operator (Shift+F5)");

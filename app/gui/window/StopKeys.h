@@ -34,7 +34,7 @@ protected:
 private:
     [[nodiscard]] static bool isParticipants(const QObject* watched);
     [[nodiscard]] bool pressed(QObject* watched, const QKeyEvent& key);
-    [[nodiscard]] bool returnPressed(QObject* watched, bool repeated);
+    [[nodiscard]] bool returnPressed(QObject* watched, const QKeyEvent& key);
     static constexpr int kReleased_ms = 150;
     const std::function<void(const char*)> stop_;
     bool returnHeld_ = false;

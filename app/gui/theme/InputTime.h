@@ -2,7 +2,7 @@
 //
 // Qt hands on the window system's time of an event in milliseconds. X and Wayland on this computer take it from the
 // same clock as steady_clock, so the way from the device to the window does not count into a response time. A time that
-// is not within the last second is of another clock (a remote display, a test): then the moment of arrival counts.
+// is not within the last ten seconds is of another clock (a remote display, a test): then the moment of arrival counts.
 //
 // Thread-safety: pure functions.
 #pragma once
