@@ -202,6 +202,31 @@ TEST(GivenReadings, AreRefusedAlikeByEachFunctionThatTakesThem) {
     EXPECT_NEAR(outcome.results["scale"]["offset"].get<double>(), -0.5, 1e-12);
 }
 
+TEST(CalibrationCheck, TheWorseDirectionIsJudged) {
+    RecordProperty("hazard", "H9");
+    RunBench rig;
+    const auto check = [&](double up, double down, const std::string& u) {
+        const auto outcome = rig.run(withRun(fmt::format(
+            R"(
+            const found = {{ quantity: "amplitude", unit: "V", levels: [{{ commanded: 20, mean: 20, mean_up: {},
+                mean_down: {}, not_measured: 0, expanded_uncertainty: 0.05{} }}] }};
+            const line = {{ gain: 1, offset: 0, lowest: 10, highest: 40 }};
+            return verdict({{ verdict: null, check: analysis.calibrationCheck(found, line, 2) }});)",
+            up, down, u)));
+        EXPECT_FALSE(outcome.error) << outcome.error->message;
+        return outcome.results["check"];
+    };
+    const std::string known = ", worst_expanded_uncertainty: 0.07";
+    EXPECT_EQ(check(20.2, 19.8, known)["verdict"], "pass");
+    EXPECT_EQ(check(20.6, 19.4, known)["verdict"], "fail") << "0.4 V are allowed, and their mean is exact";
+    EXPECT_EQ(check(19.7, 20.3, ", worst_expanded_uncertainty: 0.2")["verdict"], "indeterminate");
+    EXPECT_EQ(check(20.2, 19.8, "")["verdict"], "indeterminate") << "its U is not known";
+    const auto found = check(19.3, 20.6, known);
+    EXPECT_EQ(found["rows"][0]["measured"], 19.3);
+    EXPECT_EQ(found["rows"][0]["direction"], "up");
+    EXPECT_THAT(found["reasons"][0].get<std::string>(), testing::HasSubstr("19.300 ± 0.070 V was measured going up"));
+}
+
 TEST(CalibrationCheck, AReadingThatWasNotMeasuredMayBeTheOneThatIsOff) {
     RecordProperty("hazard", "H9");
     RunBench rig;

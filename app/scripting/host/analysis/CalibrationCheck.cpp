@@ -1,9 +1,13 @@
 // Whether a stored calibration still holds: its line against levels that were read again.
+#include <cmath>
+#include <utility>
+
 #include "app/scripting/host/analysis/AnalysisObject.h"
 #include "app/scripting/host/report/CalibrationTables.h"
 #include "app/scripting/host/report/Cells.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
+#include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
 #include "core/encoding/CalibratedQuantity.h"
 
@@ -11,12 +15,30 @@ namespace tacto::host::analysis {
 
 namespace {
 
+struct LevelMean {
+    double value = kNaN, expanded = kNaN;
+    std::string direction;
+};
+
+/// The mean of the level that is furthest from what the line says: of all its readings, or going up, or going down.
+LevelMean furthest(const Json& level, double expected) {
+    LevelMean out{numberOr(level, "mean"), numberOr(level, "expanded_uncertainty"), {}};
+    for (const auto& [key, direction] : {std::pair("mean_up", "up"), std::pair("mean_down", "down")}) {
+        const double mean = numberOr(level, key);
+        if (std::abs(mean - expected) > std::abs(out.value - expected))
+            out = {mean, numberOr(level, "worst_expanded_uncertainty"), direction};
+    }
+    return out;
+}
+
 std::string notHeld(const Json& row) {
     const auto unit = textOr(row, "unit");
-    return fmt::format("{}: at {} the stored calibration expects {}, and {} was measured; ± {} is allowed",
+    const auto direction = textOr(row, "direction");
+    return fmt::format("{}: at {} the stored calibration expects {}, and {} was measured{}; ± {} is allowed",
                        report::titleOfQuantity(textOr(row, "quantity")), scaledText(numberOr(row, "commanded"), unit),
                        scaledText(numberOr(row, "expected"), unit),
                        measuredText(numberOr(row, "measured"), numberOr(row, "expanded_uncertainty"), unit),
+                       direction.empty() ? direction : " going " + direction,
                        scaledText(numberOr(row, "allowed"), unit)) +
            (numberOr(row, "not_measured") > 0
                 ? fmt::format("; {:g} of its readings were not measured", numberOr(row, "not_measured"))
@@ -25,7 +47,7 @@ std::string notHeld(const Json& row) {
 
 }  // namespace
 
-/// Guard-banded, as at its making: within the tolerance, this run's uncertainty included.
+/// Guard-banded, as at its making: within the tolerance in the worse direction, this run's uncertainty included.
 Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
     const Json &found = arguments.object("found"), &line = arguments.object("line");
     const auto quantity = textOr(found, "quantity");
@@ -36,9 +58,10 @@ Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
     Verdict verdict = levels.empty() ? Verdict::Indeterminate : Verdict::Pass;
     if (levels.empty()) reasons.push_back("No level was read: nothing was checked.");
     for (const auto& level : levels) {
-        const double commanded = numberOr(level, "commanded"), mean = numberOr(level, "mean");
+        const double commanded = numberOr(level, "commanded");
         const double expected = numberOr(line, "gain") * commanded + numberOr(line, "offset");
-        const double off = mean - expected, u = numberOr(level, "expanded_uncertainty");
+        const auto [mean, u, direction] = furthest(level, expected);
+        const double off = mean - expected;
         const double allowed = arguments.number("tolerance") / 100 * commanded;
         // A current source is programmed to A / |Z|: that it comes back to the same levels is not sure. The line knows
         // its own range.
@@ -53,6 +76,7 @@ Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
                         {"commanded", numberOrNull(commanded * scale)},
                         {"expected", numberOrNull(expected * scale)},
                         {"measured", numberOrNull(mean * scale)},
+                        {"direction", direction},
                         {"off", numberOrNull(off * scale)},
                         {"expanded_uncertainty", numberOrNull(u * scale)},
                         {"allowed", numberOrNull(allowed * scale)},

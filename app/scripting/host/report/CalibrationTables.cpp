@@ -130,12 +130,13 @@ Json calibrationCheckTable(const Json& rows) {
         out.push_back({{"commanded", scaledText(numberOr(row, "commanded"), unit)},
                        {"expected", measuredText(numberOr(row, "expected"), 0, unit)},
                        {"off ± U", withU(numberOr(row, "off"), numberOr(row, "expanded_uncertainty"), unit)},
+                       {"direction", textOr(row, "direction")},
                        {"allowed", "± " + scaledText(numberOr(row, "allowed"), unit)},
                        {"verdict", row.at("verdict")}});
     }
     const auto title = rows.empty() ? std::string() : titleOfQuantity(textOr(rows.front(), "quantity"));
     return tableOf(title + ": check of the stored calibration", std::move(out),
-                   {"commanded", "expected", "off ± U", "allowed", "verdict"});
+                   {"commanded", "expected", "off ± U", "direction", "allowed", "verdict"});
 }
 
 }  // namespace tacto::host::report
