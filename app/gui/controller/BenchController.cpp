@@ -296,9 +296,15 @@ void BenchController::become(Activity activity, std::shared_ptr<const OpenBench>
 void BenchController::openOnThread(const LiveOrder& order, StopMark asked) {
     closeOnThread();
     become(Activity::Opening, nullptr, nullptr);
+    // Why, and that it is closed, in one turn of the window, so that neither is seen without the other.
     const auto give_up = [this](const Error& error) {
-        report(error);
-        become(Activity::Closed, nullptr, nullptr);
+        tell([this, why = QString::fromStdString(error.message)] {
+            emit failed(why);
+            activity_ = Activity::Closed;
+            open_.reset();
+            tap_.reset();
+            emit changed();
+        });
     };
     auto registry = makeRegistry_();
     auto live =
