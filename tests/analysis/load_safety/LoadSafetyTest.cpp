@@ -262,7 +262,10 @@ TEST_F(LoadSafetyCheck, ARateWithinTheTrainThatIsTooFastFails) {
         << "single pulses have none";
     LimitSet own;
     own.id = "own";
-    own.rows.push_back({.quantity = Quantity::RmsCurrentTrain, .max = 1000});
+    LimitRow inTrain;
+    inTrain.quantity = Quantity::RmsCurrentTrain;
+    inTrain.max = 1000;
+    own.rows.push_back(inTrain);
     input.limits.push_back(own);
     const auto worst = [&](const LoadSafety& found) {
         return *std::ranges::find(found.worstCase.rows, "rms_current_train", &SafetyRow::item);
