@@ -284,8 +284,10 @@ void BenchController::scopeFailed(const Error& error) {
     tell([this, why = QString::fromStdString(error.message)] { emit scopeStopped(why); });
 }
 
-void BenchController::become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap) {
-    tell([this, activity, open = std::move(open), tap = std::move(tap)] {
+void BenchController::become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap,
+                             const std::optional<Error>& why) {
+    tell([this, activity, open = std::move(open), tap = std::move(tap), why] {
+        if (why) emit failed(QString::fromStdString(why->message));
         activity_ = activity;
         open_ = open;
         tap_ = tap;
@@ -296,16 +298,7 @@ void BenchController::become(Activity activity, std::shared_ptr<const OpenBench>
 void BenchController::openOnThread(const LiveOrder& order, StopMark asked) {
     closeOnThread();
     become(Activity::Opening, nullptr, nullptr);
-    // Why, and that it is closed, in one turn of the window, so that neither is seen without the other.
-    const auto give_up = [this](const Error& error) {
-        tell([this, why = QString::fromStdString(error.message)] {
-            emit failed(why);
-            activity_ = Activity::Closed;
-            open_.reset();
-            tap_.reset();
-            emit changed();
-        });
-    };
+    const auto give_up = [this](const Error& error) { become(Activity::Closed, nullptr, nullptr, error); };
     auto registry = makeRegistry_();
     auto live =
         DrivenBench::open(registry, order, {limits_, stops_, asked, [beat = heartbeat_] { return beat->runs(); }});

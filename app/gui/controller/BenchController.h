@@ -194,7 +194,9 @@ private:
     using Prepare = std::function<Result<Prepared>(Registry& registry, std::shared_ptr<BenchTap> tap)>;
     [[nodiscard]] RunOrder begun(const RunOrder& order, StopMark asked);
     void runOnThread(const RunOrder& order, std::uint64_t number, const Prepare& prepare);
-    void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
+    /// `why`: said in the same turn of the window, so that neither is seen without the other.
+    void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap,
+                const std::optional<Error>& why = std::nullopt);
 
     const MakeRegistry makeRegistry_;
     const std::shared_ptr<WindowHeartbeat> heartbeat_ = std::make_shared<WindowHeartbeat>();

@@ -18,11 +18,11 @@
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/controller/SideWork.h"
-#include "app/gui/theme/InputTime.h"
 #include "app/gui/pilot/ParticipantDesk.h"
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SessionInputs.h"
 #include "app/gui/pilot/SessionStops.h"
+#include "app/gui/theme/InputTime.h"
 
 namespace tacto::gui {
 
