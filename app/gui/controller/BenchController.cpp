@@ -350,6 +350,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     auto& run = *prepared->run;
     published_.publish(&run.bench());  // from here on a stop reaches it
     published_.forgetStops();          // what came before is start()'s to see: the order is older than it
+    const auto bench = describeBench(run.opened());  // asks the devices: not beside the script that uses them
     RunRequest hooks;
     hooks.operatorDesk = &operator_;
     feed_.listen(hooks);
@@ -362,7 +363,6 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     // A stop between start and publishing has switched off the bench, and has not reached the script. One that the
     // script asked for itself, as a pilot session's stop test does, ends nothing.
     if (const auto by = published_.publish(run.bench(), *run.script())) run.script()->stop(by->c_str());
-    const auto bench = describeBench(run.opened());  // asks the devices: not again once the script has ended
     become(Activity::Running, bench, tap);
     const auto clock = run.opened().clock;
     const auto began = clock->now();
