@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
     const auto started = StartedWith::read(QApplication::arguments());
     if (started.answer) return answer(*started.answer);
     using tacto::gui::MainWindow;
-    MainWindow window(tacto::allDrivers(), MainWindow::Pages::AfterTheFirstPicture);
+    MainWindow window(tacto::allDrivers());
     const tacto::gui::SignalClose closesAtSignals(stops, window);
     window.show();
     const bool opens = !started.file.isEmpty();

@@ -334,7 +334,11 @@ protected:
              [this] {
                  page(1);
                  window.findChild<gui::TabbedPage*>("calibratePages")->setCurrentIndex(1);
-                 press(window, "Known reference");
+                 // A procedure that has just been read begins at its first step.
+                 ASSERT_IN_TIME(comesTrue([this] {
+                     press(window, "Known reference");
+                     return find<QAbstractButton>(window, "Choose the file") != nullptr;
+                 }));
                  press(window, "Choose the file");
              },
              "ParameterForm"},

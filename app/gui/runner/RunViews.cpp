@@ -76,7 +76,7 @@ RunViews::RunViews(QWidget* parent) : QWidget(parent) {
 }
 
 QWidget* RunViews::buildPlots() {
-    auto* holder = new QWidget;
+    auto* holder = new QWidget(views_);
     plots_ = new QHBoxLayout(holder);
     plots_->setContentsMargins(0, 0, 0, 0);
     plane_ = new TrialPlane(holder);

@@ -50,7 +50,7 @@ ScopeWorkspace::ScopeWorkspace(BenchController& controller, QWidget* parent)
       spectrum_(new SpectrumPanel(this)),
       table_(new MeasurementTable(readings_, this)),
       stack_(new QStackedWidget(this)),
-      empty_(new ScopeEmpty(this)) {
+      empty_(new ScopeEmpty(stack_)) {
     acquisition_ = std::make_unique<ScopeAcquisition>(controller_, controls_->acquisition());
     feed_ = std::make_unique<ScopeFeed>(model_, *acquisition_);
     setAcceptDrops(true);
@@ -77,7 +77,7 @@ void ScopeWorkspace::layOut() {
     connect(empty_, &ScopeEmpty::nextStep, this, &ScopeWorkspace::openBenchWanted);
     connect(empty_, &ScopeEmpty::openClicked, files_.get(), &ScopeFiles::askOpen);
     stack_->addWidget(empty_);
-    columns_ = new ScopeColumns({*tools_, *status_, *screen_, *spectrum_, *table_, *controls_}, this);
+    columns_ = new ScopeColumns({*tools_, *status_, *screen_, *spectrum_, *table_, *controls_}, stack_);
     stack_->addWidget(columns_);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);

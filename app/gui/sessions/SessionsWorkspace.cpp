@@ -57,10 +57,12 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     layout->setSpacing(0);
     auto* split = split_ = new QSplitter(Qt::Horizontal, this);
     split->setChildrenCollapsible(false);
-    list_ = new SessionList(split);
-    split->addWidget(withActions(list_, buildListActions()));
-    details_ = new SessionDetails(controller_.limits(), split);
-    split->addWidget(withActions(details_, buildSessionActions()));
+    auto* left = new QWidget(split);
+    list_ = new SessionList(left);
+    layOut(*left, *list_, *buildListActions());
+    auto* right = new QWidget(split);
+    details_ = new SessionDetails(controller_.limits(), right);
+    layOut(*right, *details_, *buildSessionActions());
     split->setStretchFactor(0, 3);
     split->setStretchFactor(1, 2);
     layout->addWidget(split, 1);
@@ -110,15 +112,13 @@ void SessionsWorkspace::resizeEvent(QResizeEvent* event) {
 }
 
 /// A pane of the page: what it shows, and below it what can be done with that.
-QWidget* SessionsWorkspace::withActions(QWidget* shown, QWidget* actions) {
-    auto* pane = new QWidget(this);
-    auto* column = new QVBoxLayout(pane);
+void SessionsWorkspace::layOut(QWidget& pane, QWidget& shown, QWidget& actions) {
+    auto* column = new QVBoxLayout(&pane);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    column->addWidget(shown, 1);
-    makeActionBar(*actions);
-    column->addWidget(actions);
-    return pane;
+    column->addWidget(&shown, 1);
+    makeActionBar(actions);
+    column->addWidget(&actions);
 }
 
 QWidget* SessionsWorkspace::buildListActions() {

@@ -43,7 +43,7 @@ protected:
 
 private:
     void fitPanes();
-    [[nodiscard]] QWidget* withActions(QWidget* shown, QWidget* actions);
+    static void layOut(QWidget& pane, QWidget& shown, QWidget& actions);
     [[nodiscard]] QWidget* buildListActions();
     [[nodiscard]] QWidget* buildSessionActions();
     [[nodiscard]] QWidget* buildNews();

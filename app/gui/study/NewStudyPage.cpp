@@ -24,7 +24,6 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
       folder_(new FolderRow({},
                             tr("A new or empty folder. The study’s keys are kept elsewhere, in your own key folder."),
                             tr("A new or empty folder for the study"), this)),
-      form_(new StudyForm(this)),
       trouble_(new TroubleLine("newStudyTrouble", this)) {
     setObjectName("newStudy");
     auto* whole = new QVBoxLayout(this);
@@ -52,6 +51,7 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     row->addWidget(folder_, 1);
     boundWidth(*place, kFormWide);
     column->addWidget(place);
+    form_ = new StudyForm(inside);
     boundWidth(*form_, kFormWide);
     column->addWidget(form_);
     column->addStretch();

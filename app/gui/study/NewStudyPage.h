@@ -31,7 +31,7 @@ private:
     void askForPassphrase();
     OpenStudy& study_;
     FolderRow* folder_;
-    StudyForm* form_;
+    StudyForm* form_ = nullptr;
     TroubleLine* trouble_;
     QPointer<PassphraseDialog> asks_;
 };

@@ -22,7 +22,7 @@ QMessageBox* question(const QString& text, QMessageBox::StandardButtons buttons,
 
 }  // namespace
 
-CloseQuestion::CloseQuestion(BenchController& controller, QMainWindow& window, std::vector<ProtocolWorkspace*> runners,
+CloseQuestion::CloseQuestion(BenchController& controller, QMainWindow& window, Runners runners,
                              std::function<bool()> otherRuns)
     : QObject(&window),
       controller_(controller),
@@ -31,12 +31,12 @@ CloseQuestion::CloseQuestion(BenchController& controller, QMainWindow& window, s
       otherRuns_(std::move(otherRuns)) {}
 
 bool CloseQuestion::runs() const {
-    return otherRuns_() || std::ranges::any_of(runners_, [](const ProtocolWorkspace* one) { return one->running(); });
+    return otherRuns_() || std::ranges::any_of(runners_(), [](const ProtocolWorkspace* one) { return one->running(); });
 }
 
 std::vector<ScriptEditor*> CloseQuestion::unsaved() const {
     std::vector<ScriptEditor*> found;
-    for (const auto* runner : runners_) {
+    for (const auto* runner : runners_()) {
         if (auto* editor = runner->unsavedScript()) found.push_back(editor);
     }
     return found;

@@ -20,9 +20,9 @@ class ScriptEditor;
 class CloseQuestion final : public QObject {
     Q_OBJECT
 public:
-    /// The window owns this and outlives `runners`. `otherRuns`: whether a run goes on that is none of theirs.
-    CloseQuestion(BenchController& controller, QMainWindow& window, std::vector<ProtocolWorkspace*> runners,
-                  std::function<bool()> otherRuns);
+    using Runners = std::function<std::vector<ProtocolWorkspace*>()>;
+    /// The window owns this. `runners`: those there are now. `otherRuns`: whether a run goes on that is none of theirs.
+    CloseQuestion(BenchController& controller, QMainWindow& window, Runners runners, std::function<bool()> otherRuns);
     /// Whether a run is going on or about to begin.
     [[nodiscard]] bool runs() const;
     /// Whether the window may close at once. Otherwise a question is open, and its answer closes the window. `stopped`:
@@ -40,7 +40,7 @@ private:
 
     BenchController& controller_;
     QMainWindow& window_;
-    const std::vector<ProtocolWorkspace*> runners_;
+    const Runners runners_;
     const std::function<bool()> otherRuns_;
     bool runAnswered_ = false;
     bool unasked_ = false;

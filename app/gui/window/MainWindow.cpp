@@ -50,7 +50,7 @@ constexpr int kAllDocksFrom = 480;   // in lower ones all docks but that of the 
 
 }  // namespace
 
-MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, std::function<QDate()> today)
+MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function<QDate()> today)
     : controller_(std::move(makeRegistry), nullptr, std::move(today)) {
     setWindowTitle(tr("Tactoscope"));
     setAcceptDrops(true);
@@ -120,7 +120,9 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages, 
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
     connect(safety_, &SafetyBar::detailsRequested, line_, &RecordingLine::showLog);
     connect(&controller_, &BenchController::changed, this, &MainWindow::noteChange);
-    if (pages == Pages::AtOnce) workspaces_->complete();
+    closing_ = new CloseQuestion(
+        controller_, *this, [this] { return workspaces_->runners(); },
+        [this] { return workspaces_->pilot() != nullptr && workspaces_->pilot()->running(); });
     restore();
     connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
     frame_.start(kFrame_ms);
@@ -138,15 +140,8 @@ void MainWindow::connectWorkspaces() {
     connect(workspaces_, &Workspaces::markWanted, this, &MainWindow::markMoment);
     connect(workspaces_, &Workspaces::plotOnlyWanted, this, [this] { findChild<QAction*>("plotOnly")->trigger(); });
     connect(workspaces_, &Workspaces::simulatedBenchWanted, this, &MainWindow::openSimulatedBench);
-    connect(workspaces_, &Workspaces::completed, this, &MainWindow::noteComplete);
-}
-
-void MainWindow::noteComplete() {
-    auto* pilot = workspaces_->pilot();
-    connect(pilot, &PilotWorkspace::runningChanged, this, &MainWindow::noteBlind);
-    connect(workspaces_, &Workspaces::captured, summary_, &MeasurementSummary::measure);
-    const auto all = workspaces_->runners();
-    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()}, [pilot] { return pilot->running(); });
+    connect(workspaces_, &Workspaces::pilotMade, this,
+            [this] { connect(workspaces_->pilot(), &PilotWorkspace::runningChanged, this, &MainWindow::noteBlind); });
 }
 
 void MainWindow::buildDocks() {
@@ -159,6 +154,7 @@ void MainWindow::buildDocks() {
     exposure_ = new ExposureDock(controller_, this);
     devices_ = new DeviceDock(controller_, calibrations_, this);
     docks_ = new DockColumn(*this, {drive_, measurements_, exposure_, devices_});
+    connect(workspaces_, &Workspaces::captured, summary_, &MeasurementSummary::measure);
     connect(&scope, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
     connect(exposure_, &ExposureDock::areaWanted, this,
             [this] { workspaces_->live().editProfile("electrode_area_cm2"); });
@@ -286,10 +282,7 @@ void MainWindow::chooseRecording() {
     askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
 
-void MainWindow::closeUnasked() {
-    workspaces_->complete();
-    closing_->closeUnasked();
-}
+void MainWindow::closeUnasked() { closing_->closeUnasked(); }
 
 void MainWindow::beginTour() { tour_->begin(); }
 
@@ -345,13 +338,6 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
     if (docks_ != nullptr && changed) enterDocks();
 }
 
-/// What is built afterwards does not delay the first picture.
-bool MainWindow::event(QEvent* event) {
-    if (event->type() == QEvent::Paint && closing_ == nullptr)
-        QTimer::singleShot(0, workspaces_, &Workspaces::complete);
-    return QMainWindow::event(event);
-}
-
 void MainWindow::changeEvent(QEvent* event) {
     QMainWindow::changeEvent(event);
     if (event->type() != QEvent::WindowStateChange || !isMinimized()) return;
@@ -362,7 +348,6 @@ void MainWindow::changeEvent(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-    workspaces_->complete();
     const bool ran = closing_->runs();
     controller_.stop("the window closes");  // before anything is asked
     if (!closing_->mayClose(ran)) return event->ignore();

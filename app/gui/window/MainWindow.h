@@ -34,11 +34,8 @@ class Workspaces;
 class MainWindow final : public QMainWindow {
     Q_OBJECT
 public:
-    /// When all workspaces but Live are made: they take as long as all the rest of the start.
-    enum class Pages { AtOnce, AfterTheFirstPicture };
     /// `today` as of DayNotes.
-    explicit MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages = Pages::AtOnce,
-                        std::function<QDate()> today = {});
+    explicit MainWindow(BenchController::MakeRegistry makeRegistry, std::function<QDate()> today = {});
     ~MainWindow() override;
 
     [[nodiscard]] SafetyBar& safetyBar() { return *safety_; }
@@ -73,7 +70,6 @@ public:
     void resetLayout();
 
 protected:
-    bool event(QEvent* event) override;
     void showEvent(QShowEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
@@ -83,7 +79,6 @@ protected:
 
 private:
     void connectWorkspaces();
-    void noteComplete();
     void buildDocks();
     void restore();
     void tick();
@@ -106,7 +101,7 @@ private:
     RecordingLine* line_ = nullptr;
     MarkLine* mark_ = nullptr;
     WelcomeTour* tour_ = nullptr;
-    CloseQuestion* closing_ = nullptr;  ///< once all workspaces are there
+    CloseQuestion* closing_ = nullptr;
     ArmQuestion* arming_ = nullptr;
     WorkspaceRail* rail_ = nullptr;
     bool hasRoomForDocks_ = true, hasRoomForAllDocks_ = true;

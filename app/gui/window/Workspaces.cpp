@@ -1,6 +1,8 @@
 #include "app/gui/window/Workspaces.h"
 
 #include <QFileInfo>
+#include <algorithm>
+#include <iterator>
 
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/live/LiveWorkspace.h"
@@ -28,21 +30,12 @@ Workspace* makeIn(ScrollingPage& page, Arguments&&... arguments) {
     return workspace;
 }
 
-template <typename Workspace, typename... Arguments>
-Workspace* addPage(QStackedWidget& pages, Arguments&&... arguments) {
-    auto* page = new ScrollingPage(&pages);
-    auto* workspace = makeIn<Workspace>(*page, std::forward<Arguments>(arguments)...);
-    pages.addWidget(page);
-    return workspace;
-}
-
 }  // namespace
 
 Workspaces::Workspaces(BenchController& controller, CalibrationBook& calibrations, QWidget* parent)
-    : QStackedWidget(parent),
-      controller_(controller),
-      calibrations_(calibrations),
-      livePage_(addPage<TabbedPage>(*this)) {
+    : QStackedWidget(parent), controller_(controller), calibrations_(calibrations) {
+    for (int page = kLive; page <= kProtocols; ++page) addWidget(new ScrollingPage(this));
+    livePage_ = makeOn<TabbedPage>(kLive);
     livePage_->setObjectName("livePage");
     auto* touch = new ScrollingPage(livePage_->room());
     live_ = makeIn<LiveWorkspace>(*touch, controller_);
@@ -59,35 +52,45 @@ Workspaces::Workspaces(BenchController& controller, CalibrationBook& calibration
     connect(scope_, &ScopeWorkspace::openBenchWanted, this, &Workspaces::simulatedBenchWanted);
 }
 
-void Workspaces::complete() {
-    if (isComplete()) return;
-    calibrate_ = addPage<CalibrateWorkspace>(*this, controller_, calibrations_);
-    safetyCheck_ = addPage<ProtocolWorkspace>(*this, controller_, "load-safety");
-    separability_ = addPage<ProtocolWorkspace>(*this, controller_, "separability");
-    pilot_ = addPage<PilotWorkspace>(*this, controller_);
-    pilot_->setButtonDevices(buttonDevices());
-    connect(pilot_, &PilotWorkspace::attentionWanted, this, [this] { showPage(kPilot); });
-    sessions_ = addPage<SessionsWorkspace>(*this, controller_);
-    protocols_ = addPage<ProtocolWorkspace>(*this, controller_, QString());
-    connectRunners();
-    connectSessions();
-    emit completed();
+template <typename Workspace, typename... Arguments>
+Workspace* Workspaces::makeOn(int page, Arguments&&... arguments) {
+    return makeIn<Workspace>(*static_cast<ScrollingPage*>(widget(page)), std::forward<Arguments>(arguments)...);
 }
 
-void Workspaces::connectRunners() {
-    for (auto* runner : calibrate_->runners())
-        connect(runner, &ProtocolWorkspace::attentionWanted, this, [this] { showPage(kCalibrate); });
-    connect(safetyCheck_, &ProtocolWorkspace::attentionWanted, this, [this] { showPage(kSafetyCheck); });
-    connect(separability_, &ProtocolWorkspace::attentionWanted, this, [this] { showPage(kSeparability); });
-    connect(protocols_, &ProtocolWorkspace::attentionWanted, this, [this] { showPage(kProtocols); });
-    for (auto* runner : runners()) {
-        connect(runner, &ProtocolWorkspace::profileChangeWanted, live_, [this] { live_->editProfile(); });
-        connect(runner, &ProtocolWorkspace::sessionWanted, this, &Workspaces::openFile);
-        connect(runner, &ProtocolWorkspace::safetyCheckWanted, this, [this] { showPage(kSafetyCheck); });
-        connect(runner, &ProtocolWorkspace::liveWanted, this, [this] { showPage(kLive); });
-        connect(runner, &ProtocolWorkspace::plotOnlyWanted, this, &Workspaces::plotOnlyWanted);
-        connect(runner, &ProtocolWorkspace::captured, this, &Workspaces::captured);
+void Workspaces::make(int page) {
+    const auto makeRunner = [&](ProtocolWorkspace*& runner, const QString& protocol) {
+        if (runner != nullptr) return;
+        runner = makeOn<ProtocolWorkspace>(page, controller_, protocol);
+        addRunner(*runner, page);
+    };
+    if (page == kSafetyCheck) makeRunner(safetyCheck_, "load-safety");
+    if (page == kSeparability) makeRunner(separability_, "separability");
+    if (page == kProtocols) makeRunner(protocols_, {});
+    if (page == kCalibrate && calibrate_ == nullptr) {
+        calibrate_ = makeOn<CalibrateWorkspace>(page, controller_, calibrations_);
+        for (auto* runner : calibrate_->runners()) addRunner(*runner, page);
     }
+    if (page == kPilot && pilot_ == nullptr) {
+        pilot_ = makeOn<PilotWorkspace>(page, controller_);
+        pilot_->setButtonDevices(buttonDevices());
+        connect(pilot_, &PilotWorkspace::attentionWanted, this, [this] { showPage(kPilot); });
+        emit pilotMade();
+    }
+    if (page == kSessions && sessions_ == nullptr) {
+        sessions_ = makeOn<SessionsWorkspace>(page, controller_);
+        connectSessions();
+    }
+    if (plotOnly_) showPlotOnly(true);
+}
+
+void Workspaces::addRunner(ProtocolWorkspace& runner, int page) {
+    connect(&runner, &ProtocolWorkspace::attentionWanted, this, [this, page] { showPage(page); });
+    connect(&runner, &ProtocolWorkspace::profileChangeWanted, live_, [this] { live_->editProfile(); });
+    connect(&runner, &ProtocolWorkspace::sessionWanted, this, &Workspaces::openFile);
+    connect(&runner, &ProtocolWorkspace::safetyCheckWanted, this, [this] { showPage(kSafetyCheck); });
+    connect(&runner, &ProtocolWorkspace::liveWanted, this, [this] { showPage(kLive); });
+    connect(&runner, &ProtocolWorkspace::plotOnlyWanted, this, &Workspaces::plotOnlyWanted);
+    connect(&runner, &ProtocolWorkspace::captured, this, &Workspaces::captured);
 }
 
 void Workspaces::connectSessions() {
@@ -100,14 +103,16 @@ void Workspaces::connectSessions() {
     });
 }
 
-std::array<ProtocolWorkspace*, 5> Workspaces::runners() const {
-    const auto [stimulator, sensor] = calibrate_->runners();
-    return {stimulator, sensor, safetyCheck_, separability_, protocols_};
+std::vector<ProtocolWorkspace*> Workspaces::runners() const {
+    std::vector<ProtocolWorkspace*> all{safetyCheck_, separability_, protocols_};
+    std::erase(all, nullptr);
+    if (calibrate_ != nullptr) std::ranges::copy(calibrate_->runners(), std::back_inserter(all));
+    return all;
 }
 
 void Workspaces::showPage(int page) {
-    if (page != kLive) complete();
     if (page < 0 || page >= count() || (pilot_ != nullptr && pilot_->blind() && page != kPilot)) return;
+    make(page);
     setCurrentIndex(page);
     emit shown();
 }
@@ -131,10 +136,10 @@ void Workspaces::takeFocus() {
 }
 
 void Workspaces::showPlotOnly(bool only) {
-    complete();
+    plotOnly_ = only;
     for (auto* page : findChildren<TabbedPage*>()) page->setHeadVisible(!only);
-    calibrate_->showPlotOnly(only);
-    pilot_->showPlotOnly(only);
+    if (calibrate_ != nullptr) calibrate_->showPlotOnly(only);
+    if (pilot_ != nullptr) pilot_->showPlotOnly(only);
     live_->showPlotOnly(only);
     for (auto* runner : runners()) runner->showPlotOnly(only);
 }
@@ -143,20 +148,19 @@ void Workspaces::refresh(const Telemetry& telemetry, bool measured) {
     letYield(*this, telemetry.state == InterlockState::Faulted);  // to Reset
     live_->refresh(telemetry, currentIndex() == kLive && !showsScope());
     if (measured || showsScope()) scope_->refresh(telemetry);
-    if (!isComplete()) return;  // nothing runs where there is no page for it
     // One of them takes what a run says: the one it was started from, told apart by themselves.
     for (auto* protocol : runners()) protocol->refresh();
-    pilot_->refresh(telemetry);
+    if (pilot_ != nullptr) pilot_->refresh(telemetry);
 }
 
 void Workspaces::openFile(const QString& path) {
-    complete();
     const QFileInfo file(path);
     bool opened = false;
     if (file.isDir() || file.suffix() == "json") {
         opened = live_->openRecording(path);
         if (opened) showLive(kTouch);
     } else if (file.suffix() == "tacto") {
+        make(kSessions);
         opened = sessions_->openSession(path);
         if (opened) showPage(kSessions);
     } else if (captureFormats()->knowsSuffix(path.toStdString())) {

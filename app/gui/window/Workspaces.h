@@ -1,12 +1,12 @@
-// Workspaces.h - the window's seven workspaces, one of them shown. Live is there from the start; the others take as
-// long to make as all the rest of the window, and are made when they are first needed.
+// Workspaces.h - the window's seven workspaces, one of them shown. Live is there from the start; each other is made
+// when it is first needed: all of them take as long as the rest of the window.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QStackedWidget>
-#include <array>
 #include <memory>
+#include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/controller/BenchController.h"
@@ -29,10 +29,6 @@ public:
     enum LiveTab { kTouch, kScope };
     /// Both outlive it.
     Workspaces(BenchController& controller, CalibrationBook& calibrations, QWidget* parent);
-    /// Makes the others, once.
-    void complete();
-    [[nodiscard]] bool isComplete() const { return protocols_ != nullptr; }
-
     /// Nothing for a number that there is none of, and for another than Pilot's while a session there is blind.
     void showPage(int page);
     void showLive(LiveTab tab);
@@ -49,15 +45,15 @@ public:
 
     [[nodiscard]] LiveWorkspace& live() const { return *live_; }
     [[nodiscard]] ScopeWorkspace& scope() const { return *scope_; }
-    /// Null before complete().
+    /// Null until it is made.
     [[nodiscard]] PilotWorkspace* pilot() const { return pilot_; }
-    /// All that run protocols; after complete().
-    [[nodiscard]] std::array<ProtocolWorkspace*, 5> runners() const;
+    /// Those that run protocols, as far as they are made.
+    [[nodiscard]] std::vector<ProtocolWorkspace*> runners() const;
 
 signals:
     /// Another workspace, or another page of Live.
     void shown();
-    void completed();
+    void pilotMade();
     void complained(const QString& why);  ///< about a file or a recording that was not opened
     void markWanted();
     void plotOnlyWanted();
@@ -65,7 +61,10 @@ signals:
     void captured(std::shared_ptr<const tacto::Capture> capture);  ///< by a run
 
 private:
-    void connectRunners();
+    void make(int page);
+    template <typename Workspace, typename... Arguments>
+    [[nodiscard]] Workspace* makeOn(int page, Arguments&&... arguments);
+    void addRunner(ProtocolWorkspace& runner, int page);
     void connectSessions();
 
     BenchController& controller_;
@@ -79,6 +78,7 @@ private:
     PilotWorkspace* pilot_ = nullptr;
     SessionsWorkspace* sessions_ = nullptr;
     ProtocolWorkspace* protocols_ = nullptr;
+    bool plotOnly_ = false;
 };
 
 }  // namespace tacto::gui

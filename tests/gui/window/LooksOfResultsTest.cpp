@@ -138,7 +138,7 @@ private:
 
 TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
     window.showWorkspace(1);
-    window.findChild<QLineEdit*>("warm_up_s")->setText("0");
+    ASSERT_NO_FATAL_FAILURE(type("warm_up_s", "0"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-calibrate");
     // Below it stand the cards, one for each quantity: one line each in the small window.

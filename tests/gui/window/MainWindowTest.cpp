@@ -288,22 +288,43 @@ TEST_F(Window, SpaceStopsInEveryWorkspace) {
     }
 }
 
-TEST(WindowsStart, WorkspacesThatAreNotShownComeAfterTheFirstPicture) {
+TEST(WindowsStart, AWorkspaceIsMadeWhenItIsFirstShown) {
     QSettings().clear();
-    gui::MainWindow window(simulatedRegistry, gui::MainWindow::Pages::AfterTheFirstPicture);
-    EXPECT_EQ(window.findChild<gui::ProtocolWorkspace*>(), nullptr);
+    gui::MainWindow window(simulatedRegistry);
+    const auto runners = [&] { return window.findChildren<gui::ProtocolWorkspace*>().size(); };
     window.show();
-    EXPECT_IN_TIME(comesTrue([&] { return window.findChildren<gui::ProtocolWorkspace*>().size() == 5; }));
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
+    letLive(50);
+    EXPECT_EQ(runners(), 0);
+    for (const auto& [page, made] : {std::pair{6, 1}, {3, 2}, {1, 4}, {2, 5}, {4, 5}, {5, 5}, {6, 5}}) {
+        window.showWorkspace(page);
+        EXPECT_EQ(window.workspace(), page);
+        EXPECT_EQ(runners(), made) << page;
+    }
     window.showWorkspace(6);
-    EXPECT_EQ(window.workspace(), 6);
     window.close();
     // As it was left; and a window that closes before it was ever shown has its questions too.
-    gui::MainWindow again(simulatedRegistry, gui::MainWindow::Pages::AfterTheFirstPicture);
+    gui::MainWindow again(simulatedRegistry);
     EXPECT_EQ(again.workspace(), 6);
+    EXPECT_EQ(again.findChildren<gui::ProtocolWorkspace*>().size(), 1);
     QSettings().clear();
-    gui::MainWindow unseen(simulatedRegistry, gui::MainWindow::Pages::AfterTheFirstPicture);
+    gui::MainWindow unseen(simulatedRegistry);
     unseen.closeUnasked();
     EXPECT_FALSE(unseen.isVisible());
+}
+
+TEST(WindowsStart, AWorkspaceThatIsFirstShownWhileOnlyPlotsAreHasNoPathEither) {
+    QSettings().clear();
+    gui::MainWindow window(simulatedRegistry);
+    window.show();
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
+    const auto pathIsShown = [&] { return find<QWidget>(window, "path") != nullptr; };
+    window.showPlotOnly(true);
+    window.showWorkspace(3);
+    EXPECT_IN_TIME(comesTrue([&] { return !pathIsShown(); }));
+    window.showPlotOnly(false);
+    EXPECT_IN_TIME(comesTrue(pathIsShown));
+    window.close();
 }
 
 TEST(WindowsStart, TheFrameFitsTheScreenToo) {

@@ -232,7 +232,7 @@ protected:
     [[nodiscard]] QPushButton& run() { return *find<QPushButton>(window, "runButton"); }
 
     QDate today{2026, 11, 23};
-    gui::MainWindow window{simulatedRegistry, gui::MainWindow::Pages::AtOnce, [this] { return today; }};
+    gui::MainWindow window{simulatedRegistry, [this] { return today; }};
 };
 
 TEST_F(ANewDay, IsAskedForBeforeABenchIsOpenedAndNotWhileOneIsOpen) {
