@@ -35,6 +35,8 @@ public:
     [[nodiscard]] bool running() const { return running_; }
     /// Whether a protocol was read, none runs here, and nothing is in the way of its run.
     [[nodiscard]] bool ready() const { return declaration_.has_value() && !running_ && obstacle_.isEmpty(); }
+    /// Whether a script is being read: its form is not there yet.
+    [[nodiscard]] bool reads() const { return reading_.busy(); }
     /// Sets a parameter of the form, by the name that the script has for it; one that it has not is left alone.
     void set(const std::string& parameter, const QString& text);
     /// The editor, where it holds changes that are not saved; null otherwise.

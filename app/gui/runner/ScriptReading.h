@@ -20,6 +20,7 @@ public:
     explicit ScriptReading(Done done) : done_(std::move(done)) {}
     /// A source given while another is being read waits; only the newest waits, and only its answer comes.
     void read(const ProtocolSource& source);
+    [[nodiscard]] bool busy() const { return busy_; }
 
 private:
     void begin(const ProtocolSource& source);

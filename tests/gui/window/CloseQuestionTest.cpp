@@ -34,7 +34,7 @@ protected:
     }
     /// Words in a new protocol's script that are not saved.
     gui::ScriptEditor* writeScript() {
-        window.showWorkspace(6);
+        visit(6);
         QPushButton* button = nullptr;
         EXPECT_IN_TIME(comesTrue([&] { return (button = find<QPushButton>(window, "New…")) != nullptr; }));
         click(*button);
@@ -50,7 +50,7 @@ protected:
     }
     /// A run that takes as long as it takes, delivering.
     void runSlowly() {
-        window.showWorkspace(3);
+        visit(3);
         QPushButton* run = nullptr;
         ASSERT_IN_TIME(comesTrue([&] {
             run = find<QPushButton>(window, "runButton");

@@ -36,7 +36,7 @@ protected:
     template <class Follow>
     void onEachPage(Follow follow) {
         for (int page = 0; page < 8; ++page) {
-            window.showWorkspace(page % 7);
+            visit(page % 7);
             window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page / 7);
             for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
             letLive(60);
@@ -148,7 +148,7 @@ TEST_F(DesignRules, RailAndToolsHaveIcons) {
 
 TEST_F(DesignRules, StackedPlotsHaveBothEdgesInLine) {
     open();
-    window.showWorkspace(0);
+    visit(0);
     letLive(300);
     auto& strips = *window.findChild<gui::StripPlots*>();
     for (const int percent : {100, 200}) {
@@ -190,7 +190,7 @@ TEST_F(DesignRules, APageHasOneFilledButtonAtMost) {
 }
 
 TEST_F(DesignRules, TheRailsCellsFillItAndBeginAtOneEdge) {
-    window.showWorkspace(0);
+    visit(0);
     letLive(60);
     const auto& rail = *window.findChild<QToolBar*>("workspaces");
     const auto begins = [this](QToolButton& cell) {

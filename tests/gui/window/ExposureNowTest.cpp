@@ -80,7 +80,7 @@ TEST_F(ExposureInTheWindow, NoBarIsCutInADockThatHasNoRoomForAll) {
     open();
     arm();
     deliver();
-    window.showWorkspace(0);
+    visit(0);
     auto& tabs = *window.findChild<gui::TabbedPage*>("livePage");
     tabs.setCurrentIndex(1);
     auto& dock = *window.findChild<gui::ExposureDock*>();

@@ -75,7 +75,7 @@ protected:
 };
 
 TEST_F(FocusOrder, OfACalibrationIsThatOfReading) {
-    window.showWorkspace(1);
+    visit(1);
     QLineEdit* warmUp = nullptr;
     ASSERT_IN_TIME(comesTrue([&] { return (warmUp = window.findChild<QLineEdit*>("warm_up_s")) != nullptr; }));
     warmUp->setText("0");
@@ -84,14 +84,14 @@ TEST_F(FocusOrder, OfACalibrationIsThatOfReading) {
 }
 
 TEST_F(FocusOrder, OfASensorCalibrationIsThatOfReading) {
-    window.showWorkspace(1);
+    visit(1);
     window.findChild<gui::TabbedPage*>("calibratePages")->setCurrentIndex(1);
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     expectResultReadInOrder("sensor calibration");
 }
 
 TEST_F(FocusOrder, OfASafetyCheckIsThatOfReading) {
-    window.showWorkspace(2);
+    visit(2);
     QLineEdit* area = nullptr;
     ASSERT_IN_TIME(comesTrue([&] { return (area = find<QLineEdit>(window, "area")) != nullptr; }));
     area->setText("4");
@@ -102,7 +102,7 @@ TEST_F(FocusOrder, OfASafetyCheckIsThatOfReading) {
 }
 
 TEST_F(FocusOrder, OfASeparabilityRunIsThatOfReading) {
-    window.showWorkspace(3);
+    visit(3);
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     expectResultReadInOrder("separability");
     click(*find<QPushButton>(window, "Sign report…"));
@@ -111,7 +111,7 @@ TEST_F(FocusOrder, OfASeparabilityRunIsThatOfReading) {
 
 TEST_F(FocusOrder, OfAPilotsResultIsThatOfReading) {
     const ScratchDir folder;
-    window.showWorkspace(4);
+    visit(4);
     auto& pilot = *window.findChild<gui::PilotWorkspace*>();
     pilot.findChild<QLineEdit*>("studyFolder")->setText(QString::fromStdString((folder.path() / "study").string()));
     pilot.findChild<QSpinBox*>("rehearsalBlocks")->setValue(1);
@@ -126,7 +126,7 @@ TEST_F(FocusOrder, OfTheOscilloscopeIsThatOfReading) {
     open();
     ASSERT_NO_FATAL_FAILURE(arm());
     ASSERT_NO_FATAL_FAILURE(deliver());
-    window.showWorkspace(0);
+    visit(0);
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
     auto& scope = *window.findChild<gui::ScopeWorkspace*>();
     ASSERT_IN_TIME(comesTrue([&] { return scope.model().shown() != nullptr; }));

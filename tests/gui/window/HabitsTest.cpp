@@ -222,7 +222,7 @@ TEST_F(Habits, ABenchIsMadeOfWhatIsTicked) {
 }
 
 TEST_F(Habits, TheWindowIsAsItWasLeft) {
-    window.showWorkspace(5);
+    visit(5);
     auto* dark = menuEntry("View", "Dark");
     ASSERT_NE(dark, nullptr);
     dark->trigger();

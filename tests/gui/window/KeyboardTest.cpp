@@ -27,7 +27,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([&] { return QApplication::activeWindow() == &top; }));
     }
     void show(int workspace) {
-        window.showWorkspace(workspace);
+        visit(workspace);
         letLive(100);  // laid out, and drawn once
     }
     [[nodiscard]] QPushButton& stopButton() { return *window.findChild<QPushButton*>("stopButton"); }

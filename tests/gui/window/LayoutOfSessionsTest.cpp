@@ -21,7 +21,7 @@ namespace {
 class LayoutOfSessions : private OwnDataHome, public Window {
 protected:
     void run() {
-        window.showWorkspace(3);
+        visit(3);
         runsToItsEnd();
     }
     /// The bench live under the finger and delivering, with a mark.
@@ -70,7 +70,7 @@ protected:
 
 TEST_F(LayoutOfSessions, EachPageOfARunIsReadWhole) {
     ASSERT_NO_FATAL_FAILURE(run());
-    window.showWorkspace(5);
+    visit(5);
     ASSERT_NO_FATAL_FAILURE(choose(0));
     const auto tables = details().findChildren<QTableWidget*>();
     const auto filled = [&] {
@@ -82,7 +82,7 @@ TEST_F(LayoutOfSessions, EachPageOfARunIsReadWhole) {
 
 TEST_F(LayoutOfSessions, EachStreamOfALiveSessionIsReadWhole) {
     ASSERT_NO_FATAL_FAILURE(recordLive());
-    window.showWorkspace(5);
+    visit(5);
     ASSERT_NO_FATAL_FAILURE(choose(0));
     auto& streams = *details().findChild<QTableWidget*>("streamsTable");
     ASSERT_IN_TIME(comesTrue([&] { return streams.rowCount() > 2; }));
@@ -116,7 +116,7 @@ TEST_F(LayoutOfSessions, TheComparisonOfTwoIsReadWhole) {
     }
     ASSERT_NO_FATAL_FAILURE(run());
     window.resize(1280, 720);
-    window.showWorkspace(5);
+    visit(5);
     ASSERT_NO_FATAL_FAILURE(choose(0));
     ASSERT_NO_FATAL_FAILURE(choose(1, Qt::ControlModifier));
     auto* compare = find<QPushButton>(window, "Compare two");

@@ -74,7 +74,7 @@ protected:
 
 TEST_F(Layout, TheOscilloscopesScreenHasTheRoomWithTheDocksOpen) {
     open();
-    window.showWorkspace(0);
+    visit(0);
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
     auto* screen = window.findChild<gui::ScopeScreen*>();
     ASSERT_IN_TIME(comesTrue([&] { return screen->isVisible(); }));
@@ -127,22 +127,22 @@ TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     const auto* free = page().findChild<QWidget*>("path");
     ASSERT_IN_TIME(comesTrue([&] { return run->isEnabled(); }));
     EXPECT_IN_TIME(comesTrue([&] { return !free->isVisible(); })) << "nothing is in the way";
-    window.showWorkspace(5);
+    visit(5);
     EXPECT_FALSE(bar("dockStrip").isVisible()) << "also in another workspace";
     key(Qt::Key_F11);
     EXPECT_IN_TIME(comesTrue([this] { return bar("workspaces").isVisible(); }));
     EXPECT_TRUE(window.statusBar()->isVisible());
     EXPECT_TRUE(window.menuBar()->isVisible());
-    window.showWorkspace(2);
+    visit(2);
     EXPECT_TRUE(path->isVisible());
-    window.showWorkspace(3);
+    visit(3);
     EXPECT_TRUE(free->isVisible());
-    window.showWorkspace(0);  // the next window begins where this one was
+    visit(0);  // the next window begins where this one was
 }
 
 TEST_F(Layout, TheOscilloscopesToolsHaveTheKeysForAMarkAndForThePlotAlone) {
     open();
-    window.showWorkspace(0);
+    visit(0);
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
     auto& head = *window.findChild<QWidget*>("livePage")->findChild<QWidget*>("tabRow");
     for (const int width : {1280, 1920}) {
@@ -166,7 +166,7 @@ TEST_F(Layout, TheOscilloscopesToolsHaveTheKeysForAMarkAndForThePlotAlone) {
 
 TEST_F(Layout, TouchHasTheToolsOfAPictureAtTheRightEndOfItsTabs) {
     open();
-    window.showWorkspace(0);
+    visit(0);
     auto& head = *window.findChild<QWidget*>("livePage")->findChild<QWidget*>("tabRow");
     for (const int width : {1280, 1920}) {
         window.resize(width, width * 9 / 16);
@@ -194,7 +194,7 @@ TEST_F(Layout, F11HidesTheTabsAndTheirKeysStay) {
     key(Qt::Key_T, Qt::AltModifier);
     EXPECT_EQ(live.currentIndex(), 0);
     EXPECT_FALSE(window.findChild<QWidget*>("commandWords")->isVisible()) << "the strips alone";
-    window.showWorkspace(1);
+    visit(1);
     auto& calibrate = *window.findChild<gui::TabbedPage*>("calibratePages");
     EXPECT_FALSE(calibrate.bar().isVisible());
     key(Qt::Key_N, Qt::AltModifier);
@@ -210,7 +210,7 @@ TEST_F(Layout, F11HidesTheTabsAndTheirKeysStay) {
     key(Qt::Key_T, Qt::AltModifier);
     EXPECT_EQ(calibrate.currentIndex(), 2) << "by the tab bar's own keys again";
     key(Qt::Key_G, Qt::AltModifier);
-    window.showWorkspace(0);
+    visit(0);
     EXPECT_TRUE(window.findChild<QWidget*>("commandWords")->isVisible());
     key(Qt::Key_O, Qt::AltModifier);
     EXPECT_EQ(live.currentIndex(), 1);
@@ -238,7 +238,7 @@ TEST_F(Layout, WithThePlotAloneOldSamplesAreStillSaid) {
 }
 
 TEST_F(Layout, WithThePlotAloneASessionOfAPilotHasNoPath) {
-    window.showWorkspace(4);
+    visit(4);
     auto* begin = window.findChild<QPushButton*>("beginRehearsal");
     ASSERT_IN_TIME(comesTrue([&] { return begin->isVisible() && begin->isEnabled(); }));
     click(*begin);
@@ -257,7 +257,7 @@ TEST_F(Layout, WithThePlotAloneASessionOfAPilotHasNoPath) {
     EXPECT_FALSE(path->isVisible()) << "nor has its result";
     key(Qt::Key_F11);
     EXPECT_TRUE(path->isVisible());
-    window.showWorkspace(0);
+    visit(0);
 }
 
 TEST_F(Layout, AClickInTheRailGivesTheKeysToTheWorkspace) {
@@ -274,7 +274,7 @@ TEST_F(Layout, AClickInTheRailGivesTheKeysToTheWorkspace) {
             EXPECT_FALSE(qobject_cast<const QLineEdit*>(at) || qobject_cast<const QAbstractSpinBox*>(at)) << name;
         }
     }
-    window.showWorkspace(0);  // the next window begins where this one was
+    visit(0);  // the next window begins where this one was
 }
 
 TEST_F(Layout, WhatABlindSessionHidesNoKeyAndNoMenuBringsBack) {
@@ -331,16 +331,16 @@ TEST_F(Layout, DocksCollapseToAStripThatKeepsTheirKeyFigures) {
     click(*drive);
     EXPECT_TRUE(dock("driveDock").isVisible());
     EXPECT_FALSE(bar("dockStrip").isVisible());
-    window.showWorkspace(5);
+    visit(5);
     EXPECT_TRUE(bar("dockStrip").isVisible()) << "elsewhere the plot has the room";
-    window.showWorkspace(0);
+    visit(0);
     EXPECT_FALSE(bar("dockStrip").isVisible()) << "each workspace keeps its own";
 }
 
 TEST_F(Layout, InLargeTextEveryDockIsInSightInTheStrip) {
     gui::applyTextSize(200);
     window.resize(1280, 720);
-    window.showWorkspace(5);
+    visit(5);
     const auto hidden = [this] {
         QStringList names;
         auto& strip = bar("dockStrip");
@@ -354,7 +354,7 @@ TEST_F(Layout, InLargeTextEveryDockIsInSightInTheStrip) {
     EXPECT_EQ(hidden(), "");
     shot(window, "strip-200");
     gui::applyTextSize(100);
-    window.showWorkspace(0);
+    visit(0);
 }
 
 /// The rows from the first to the last pixel of text's colour, without a word beside the icon.
@@ -374,7 +374,7 @@ int inkHeight(const QWidget& widget) {
 
 TEST_F(Layout, IconsGrowWithTheText) {
     window.resize(1280, 600);  // the rail without words at either size
-    window.showWorkspace(5);
+    visit(5);
     auto& rail = *bar("workspaces").findChild<QToolButton*>("workspaceButton");
     auto& strip = *find<QToolButton>(bar("dockStrip"), "Drive");
     const int railBefore = inkHeight(rail), stripBefore = inkHeight(strip);
@@ -388,12 +388,12 @@ TEST_F(Layout, IconsGrowWithTheText) {
         EXPECT_TRUE(bar("workspaces").rect().contains(button->geometry())) << button->accessibleName().toStdString();
     EXPECT_LE(bar("workspaces").width(), 60) << "the data keep the room";
     gui::applyTextSize(100);
-    window.showWorkspace(0);
+    visit(0);
 }
 
 TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
     open();
-    window.showWorkspace(0);
+    visit(0);
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
     auto* more = window.findChild<gui::ScopeTools*>()->findChild<QToolButton*>("moreTools");
     window.resize(1920, 1080);
@@ -421,7 +421,7 @@ TEST_F(Layout, InLargeTextSessionsStandBelowTheirListAndItKeepsRows) {
     open();
     gui::applyTextSize(200);
     window.resize(1280, 720);
-    window.showWorkspace(5);
+    visit(5);
     const auto* list = window.findChild<QTableView*>("sessionsTable");
     ASSERT_IN_TIME(comesTrue([&] { return list->isVisible(); }));
     EXPECT_IN_TIME(comesTrue([&] {
@@ -430,7 +430,7 @@ TEST_F(Layout, InLargeTextSessionsStandBelowTheirListAndItKeepsRows) {
     EXPECT_LE(list->width(), 1280);
     window.resize(1920, 1080);
     gui::applyTextSize(100);
-    window.showWorkspace(0);
+    visit(0);
 }
 
 TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen) {
@@ -439,7 +439,7 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
     gui::applyTextSize(200);
     window.resize(1280, 720);
     for (int page = 0; page < 7; ++page) {
-        window.showWorkspace(page);
+        visit(page);
         for (const bool opened : {false, true}) {
             window.findChild<gui::DockColumn*>()->setCollapsed(!opened);
             letLive(100);
@@ -454,7 +454,7 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
             << wide();
         shot(window, QString("docks-open-200-%1").arg(page));
     }
-    window.showWorkspace(0);
+    visit(0);
     letLive(100);
     for (const auto* name : {"measurementDock", "exposureDock", "deviceDock"}) {
         EXPECT_TRUE(dock(name).folded()) << name;
@@ -486,7 +486,7 @@ TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
     gui::applyTextSize(200);
     window.resize(1280, 720);
     open();
-    window.showWorkspace(5);  // the docks are folded
+    visit(5);  // the docks are folded
     letLive(300);
     arm();
     deliver();
@@ -524,12 +524,12 @@ TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
     shot(window, "nearest-limit-200-dark");
     gui::applyTheme(gui::Theme::Light);
     gui::applyTextSize(100);
-    window.showWorkspace(0);
+    visit(0);
 }
 
 TEST_F(Layout, AfterLargeTextTheDocksAreAsNarrowAsBefore) {
     window.resize(1920, 1080);
-    window.showWorkspace(0);
+    visit(0);
     letLive(100);
     const int before = dock("driveDock").width();
     gui::applyTextSize(200);
@@ -554,7 +554,7 @@ TEST_F(Layout, BesideTheOscilloscopeMeasurementsHaveRoomInASmallWindowToo) {
     arm();
     deliver();
     window.resize(1280, 720);
-    window.showWorkspace(0);
+    visit(0);
     EXPECT_TRUE(dock("measurementDock").folded()) << "beside Touch";
     EXPECT_FALSE(dock("deviceDock").folded());
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
@@ -587,7 +587,7 @@ TEST_F(Layout, TheNearestLimitStandsFirstAndTheAreaCanBeEnteredThere) {
     arm();
     window.controller().drive(DriveSource::Manual, 1, 1);
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
-    window.showWorkspace(0);
+    visit(0);
     auto& exposure = dock("exposureDock");
     const auto inOrder = [&] {
         std::vector<gui::LimitBar*> bars;
@@ -628,7 +628,7 @@ TEST_F(Layout, NoTwoThatAreSeenHaveTheSameMnemonic) {
     open();
     const auto checkEachPage = [&](const std::string& when) {
         for (int page = 0; page < 8; ++page) {
-            window.showWorkspace(page % 7);
+            visit(page % 7);
             window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page / 7);
             window.findChild<gui::DockColumn*>()->setCollapsed(false);
             for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
@@ -739,7 +739,7 @@ protected:
 
 TEST_F(LayoutUnderANotice, ARefusedArmingMovesNothing) {
     for (const int workspace : {0, 2, 5}) {
-        window.showWorkspace(workspace);
+        visit(workspace);
         const auto before = atRest();
         window.askToArm();
         ASSERT_NO_FATAL_FAILURE(expectSaid("Nothing to arm: no bench is open."));
@@ -753,7 +753,7 @@ TEST_F(LayoutUnderANotice, ARefusedArmingMovesNothing) {
 TEST_F(LayoutUnderANotice, InLargeTextItIsReadWhole) {
     const LargeBesideDocks large(*this);
     for (int workspace = 0; workspace < 7; ++workspace) {
-        window.showWorkspace(workspace);
+        visit(workspace);
         window.askToArm();
         letLive(100);
         SCOPED_TRACE(workspace);
@@ -766,7 +766,7 @@ TEST_F(LayoutUnderANotice, InLargeTextItIsReadWhole) {
 }
 
 TEST_F(LayoutUnderANotice, AnArmingThatTheBenchRefusesMovesNothing) {
-    window.showWorkspace(0);
+    visit(0);
     ASSERT_NO_FATAL_FAILURE(open());
     Places before;
     ASSERT_NO_FATAL_FAILURE(armOnAnotherLoad(before));
@@ -782,7 +782,7 @@ TEST_F(LayoutUnderANotice, AnArmingThatTheBenchRefusesMovesNothing) {
 }
 
 TEST_F(LayoutUnderANotice, ItStaysAtTheLowerEdgeBelowAMarksLine) {
-    window.showWorkspace(0);
+    visit(0);
     ASSERT_NO_FATAL_FAILURE(open());
     Places before;
     ASSERT_NO_FATAL_FAILURE(armOnAnotherLoad(before));
@@ -858,7 +858,7 @@ TEST_F(Layout, ResetPutsEverythingBack) {
 
 TEST_F(Layout, ResetPutsPanelsAndColumnsOfAWorkspaceBackToo) {
     open();
-    window.showWorkspace(0);
+    visit(0);
     auto* lanes = window.findChild<gui::LiveWorkspace*>()->findChild<QSplitter*>();
     ASSERT_IN_TIME(comesTrue([&] { return lanes->isVisible() && lanes->sizes().front() > 0; }));
     window.resetLayout();

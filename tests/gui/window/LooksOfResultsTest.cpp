@@ -137,7 +137,7 @@ private:
 };
 
 TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
-    window.showWorkspace(1);
+    visit(1);
     ASSERT_NO_FATAL_FAILURE(type("warm_up_s", "0"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-calibrate");
@@ -164,7 +164,7 @@ TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
 }
 
 TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
-    window.showWorkspace(2);
+    visit(2);
     ASSERT_NO_FATAL_FAILURE(type("area", "4"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     // Not the last of the faults that the check provoked, nor the bench that it closed.
@@ -194,7 +194,7 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
 }
 
 TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
-    window.showWorkspace(2);
+    visit(2);
     ASSERT_NO_FATAL_FAILURE(type("area", "4"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     const auto reported = [this] {
@@ -279,7 +279,7 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
 }
 
 TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
-    window.showWorkspace(3);
+    visit(3);
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-separability");
     plotHas<gui::TrialPlane>(0.95, "plane");
@@ -318,7 +318,7 @@ TEST_F(ResultsInTheWindow, ASessionThatIsChosenLooksRight) {
     letLive(1000);
     window.controller().close();
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
-    window.showWorkspace(3);
+    visit(3);
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     click(*find<QPushButton>(window, "Open session"));
     const auto is = [this](const QString& procedure) {
@@ -338,14 +338,14 @@ TEST_F(ResultsInTheWindow, ASessionThatIsChosenLooksRight) {
 
 TEST_F(ResultsInTheWindow, AFaultLooksRight) {
     ASSERT_NO_FATAL_FAILURE(open());
-    window.showWorkspace(0);
+    visit(0);
     ASSERT_NO_FATAL_FAILURE(unplugWhile(1, 1));
     looksRight("faulted");
 }
 
 TEST_F(ResultsInTheWindow, WhatTheFingertipFeelsIsSeenWithoutScrolling) {
     open();
-    window.showWorkspace(0);
+    visit(0);
     for (const auto size : {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)}) {
         window.resize(size);
         const auto* side = find<QScrollArea>(window, "fingertipSide");
@@ -384,7 +384,7 @@ TEST_F(ResultsInTheWindow, TheArmDialogLooksRight) {
 
 TEST_F(ResultsInTheWindow, TheDialogOfFaultsLooksRightAndDoesWhatTheReadmePromises) {
     RecordProperty("hazard", "H4");
-    window.showWorkspace(0);  // with its docks
+    visit(0);  // with its docks
     ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(window, "Faults…") != nullptr; }));
     click(*find<QPushButton>(window, "Faults…"));
     auto* dialog = window.findChild<gui::SimulatedBenchDialog*>();
@@ -433,7 +433,7 @@ TEST_F(ResultsInTheWindow, InLargeTextTheDialogsOfTheBenchFitASmallScreen) {
 
 TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
     open();
-    window.showWorkspace(0);
+    visit(0);
     arm();
     auto* dock = window.findChild<QWidget*>("driveDock");
     ASSERT_NE(dock, nullptr);
@@ -462,7 +462,7 @@ TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
 TEST_F(ResultsInTheWindow, TheReadmesPicturesLookRight) {
     open();
     auto* tabs = window.findChild<gui::TabbedPage*>("livePage");
-    window.showWorkspace(0);
+    visit(0);
     arm();
     window.controller().drive(DriveSource::Sensor);
     window.controller().present("P120", 50, 1);

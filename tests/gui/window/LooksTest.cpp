@@ -42,7 +42,7 @@ TEST_F(Window, LooksRightInBothThemesAndSizes) {
         for (const auto size : sizesIn(theme, {QSize(1920, 1080), QSize(1280, 720), QSize(1024, 640)})) {
             window.resize(size);
             for (int page = 0; page < 7; ++page) {
-                window.showWorkspace(page);
+                visit(page);
                 letLive(120);
                 const auto name = QString("window-%1-%2-%3")
                                       .arg(theme == gui::Theme::Dark ? "dark" : "light")
@@ -64,7 +64,7 @@ TEST_F(Window, LooksRightWithTextAtTwiceTheSize) {
         for (const auto size : sizesIn(theme, {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)})) {
             window.resize(size);
             for (int page = 0; page < 8; ++page) {  // the oscilloscope is the last
-                window.showWorkspace(page % 7);
+                visit(page % 7);
                 window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page / 7);
                 static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 1500));
                 const auto name = QString("window-200-%1-%2-%3")
@@ -95,7 +95,7 @@ protected:
         open();
         arm();
         window.controller().drive(DriveSource::Manual, 0.5, 0.8);
-        window.showWorkspace(0);
+        visit(0);
         window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
         auto& scope = *window.findChild<gui::ScopeWorkspace*>();
         ASSERT_IN_TIME(comesTrue([&] { return int(scope.table().statistics().captures()) >= captures; }));
@@ -118,10 +118,10 @@ protected:
 TEST_F(DocksOfTheWindow, KeepTheirHeadersInALowWindow) {
     open();
     window.resize(1280, 720);
-    window.showWorkspace(0);
+    visit(0);
     for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
     for (const int page : {3, 0}) {
-        window.showWorkspace(page);
+        visit(page);
         letLive(100);
     }
     shot(window, "four-docks");
@@ -135,7 +135,7 @@ TEST_F(DocksOfTheWindow, KeepTheirHeadersInALowWindow) {
 
 TEST_F(DocksOfTheWindow, CutNoRowOfTheDevices) {
     open();
-    window.showWorkspace(0);
+    visit(0);
     for (auto* dock : window.findChildren<gui::FoldingDock*>()) dock->fold(false);
     const auto* list = window.findChild<QDockWidget*>("deviceDock")->findChild<QTreeWidget*>();
     const auto* body = list->parentWidget();
@@ -240,7 +240,7 @@ TEST_F(WindowWithoutSessions, NothingIsRedButStop) {
     const auto red = gui::stateStyle(InterlockState::Faulted).ground;
     auto* stop = window.findChild<QPushButton*>("stopButton");
     for (int page = 0; page < 7; ++page) {
-        window.showWorkspace(page);
+        visit(page);
         letLive(120);
         const auto all = pixelsOf(window.grab().toImage(), red);
         EXPECT_GT(all, 1000) << "STOP is there";
@@ -279,7 +279,7 @@ TEST_F(Window, EveryPlotOfSimulatedDataSaysSo) {
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().telemetry().trainsDelivered >= 2; }));
     int plots = 0;
     for (int tab = 0; tab < 2; ++tab) {
-        window.showWorkspace(0);
+        visit(0);
         tabs->setCurrentIndex(tab);
         if (tab == 1) {
             auto* scope = window.findChild<gui::ScopeWorkspace*>();
@@ -331,7 +331,7 @@ TEST_F(Window, EscStopsWhileASessionIsExported) {
     open();
     arm();
     deliver();
-    window.showWorkspace(5);
+    visit(5);
     window.openFile(QString::fromStdString(session.string()));
     auto* sessions = window.findChild<gui::SessionsWorkspace*>();
     auto* verify = find<QPushButton>(*sessions, "Verify");

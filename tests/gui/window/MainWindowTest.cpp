@@ -281,7 +281,7 @@ TEST_F(Window, SpaceStopsInEveryWorkspace) {
     open();
     for (int page = 0; page < 7; ++page) {
         arm();
-        window.showWorkspace(page);
+        visit(page);
         window.setFocus();
         key(Qt::Key_Space);
         EXPECT_EQ(state(), InterlockState::Disarmed) << page;
@@ -417,7 +417,7 @@ TEST_F(Window, TheExampleRecordingReplays) {
 TEST_F(Window, EveryControlHasAToolTipOrALabelOfItsOwn) {
     open();
     for (int page = 0; page < 7; ++page) {
-        window.showWorkspace(page);
+        visit(page);
         QCoreApplication::processEvents();
         for (const auto* button : window.findChildren<QAbstractButton*>()) {
             if (!button->isVisible() || button->objectName().startsWith("qt_")) continue;

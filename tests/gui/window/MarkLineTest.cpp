@@ -48,7 +48,7 @@ protected:
 };
 
 TEST_F(Marks, AreOfTheMomentOfTheKeyAndStandEverywhere) {
-    window.showWorkspace(0);
+    visit(0);
     open();
     const auto session = window.controller().open()->session;
     const auto before = window.controller().telemetry().at;
@@ -162,7 +162,7 @@ TEST_F(Marks, NeedARecordingAndSayWhenThereIsNone) {
 }
 
 TEST_F(Marks, AreMadeWhileAProtocolRuns) {
-    window.showWorkspace(3);
+    visit(3);
     auto* run = find<QPushButton>(window, "runButton");
     ASSERT_NE(run, nullptr);
     ASSERT_IN_TIME(comesTrue([&] { return run->isEnabled(); }));

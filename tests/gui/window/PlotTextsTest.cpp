@@ -56,7 +56,7 @@ protected:
         for (const auto& size : {QSize(1024, 640), QSize(1280, 720), QSize(1920, 1080)}) {
             window.resize(size);
             for (int workspace = 0; workspace < 7; ++workspace) {
-                window.showWorkspace(workspace);
+                visit(workspace);
                 for (int tab = 0; tab < (workspace == 0 ? 2 : 1); ++tab) {
                     if (workspace == 0) live.setCurrentIndex(tab);
                     letLive(60);
@@ -66,7 +66,7 @@ protected:
             }
         }
         live.setCurrentIndex(0);
-        window.showWorkspace(0);
+        visit(0);
     }
 };
 

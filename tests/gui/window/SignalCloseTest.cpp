@@ -24,7 +24,7 @@ public:
         arm();
         deliver();
         // A script that is not saved: a signal does not ask about it.
-        window.showWorkspace(6);
+        visit(6);
         QPushButton* button = nullptr;
         ASSERT_IN_TIME(comesTrue([&] { return (button = find<QPushButton>(window, "New…")) != nullptr; }));
         click(*button);

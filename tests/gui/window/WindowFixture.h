@@ -8,9 +8,11 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QTest>
+#include <algorithm>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/DockColumn.h"
 #include "app/gui/window/MainWindow.h"
@@ -47,6 +49,13 @@ protected:
         if (fault->isVisible()) all = "Fault: " + fault->parentWidget()->toolTip();
         const auto* label = window.findChild<QLabel*>("bannerText");
         return label->isVisible() ? all + label->text() : all;
+    }
+    /// Shows a workspace, and waits for the scripts of its procedures: their forms are made once they are read.
+    void visit(int page) {
+        window.showWorkspace(page);
+        ASSERT_IN_TIME(comesTrue([this] {
+            return std::ranges::none_of(window.findChildren<gui::ProtocolWorkspace*>(), &gui::ProtocolWorkspace::reads);
+        }));
     }
     void open() {
         key(Qt::Key_B, Qt::ControlModifier);
