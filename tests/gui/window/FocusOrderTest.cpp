@@ -75,10 +75,8 @@ protected:
 };
 
 TEST_F(FocusOrder, OfACalibrationIsThatOfReading) {
-    visit(1);
-    QLineEdit* warmUp = nullptr;
-    ASSERT_IN_TIME(comesTrue([&] { return (warmUp = window.findChild<QLineEdit*>("warm_up_s")) != nullptr; }));
-    warmUp->setText("0");
+    ASSERT_NO_FATAL_FAILURE(visit(1));
+    window.findChild<QLineEdit*>("warm_up_s")->setText("0");
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     expectResultReadInOrder("calibration");
 }
