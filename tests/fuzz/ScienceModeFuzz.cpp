@@ -38,7 +38,7 @@ void parse(std::span<const std::uint8_t> payload) {
     if (const auto id = readDeviceIdAck(payload)) require(id->id.size() <= 10);
     static_cast<void>(readStimStatusAck(payload));
     static_cast<void>(readExtendedVersionAck(payload));
-    static_cast<void>(readPlainAck(Command::LowLevelStop, payload));
+    static_cast<void>(readPlainAck(sciencemode::Command::LowLevelStop, payload));
     // What a builder makes of what was read is what was read.
     if (const auto request = readChannelConfig(payload)) {
         const auto again = payloadOf(*request);
@@ -87,7 +87,7 @@ void decode(std::span<const std::uint8_t> input) {
     VirtualClock clock;
     InputTransport transport(input);
     Exchange exchange(transport, clock);
-    for (int i = 0; i < 4; ++i) static_cast<void>(exchange.ask(Command::StimStatus));
+    for (int i = 0; i < 4; ++i) static_cast<void>(exchange.ask(sciencemode::Command::StimStatus));
 }
 
 /// Requests with sound frames: a length, a command and a payload each, with time between.

@@ -42,7 +42,7 @@ void parse(const Frame& frame) {
     static_cast<void>(readCalibration(frame));
     static_cast<void>(readStatus(frame));
     static_cast<void>(readRefusal(frame));
-    static_cast<void>(readDone(frame, Command::Start));
+    static_cast<void>(readDone(frame, sensorboard::Command::Start));
 }
 
 /// One stream and its clock, fed with blocks as they come.
@@ -77,7 +77,7 @@ void decode(std::span<const std::uint8_t> input) {
     auto rest = input;
     while (const auto frame = decoder.take(rest)) parse(*frame);
     require(rest.empty() && decoder.counts().bytes == input.size());
-    const auto command = encodeCommand(Command::GetStatus, 9);
+    const auto command = encodeCommand(sensorboard::Command::GetStatus, 9);
     std::span<const std::uint8_t> good(command);
     // Its leading zero may end a frame of the input that is sound too.
     int found = 0;

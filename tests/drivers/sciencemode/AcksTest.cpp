@@ -10,6 +10,7 @@ namespace tacto::test {
 namespace {
 
 using namespace sciencemode;
+using sciencemode::Command;
 
 ChannelConfigAck measuredAck() {
     ChannelConfigAck ack;

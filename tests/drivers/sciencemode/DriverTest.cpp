@@ -16,6 +16,7 @@ namespace tacto::test {
 namespace {
 
 using namespace sciencemode;
+using sciencemode::Command;
 using std::chrono::milliseconds;
 using testing::HasSubstr;
 

@@ -7,6 +7,7 @@ namespace tacto::test {
 namespace {
 
 using namespace sciencemode;
+using sciencemode::Command;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 

@@ -11,6 +11,7 @@ namespace tacto::test {
 namespace {
 
 using namespace sciencemode;
+using sciencemode::Command;
 using std::chrono::milliseconds;
 
 class ScienceModeExchange : public testing::Test {

@@ -12,6 +12,7 @@ namespace tacto::test {
 namespace {
 
 using namespace sciencemode;
+using sciencemode::Command;
 
 std::vector<std::uint8_t> frameOf(std::uint16_t command, std::uint8_t number, std::span<const std::uint8_t> payload) {
     FrameBytes frame;

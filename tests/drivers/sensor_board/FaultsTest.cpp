@@ -11,6 +11,7 @@ namespace tacto::test {
 namespace {
 
 using namespace sensorboard;
+using sensorboard::Command;
 using testing::HasSubstr;
 
 /// Calls what a test does to the board.

@@ -100,6 +100,7 @@ TEST(SensorBoardFirmware, HearsTheGoldenCommands) {
 
 TEST(SensorBoardFirmware, HostSendsTheGoldenCommands) {
     using namespace sensorboard;
+    using sensorboard::Command;
     const auto sent = [](Command command, std::uint8_t token, const Bytes& payload = {}) {
         auto bytes = encodeCommand(command, token, payload);
         EXPECT_EQ(bytes.front(), 0);  // ends whatever came before

@@ -12,6 +12,7 @@ namespace tacto::test {
 namespace {
 
 using namespace sensorboard;
+using sensorboard::Command;
 using Bytes = std::vector<std::uint8_t>;
 
 struct Taken {
