@@ -1,8 +1,9 @@
 // The short run of a fuzz target in the ordinary builds, without clang:
 //   fuzzed TARGET CORPUS_FOLDER [--dictionary FILE] [--inputs N] [--seconds S] [--seed K]
 //   fuzzed TARGET FILE          one input again
-// Runs every file of the folder, then N (200000) inputs made of them and of the dictionary's words, until S (1; where a
-// change lands 3, under a sanitizer 3) seconds are over. Without --seed each run draws another, and says which.
+// Runs every file of the folder, then N inputs made of them and of the dictionary's words (20000; where a change lands
+// and under a sanitizer 200000), until S seconds (1; there 3) are over. Without --seed each run draws another, and says
+// which.
 //
 // The inputs run in a process of their own and lie in memory that both share. So an input that kills it, in whatever
 // way (a failed check, a sanitizer, no memory), or that never ends, is still there: it is kept in
@@ -40,8 +41,10 @@ constexpr int kMisused = 2;
 
 #ifdef TACTOSCOPE_SANITIZED
 constexpr std::uint64_t kSeconds = 3;
+constexpr std::uint64_t kInputs = 200'000;
 #else
 const auto kSeconds = tacto::test::trials<std::uint64_t>({.local = 1, .ci = 3, .campaign = 30});
+const auto kInputs = tacto::test::trials<std::uint64_t>({.local = 20'000, .ci = 200'000, .campaign = 200'000});
 #endif
 
 struct Options {
@@ -49,7 +52,7 @@ struct Options {
     Target target = nullptr;
     std::filesystem::path inputs;
     std::filesystem::path dictionary;
-    std::uint64_t count = 200'000;
+    std::uint64_t count = kInputs;
     std::uint64_t seconds = kSeconds;
     std::uint64_t seed = std::random_device{}();
 };
