@@ -142,6 +142,7 @@ void ProtocolWorkspace::fillChooser(const QString& select) {
 void ProtocolWorkspace::choose(const QString& nameOrPath) {
     declaration_.reset();
     asked_.withdraw();
+    seen_.clear();
     showButtons();
     auto source = ProtocolLibrary().find(nameOrPath.toStdString());
     if (!source) return panel_->say(sentence(source.error()));
@@ -168,11 +169,15 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         pages_->offer(*declaration_);
     }
     path_->showNoRun(pages_->form().hasReference());
+    // A step that was chosen while the script was read stays.
+    const auto chosen = Step(steps_->shown());
+    const bool stays = !seen_.empty() && (chosen != kReference || pages_->form().hasReference());
+    const auto step = stays ? chosen : kSettings;
     seen_.clear();
-    showStep(kSettings);
+    showStep(step);
     judge();
     showButtons();
-    if (wasInForm) QTimer::singleShot(0, this, [this] { goTo(kSettings); });
+    if (wasInForm) QTimer::singleShot(0, this, [this, step] { goTo(step); });
     if (declaration_) emit declaredAnew();
 }
 

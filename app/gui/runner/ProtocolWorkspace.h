@@ -104,7 +104,7 @@ private:
     AskedRun asked_;          // waits for the second step
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
-    std::set<Step> seen_;  // of this protocol
+    std::set<Step> seen_;  // since this protocol was chosen
     bool plotOnly_ = false;
     std::uint64_t run_ = 0;  ///< its number
 

@@ -46,6 +46,23 @@ function run(p) {
 }
 )js";
 
+TEST_F(Workspace, AStepThatIsChosenWhileTheScriptIsReadStays) {
+    write("first", kAsk);
+    write("second", kBroken);
+    workspace = std::make_unique<gui::ProtocolWorkspace>(controller, QString());
+    workspace->resize(1300, 820);
+    workspace->show();
+    const auto isRead = [this] { return !workspace->reads(); };
+    choose("first");
+    ASSERT_TRUE(workspace->reads());
+    click(step("Wiring"));
+    ASSERT_IN_TIME(comesTrue(isRead));
+    EXPECT_TRUE(step("Wiring").isChecked());
+    choose("second");
+    ASSERT_IN_TIME(comesTrue(isRead));
+    EXPECT_TRUE(step("Settings").isChecked()) << "another protocol begins at its settings";
+}
+
 TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     open("separability");
     ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
