@@ -69,12 +69,12 @@ void latency(Stimulator& device, const UsbBulkTransport& transport, SafetyGate& 
     for (int i = 0; i < kTrains; ++i) {
         auto approved = gate.approve(requestFor(clock.now()));
         if (!approved) {
-            fmt::print("the gate refuses: {}\n", approved.error().message);
+            fmt::print("MISSED: the gate refuses: {}\n", approved.error().message);
             return;
         }
         const auto begin = Steady::now();
         if (const auto sent = device.deliver(std::move(*approved)); !sent) {
-            fmt::print("not delivered: {}\n", sent.error().message);
+            fmt::print("MISSED: not delivered: {}\n", sent.error().message);
             return;
         }
         whole.push_back(microseconds(transport.submittedAt() - begin));
@@ -114,7 +114,7 @@ void keepAlive(Stimulator& device, SafetyGate& gate, const Clock& clock) {
     auto request = requestFor(clock.now());
     request.train.pulses = 600;
     request.train.rate = Hertz(50);
-    request.interval = Seconds(13);
+    request.interval = Seconds(14);  // its clock may be 5 % off
     auto approved = gate.approve(request);
     const auto begun = approved ? device.deliver(std::move(*approved)) : Result<void>(failure(approved));
     const auto end = Steady::now() + kUnderLoad;
@@ -128,7 +128,7 @@ void keepAlive(Stimulator& device, SafetyGate& gate, const Clock& clock) {
     for (auto& thread : busy) thread.join();
     device.forceOff();
     if (!begun) {
-        fmt::print("not delivered: {}\n", begun.error().message);
+        fmt::print("MISSED: not delivered: {}\n", begun.error().message);
         return;
     }
     fmt::print("{:<58} {:.0f} ms in {} s   goal: never above 500 ms; a dead-man of 2000 ms\n",
