@@ -169,9 +169,9 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         pages_->offer(*declaration_);
     }
     path_->showNoRun(pages_->form().hasReference());
-    // A step that was chosen while the script was read stays.
+    // A step before the run that was chosen while the script was read stays; a result is another protocol's.
     const auto chosen = Step(steps_->shown());
-    const bool stays = !seen_.empty() && (chosen != kReference || pages_->form().hasReference());
+    const bool stays = !seen_.empty() && (chosen == kWiring || (chosen == kReference && pages_->form().hasReference()));
     const auto step = stays ? chosen : kSettings;
     seen_.clear();
     showStep(step);

@@ -61,6 +61,13 @@ TEST_F(Workspace, AStepThatIsChosenWhileTheScriptIsReadStays) {
     choose("second");
     ASSERT_IN_TIME(comesTrue(isRead));
     EXPECT_TRUE(step("Settings").isChecked()) << "another protocol begins at its settings";
+    ASSERT_IN_TIME(ready());
+    click(the<QPushButton>("runButton"));
+    ASSERT_IN_TIME(ends());
+    choose("first");
+    workspace->goTo(gui::kResult);
+    ASSERT_IN_TIME(comesTrue(isRead));
+    EXPECT_TRUE(step("Settings").isChecked()) << "the result is that of the second";
 }
 
 TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
