@@ -278,7 +278,7 @@ Columns columnsIn(const nlohmann::json& records) {
     for (const auto& record : records) {
         for (const auto& [key, value] : record.items()) {
             const bool has = std::any_of(columns.begin(), columns.end(),
-                                         [&key = key](const RecordColumn& column) { return column.at == key; });
+                                         [&wanted = key](const RecordColumn& column) { return column.at == wanted; });
             if (!has && isCell(value)) columns.push_back(guessed(key, value));
         }
     }

@@ -127,7 +127,7 @@ Result<ProtocolSettings> applySettings(const ProtocolDeclaration& declaration,
     for (const auto& parameter : declaration.parameters) out.parameters[parameter.name] = parameter.value;
     for (const auto& [key, text] : settings) {
         const auto parameter = std::find_if(declaration.parameters.begin(), declaration.parameters.end(),
-                                            [&key = key](const auto& one) { return one.name == key; });
+                                            [&wanted = key](const auto& one) { return one.name == wanted; });
         if (parameter != declaration.parameters.end()) {
             auto value = parseSetting(*parameter, text);
             if (!value) return failure(value);
@@ -136,9 +136,10 @@ Result<ProtocolSettings> applySettings(const ProtocolDeclaration& declaration,
             (parameter->type == ParameterType::Choice ? out.chosen : out.given).insert(key);
             continue;
         }
-        const bool asked = declaration.hasOtherQuestions ||
-                           std::any_of(declaration.questions.begin(), declaration.questions.end(),
-                                       [&key = key](const std::string& question) { return answers(question, key); });
+        const bool asked =
+            declaration.hasOtherQuestions ||
+            std::any_of(declaration.questions.begin(), declaration.questions.end(),
+                        [&wanted = key](const std::string& question) { return answers(question, wanted); });
         if (!asked) {
             std::vector<std::string> known;
             for (const auto& one : declaration.parameters) known.push_back(one.name);
