@@ -5,8 +5,8 @@
 #include <fmt/ranges.h>
 #include <system_error>
 
+#include "core/base/Utf16.h"
 #include "core/formats/ByteFile.h"
-#include "core/formats/Utf16.h"
 
 namespace tacto {
 

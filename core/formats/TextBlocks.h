@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/Utf16.h"
 #include "core/formats/ByteFile.h"
-#include "core/formats/Utf16.h"
 
 namespace tacto {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/base/CsvNumber.h"
 #include "core/base/Random.h"
-#include "core/formats/csv/CsvNumber.h"
 
 namespace tacto::test {
 namespace {

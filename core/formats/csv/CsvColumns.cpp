@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/CsvNumber.h"
 #include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
-#include "core/formats/csv/CsvNumber.h"
 
 namespace tacto {
 

@@ -23,8 +23,8 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include "core/base/CsvHead.h"
 #include "core/formats/ChannelOptions.h"
-#include "core/formats/csv/CsvHead.h"
 
 namespace tacto {
 

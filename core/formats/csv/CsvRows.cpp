@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/base/Csv.h"
-#include "core/formats/csv/CsvHead.h"
-#include "core/formats/csv/CsvNumber.h"
+#include "core/base/CsvHead.h"
+#include "core/base/CsvNumber.h"
 
 namespace tacto {
 

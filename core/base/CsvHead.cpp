@@ -1,4 +1,4 @@
-#include "core/formats/csv/CsvHead.h"
+#include "core/base/CsvHead.h"
 
 #include <algorithm>
 #include <iterator>
@@ -6,9 +6,9 @@
 #include <span>
 
 #include "core/base/Csv.h"
+#include "core/base/CsvNumber.h"
 #include "core/base/Text.h"
-#include "core/formats/Utf16.h"
-#include "core/formats/csv/CsvNumber.h"
+#include "core/base/Utf16.h"
 
 namespace tacto {
 

@@ -1,4 +1,4 @@
-#include "core/formats/Utf16.h"
+#include "core/base/Utf16.h"
 
 #include <array>
 #include <cstdint>
