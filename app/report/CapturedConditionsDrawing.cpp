@@ -105,8 +105,8 @@ private:
             sheet_->addNote(axes, "not captured", {0.5, 0.5})->setColor(ink::kQuiet);
             return;
         }
-        const QString numbers = quantityText(lane.amplitude_v.mean, lane.amplitude_v.sd, "V") + ",  " +
-                                quantityText(lane.interval_s.mean, lane.interval_s.sd, "s");
+        const QString numbers = spreadText(lane.amplitude_v.mean, lane.amplitude_v.sd, "V") + ";  " +
+                                spreadText(lane.interval_s.mean, lane.interval_s.sd, "s");
         sheet_->addNote(axes, numbers, {1, -0.02}, Qt::AlignRight | Qt::AlignBottom);
         sheet_->watermark(axes, 14);
         auto* rest = new QCPGraph(time, axes->axis(QCPAxis::atLeft));

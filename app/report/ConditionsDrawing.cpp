@@ -112,12 +112,12 @@ private:
             return;
         }
         const auto widthOf = [](const QString& text) { return QFontMetricsF(textFont(10)).horizontalAdvance(text); };
-        constexpr double kRoom = 270;  // of a lane in half a sheet
-        QString numbers = quantityText(condition.amplitude_v.mean, condition.amplitude_v.sd, "V") + ",  " +
-                          quantityText(condition.interval_s.mean, condition.interval_s.sd, "s");
+        constexpr double kRoom = 300;  // of a lane in half a sheet
+        QString numbers = spreadText(condition.amplitude_v.mean, condition.amplitude_v.sd, "V") + ";  " +
+                          spreadText(condition.interval_s.mean, condition.interval_s.sd, "s");
         if (widthOf(condition.name + "   " + numbers) > kRoom)  // without the spread
             numbers =
-                quantityText(condition.amplitude_v.mean, "V") + ",  " + quantityText(condition.interval_s.mean, "s");
+                quantityText(condition.amplitude_v.mean, "V") + ";  " + quantityText(condition.interval_s.mean, "s");
         sheet_->addNote(axes, numbers, {1, -0.02}, Qt::AlignRight | Qt::AlignBottom);
         auto* trains = new QCPGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
         trains->setLineStyle(QCPGraph::lsImpulse);

@@ -20,14 +20,14 @@ QString conditionsLegend(const ConditionsFigure& figure) {
     if (figure.captured()) {
         QString text =
             "Every stem is a captured train, from its lowest to its highest sample; right, the first pulse of each. "
-            "Numbers are the means of all trials ± s.d.";
+            "Numbers are the means of all trials and their s.d.";
         const auto& all = figure.conditions;
         if (all.size() == 4 && all[0].name == "smooth-low" && all[3].name == "rough-high") {
             text += " A to C: texture alone. A to B: pressure alone. A to D: both.";
         }
         return text;
     }
-    QString text = "Heights and spacings are the measured means, ± s.d. where there is room.";
+    QString text = "Heights and spacings are the measured means, with their s.d. where there is room.";
     double least = kUnknown, most = kUnknown;
     for (const auto& condition : figure.conditions) {
         if (!std::isfinite(condition.n)) continue;

@@ -65,6 +65,10 @@ QString quantityText(double value, double uncertainty, const QString& unit) {
     return uncertainText(value, std::abs(uncertainty), unit);
 }
 
+QString spreadText(double mean, double sd, const QString& unit) {
+    return quantityText(mean, sd, unit).replace(" ± ", ", s.d. ");
+}
+
 QString uncertainText(double value, double expanded, const QString& unit) {
     return onPage(measuredText(value, expanded, unit.toStdString()), !unit.isEmpty());
 }
@@ -208,9 +212,119 @@ QString withSigns(QString text) {
     return text.replace(kHyphen, "\\1" + kMinus).replace(kOhm, "\\1" + kSpace + "\\2Ω").replace(kSquare, "\\1²");
 }
 
+namespace {
+
+/// A cell of figures in one unit that takes a prefix, in pieces: what stands between its numbers, and these.
+struct FigureCell {
+    QString* text = nullptr;
+    QString base;
+    int exponent = 0;              // of its prefix
+    std::vector<QString> between;  // one more than numbers; the unit is left out
+    std::vector<QString> numbers;
+    std::vector<bool> unitAfter;
+
+    /// "0 V" is 0 in any prefix.
+    [[nodiscard]] bool isZero() const { return numbers.size() == 1 && numbers.front() == "0"; }
+    /// The number's text times 10^`places`; `padded` where it had not the digits for it.
+    static QString shifted(const QString& number, int places, bool& padded) {
+        QString whole = number.section('.', 0, 0), part = number.section('.', 1);
+        for (; places > 0; --places) {
+            padded = padded || part.isEmpty();
+            whole += part.isEmpty() ? QChar('0') : part[0];
+            part.remove(0, 1);
+        }
+        for (; places < 0; ++places) {
+            part.prepend(whole.isEmpty() ? QChar('0') : whole.back());
+            whole.chop(1);
+        }
+        while (whole.size() > 1 && whole.startsWith('0')) whole.remove(0, 1);
+        if (whole.isEmpty()) whole = "0";
+        return part.isEmpty() ? whole : whole + '.' + part;
+    }
+    [[nodiscard]] QString in(int target, bool& padded) const {
+        QString out = between.front();
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            out += isZero() ? numbers[i] : shifted(numbers[i], exponent - target, padded);
+            if (unitAfter[i]) out += kSpace + prefixOf(target).symbol + base;
+            out += between[i + 1];
+        }
+        return out;
+    }
+};
+
+std::optional<FigureCell> figureCell(QString& text) {
+    static const QRegularExpression kNumber(R"((\d+(?:\.\d+)?)(?:[ \x{a0}\x{202f}]([^\s\d(),;±<≤≥]+))?)"),
+        kFiller(R"(^(?:[\s\x{a0}\x{202f}±()<≤≥,−-]|\bto\b|s\.d\.|U unknown|not judged)*$)");
+    FigureCell cell{&text, {}, 0, {}, {}, {}};
+    std::optional<QString> unit;
+    qsizetype taken = 0;
+    for (auto each = kNumber.globalMatch(text); each.hasNext();) {
+        const auto match = each.next();
+        const QString word = match.captured(2);
+        const Split split = splitUnit(word);
+        const bool isUnit = !split.base.isEmpty();
+        if (isUnit && unit && *unit != word) return {};
+        if (isUnit && !unit) {
+            unit = word;
+            cell.base = split.base;
+            cell.exponent = static_cast<int>(std::lround(std::log10(split.factor)));
+        }
+        cell.between.push_back(text.mid(taken, match.capturedStart(1) - taken));
+        cell.numbers.push_back(match.captured(1));
+        cell.unitAfter.push_back(isUnit);
+        taken = isUnit ? match.capturedEnd(2) : match.capturedEnd(1);
+    }
+    cell.between.push_back(text.mid(taken));
+    const bool plain =
+        std::ranges::all_of(cell.between, [](const QString& part) { return kFiller.match(part).hasMatch(); });
+    if (!unit || !plain) return {};
+    return cell;
+}
+
+}  // namespace
+
+void sharePrefix(const std::vector<QString*>& cells) {
+    constexpr qsizetype kMuchShorter = 3;
+    std::vector<FigureCell> figures;
+    for (auto* cell : cells) {
+        if (auto figure = figureCell(*cell)) figures.push_back(*std::move(figure));
+    }
+    while (!figures.empty()) {
+        const QString base = figures.front().base;
+        const auto others = std::stable_partition(figures.begin(), figures.end(),
+                                                  [&](const FigureCell& each) { return each.base == base; });
+        std::vector<int> prefixes;
+        for (auto each = figures.begin(); each != others; ++each)
+            if (!each->isZero()) prefixes.push_back(each->exponent);
+        std::ranges::sort(prefixes, std::greater());
+        prefixes.erase(std::ranges::unique(prefixes).begin(), prefixes.end());
+        int chosen = prefixes.empty() ? 0 : prefixes.front();
+        std::optional<qsizetype> shortest;
+        for (const int prefix : prefixes) {
+            qsizetype longest = 0;
+            bool padded = false;
+            for (auto each = figures.begin(); each != others; ++each)
+                longest = std::max(longest, each->in(prefix, padded).size());
+            if (shortest && (padded || longest + kMuchShorter > *shortest)) continue;
+            shortest = longest;
+            chosen = prefix;
+        }
+        bool ignored = false;
+        for (auto each = figures.begin(); each != others; ++each)
+            if (each->exponent != chosen) *each->text = each->in(chosen, ignored);
+        figures.erase(figures.begin(), others);
+    }
+}
+
+void sharePrefix(QStringList& cells) {
+    std::vector<QString*> all;
+    for (auto& cell : cells) all.push_back(&cell);
+    sharePrefix(all);
+}
+
 bool isFigure(const QString& text) {
     static const QRegularExpression kFigure(
-        R"(^(± )?[−-]?\d+(\.\d+)?( ± \d+(\.\d+)?)?([ \x{202f}\x{a0}]?[^\d\s−-][^\d\s]{0,7})?$)",
+        R"(^(± )?[−-]?\d+(\.\d+)?((?: ±|, s\.d\.) \d+(\.\d+)?)?([ \x{202f}\x{a0}]?[^\d\s−-][^\d\s]{0,7})?$)",
         QRegularExpression::UseUnicodePropertiesOption);
     return kFigure.match(text).hasMatch();
 }
@@ -285,7 +399,7 @@ QString cellText(const QJsonValue& value, const QString& unit) {
     if (value.isObject()) {
         const auto object = value.toObject();
         if (object.contains("mean")) {
-            return quantityText(object["mean"].toDouble(kUnknown), object["sd"].toDouble(kUnknown), unit);
+            return spreadText(object["mean"].toDouble(kUnknown), object["sd"].toDouble(kUnknown), unit);
         }
         if (object.contains("expanded")) {
             return uncertainText(object["value"].toDouble(kUnknown), object["expanded"].toDouble(kUnknown),

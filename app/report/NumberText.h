@@ -17,9 +17,12 @@ namespace tacto {
 /// "2.26 mA", "10.0 kΩ"; a unit that takes no prefix ("%", "") gives "12.3 %". `unit` may be ASCII ("ohm", "uC").
 [[nodiscard]] QString quantityText(double value, const QString& unit, int digits = 4);
 
-/// A mean and its spread, "40.12 ± 0.46 V": two significant digits, the value to the same place. A spread that is not
-/// known (of one reading, say) is left out.
+/// A value and its uncertainty, "40.12 ± 0.46 V", as uncertainText(); one that is not known is left out.
 [[nodiscard]] QString quantityText(double value, double uncertainty, const QString& unit);
+
+/// A mean and its standard deviation, "40.12, s.d. 0.46 V": ± is kept for uncertainties and tolerances. A deviation that
+/// is not known (of one reading, say) is left out.
+[[nodiscard]] QString spreadText(double mean, double sd, const QString& unit);
 
 /// A value and its expanded uncertainty after GUM 7.2.6, as measuredText() of core/base/QuantityText.h: one that is not
 /// known is said to be unknown (hazard H9).
@@ -69,7 +72,13 @@ struct ColumnFormat {
 /// (dates and ranges keep theirs), Ω after a number in place of ohm, cm² in place of cm2.
 [[nodiscard]] QString withSigns(QString text);
 
-/// True for a figure as it stands in a cell: "5.03 mA", "± 200 mV", "−0.3 ± 1.2 %".
+/// One prefix for all figures of a unit that stand in one column: "620.0 µV" above "45.25 mV" becomes "0.6200 mV". Its
+/// digits stay, the point moves; the prefix is the largest that is met, or a smaller one where that is much shorter and
+/// needs no zero that says nothing. Sentences, and cells of two units, stay as they are.
+void sharePrefix(const std::vector<QString*>& cells);
+void sharePrefix(QStringList& cells);
+
+/// True for a figure as it stands in a cell: "5.03 mA", "± 200 mV", "−0.3 ± 1.2 %", "40.12, s.d. 0.46 V".
 [[nodiscard]] bool isFigure(const QString& text);
 
 /// Takes the unit that all numbers of a column share out of its cells, for the header; empty where they share none.

@@ -88,6 +88,7 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
     // What a row is about begins as a sentence does; a condition's or a material's name stays as it is given.
     static const QStringList about{"requirement", "output", "trip"};
     if (about.contains(key)) std::ranges::transform(cells, cells.begin(), capitalised);
+    if (key != "load") sharePrefix(cells);  // a load's name stays as it is on the bench
     // A column of which no row says anything is not there.
     if (std::all_of(cells.begin(), cells.end(), [](const QString& cell) { return cell.isEmpty(); })) return;
     QString title = shownText(name.title, kShownCell);
@@ -140,6 +141,26 @@ MatrixBlock::Cell cellOf(const QJsonValue& value, const QString& rowUnit) {
     const auto at = text.indexOf(" ± ");
     if (at < 0) return {text, {}, State::Plain};
     return {text.left(at), text.mid(at + 1), State::Plain};
+}
+
+/// One prefix in a row: the row is the quantity, and its cells are compared. What stands in two lines of a cell is one
+/// figure.
+void sharePrefix(std::vector<MatrixBlock::Cell>& row) {
+    const QString between = " ± ";
+    std::vector<QString> joined;
+    for (const auto& cell : row)
+        joined.push_back(cell.detail.startsWith("± ") ? cell.main + ' ' + cell.detail : cell.main);
+    std::vector<QString*> figures;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        figures.push_back(&joined[i]);
+        if (!row[i].detail.startsWith("± ")) figures.push_back(&row[i].detail);
+    }
+    tacto::sharePrefix(figures);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const auto at = row[i].detail.startsWith("± ") ? joined[i].indexOf(between) : -1;
+        row[i].main = at < 0 ? joined[i] : joined[i].left(at);
+        if (at >= 0) row[i].detail = joined[i].mid(at + 1);
+    }
 }
 
 QString noteOf(const QJsonObject& row) {
@@ -203,6 +224,7 @@ MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
             row.cells.push_back(cellOf(cell, object.value("unit").toString()));
         }
         row.cells.resize(static_cast<std::size_t>(matrix.columns.size()));
+        sharePrefix(row.cells);
         matrix.rows.push_back(std::move(row));
     }
     if (judged) {

@@ -96,7 +96,7 @@ TEST(FigureDrawing, ShowsMeasuredNumbersBesideTheTrains) {
     EXPECT_NE(text.find("Texture alone"), std::string::npos);
     EXPECT_NE(text.find("Pressure alone"), std::string::npos);
     EXPECT_NE(text.find("Texture and pressure combined"), std::string::npos);
-    EXPECT_NE(text.find("40.12 ± 0.16"), std::string::npos) << text;
+    EXPECT_NE(text.find("40.12, s.d. 0.16"), std::string::npos) << text;
 }
 
 TEST(FigureDrawing, SaysThatAConditionWasNotMeasured) {

@@ -1,6 +1,8 @@
 #include <QFontMetricsF>
 #include <QJsonObject>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <random>
 
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
@@ -113,10 +115,64 @@ TEST(NumberText, ReadsUnitsFromAColumnsKey) {
 }
 
 TEST(NumberText, WritesStatisticsAndEstimatesInCells) {
-    EXPECT_EQ(plain(cellText(QJsonObject{{"mean", 40.123}, {"sd", 0.4567}}, "V")), "40.12 ± 0.46 V");
+    EXPECT_EQ(plain(cellText(QJsonObject{{"mean", 40.123}, {"sd", 0.4567}}, "V")), "40.12, s.d. 0.46 V")
+        << "± is kept for uncertainties";
     EXPECT_EQ(plain(cellText(QJsonObject{{"value", 1.5}, {"low", 1.2}, {"high", 1.8}}, "V")),
               "1.50 V (1.20 to 1.80 V)");
     EXPECT_EQ(cellText(true, ""), "yes");
+}
+
+QStringList shared(QStringList cells) {
+    sharePrefix(cells);
+    for (auto& cell : cells) cell.replace(QChar(0x202f), ' ');
+    return cells;
+}
+
+TEST(NumberText, AColumnHasOnePrefixForEachUnit) {
+    RecordProperty("hazard", "H8");
+    EXPECT_EQ(shared({"−622.0 µV", "45.25 mV", "0 V"}), (QStringList{"−0.6220 mV", "45.25 mV", "0 mV"}));
+    EXPECT_EQ(shared({"0.00 ± 0.06 V", "−6 ± 74 mV"}), (QStringList{"0.00 ± 0.06 V", "−0.006 ± 0.074 V"}));
+    EXPECT_EQ(shared({"500.0 ms", "1.250 s", "500 Ω"}), (QStringList{"0.5000 s", "1.250 s", "500 Ω"}));
+    EXPECT_EQ(shared({"12.74 ± 0.63 mV", "−0.6 ± 1.6 µs", "0 ± 4 ns"}),
+              (QStringList{"12.74 ± 0.63 mV", "−0.6 ± 1.6 µs", "0.000 ± 0.004 µs"}));
+    EXPECT_EQ(shared({"1.50 V (1.20 to 1.80 V)", "62 mV (U unknown)", "± 800 mV", "≤ 2 V", "–", ""}),
+              (QStringList{"1.50 V (1.20 to 1.80 V)", "0.062 V (U unknown)", "± 0.800 V", "≤ 2 V", "–", ""}));
+    EXPECT_EQ(shared({"40.12, s.d. 0.46 V", "120, s.d. 5 mV"}),
+              (QStringList{"40.12, s.d. 0.46 V", "0.120, s.d. 0.005 V"}));
+    EXPECT_EQ(shared({"40.0000 V", "3 pV"}), (QStringList{"40.0000 V", "0.000000000003 V"}));
+    const QStringList sentences{"off by 3 mV into 2 V", "1 V and 2 mV", "200 Ω + 10 kΩ", "3 % of 2 V"};
+    EXPECT_EQ(shared(sentences), sentences) << "a sentence keeps its words";
+}
+
+/// Whatever is drawn, each cell says the same number as before, with the same digits, in the unit of all.
+TEST(NumberText, APrefixThatIsSharedChangesNoNumber) {
+    RecordProperty("hazard", "H8");
+    std::mt19937_64 random(20261129);
+    const std::vector<std::pair<QString, double>> prefixes{{"p", 1e-12}, {"n", 1e-9}, {"µ", 1e-6}, {"m", 1e-3},
+                                                           {"", 1},      {"k", 1e3},  {"M", 1e6}};
+    const auto valueOf = [&](const QString& cell) {
+        const auto number = cell.section(' ', 0, 0).replace(QString("−"), "-").toDouble();
+        const auto unit = cell.section(' ', 1);
+        for (const auto& [symbol, factor] : prefixes)
+            if (unit == symbol + "V") return number * factor;
+        ADD_FAILURE() << cell.toStdString();
+        return kUnknown;
+    };
+    for (int round = 0; round < 500; ++round) {
+        QStringList cells;
+        for (auto rows = 1 + random() % 12; rows > 0; --rows) {
+            const auto& prefix = prefixes[random() % prefixes.size()].first;
+            const auto number = QString::number(double(random() % 1'000'000) / std::pow(10, random() % 6), 'f',
+                                                static_cast<int>(random() % 5));
+            cells << (random() % 2 == 0 ? "−" : "") + number + " " + prefix + "V";
+        }
+        const auto out = shared(cells);
+        for (qsizetype i = 0; i < cells.size(); ++i) {
+            EXPECT_EQ(out[i].section(' ', 1), out[0].section(' ', 1)) << cells.join(" | ").toStdString();
+            EXPECT_NEAR(valueOf(out[i]), valueOf(cells[i]), 1e-12 * std::abs(valueOf(cells[i])))
+                << cells[i].toStdString() << " became " << out[i].toStdString();
+        }
+    }
 }
 
 TEST(NumberText, AnIntervalHasTwoDigitsOfItsHalfAndItsValueTheSamePlace) {

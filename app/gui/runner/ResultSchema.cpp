@@ -63,8 +63,8 @@ Tables operator+(Tables first, Tables second) {
 Columns conditionColumns() {
     return {text("Condition", "name"),
             number("n", "n"),
-            number("Amplitude, mean ± s.d.", "amplitude_v", "V"),
-            number("Interval, mean ± s.d.", "interval_s", "s"),
+            number("Amplitude, mean and s.d.", "amplitude_v", "V"),
+            number("Interval, mean and s.d.", "interval_s", "s"),
             as(As::Share, "Variation of amplitude", "amplitude_variation"),
             as(As::Share, "Variation of interval", "interval_variation"),
             number("Not measured", "not_measured")};

@@ -70,7 +70,7 @@ Known knownOf(const RecordColumn& column, const json& record) {
 QString numberText(const Known& known, const QString& unit, bool isU, int digits = kDigits) {
     if (!std::isfinite(known.value)) return kNone;
     if (known.hasAround)
-        return isU ? uncertainText(known.value, known.around, unit) : quantityText(known.value, known.around, unit);
+        return isU ? uncertainText(known.value, known.around, unit) : spreadText(known.value, known.around, unit);
     if (std::isfinite(known.low) && std::isfinite(known.high))
         return intervalText({known.value, known.low, known.high}, unit);
     return quantityText(known.value, unit, digits);

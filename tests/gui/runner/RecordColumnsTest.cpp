@@ -59,7 +59,7 @@ TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
                         {"flag", true},
                         {"reason", "off by -0.3 ± 1.2 % into 500 ohm"}}};
     const auto cell = [&](const RecordColumn& column) { return columnText(column, rows).cells.first().toStdString(); };
-    EXPECT_EQ(cell({"V", "v", As::Number, "V"}), "40.12 ± 0.46");
+    EXPECT_EQ(cell({"V", "v", As::Number, "V"}), "40.12, s.d. 0.46") << "± is kept for uncertainties";
     EXPECT_THAT(cell({"S", "share", As::Share}), HasSubstr("94.6"));
     EXPECT_EQ(cell({"V", "verdict", As::Verdict}), "○ not evaluated");
     EXPECT_EQ(cell({"V", "flag", As::Verdict}), "✔ pass");
