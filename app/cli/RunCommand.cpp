@@ -18,6 +18,7 @@
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/GivenOnce.h"
 #include "core/base/Printable.h"
+#include "core/calibration/CertificateDetails.h"
 #include "core/devices/Registry.h"
 #include "core/dsp/RoughnessFlags.h"
 #include "core/session/Origin.h"
@@ -41,6 +42,11 @@ void declareRun(QCommandLineParser& parser) {
     parser.addOption({"sample", "What is measured, by the laboratory's own id, for its report.", "ID"});
     parser.addOption({"reviewer", "Who checks it, for its report.", "NAME"});
     parser.addOption({"ambient", "Ambient conditions, for its report: \"22.5 °C, 45 % RH\".", "TEXT"});
+    parser.addOption({"certificate-details",
+                      "JSON file of what the certificate of a stimulator calibration says beside: laboratory, address, "
+                      "place, number, customer, contact, make, model, serial, condition, received, issued, "
+                      "authorised_by, function.",
+                      "F"});
     parser.addOption({"out", "Folder for the session, its reports and its captures.", "DIR"});
     parser.addOption(
         {"passphrase-file", "File whose first line is the study's passphrase, for sessions of a study.", "F"});
@@ -130,6 +136,17 @@ tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser) {
                    parser.value("reviewer").toStdString(), parser.value("ambient").toStdString()};
     if (const auto checked = checkNotes(order.notes); !checked)
         return tl::unexpected(usage("run: " + checked.error().message));
+    order.certificateDetails = parser.value("certificate-details").toStdString();
+    if (!order.certificateDetails.empty()) {
+        if (resultTraits(order.declaration.kind).kind != ResultKind::StimulatorCalibration) {
+            return tl::unexpected(
+                usage(fmt::format("run: --certificate-details is given for {}; a stimulator calibration is expected",
+                                  order.script.name)));
+        }
+        // Before devices are opened.
+        if (const auto read = certificateDetails(order.certificateDetails, utcToday()); !read)
+            return tl::unexpected(couldNotRun(read.error()));
+    }
     return order;
 }
 
@@ -366,8 +383,8 @@ int runRun(const QCommandLineParser& parser) {
 const Command kRun{
     "run",
     "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--profile F] [--realtime] [--reset-fault] "
-    "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--out DIR] [--passphrase-file F] [--markers "
-    "[ADDRESS:]PORT] [--report none|html|pdf] [--json]",
+    "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--certificate-details F] [--out DIR] "
+    "[--passphrase-file F] [--markers [ADDRESS:]PORT] [--report none|html|pdf] [--json]",
     "Runs a protocol script, records it and writes its report", declareRun, runRun};
 
 }  // namespace tacto::cli

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/report/CertificatePages.h"
 #include "app/report/ShownText.h"
 
 namespace tacto {
@@ -29,7 +30,8 @@ FactsBlock factsOf(const ReportModel& model) {
     FactsBlock block;
     block.oneColumn = true;
     const auto& basis = model.basis;
-    block.facts.insert(block.facts.end(), basis.rule.begin(), basis.rule.end());
+    const bool certified = isCertificate(model);  // its first page has said some of it
+    if (!certified) block.facts.insert(block.facts.end(), basis.rule.begin(), basis.rule.end());
     block.facts.insert(block.facts.end(), basis.restsOn.begin(), basis.restsOn.end());
     if (has(model, Role::Oscilloscope)) {
         block.facts.push_back(
@@ -41,10 +43,10 @@ FactsBlock factsOf(const ReportModel& model) {
         open << "exposure: this session holds no approved train";
     block.facts.push_back(
         {"Not evaluated", open.isEmpty() ? QString("nothing, as far as this session says") : open.join(";\n") + "."});
-    block.facts.push_back({"Sample", orNotRecorded(basis.sample)});
+    if (!certified) block.facts.push_back({"Sample", orNotRecorded(basis.sample)});
     if (!basis.note.isEmpty()) block.facts.push_back({"Note, added after the recording", basis.note});
     if (!basis.tags.isEmpty()) block.facts.push_back({"Tags, added after the recording", basis.tags});
-    block.facts.push_back({"Ambient conditions", orNotRecorded(basis.ambient)});
+    if (!certified) block.facts.push_back({"Ambient conditions", orNotRecorded(basis.ambient)});
     return block;
 }
 

@@ -44,6 +44,7 @@ tbody tr:last-child > * { border-bottom-color: var(--line); }
 .number { text-align: right; white-space: nowrap; }
 dl { display: grid; grid-template-columns: minmax(120px, 200px) 1fr; gap: 4px 16px; margin: 0 0 16px; }
 dt { color: var(--quiet); } dd { margin: 0; overflow-wrap: anywhere; }
+.blank { min-height: 1.9em; border-bottom: 1px solid var(--quiet); }
 code, pre { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: 13px; }
 pre { background: var(--tint); padding: 12px 14px; border-radius: 4px; white-space: pre-wrap; overflow-wrap: anywhere; }
 .simulated { color: var(--quiet); text-transform: uppercase; letter-spacing: .08em; font-size: 13px; }
@@ -104,6 +105,10 @@ public:
         for (const auto& fact : block.facts) {
             const QString value = escaped(fact.value);
             const QString shown = QString(value).replace('\n', "<br/>");
+            if (fact.isOpen) {
+                out_ += "<dt>" + escaped(fact.name) + "</dt><dd class=\"blank\"></dd>\n";
+                continue;
+            }
             out_ += "<dt>" + escaped(fact.name) + "</dt><dd>" + (fact.isHash ? "<code>" + value + "</code>" : shown) +
                     "</dd>\n";
         }
@@ -156,9 +161,13 @@ public:
         for (const auto& column : block.columns) out_ += "<th scope=\"col\">" + escaped(column) + "</th>";
         out_ += "</tr></thead>\n<tbody>\n";
         for (qsizetype r = 0; r < block.roles.size(); ++r) {
-            out_ += "<tr><th scope=\"row\">" + escaped(block.roles[r]) + "</th><td>" +
-                    escaped(block.given.value(r).isEmpty() ? QString("not recorded") : block.given.value(r)) + "</td>" +
-                    QString("<td></td>").repeated(block.columns.size() - 1) + "</tr>\n";
+            out_ +=
+                "<tr><th scope=\"row\">" + escaped(block.roles[r]) + "</th><td>" +
+                escaped(block.given.value(r).isEmpty() && !block.open ? QString("not recorded")
+                                                                      : block.given.value(r)) +
+                "</td>" +
+                (block.second.isEmpty() || r > 0 ? QString("<td></td>") : "<td>" + escaped(block.second) + "</td>") +
+                QString("<td></td>").repeated(block.columns.size() - 2) + "</tr>\n";
         }
         out_ += "</tbody></table>\n";
     }
@@ -203,7 +212,7 @@ QByteArray reportHtml(const ReportContent& content) {
         Writer::escaped(content.documentTitle) + "</title>\n<style>" + pageStyle() +
         "</style>\n</head>\n<body>\n<main>\n";
     // One page on a screen, where it stays in sight; on paper it is repeated on each.
-    html += QString("<p class=\"simulated%1\">").arg(content.damaged ? " damaged" : "") +
+    html += QString("<p class=\"simulated%1\">").arg(content.alarming ? " damaged" : "") +
             Writer::escaped(content.header) + "</p>\n" + writer.take();
     html += "<footer>" + Writer::escaped(content.footer) + "</footer>\n</main>\n</body>\n</html>\n";
     return html.toUtf8();

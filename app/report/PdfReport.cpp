@@ -11,6 +11,8 @@ namespace {
 constexpr double kGap = 12;       // between blocks
 constexpr double kTextSize = 12;  // 9 pt
 constexpr double kFactColumn = 150;
+constexpr double kTextLine = 16;
+constexpr double kOpenLine = 22;          // room to write on
 constexpr double kSymbol = 34;            // room of a verdict's shape before its word
 constexpr double kHalf = 316;             // two columns of facts with a gutter
 constexpr double kBriefFactColumn = 210;  // of a half: a setting's name is longer than its value
@@ -71,7 +73,7 @@ public:
         std::vector<const ReportFact*> brief, wide;
         for (const auto& fact : block.facts) {
             const double width = QFontMetricsF(textFont(kTextSize)).horizontalAdvance(fact.value);
-            const bool isWide = block.oneColumn || fact.isHash || width > kHalf - kBriefFactColumn;
+            const bool isWide = block.oneColumn || fact.isHash || fact.isOpen || width > kHalf - kBriefFactColumn;
             (isWide ? wide : brief).push_back(&fact);
         }
         const std::size_t rows = (brief.size() + 1) / 2;
@@ -133,6 +135,7 @@ public:
             pages_.require(kLine + 18);
             pages_.advance(kLine - 18);
             pages_.text(kRoleColumn, width - 14, block.given.value(r), textFont(kTextSize), ink::kText);
+            if (r == 0) pages_.text(kRoleColumn + width, width - 14, block.second, textFont(kTextSize), ink::kText);
             pages_.advance(18);
             if (auto* painter = pages_.painter()) {
                 painter->setPen(QPen(ink::kQuiet, 0.7));
@@ -193,11 +196,23 @@ private:
     }
 
     static double factHeight(const ReportFact& fact, double width, double name) {
+        if (fact.isOpen) return kOpenLine;
         const QFont font = fact.isHash ? monoFont(11) : textFont(kTextSize);
         return std::max(PdfPages::textHeight(width - name, fact.value, font, fact.isHash),
                         PdfPages::textHeight(name - 10, fact.name, textFont(kTextSize)));
     }
     void setFact(const ReportFact& fact, double left, double width, double name) {
+        if (fact.isOpen) {
+            pages_.advance(kOpenLine - kTextLine);
+            pages_.text(left, name - 10, fact.name, textFont(kTextSize), ink::kQuiet);
+            pages_.advance(kTextLine - kOpenLine);
+            if (auto* painter = pages_.painter()) {
+                const double below = pages_.y() + kOpenLine - 1;
+                painter->setPen(QPen(ink::kQuiet, 0.7));
+                painter->drawLine(QPointF(left + name, below), QPointF(left + width, below));
+            }
+            return;
+        }
         pages_.text(left, name - 10, fact.name, textFont(kTextSize), ink::kQuiet);
         pages_.text(left + name, width - name, fact.value, fact.isHash ? monoFont(11) : textFont(kTextSize), ink::kText,
                     Qt::AlignLeft, fact.isHash);
@@ -221,7 +236,7 @@ Result<void> writePdf(const ReportContent& content, QIODevice& device) {
     // Set twice: the first time counts the pages.
     PdfPages counting(nullptr, {}, {}, {}, 0);
     setAll(content, counting);
-    PdfPages pages(&device, content.documentTitle, content.header, content.footer, counting.page(), content.damaged);
+    PdfPages pages(&device, content.documentTitle, content.header, content.footer, counting.page(), content.alarming);
     setAll(content, pages);
     if (!pages.finish()) return fail(ErrorCode::Io, "The report's pages could not be written.");
     return {};

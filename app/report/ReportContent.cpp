@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/report/Captions.h"
+#include "app/report/CertificatePages.h"
 #include "app/report/FigureDrawing.h"
 #include "app/report/FrontPage.h"
 #include "app/report/NumberText.h"
@@ -157,7 +158,7 @@ void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlo
 
 void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     if (model.items.empty()) return;
-    blocks.emplace_back(captions.heading("Results"));
+    blocks.emplace_back(captions.heading(isCertificate(model) ? "How they were found" : "Results"));
     for (const auto& item : model.items) {
         if (const auto* figure = std::get_if<ReportFigure>(&item)) {
             blocks.emplace_back(FigureBlock{captions.figure(figure->caption, isSimulated(model, figure->figure)),
@@ -197,12 +198,18 @@ void addComputed(const ReportModel& model, Captions& captions, std::vector<Repor
 
 ReportContent contentOf(const ReportModel& whole) {
     const ReportModel model = shownModel(whole);
+    const bool certified = isCertificate(model);
     ReportContent content;
     content.simulated = model.simulated;
-    content.documentTitle = titleOf(model);
+    content.documentTitle = certified ? certificateTitle(model) : titleOf(model);
     content.damaged = !model.damage.isEmpty();
-    content.header = QString(content.damaged ? "DAMAGED: this session is not what was recorded  ·  " : "") +
-                     "Tactoscope  ·  " + shownText(titleOf(whole), kShownHead) +
+    content.alarming = content.damaged || (certified && model.simulated);
+    const QString head = certified ? "Calibration certificate " + shownText(reportNumber(whole), kShownHead)
+                                   : "Tactoscope  ·  " + shownText(titleOf(whole), kShownHead);
+    content.header = QString(content.damaged    ? "DAMAGED: this session is not what was recorded  ·  "
+                             : content.alarming ? "SIMULATED: no device was calibrated  ·  "
+                                                : "") +
+                     head +
                      (isAllSimulated(model) ? "  ·  simulated"
                       : model.simulated     ? "  ·  simulated in part"
                                             : "");
@@ -211,8 +218,16 @@ ReportContent contentOf(const ReportModel& whole) {
 
     Captions captions(isAllSimulated(model));
     auto& blocks = content.blocks;
-    blocks.emplace_back(TitleBlock{content.documentTitle, subtitleOf(model)});
+    blocks.emplace_back(TitleBlock{content.documentTitle,
+                                   certified ? reportNumber(model) + '\n' + subtitleOf(model) : subtitleOf(model)});
+    if (certified) {
+        addCertificateItem(model, captions, blocks);
+        blocks.emplace_back(captions.heading("Statement of conformity"));
+    } else if (const auto why = whyNoCertificate(model)) {
+        blocks.emplace_back(ParagraphBlock{"No calibration certificate: " + *why + "."});
+    }
     blocks.emplace_back(verdictOf(model));
+    if (certified) addCertificateConformity(model, captions, blocks);
     if (content.damaged) {
         blocks.emplace_back(captions.heading("DAMAGED"));
         blocks.emplace_back(
@@ -222,6 +237,7 @@ ReportContent contentOf(const ReportModel& whole) {
     }
     addMarks(model, blocks);
     addFrontPage(model, captions, blocks);
+    if (certified) addCertificateResults(model, captions, blocks);
     addItems(model, captions, blocks);
     addComputed(model, captions, blocks);
     blocks.emplace_back(captions.heading("Events"));
@@ -239,6 +255,7 @@ ReportContent contentOf(const ReportModel& whole) {
         "Tactoscope is a research bench, not a medical device. The chain head identifies the session's contents: "
         "“tactoscope-cli verify” must print the same one.",
         true});
+    if (certified) blocks.emplace_back(ParagraphBlock{"End of calibration certificate " + reportNumber(model) + "."});
     return content;
 }
 

@@ -76,6 +76,8 @@ struct SignaturesBlock {
     QStringList roles;    ///< a line each
     QStringList columns;  ///< what is written on it
     QStringList given;    ///< as `roles`: what stands in the first column already; may be empty
+    QString second = {};  ///< what stands in the second column of the first role; may be empty
+    bool open = false;    ///< what is not given is left to be written, also on a page that is only read
 };
 struct CodeBlock {
     QStringList lines;
@@ -89,7 +91,8 @@ struct ReportContent {
     QString header;  ///< running head: what this is
     QString footer;  ///< session and chain head, short
     bool simulated = false;
-    bool damaged = false;  ///< the session was altered: said on every page
+    bool damaged = false;   ///< the session was altered: said on every page
+    bool alarming = false;  ///< the running head is a warning, set where every reader sees it
     std::vector<ReportBlock> blocks;
 };
 

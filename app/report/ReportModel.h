@@ -8,6 +8,7 @@
 #include <QJsonObject>
 #include <QString>
 #include <QStringList>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct ReportFact {
     QString name;
     QString value;
     bool isHash = false;  ///< set in a monospaced face, broken anywhere
+    bool isOpen = false;  ///< nobody has said it: a ruled line to write on
 };
 
 struct ReportFigure {
@@ -89,6 +91,13 @@ struct ReportBasis {
     QString tags;
 };
 
+/// Of a stimulator that was calibrated: what makes the report a certificate (CertificatePages.h).
+struct ReportCertificate {
+    QJsonObject details;       ///< as entered: CertificateDetails.h; what is missing is an open line
+    QJsonObject results;       ///< what report.certificate() wrote: quantities, before, kept
+    QJsonObject oscilloscope;  ///< the certificate that the oscilloscope's figures are from; empty: none is used
+};
+
 /// A fault, refusal, stop or remark.
 struct ReportEvent {
     double t_s = 0;  ///< on the session's time base
@@ -112,6 +121,7 @@ struct ReportModel {
     QString chainHead;       ///< hex; empty only when there is none yet
     QStringList damage;      ///< what verify finds wrong with the session; empty when it is intact
     ReportBasis basis;
+    std::optional<ReportCertificate> certificate;
     std::vector<ReportDevice> devices;
     std::vector<ReportFact> settings;           ///< parameters with their units
     std::vector<ReportFact> identity;           ///< versions, seed, hashes

@@ -129,6 +129,11 @@ public:
                  {std::pair("operator", &basis.operatorName), std::pair("sample", &basis.sample),
                   std::pair("reviewer", &basis.reviewer), std::pair("ambient", &basis.ambient)})
                 if (item.contains(QLatin1String(key))) *into = item[QLatin1String(key)].toString();
+        } else if (kind == "certificate") {
+            if (!model_.certificate) model_.certificate.emplace();
+            model_.certificate->results = item;
+        } else if (kind == "certificate details") {
+            details_ = item;
         } else if (kind == "text") {
             model_.items.emplace_back(ReportText{item["text"].toString()});
         } else {
@@ -136,6 +141,11 @@ public:
                 QString("An item of kind “%1” cannot be shown; known are about, figure, table, matrix and text.")
                     .arg(kind)});
         }
+    }
+
+    /// What was entered for a certificate: a run that makes none needs it not.
+    void finish() {
+        if (model_.certificate) model_.certificate->details = details_;
     }
 
 private:
@@ -197,6 +207,7 @@ private:
 
     const SessionReader& reader_;
     ReportModel& model_;
+    QJsonObject details_;
 };
 
 ReportVerdict verdictNamed(const std::string& name) {
@@ -277,6 +288,7 @@ Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const 
         }
     }
     if (!reader.closed()) {
+        model.certificate.reset();
         // H9: a run that broke off proves nothing, whatever its last verdict was.
         if (model.verdict != ReportVerdict::Fail) model.verdict = ReportVerdict::Stopped;
         model.reasons.prepend("The session was not closed: the run was interrupted, or is still going on.");
@@ -313,6 +325,7 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     readBasis({}, model);
     ItemReader itemReader(*reader, model);
     for (const auto& row : *items) itemReader.take(qtObject(row.body));
+    itemReader.finish();
 
     const auto labels = reader->labels();
     if (!labels) return failure(labels);
@@ -324,7 +337,11 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     QString calibration;
     for (const auto& row : *events) {
         if (row.name == "calibration") calibration = sentenceOf(qtObject(row.body));
-        if (row.name == kCertificateEvent) model.basis.certificate = sentenceOf(qtObject(row.body));
+        if (row.name == kCertificateEvent) {
+            const auto body = qtObject(row.body);
+            model.basis.certificate = sentenceOf(body);
+            if (model.certificate) model.certificate->oscilloscope = body["certificate"].toObject();
+        }
         last = std::max(last, row.at);
         if (!isQuiet(row.name)) addEvent(model, row);
     }

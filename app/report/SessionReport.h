@@ -9,6 +9,8 @@
 //   {"kind": "matrix", "caption": "Limits", "columns": ["100 ohm"], "rows": [...]}               ReportMatrix
 //   {"kind": "text", "text": "..."}
 //   {"kind": "notes", "operator": "...", "sample": "...", "reviewer": "...", "ambient": "..."}   as it was entered
+//   {"kind": "certificate", "quantities": [...]}    of report.certificate(): the report is a calibration certificate
+//   {"kind": "certificate details", "laboratory": "..."}                        as entered: CertificateDetails.h
 //   {"kind": "basis", "results": {...}}        what the verdict rests on, of a run without one: ReportBasis.h
 // Exposure: measurements named kExposureMeasurement, which the program alone writes, with {"rows": [...]} like those of
 // a figure of type exposure, in a section of its own, titled as computed from approved trains. The worst of the rows

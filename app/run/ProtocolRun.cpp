@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/calibration/CertificateDetails.h"
 #include "core/session/Marks.h"
 #include "core/session/Origin.h"
+#include "core/session/ResultKind.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 
@@ -49,9 +51,18 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     order.needed = order.ownNeeds.empty() ? order.declaration.needs : order.ownNeeds;
     order.declaredLoad = order.ownLoad.empty() ? declaredLoad(order.settings.parameters) : order.ownLoad;
     order.about = aboutScript(order);
+    const bool isCalibration = resultTraits(order.declaration.kind).kind == ResultKind::StimulatorCalibration;
+    const auto details =
+        isCalibration ? certificateDetails(order.certificateDetails, utcToday()) : CertificateDetails{};
+    if (!details) return failure(details);
     auto opened = openBench(order, registry, std::move(tap));
     if (!opened) return failure(opened);
     run->opened_ = std::move(*opened);
+    if (auto item = toJson(*details); !item.empty()) {
+        item["kind"] = "certificate details";
+        if (auto kept = run->opened_->session->reportItem(run->opened_->clock->now(), item); !kept)
+            return failure(kept);
+    }
     if (!order.stops) order.asked = run->bench().stops().mark();
     if (auto left = run->leaveFault(); !left) return failure(left);
     return run;

@@ -21,6 +21,9 @@ struct RunOrder : BenchOrder {
     ProtocolSettings settings;
     std::string ownLoad = {};      ///< in place of the load that the parameters declare: a virtual participant's skin
     std::set<Role> ownNeeds = {};  ///< in place of what the script declares to need: a massager study's; empty: that
+    /// Of the order, for the certificate of a stimulator calibration: CertificateDetails.h; empty: the laboratory's own
+    /// alone. Without use for another kind of result.
+    std::filesystem::path certificateDetails = {};
     bool resetFault = false;  ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
 };
 
@@ -50,8 +53,8 @@ struct RunResult {
 class ProtocolRun {
 public:
     /// Opens the bench: what the protocol needs, on the load that its parameters declare. A stop ends the opening of
-    /// devices; one that comes later is found by start(). Errors: as openBench(); NotArmed for a fault in which the
-    /// stimulator was left.
+    /// devices; one that comes later is found by start(). Errors: as openBench() and certificateDetails(); NotArmed for
+    /// a fault in which the stimulator was left.
     [[nodiscard]] static Result<std::unique_ptr<ProtocolRun>> prepare(RunOrder order, Registry& registry,
                                                                       std::shared_ptr<BenchTap> tap = nullptr);
     /// Ends a script that still runs; output off. A run that was not finished leaves its session without an end mark.

@@ -26,7 +26,8 @@ KnownCertificate knownCertificate(const DeviceIdentity& oscilloscope) {
     if (state != CertificateState::Counts) {
         return {{}, false, fmt::format("{} is {}: its figures are not used", named, nameOf(state))};
     }
-    return {statementOf(certificate), true, fmt::format("{} is used, {}", named, figuresText(certificate))};
+    return {statementOf(certificate), true, fmt::format("{} is used, {}", named, figuresText(certificate)),
+            certificate};
 }
 
 KnownCertificate stateOscilloscope(DeviceSet& devices) {
@@ -38,7 +39,9 @@ KnownCertificate stateOscilloscope(DeviceSet& devices) {
 
 Result<void> keepCertificate(const KnownCertificate& known, SessionWriter& session, Instant at) {
     if (known.text.empty()) return {};
-    const auto kept = session.event(at, kCertificateEvent, {{"text", known.text}, {"used", known.used}});
+    nlohmann::json event = {{"text", known.text}, {"used", known.used}};
+    if (known.certificate) event["certificate"] = toJson(*known.certificate);
+    const auto kept = session.event(at, kCertificateEvent, event);
     if (!kept) return failure(kept);
     return {};
 }

@@ -7,8 +7,10 @@
 // Thread-safety: pure but for reading the store; keepCertificate() as SessionWriter.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "core/calibration/Certificate.h"
 #include "core/devices/DeviceSet.h"
 #include "core/session/SessionWriter.h"
 
@@ -17,7 +19,8 @@ namespace tacto {
 struct KnownCertificate {
     InstrumentStatement statement;  ///< empty unless used
     bool used = false;
-    std::string text;  ///< one sentence; empty where no certificate can be of this oscilloscope
+    std::string text;                          ///< one sentence; empty where no certificate can be of this oscilloscope
+    std::optional<Certificate> certificate{};  ///< the one that is used
 };
 /// How the certificate of that device stands today.
 [[nodiscard]] KnownCertificate knownCertificate(const DeviceIdentity& oscilloscope);

@@ -159,7 +159,7 @@ function checkStored(stored, settings, results) {
   return verdict(Object.assign(results, { type: "check" }, calibration.checkVerdict(checks, stored)));
 }
 
-function calibrateAll(settings, results) {
+function calibrateAll(stored, settings, results) {
   const all = [];
   for (const quantity of quantitiesOf(settings)) {
     const found = calibrate(quantity, settings, results);
@@ -178,6 +178,7 @@ function calibrateAll(settings, results) {
     results.stored = record.calibration(results, validity);
     record.event("calibration stored", results.stored);
   }
+  report.certificate(all, stored);
   return verdict(Object.assign(results, calibration.stimulatorVerdict(all, clock, settings.store)));
 }
 
@@ -198,5 +199,5 @@ function run(p) {
   if (!known.passed) return indeterminate(results, known.reason);
 
   calibration.warmUp(p.load, p.warm_up_s);
-  return p.mode === "check" ? checkStored(stored, settings, results) : calibrateAll(settings, results);
+  return p.mode === "check" ? checkStored(stored, settings, results) : calibrateAll(stored, settings, results);
 }

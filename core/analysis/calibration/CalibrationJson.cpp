@@ -73,13 +73,16 @@ json toJson(const JudgedCalibration& judged) {
         row["worst_error"] = numberOrNull(level.worstError);
         row["expanded_uncertainty"] = numberOrNull(level.budget.expanded);
         row["worst_expanded_uncertainty"] = numberOrNull(level.worstBudget.expanded);
+        row["worst_coverage_factor"] = numberOrNull(level.worstBudget.coverageFactor);
         row["tolerance"] = level.tolerance;
         row["verdict"] = nameOf(level.verdict);
     }
     const auto& top = judged.fullScale().budget;
     out["expanded_uncertainty"] = numberOrNull(top.expanded);
     out["gain_expanded_uncertainty"] = numberOrNull(judged.gain.expanded);
+    out["gain_coverage_factor"] = numberOrNull(judged.gain.coverageFactor);
     out["offset_expanded_uncertainty"] = numberOrNull(judged.offset.expanded);
+    out["offset_coverage_factor"] = numberOrNull(judged.offset.coverageFactor);
     out["budget"] = toJson(top);
     out["budget_smallest"] = toJson(judged.smallest().budget);
     out["tolerance_pct"] = judged.tolerance_pct;

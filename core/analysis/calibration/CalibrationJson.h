@@ -18,7 +18,7 @@ namespace tacto {
 [[nodiscard]] nlohmann::json toJson(const UncertaintyBudget& budget);
 /// What toJson(Calibration) says, each level with error, expanded_uncertainty, tolerance and verdict; and
 /// {"expanded_uncertainty" (at the largest command), "gain_expanded_uncertainty", "offset_expanded_uncertainty",
-/// "budget" (at the largest command), "tolerance_pct","verdict","reasons"}
+/// "budget" (at the largest command), "tolerance_pct","verdict","reasons"}; k of each as "..._coverage_factor".
 [[nodiscard]] nlohmann::json toJson(const JudgedCalibration& judged);
 
 }  // namespace tacto

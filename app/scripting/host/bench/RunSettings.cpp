@@ -81,7 +81,11 @@ Result<Json> storedCalibration(ScriptSession& session, const Arguments&) {
     if (!store) return failure(store);
     const auto found = store->valid(calibratedOutput(device.serial, device.uri),
                                     amplitudeUnit(stimulator.traits().drive), utcToday(), device.simulated);
-    if (!found) return Json{{"calibrated", false}, {"text", found.error().message}};
+    const auto noted = [&session](Json told) {
+        if (!session.own().noted(told)) session.own().note(told);
+        return told;
+    };
+    if (!found) return noted({{"calibrated", false}, {"text", found.error().message}});
     Json out = {{"calibrated", true},
                 {"text", fmt::format("stimulator {} was calibrated on {} and that holds until {}", found->serial,
                                      dateText(found->made), dateText(found->validUntil))},
@@ -89,7 +93,7 @@ Result<Json> storedCalibration(ScriptSession& session, const Arguments&) {
                 {"made", dateText(found->made)},
                 {"valid_until", dateText(found->validUntil)}};
     for (const auto& time : kStoredTimes) out[std::string(time.id)] = lineJson(*((*found).*time.line), "s");
-    return out;
+    return noted(std::move(out));
 }
 
 Result<Json> useCalibration(ScriptSession& session, const Arguments& arguments) {

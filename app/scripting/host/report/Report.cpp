@@ -5,11 +5,14 @@
 #include "app/scripting/host/plot/CalibrationFigure.h"
 #include "app/scripting/host/report/CalibrationTables.h"
 #include "app/scripting/host/report/Cells.h"
+#include "app/scripting/host/report/CertificateItem.h"
 #include "app/scripting/host/report/FingertipItems.h"
 #include "app/scripting/host/report/LoadSafetyTables.h"
 #include "app/scripting/host/report/LoadTracings.h"
 #include "app/scripting/host/report/ReportObject.h"
 #include "core/base/QuantityText.h"
+#include "core/calibration/CalibrationTrend.h"
+#include "core/devices/DeviceUri.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto::host::report {
@@ -26,6 +29,28 @@ Result<Json> writeItems(ScriptSession& session, const Json& items) {
         if (auto written = writeItem(session, item); !written) return written;
     }
     return Json();
+}
+
+/// The correction that a stored calibration makes of one quantity.
+Correction correctionOf(const Json& line) {
+    CalibrationLine out;
+    out.gain = numberOr(line, "gain");
+    out.offset = numberOr(line, "offset");
+    out.lowest = numberOr(line, "lowest");
+    out.highest = numberOr(line, "highest");
+    return validateNumbers(out, "the certificate") ? Correction(out) : Correction();
+}
+
+/// What this run kept; nothing where it kept none.
+std::optional<StoredCalibration> keptByThisRun(ScriptSession& session) {
+    const auto& stimulator = *session.bench().devices().stimulator;
+    const auto& device = stimulator.identity();
+    const auto store = CalibrationStore::open(calibrationFile());
+    const auto* kept =
+        store ? store->latest(calibratedOutput(device.serial, device.uri), amplitudeUnit(stimulator.traits().drive))
+              : nullptr;
+    if (kept == nullptr || kept->session != session.writer()->path().filename().string()) return {};
+    return *kept;
 }
 
 }  // namespace
@@ -71,6 +96,38 @@ Result<Json> calibrations(ScriptSession& session, const Arguments& arguments) {
 
 Result<Json> calibrationCheck(ScriptSession& session, const Arguments& arguments) {
     return writeItem(session, calibrationCheckTable(listIn(arguments.object("check"), "rows")));
+}
+
+/// Of the run's own calibrations alone, and of what the program itself told of the stored one: a certificate says
+/// nothing that a script made up (hazard H8).
+Result<Json> certificate(ScriptSession& session, const Arguments& arguments) {
+    const Json& before = arguments.object("before");
+    if (!session.own().noted(before)) return arguments.wrong("before", before, "bench.calibration, unchanged,");
+    std::vector<const OwnCalibration*> all;
+    for (const auto& found : arguments.list("found")) {
+        const auto* own = session.own().calibration(found.value("calibration", Json()));
+        if (own == nullptr)
+            return arguments.wrong("found", found, "what calibration.judge() made of this run's own readings");
+        all.push_back(own);
+    }
+    if (session.writer() == nullptr) return Json();
+    const auto kept = keptByThisRun(session);
+    Json quantities = Json::array(), applied = Json::array();
+    for (const auto* own : all) {
+        if (own->calibrationApplied) applied.push_back(own->quantity);
+        const auto* line = kept ? lineOf(*kept, own->quantity) : nullptr;
+        const bool plain = !own->calibrationApplied;
+        quantities.push_back(certifiedQuantity(own->found,
+                                               plain ? correctionOf(before.value(own->quantity, Json())) : Correction(),
+                                               plain && line != nullptr ? Correction(*line) : Correction()));
+    }
+    Json item = {{"kind", "certificate"},
+                 {"quantities", std::move(quantities)},
+                 {"correction_in_readings", std::move(applied)},
+                 {"before", {{"text", before.at("text")}, {"made", before.value("made", Json())}}},
+                 {"kept", Json()}};
+    if (kept) item["kept"] = {{"made", dateText(kept->made)}, {"valid_until", dateText(kept->validUntil)}};
+    return writeItem(session, item);
 }
 
 /// A table that has no rows is left out.

@@ -50,6 +50,16 @@ std::vector<HostFunction> reportFunctions() {
          .text = "Adds the check of a stored calibration to the report.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::calibrationCheck},
+        {.name = "certificate",
+         .parameters = {list("found", "from calibration.judge(), a quantity each").of(ValueType::Object),
+                        object("before", "bench.calibration, read before anything was kept")},
+         .text = "Makes the report a calibration certificate, once a new calibration is kept or is not to be: what was "
+                 "measured without a correction, as found with the one that was stored, as left with the one that this "
+                 "run keeps. The last two are computed from the readings.",
+         .errors = "Throws for a calibration of readings that this run did not take itself; when the session file "
+                   "cannot be written.",
+         .needs = Role::Stimulator,
+         .call = host::report::certificate},
         {.name = "loadSafety",
          .parameters = {object("found", "from analysis.loadSafety()")},
          .text = "Adds a judged load-safety check to the report: limits against loads, what was measured into each, "

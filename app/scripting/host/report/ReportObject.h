@@ -10,8 +10,8 @@ namespace tacto::host::report {
 
 using Json = nlohmann::json;
 
-HostCall figure, table, matrix, quantity, rounded, text, calibration, calibrations, calibrationCheck, loadSafety,
-    loadTracingsFigures, fingertipRest, fingertipScales, slides,
+HostCall figure, table, matrix, quantity, rounded, text, calibration, calibrations, calibrationCheck, certificate,
+    loadSafety, loadTracingsFigures, fingertipRest, fingertipScales, slides,
     sensorCalibration;  // Report.cpp
 
 }  // namespace tacto::host::report

@@ -1,0 +1,340 @@
+#include "app/report/CertificatePages.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
+#include "core/base/QuantityText.h"
+#include "core/calibration/CertificateDetails.h"
+#include "core/encoding/CalibratedQuantity.h"
+#include "core/session/Origin.h"
+
+namespace tacto {
+namespace {
+
+QString fromUtf8(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
+
+QJsonArray quantitiesOf(const ReportModel& model) { return model.certificate->results["quantities"].toArray(); }
+
+const ReportDevice* deviceOf(const ReportModel& model, Role role) {
+    const auto found = std::ranges::find_if(model.devices, [role](const ReportDevice& each) { return each.is(role); });
+    return found == model.devices.end() ? nullptr : &*found;
+}
+
+/// What was entered under that key; else what the program knows; else a line to write on.
+ReportFact detailFact(const ReportModel& model, std::string_view key, const QString& known = {}) {
+    const auto detail = std::ranges::find(kCertificateDetails, key, &CertificateDetail::key);
+    const QString given = shownText(model.certificate->details[fromUtf8(key)].toString(), kShownCell);
+    QString text = given.isEmpty() ? known : given;
+    // What the device says of itself is not replaced by what was entered.
+    if (!given.isEmpty() && !known.isEmpty() && given != known) text += QString(" (the device reports %1)").arg(known);
+    return {fromUtf8(detail->title), text, false, text.isEmpty()};
+}
+
+/// What was done otherwise than the method says, as far as the program knows.
+QString deviations(const ReportModel& model) {
+    QStringList all;
+    const auto quantities = quantitiesOf(model);
+    for (const auto& one : kCalibratedQuantities) {
+        const bool calibrated = std::ranges::any_of(
+            quantities, [&](const QJsonValue& each) { return each[u"quantity"].toString() == fromUtf8(one.id); });
+        if (!calibrated) all << fromUtf8(one.title) + " was not calibrated";
+    }
+    for (const auto& each : quantities) {
+        for (const auto& warning : each[u"warnings"].toArray())
+            all << each[u"title"].toString() + ": " + warning.toString();
+    }
+    return all.isEmpty() ? QString("none that the program knows of") : shownText(all.join(";\n"), kShownCell) + ".";
+}
+
+/// One instrument's share, as its certificate has it: "voltage gain U = 0.5 % (k = 2)".
+QString certified(const QJsonObject& certificate, const char* key, const char* what, const char* unit) {
+    const auto u = certificate[QLatin1String(key)];
+    if (!u.isDouble()) return {};
+    return QString("%1, U = %2 (k = 2)").arg(QLatin1String(what), settingText(u.toDouble(), unit));
+}
+
+/// Whether the figure `what` of a channel was stated by the certificate itself: a later statement takes its place.
+bool standsOn(const ReportModel& model, const QString& unit, const QJsonObject& certificate) {
+    const QString number = "certificate " + certificate["number"].toString();
+    return std::ranges::any_of(model.basis.instruments, [&](const ReportInstrument& each) {
+        const bool right = unit.isEmpty() || (unit == "V" ? each.channel != "current" : each.channel == "current");
+        return right && each.statedBy.contains(number);
+    });
+}
+
+struct Traced {
+    QStringList by, lacking;
+};
+
+ReportFact tracedFact(const QString& name, const Traced& traced, const QString& certificate) {
+    QString text;
+    if (traced.by.isEmpty()) {
+        text = "not traceable: " + traced.lacking.join("; ");
+    } else {
+        text = "through " + certificate + ": " + traced.by.join("; ");
+        if (!traced.lacking.isEmpty()) text += ". Not traceable: " + traced.lacking.join("; ");
+    }
+    return {name, text + "."};
+}
+
+void addTraceability(const ReportModel& model, std::vector<ReportFact>& facts) {
+    const auto& certificate = model.certificate->oscilloscope;
+    if (model.simulated) {
+        facts.push_back({"Traceability", "not traceable: SIMULATED, nothing was measured on hardware."});
+        return;
+    }
+    if (certificate.isEmpty()) {
+        const QString why = model.basis.certificate.isEmpty()
+                                ? QString("no calibration certificate of the oscilloscope is known to the program")
+                                : model.basis.certificate;
+        facts.push_back({"Traceability", "not traceable: " + why + "."});
+        return;
+    }
+    const auto* scope = deviceOf(model, Role::Oscilloscope);
+    const QString named =
+        QString("certificate %1 of %2, dated %3, due %4, of the oscilloscope %5 %6")
+            .arg(certificate["number"].toString(), certificate["by"].toString(), certificate["date"].toString(),
+                 certificate["due"].toString(), certificate["instrument"].toString(), certificate["serial"].toString());
+    const auto quantities = quantitiesOf(model);
+    const auto has = [&](auto wanted) { return std::ranges::any_of(quantities, wanted); };
+    for (const auto& each : quantities) {
+        if (each[u"quantity"].toString() != "amplitude") continue;
+        const QString unit = each[u"unit"].toString() == "mA" ? "A" : "V";
+        Traced traced;
+        const bool used = standsOn(model, unit, certificate);
+        if (used)
+            traced.by << certified(certificate, "gain_u_pct", "voltage gain", "%");
+        else
+            traced.lacking << "the gain is stated by " +
+                                  (scope == nullptr ? QString("nobody") : QString("another source"));
+        const char* key = unit == "A" ? "shunt_u_pct" : "probe_u_pct";
+        const char* what = unit == "A" ? "shunt" : "probe";
+        if (const auto share = certified(certificate, key, what, "%"); used && !share.isEmpty())
+            traced.by << share;
+        else
+            traced.lacking << QString("the %1, which this certificate does not state").arg(QLatin1String(what));
+        facts.push_back(tracedFact("Traceability of the amplitude", traced, named));
+    }
+    if (has([](const QJsonValue& each) { return each[u"quantity"].toString() != "amplitude"; })) {
+        Traced traced;
+        const auto base = certified(certificate, "timebase_u_ppm", "time base", "ppm");
+        if (!base.isEmpty() && standsOn(model, {}, certificate))
+            traced.by << base;
+        else
+            traced.lacking << "this certificate does not state the time base";
+        facts.push_back(tracedFact("Traceability of the times", traced, named));
+    }
+}
+
+QString dayOf(const QString& started) { return started.left(10) + " (UTC)"; }
+
+/// The specification that conformity is stated to.
+QString specification(const ReportModel& model) {
+    QStringList all;
+    for (const auto& each : quantitiesOf(model)) {
+        all << QString("%1 ± %2 of the set value")
+                   .arg(each[u"title"].toString().toLower(),
+                        settingText(each[u"tolerance_pct"].toDouble(kUnknown), "%"));
+    }
+    return capitalised(all.join("; ")) + ", at each level; the tolerances that this calibration was ordered with.";
+}
+
+/// A column of numbers that share a prefix, each at its own place.
+class CertifiedColumns {
+public:
+    CertifiedColumns(const QJsonArray& rows, const QString& unit) : rows_(rows) {
+        double set = 0, error = 0, tolerance = 0;
+        for (const auto& row : rows) {
+            const double u = numberIn(row, "expanded_uncertainty");
+            set = std::fmax(set, std::abs(numberIn(row, "commanded")));
+            tolerance = std::fmax(tolerance, std::abs(numberIn(row, "tolerance")));
+            error = std::fmax(error, std::abs(numberIn(row, "error")));
+            // Two digits of U, and none of them is a zero that says nothing.
+            if (u > 0) error = std::fmax(error, std::pow(10.0, decimalExponent(u, 2) + 1));
+        }
+        set_ = axisUnit(set, unit);
+        error_ = axisUnit(error, unit);
+        tolerance_ = axisUnit(tolerance, unit);
+    }
+
+    [[nodiscard]] TableBlock table(const QString& caption) const {
+        TableBlock out;
+        out.caption = caption;
+        out.columns = {{"Verdict"},
+                       {"Set (" + set_.unit + ")", true},
+                       {"Delivered (" + set_.unit + ")", true},
+                       {"Error (" + error_.unit + ")", true},
+                       {"U (" + error_.unit + ")", true},
+                       {"k", true},
+                       {"Coverage (%)", true},
+                       {"Tolerance (" + tolerance_.unit + ")", true}};
+        out.naming = 1;
+        std::vector<QStringList> columns(out.columns.size());
+        for (const auto& row : rows_) {
+            const double set = numberIn(row, "commanded"), error = numberIn(row, "error");
+            const double u = numberIn(row, "expanded_uncertainty"), k = numberIn(row, "coverage_factor");
+            columns[0] << verdictCell(row[u"verdict"].toString());
+            columns[1] << settingText(set * set_.factor, {});
+            columns[2] << atPlace(set + error, u, set_);
+            columns[3] << atPlace(error, u, error_);
+            columns[4] << (std::isfinite(u) ? atPlace(u, u, error_) : QString("not known"));
+            columns[5] << (std::isfinite(k) ? QString::number(k, 'f', 2) : QString("–"));
+            columns[6] << (std::isfinite(u) ? QString("95") : QString("–"));
+            columns[7] << "± " + settingText(numberIn(row, "tolerance") * tolerance_.factor, {});
+        }
+        for (auto& cells : columns) alignPoints(cells);
+        for (qsizetype r = 0; r < rows_.size(); ++r) {
+            out.rows.emplace_back();
+            for (const auto& cells : columns) out.rows.back() << cells[r];
+        }
+        return out;
+    }
+
+private:
+    static double numberIn(const QJsonValue& row, const char* key) {
+        return row[QLatin1String(key)].toDouble(kUnknown);
+    }
+    /// To the place of the second digit of its U; four digits where U is not known.
+    static QString atPlace(double value, double u, const AxisUnit& axis) {
+        if (!std::isfinite(value)) return "not measured";
+        if (!(u > 0)) return quantityText(value * axis.factor, {});
+        const int decimals = std::max(0, 1 - decimalExponent(u * axis.factor, 2));
+        return QString::fromStdString(decimalText(value * axis.factor, decimals)).replace('-', QString("−"));
+    }
+
+    QJsonArray rows_;
+    AxisUnit set_, error_, tolerance_;
+};
+
+}  // namespace
+
+std::optional<QString> whyNoCertificate(const ReportModel& model) {
+    if (!model.certificate) return {};
+    if (!model.damage.isEmpty()) return "the session is not what was recorded";
+    if (model.verdict == ReportVerdict::None || model.verdict == ReportVerdict::Stopped)
+        return "the run did not come to its verdict";
+    for (const auto& device : model.devices) {
+        if (device.origin != QLatin1String(origin::kHardware) && device.origin != QLatin1String(origin::kSimulated))
+            return "its readings come from files";
+    }
+    return QString();
+}
+
+QString certificateTitle(const ReportModel& model) {
+    return model.simulated ? "Calibration certificate – SIMULATED" : "Calibration certificate";
+}
+
+void addCertificateItem(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
+    if (model.simulated) {
+        blocks.emplace_back(
+            ParagraphBlock{"SIMULATED: this shows what a certificate would say. No device was calibrated, and it is to "
+                           "be issued to nobody."});
+    }
+    blocks.emplace_back(captions.heading("Laboratory, customer and item"));
+    FactsBlock who;
+    who.oneColumn = true;
+    for (const char* key : {"laboratory", "address", "number", "customer", "contact"})
+        who.facts.push_back(detailFact(model, key));
+    const auto* item = deviceOf(model, Role::Stimulator);
+    who.facts.push_back(
+        {"Item", "stimulator" + (model.basis.sample.isEmpty() ? QString() : ", " + model.basis.sample)});
+    who.facts.push_back(detailFact(model, "make"));
+    who.facts.push_back(detailFact(model, "model", item == nullptr ? QString() : item->name));
+    who.facts.push_back(detailFact(model, "serial", item == nullptr ? QString() : item->serial));
+    who.facts.push_back(detailFact(model, "condition"));
+    blocks.emplace_back(std::move(who));
+
+    blocks.emplace_back(captions.heading("Calibration"));
+    FactsBlock how;
+    how.oneColumn = true;
+    how.facts.push_back(detailFact(model, "place"));
+    how.facts.push_back(detailFact(model, "received"));
+    how.facts.push_back({"Calibrated on", dayOf(model.started)});
+    how.facts.push_back(detailFact(model, "issued"));
+    how.facts.push_back({"Conditions during it", model.basis.ambient, false, model.basis.ambient.isEmpty()});
+    const auto fact = [&](const QString& name) {
+        const auto found = std::ranges::find(model.identity, name, &ReportFact::name);
+        return found == model.identity.end() ? QString() : found->value;
+    };
+    const QString from = fact("Script from");
+    how.facts.push_back(
+        {"Method", QString("%1.js%2, %3; definitions and uncertainty: science.md section 9")
+                       .arg(model.protocol, from.isEmpty() ? QString() : " (" + from + ")", fact("Program"))});
+    how.facts.push_back({"Its edition, SHA-256", fact("Script " + model.protocol), true});
+    how.facts.push_back({"Deviations from it", deviations(model)});
+    addTraceability(model, how.facts);
+    blocks.emplace_back(std::move(how));
+}
+
+void addCertificateConformity(const ReportModel& model, Captions&, std::vector<ReportBlock>& blocks) {
+    FactsBlock rule;
+    rule.oneColumn = true;
+    rule.facts.push_back({"Specification", specification(model)});
+    rule.facts.insert(rule.facts.end(), model.basis.rule.begin(), model.basis.rule.end());
+    blocks.emplace_back(std::move(rule));
+    const auto detail = [&](const char* key) { return model.certificate->details[QLatin1String(key)].toString(); };
+    SignaturesBlock sign{{"Authorised by"}, {"Name", "Function", "Date", "Signature"}, {detail("authorised_by")}};
+    sign.second = detail("function");
+    sign.open = true;
+    blocks.emplace_back(std::move(sign));
+    QStringList statements{
+        "The results relate only to the items calibrated.",
+        "This certificate shall not be reproduced except in full without approval of the laboratory.",
+        "Laboratory, customer, make, condition, conditions, and days of receipt and issue are as they were entered; "
+        "the "
+        "program measured none of them."};
+    if (const auto kept = model.certificate->results["kept"]; kept.isObject()) {
+        statements << QString(
+                          "That this bench applies the stored correction until %1 is its setting, and recommends no "
+                          "interval of calibration.")
+                          .arg(kept[u"valid_until"].toString());
+    }
+    blocks.emplace_back(ParagraphBlock{statements.join('\n')});
+}
+
+void addCertificateResults(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
+    const QJsonObject& results = model.certificate->results;
+    const bool corrected = results["before"][u"made"].isString(), kept = results["kept"].isObject();
+    blocks.emplace_back(captions.heading("Results, as found and as left"));
+    QStringList said{
+        "Error: what is delivered less what is set, in the worse direction of the sweep. U: its expanded uncertainty, "
+        "k "
+        "times the standard uncertainty, for a coverage probability of 95 %; k stands beside it. What is delivered has "
+        "the same U."};
+    if (corrected) {
+        said << QString(
+                    "As found: before this run the correction of %1 was applied. The readings were taken without a "
+                    "correction; what was delivered with it is computed from them and was not measured.")
+                    .arg(results["before"][u"made"].toString());
+    } else {
+        said << "As found: no correction was applied before this run, and none to the readings: as found is what was "
+                "measured.";
+    }
+    if (kept) {
+        said << QString(
+                    "As left: the correction of %1 is stored and will be applied. What is delivered with it is "
+                    "computed from the readings and was not measured.")
+                    .arg(results["kept"][u"made"].toString());
+    } else {
+        said << "As left: no adjustment was made, and no correction was stored: as left is as found.";
+    }
+    blocks.emplace_back(ParagraphBlock{said.join('\n')});
+    for (const auto& each : quantitiesOf(model)) {
+        const auto add = [&](const char* key, const QString& what) {
+            if (!each[QLatin1String(key)].isArray()) return;
+            const CertifiedColumns columns(each[QLatin1String(key)].toArray(), each[u"unit"].toString());
+            blocks.emplace_back(columns.table(captions.table(each[u"title"].toString() + what)));
+        };
+        const auto applied = results["correction_in_readings"].toArray();
+        const bool inReadings = applied.contains(each[u"quantity"]);
+        add("measured", inReadings  ? QString(", as found, with the stored correction, measured")
+                        : corrected ? QString(" without a correction, measured")
+                                    : QString(kept ? ", as found, measured" : ", as found and as left, measured"));
+        add("found", ", as found, computed");
+        add("left", ", as left, computed");
+    }
+}
+
+}  // namespace tacto
