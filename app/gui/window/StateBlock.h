@@ -12,6 +12,8 @@
 namespace tacto::gui {
 
 class StateBlock final : public QFrame {
+    Q_OBJECT
+
 public:
     explicit StateBlock(QWidget* parent);
     /// `reason` may be empty. `pulse`: a train has just been delivered.
