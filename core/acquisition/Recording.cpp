@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/acquisition/RecordingTable.h"
+#include "core/acquisition/RecordingUnits.h"
 #include "core/base/Csv.h"
 #include "core/base/RecordFields.h"
 
@@ -16,48 +17,48 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr double kStandardGravity = 9.80665;
-
-struct UnitEntry {
-    std::string_view text;
-    StreamKind kind;
-    StreamUnit unit;
-    double factor;
-};
-constexpr std::array<UnitEntry, 8> kUnits{{
-    {"m/s2", StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 1},
-    {"g", StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, kStandardGravity},
-    {"count", StreamKind::Acceleration, StreamUnit::Count, 1},
-    {"N", StreamKind::Force, StreamUnit::Newton, 1},
-    {"count", StreamKind::Force, StreamUnit::Count, 1},
-    {"Pa", StreamKind::Taxels, StreamUnit::Pascal, 1},
-    {"kPa", StreamKind::Taxels, StreamUnit::Pascal, 1000},
-    {"count", StreamKind::Taxels, StreamUnit::Count, 1},
-}};
-constexpr Word<double> kPerSecond[] = {{"s", 1}, {"ms", 1e3}, {"us", 1e6}};
 constexpr std::size_t kMaxEntries = 100'000;
 
 /// A stream as the JSON file describes it.
 struct DescribedStream {
     StreamKind kind = StreamKind::Acceleration;
     std::string file;
-    std::string timeColumn;
-    double perSecond = 1;  ///< the time column's units
-    std::vector<std::string> columns;
+    std::optional<ColumnChoice> timeColumn;
+    std::optional<std::string> timeUnit;
+    std::optional<double> rate_hz;
+    std::size_t skipRows = 0;
+    std::optional<char> decimal;
+    std::vector<ColumnChoice> columns;
     std::string unit;
 };
 struct DescribedRecording : Recording {
     std::vector<DescribedStream> described;
 };
 
+constexpr Word<char> kDecimals[] = {{".", '.'}, {",", ','}};
+
+ValueKind<ColumnChoice> columnKind() {
+    return codedKind<ColumnChoice>(
+        "a column's name in the header, or its number from 1,",
+        [](const Json& value) -> std::optional<ColumnChoice> {
+            if (value.is_string()) return value.get<std::string>();
+            if (!value.is_number_unsigned() || value.get<std::uint64_t>() == 0) return std::nullopt;
+            return static_cast<std::size_t>(std::min<std::uint64_t>(value.get<std::uint64_t>(), kMaxEntries));
+        },
+        [](const ColumnChoice& column) { return std::visit([](const auto& held) { return Json(held); }, column); });
+}
+
 RecordFields<DescribedStream> streamFields() {
     using S = DescribedStream;
     RecordFields<S> all;
     all.word("kind", &S::kind, kStreamKinds).required = true;
     all.text("file", &S::file).required = true;
-    all.text("time_column", &S::timeColumn).required = true;
-    all.word("time_unit", &S::perSecond, kPerSecond).required = true;
-    all.list("columns", &S::columns, textKind({.mayBeEmpty = true}), 1, 1024).required = true;
+    all.add("time_column", &S::timeColumn, columnKind());
+    all.text("time_unit", &S::timeUnit);
+    all.number("rate_hz", &S::rate_hz, {.low = 0, .high = 1e6, .openLow = true, .unit = "Hz"});
+    all.number("skip_rows", &S::skipRows);
+    all.word("decimal", &S::decimal, kDecimals);
+    all.list("columns", &S::columns, columnKind(), 1, 1024).required = true;
     all.text("unit", &S::unit).required = true;
     all.passOverUnknownKeys();
     return all;
@@ -138,15 +139,25 @@ private:
         return {};
     }
 
-    Result<UnitEntry> unitOf(const DescribedStream& stream, std::size_t index) const {
-        std::vector<std::string_view> known;
-        for (const auto& candidate : kUnits) {
-            if (candidate.kind != stream.kind) continue;
-            if (candidate.text == stream.unit) return candidate;
-            known.push_back(candidate.text);
-        }
+    Result<RecordedUnit> unitOf(const DescribedStream& stream, std::size_t index) const {
+        if (const auto unit = recordedUnit(stream.kind, stream.unit)) return *unit;
         return refuse("streams[{}]: \"unit\" is \"{}\"; for {} one of {} was expected", index, stream.unit,
-                      nameOf(stream.kind), fmt::join(known, ", "));
+                      nameOf(stream.kind), fmt::join(unitsOf(stream.kind), ", "));
+    }
+
+    /// Seconds are the file's time over this; 1 without a time column.
+    Result<double> perSecondOf(const DescribedStream& stream, std::size_t index) const {
+        if (stream.timeColumn.has_value() == stream.rate_hz.has_value()) {
+            return refuse(
+                "streams[{}]: {} \"time_column\" {} \"rate_hz\"; one of them was expected: where the times "
+                "of the rows stand, or how many follow each other in a second",
+                index, stream.rate_hz ? "both" : "neither", stream.rate_hz ? "and" : "nor");
+        }
+        if (stream.rate_hz) return 1.0;
+        const auto unit = stream.timeUnit ? recordedTimeUnit(*stream.timeUnit) : std::nullopt;
+        if (unit) return unit->perSecond;
+        return refuse("streams[{}]: \"time_unit\" is {}; {} was expected", index,
+                      stream.timeUnit ? "\"" + *stream.timeUnit + "\"" : "missing", kRecordedTimeUnits);
     }
 
     Result<void> checkColumns(const DescribedStream& stream, std::size_t index) const {
@@ -189,13 +200,21 @@ private:
     Result<RecordedStream> readStream(const DescribedStream& described, std::size_t index) const {
         const auto unit = unitOf(described, index);
         if (!unit) return failure(unit);
+        const auto perSecond = perSecondOf(described, index);
+        if (!perSecond) return failure(perSecond);
         if (auto fits = checkColumns(described, index); !fits) return failure(fits);
         const auto path = fileOf(described.file, index);
         if (!path) return failure(path);
         const auto content = readTextFile(*path);
         if (!content) return failure(content);
         auto samples = readTable(*content, path->string(),
-                                 {described.timeColumn, described.perSecond, described.columns, unit->factor});
+                                 {.timeColumn = described.timeColumn,
+                                  .timeDivisor = *perSecond,
+                                  .columns = described.columns,
+                                  .valueFactor = unit->factor,
+                                  .rate_hz = described.rate_hz.value_or(0),
+                                  .skipRows = described.skipRows,
+                                  .decimal = described.decimal});
         if (!samples) return failure(samples);
 
         RecordedStream stream{

@@ -53,7 +53,7 @@ void cutLine(std::string_view line, char separator, std::vector<std::string_view
     std::size_t begin = 0;
     for (;;) {
         std::size_t search = begin;
-        const auto first = line.find_first_not_of(" \t", begin);
+        const auto first = line.find_first_not_of(separator == '\t' ? " " : " \t", begin);
         const bool quoted = first != std::string_view::npos && line[first] == '"';
         if (quoted) {
             const auto closing = line.find('"', first + 1);
@@ -79,9 +79,10 @@ char separatorOf(std::string_view line) {
 
 }  // namespace
 
-CsvReader::CsvReader(std::string_view text) : text_(text) {
+CsvReader::CsvReader(std::string_view text, std::size_t skipRows, char separator) : text_(text), separator_(separator) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+    while (line_ < skipRows && takeLine()) ++line_;
 }
 
 std::optional<std::string_view> CsvReader::takeLine() noexcept {
@@ -94,8 +95,11 @@ std::optional<std::string_view> CsvReader::takeLine() noexcept {
 }
 
 bool CsvReader::next() {
+    blanks_ = 0;
     while (const auto line = takeLine()) {
         ++line_;
+        const bool tabs = separator_ == '\t';
+        blanks_ += trimmed(*line).empty() && (!tabs || line->find('\t') != std::string_view::npos) ? 1 : 0;
         if (isBlankOrComment(*line)) continue;
         if (separator_ == '\0') separator_ = separatorOf(*line);
         cutLine(*line, separator_, fields_);

@@ -38,7 +38,8 @@ void cutLine(std::string_view line, char separator, std::vector<std::string_view
 
 class CsvReader {
 public:
-    explicit CsvReader(std::string_view text);
+    /// Passes over the first `skipRows` lines. A `separator` of '\0' is found on the first line that is then left.
+    explicit CsvReader(std::string_view text, std::size_t skipRows = 0, char separator = '\0');
 
     /// Moves to the next line that holds anything; false at the end.
     [[nodiscard]] bool next();
@@ -46,6 +47,8 @@ public:
     [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
     /// 1-based number of the current line in the file.
     [[nodiscard]] std::size_t line() const noexcept { return line_; }
+    /// Lines without anything between the one before and the current one; with tabs alone where tabs separate.
+    [[nodiscard]] std::size_t blanksBefore() const noexcept { return blanks_; }
 
 private:
     [[nodiscard]] std::optional<std::string_view> takeLine() noexcept;
@@ -53,7 +56,8 @@ private:
     std::string_view text_;
     std::size_t position_ = 0;
     std::size_t line_ = 0;
-    char separator_ = '\0';  // '\0' until the first line decides
+    std::size_t blanks_ = 0;
+    char separator_;  // '\0' until the first line decides
     std::vector<std::string_view> fields_;
 };
 

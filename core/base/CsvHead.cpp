@@ -69,6 +69,7 @@ std::optional<double> fieldNumber(std::string_view field, char point) {
     }
     double value = 0;
     const char* const end = field.data() + field.size();
+    if (field.empty()) return std::nullopt;
     return takeNumber(field.data(), end, point, value) == end ? std::optional(value) : std::nullopt;
 }
 

@@ -58,13 +58,13 @@ TEST(RecordingRefusal, NamesFileAndLineOfACellThatIsNoNumber) {
     RecordProperty("hazard", "H10");
     EXPECT_THAT(complaintAbout("time,force\n0,1\n0.01,two\n0.02,3\n"), HasSubstr("f.csv:3: column \"force\": \"two\""));
     EXPECT_THAT(complaintAbout("time,force\n0,1\nnan,2\n0.02,3\n"), HasSubstr("f.csv:3: column \"time\""));
-    EXPECT_THAT(complaintAbout("time,force\n0,1\n0.01,\n0.02,3\n"), HasSubstr("f.csv:3"));
+    EXPECT_THAT(complaintAbout("time,force\n0,1\n,2\n0.02,3\n"), HasSubstr("f.csv:3: column \"time\": an empty cell"));
     EXPECT_THAT(complaintAbout("time,force\n0,1\n0.01,\"2,5\"\n0.02,3\n"), HasSubstr("f.csv:3"));
 }
 
 TEST(RecordingRefusal, TwoHeaderLines) {
-    EXPECT_THAT(complaintAbout("time,force\ns,N\n0,1\n0.01,2\n"),
-                HasSubstr("f.csv:2: column \"time\": \"s\" where a number was expected"));
+    EXPECT_THAT(complaintAbout("time,force\nwhen,what\n0,1\n0.01,2\n"),
+                HasSubstr("f.csv:2: column \"time\": \"when\" where a number was expected"));
 }
 
 TEST(RecordingRefusal, EmptyHeaderOnlyAndCutShort) {
@@ -87,12 +87,12 @@ TEST(RecordingRefusal, ColumnsThatAreNotThere) {
 }
 
 TEST(RecordingRefusal, UnitsKindsAndTimes) {
-    EXPECT_THAT(refused(kGoodCsv, describe("", "kgf")).message, HasSubstr("one of N, count was expected"));
+    EXPECT_THAT(refused(kGoodCsv, describe("", "kgf")).message, HasSubstr("one of N, mN, kN, count was expected"));
     EXPECT_THAT(refused(kGoodCsv, describe("", "Pa")).message, HasSubstr("for force"));
     EXPECT_THAT(refused(kGoodCsv, describe("", "N", "f.csv", "force", "pressure")).message,
                 HasSubstr("acceleration, force or taxels was expected"));
     EXPECT_THAT(refused(kGoodCsv, describe("", "N", "f.csv", "force", "force", "min")).message,
-                HasSubstr("s, ms or us was expected"));
+                HasSubstr("s, ms, us or ns was expected"));
     EXPECT_THAT(refused(kGoodCsv, describe("", "count", "f.csv", "force", "taxels")).message,
                 HasSubstr("names 1 columns; for taxels 2"));
 }

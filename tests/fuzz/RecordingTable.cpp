@@ -12,9 +12,15 @@ namespace tacto::fuzz::RecordingTable {
 
 TACTO_FUZZ(RecordingTable, const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const auto table = tacto::readTable(text, "fuzz.csv", {"time", 1000, {"a", "b"}, 9.80665});
-    if (!table && table.error().message.find("fuzz.csv:") != 0) std::abort();
-    if (table && table->values.size() != 2 * table->samples()) std::abort();
+    const tacto::TableLayout layouts[] = {
+        {.timeColumn = "time", .timeDivisor = 1000, .columns = {"a", "b"}, .valueFactor = 9.80665},
+        {.timeColumn = std::size_t{1}, .columns = {std::size_t{2}, "b"}, .skipRows = 1},
+        {.columns = {std::size_t{1}, std::size_t{2}}, .rate_hz = 1000, .decimal = ','}};
+    for (const auto& layout : layouts) {
+        const auto table = tacto::readTable(text, "fuzz.csv", layout);
+        if (!table && table.error().message.find("fuzz.csv:") != 0) std::abort();
+        if (table && table->values.size() != 2 * table->samples()) std::abort();
+    }
     return 0;
 }
 

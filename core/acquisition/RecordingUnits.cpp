@@ -1,0 +1,104 @@
+#include "core/acquisition/RecordingUnits.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/Text.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr double kStandardGravity = 9.80665;
+
+using enum StreamKind;
+using enum StreamUnit;
+constexpr std::array kRecordedUnits{RecordedUnit{Acceleration, MetrePerSecondSquared, 1, "m/s2"},
+                                    RecordedUnit{Acceleration, MetrePerSecondSquared, 1e-3, "mm/s2"},
+                                    RecordedUnit{Acceleration, MetrePerSecondSquared, kStandardGravity, "g"},
+                                    RecordedUnit{Acceleration, MetrePerSecondSquared, 1e-3 * kStandardGravity, "mg"},
+                                    RecordedUnit{Acceleration, Count, 1, "count"},
+                                    RecordedUnit{Force, Newton, 1, "N"},
+                                    RecordedUnit{Force, Newton, 1e-3, "mN"},
+                                    RecordedUnit{Force, Newton, 1e3, "kN"},
+                                    RecordedUnit{Force, Count, 1, "count"},
+                                    RecordedUnit{Taxels, Pascal, 1, "Pa"},
+                                    RecordedUnit{Taxels, Pascal, 1e2, "hPa"},
+                                    RecordedUnit{Taxels, Pascal, 1e3, "kPa"},
+                                    RecordedUnit{Taxels, Pascal, 1e6, "MPa"},
+                                    RecordedUnit{Taxels, Count, 1, "count"}};
+constexpr std::array kRecordedTimes{RecordedTimeUnit{1, "s"}, RecordedTimeUnit{1e3, "ms"}, RecordedTimeUnit{1e6, "us"},
+                                    RecordedTimeUnit{1e9, "ns"}};
+
+/// What stands for the same however it is typed: powers and minus signs as digits and '-', no signs of multiplication,
+/// 'u' for both micro signs.
+std::string plainlyTyped(std::string_view text) {
+    constexpr std::pair<std::string_view, std::string_view> kTyped[] = {{"²", "2"}, {"⁻", "-"}, {"−", "-"}, {"µ", "u"},
+                                                                        {"μ", "u"}, {"·", ""},  {"⋅", ""},  {"^", ""},
+                                                                        {"*", ""},  {" ", ""}};
+    std::string out(trimmed(text));
+    for (const auto& [from, to] : kTyped) {
+        for (auto at = out.find(from); at != std::string::npos; at = out.find(from, at + to.size()))
+            out.replace(at, from.size(), to);
+    }
+    // m·s⁻² and m/s/s
+    for (const std::string_view otherwise : {"s-2", "/s/s"}) {
+        if (out.ends_with(otherwise)) out.replace(out.size() - otherwise.size(), otherwise.size(), "/s2");
+    }
+    return out;
+}
+
+bool isUnit(std::string_view text) {
+    return recordedTimeUnit(text).has_value() || std::ranges::any_of(kStreamKinds, [&](const auto& kind) {
+               return recordedUnit(kind.value, text).has_value();
+           });
+}
+
+}  // namespace
+
+std::optional<RecordedUnit> recordedUnit(StreamKind kind, std::string_view text) {
+    const auto typed = plainlyTyped(text);
+    const auto found = std::ranges::find_if(
+        kRecordedUnits, [&](const RecordedUnit& unit) { return unit.kind == kind && unit.spelled == typed; });
+    return found == kRecordedUnits.end() ? std::nullopt : std::optional(*found);
+}
+
+std::vector<std::string_view> unitsOf(StreamKind kind) {
+    std::vector<std::string_view> all;
+    for (const auto& unit : kRecordedUnits) {
+        if (unit.kind == kind) all.emplace_back(unit.spelled);
+    }
+    return all;
+}
+
+std::optional<RecordedTimeUnit> recordedTimeUnit(std::string_view text) {
+    const auto typed = plainlyTyped(text);
+    const auto found = std::ranges::find_if(kRecordedTimes, [&](const auto& unit) { return unit.spelled == typed; });
+    return found == kRecordedTimes.end() ? std::nullopt : std::optional(*found);
+}
+
+std::string_view withoutBrackets(std::string_view text) noexcept {
+    text = trimmed(text);
+    const bool round = text.starts_with('(') && text.ends_with(')'),
+               square = text.starts_with('[') && text.ends_with(']');
+    return round || square ? trimmed(text.substr(1, text.size() - 2)) : text;
+}
+
+HeaderName headerName(std::string_view text) {
+    text = trimmed(text);
+    const auto bracket = text.find_last_of("([");
+    if (bracket != std::string_view::npos && (text.ends_with(')') || text.ends_with(']'))) {
+        const auto unit = withoutBrackets(text.substr(bracket));
+        if (isUnit(unit)) return {trimmed(text.substr(0, bracket)), unit};
+    }
+    for (const std::string_view mark : {" in ", "/", "_", " "}) {
+        const auto at = text.find(mark);
+        if (at == std::string_view::npos || at == 0) continue;
+        const auto last = mark == "/" ? at : text.rfind(mark);  // "a/m/s2"
+        const auto unit = trimmed(text.substr(last + mark.size()));
+        if (isUnit(unit)) return {trimmed(text.substr(0, last)), unit};
+    }
+    return {text, {}};
+}
+
+}  // namespace tacto
