@@ -14,6 +14,7 @@ void FingerWatch::replace(NextFinger next) noexcept {
     if (finger_) {
         auto flags = finger_->flags();
         if (next.before == RBefore::Measuring) flags.dropCalibration();
+        flags.dropAbsence();
         flagsKept_.include(flags);
     }
     finger_ = std::move(next.finger);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dsp/Plausible.h"
 #include "core/dsp/SampleHistory.h"
 
 namespace tacto {
@@ -19,6 +20,7 @@ std::size_t rounded(double x) { return static_cast<std::size_t>(std::lround(x));
 AccelerationTrack::AccelerationTrack(const StreamInfo& info)
     : axes_(info.channels),
       rate_(info.rate_hz),
+      most_(mostPlausible(info.unit)),
       length_(rounded(kWindow_s * info.rate_hz)),
       hop_(std::max<std::size_t>(rounded(kHop_s * info.rate_hz), 1)),
       truncated_(info.rate_hz < kFullBandRate_hz),
@@ -42,11 +44,10 @@ void AccelerationTrack::clear() noexcept {
     losses_ = {};
 }
 
-inline bool AccelerationTrack::finite(const double* sample) const noexcept {
-    // 0 unless one is infinite or NaN: one comparison for all axes.
-    double zero = 0;
-    for (std::size_t a = 0; a < axes_; ++a) zero += sample[a] * 0.0;
-    return zero == 0;
+inline bool AccelerationTrack::plausible(const double* sample) const noexcept {
+    bool all = true;
+    for (std::size_t a = 0; a < axes_; ++a) all &= std::abs(sample[a]) <= most_;
+    return all;
 }
 
 inline AccelerationTrack::Use AccelerationTrack::judge(double t_s, const double* sample) noexcept {
@@ -71,8 +72,9 @@ inline AccelerationTrack::Use AccelerationTrack::judge(double t_s, const double*
             running_ = false;
             return Use::Skip;
     }
-    if (!finite(sample)) {
-        ++losses_.invalid;
+    if (!plausible(sample)) {
+        ++(std::any_of(sample, sample + axes_, [](double x) { return std::isnan(x); }) ? losses_.invalid
+                                                                                       : losses_.beyond);
         running_ = false;
         return Use::Skip;
     }

@@ -74,6 +74,7 @@ public:
         std::size_t repeats = 0;
         std::size_t clockSteps = 0;
         std::size_t invalid = 0;
+        std::size_t beyond = 0;  ///< out of all proportion (Plausible.h)
     };
     [[nodiscard]] const Losses& losses() const noexcept { return losses_; }
 
@@ -85,11 +86,13 @@ private:
     void queueWindows() noexcept;
     void makeRoom(std::size_t count) noexcept;
     [[nodiscard]] std::size_t oldestNeeded() const noexcept;
-    [[nodiscard]] bool finite(const double* sample) const noexcept;
+    /// False also for what is no number.
+    [[nodiscard]] bool plausible(const double* sample) const noexcept;
 
     // Constant after construction
     const std::size_t axes_;
     const double rate_;
+    const double most_;
     const std::size_t length_;
     const std::size_t hop_;
     const bool truncated_;

@@ -13,18 +13,25 @@ constexpr double kForceKept_s = 4;  // more than any frame waits
 std::size_t roomFor(double rate_hz) { return static_cast<std::size_t>(2 * kForceKept_s * rate_hz) + 256; }
 }  // namespace
 
-ForceTrack::ForceTrack(double rate_hz) : samples_(2, roomFor(rate_hz)), firstContact_(kInfinity_s) {}
+ForceTrack::ForceTrack(double rate_hz, double most)
+    : samples_(2, roomFor(rate_hz)), firstContact_(kInfinity_s), mostPlausible_(most) {}
 
 void ForceTrack::clear() noexcept {
     samples_.clear();
     contact_ = false;
     firstContact_ = kInfinity_s;
-    normaliseCursor_ = readCursor_ = stale_ = invalid_ = outOfOrder_ = 0;
+    normaliseCursor_ = readCursor_ = stale_ = invalid_ = beyond_ = outOfOrder_ = 0;
+    least_ = kInfinity_s;
+    most_ = -kInfinity_s;
 }
 
 void ForceTrack::push(double t_s, double force_n) noexcept {
-    if (!std::isfinite(t_s) || !std::isfinite(force_n)) {
+    if (!std::isfinite(t_s) || std::isnan(force_n)) {
         ++invalid_;
+        return;
+    }
+    if (!(std::abs(force_n) <= mostPlausible_)) {
+        ++beyond_;
         return;
     }
     if (!(t_s > newest_s())) {
@@ -37,6 +44,8 @@ void ForceTrack::push(double t_s, double force_n) noexcept {
     }
     contact_ = contact_ ? !(force_n < kContactEnd_n) : force_n >= kContactStart_n;
     if (contact_ && firstContact_ == kInfinity_s) firstContact_ = t_s;
+    least_ = std::min(least_, force_n);
+    most_ = std::max(most_, force_n);
     const double row[2] = {force_n, contact_ ? 1.0 : 0.0};
     samples_.push(t_s, row);
     // What was dropped for lack of room has no place for a cursor.

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "core/dsp/SampleHistory.h"
@@ -22,9 +23,10 @@ public:
     static constexpr double kSmallestDivisor_n = 0.1;
     static constexpr double kLongestBridge_s = 1.0;
 
-    explicit ForceTrack(double rate_hz);
+    /// A force beyond `most` either way is no reading.
+    explicit ForceTrack(double rate_hz, double most = std::numeric_limits<double>::max());
 
-    /// A sample that is not finite or does not move time forward is counted and not used.
+    /// A sample that is no number, beyond `most` or does not move time forward is counted and not used.
     void push(double t_s, double force_n) noexcept;
     void clear() noexcept;
 
@@ -56,6 +58,10 @@ public:
     /// Silences of more than 100 ms, the one up to `end_s` included.
     [[nodiscard]] std::size_t staleStretches(double end_s) const noexcept;
     [[nodiscard]] std::size_t invalidSamples() const noexcept { return invalid_; }
+    [[nodiscard]] std::size_t samplesBeyond() const noexcept { return beyond_; }
+    /// Of what was used; infinite before the first.
+    [[nodiscard]] double least() const noexcept { return least_; }
+    [[nodiscard]] double most() const noexcept { return most_; }
     [[nodiscard]] std::size_t outOfOrder() const noexcept { return outOfOrder_; }
 
 private:
@@ -79,6 +85,9 @@ private:
     std::size_t readCursor_ = 0;
     std::size_t stale_ = 0;
     std::size_t invalid_ = 0;
+    std::size_t beyond_ = 0;
+    double least_ = std::numeric_limits<double>::infinity(), most_ = -std::numeric_limits<double>::infinity();
+    const double mostPlausible_;
     std::size_t outOfOrder_ = 0;
 };
 

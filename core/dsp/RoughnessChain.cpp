@@ -8,6 +8,7 @@
 #include "core/dsp/AccelerationTrack.h"
 #include "core/dsp/ForceTrack.h"
 #include "core/dsp/FramePacer.h"
+#include "core/dsp/Plausible.h"
 #include "core/dsp/RoughnessIndex.h"
 #include "core/dsp/SlidingRest.h"
 #include "core/dsp/StreamCheck.h"
@@ -40,6 +41,7 @@ struct RoughnessChain::State {
     [[nodiscard]] double streamBegin_s() const noexcept;
     [[nodiscard]] bool contactAt(double t_s, const ForceTrack::Reading& reading) const noexcept;
     [[nodiscard]] double firstContact_s() const noexcept;
+    void raiseAbsence(RoughnessFlags& flags) const noexcept;
     void clear();
 
     // Constant after construction
@@ -61,6 +63,7 @@ struct RoughnessChain::State {
     std::vector<std::size_t> taken;   // per stream, samples of the current blocks
 
     bool contactAssumed = false;
+    std::size_t framesSeen = 0, framesInContact = 0, framesWithForce = 0, framesWithTaxels = 0;
     bool finished = false;
     mutable RestLevels levels;
 };
@@ -78,7 +81,7 @@ RoughnessChain::State::State(std::span<const StreamInfo> infos, const RoughnessS
         if (info.kind == StreamKind::Force) forceInfo = info;
         if (info.kind == StreamKind::Taxels) taxelInfo = info;
     }
-    if (forceInfo) force.emplace(forceInfo->rate_hz);
+    if (forceInfo) force.emplace(forceInfo->rate_hz, mostPlausible(forceInfo->unit));
     if (taxelInfo) taxels.emplace(*taxelInfo, declared.baseline);
     if (accelerationInfo) {
         acceleration.emplace(*accelerationInfo);
@@ -103,7 +106,28 @@ void RoughnessChain::State::clear() {
     if (pacer) pacer->clear();
     sliding->clear();
     index->clear();
+    framesSeen = framesInContact = framesWithForce = framesWithTaxels = 0;
     finished = false;
+}
+
+/// Why there is no contact, and which stream has nothing for the frames.
+void RoughnessChain::State::raiseAbsence(RoughnessFlags& flags) const noexcept {
+    using enum RoughnessFlag;
+    constexpr double kEarly_s = 2;  // a stream may begin later than another
+    const bool told = framesSeen > 0 && (finished || static_cast<double>(framesSeen) * period_s > kEarly_s);
+    const bool hasForce = force && std::isfinite(force->newest_s());
+    if (told && hasForce && framesWithForce == 0) flags.count(ForceElsewhere, framesSeen);
+    if (told && taxels && std::isfinite(taxels->newest_s()) && framesWithTaxels == 0)
+        flags.count(TaxelsElsewhere, framesSeen);
+    if (hasForce && force->firstContact_s() == kInfinity_s) {
+        // Nothing touched yet, or a sign that is the wrong way round, which does not have to wait.
+        flags.raise(ForceBelowContact, finished || force->least() <= -ForceTrack::kContactStart_n);
+        flags.leastForce = force->least();
+        flags.mostForce = force->most();
+        flags.forceUnit = forceInfo->unit;
+    } else if (finished && framesInContact == 0 && framesSeen > 0 && !flags.has(ForceElsewhere)) {
+        flags.raise(NoFrameInContact, hasForce || (!force && declared.contact));
+    }
 }
 
 double RoughnessChain::State::horizon_s() const noexcept {
@@ -278,6 +302,10 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
         frame.pressure_pa = taxelMean;
     }
     if (!std::isnan(frame.pressure_pa)) frame.P = pressureIndex(frame.pressure_pa, settings);
+    ++framesSeen;
+    framesInContact += frame.contact ? 1 : 0;
+    framesWithForce += pressed.fresh ? 1 : 0;
+    framesWithTaxels += std::isnan(taxelMean) ? 0 : 1;
     frames.push_back(frame);
     if (force) force->release(begin_s);
 }
@@ -336,6 +364,7 @@ RoughnessFlags RoughnessChain::flags() const noexcept {
     using enum RoughnessFlag;
     const auto& s = *state_;
     RoughnessFlags out;
+    s.raiseAbsence(out);
     out.raise(BandTruncated, s.acceleration && s.acceleration->bandTruncated());
     out.raise(NoSpectralFeature, !s.vibration || !s.vibration->hasFeature());
     out.raise(NotForceNormalised, !s.force);
@@ -349,6 +378,7 @@ RoughnessFlags RoughnessChain::flags() const noexcept {
     if (s.force) {
         out.count(ForceStale, s.force->staleStretches(s.horizon_s()));
         out.count(ForceInvalid, s.force->invalidSamples());
+        out.count(ForceBeyond, s.force->samplesBeyond());
         out.count(ForceOrder, s.force->outOfOrder());
     }
     if (s.acceleration) {
@@ -356,9 +386,11 @@ RoughnessFlags RoughnessChain::flags() const noexcept {
         out.count(AccelerationGaps, lost.gaps);
         out.count(AccelerationOrder, lost.repeats + lost.clockSteps);
         out.count(AccelerationInvalid, lost.invalid);
+        out.count(AccelerationBeyond, lost.beyond);
     }
     if (s.taxels) {
         out.count(TaxelsInvalid, s.taxels->invalidSamples());
+        out.count(TaxelsBeyond, s.taxels->samplesBeyond());
         out.count(TaxelsOrder, s.taxels->outOfOrder());
     }
     return out;

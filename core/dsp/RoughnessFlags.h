@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/Stream.h"
+
 namespace tacto {
 
 enum class RoughnessFlag : std::uint8_t {
@@ -24,21 +26,30 @@ enum class RoughnessFlag : std::uint8_t {
     AnotherFingertip,
     FingertipNotNamed,
     ScalesLeftAside,
+    NoFrameInContact,
+    ForceBelowContact,  ///< with the range of the force
     // From here on with a count:
+    ForceElsewhere,
+    TaxelsElsewhere,
     ForceStale,
     ForceInvalid,
+    ForceBeyond,
     ForceOrder,
     AccelerationGaps,
     AccelerationOrder,
     AccelerationInvalid,
+    AccelerationBeyond,
     TaxelsInvalid,
+    TaxelsBeyond,
     TaxelsOrder,
 };
-inline constexpr std::size_t kRoughnessFlags = 19;
+inline constexpr std::size_t kRoughnessFlags = 26;
 [[nodiscard]] std::string_view nameOf(RoughnessFlag flag) noexcept;  // "sliding assumed"
 
 struct RoughnessFlags {
     std::array<std::uint32_t, kRoughnessFlags> times{};  ///< by RoughnessFlag; 0: not given
+    double leastForce = 0, mostForce = 0;                ///< where it stays below contact
+    StreamUnit forceUnit = StreamUnit::Newton;           ///< of them
 
     void raise(RoughnessFlag flag, bool given) noexcept { times[std::size_t(flag)] = given ? 1 : 0; }
     void count(RoughnessFlag flag, std::size_t number) noexcept {
@@ -49,7 +60,10 @@ struct RoughnessFlags {
     void include(const RoughnessFlags& other) noexcept;
     /// Those that say something about the profile, and not about the samples.
     void dropCalibration() noexcept;
-    /// As science.md names them: "sliding assumed"; with their count "gaps in acceleration: 2".
+    /// Those that say why there is no contact, or nothing of a stream, so far.
+    void dropAbsence() noexcept;
+    /// As science.md names them: "sliding assumed"; with their count "gaps in acceleration: 2", with their range
+    /// "force below contact: -1.2 to -0.8 N".
     [[nodiscard]] std::vector<std::string> texts() const;
 };
 

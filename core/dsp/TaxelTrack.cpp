@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/NaN.h"
+#include "core/dsp/Plausible.h"
 
 namespace tacto {
 
@@ -35,6 +36,7 @@ void TaxelTrack::Stretch::clear() noexcept {
 
 TaxelTrack::TaxelTrack(const StreamInfo& info, std::optional<TimeInterval> declaredBaseline)
     : taxels_(info.channels),
+      most_(mostPlausible(info.unit)),
       declared_(declaredBaseline),
       reach_(std::max(kReach_s, 1.5 / info.rate_hz)),
       samples_(info.channels, static_cast<std::size_t>(2 * kTaxelsKept_s * info.rate_hz) + 256),
@@ -51,7 +53,7 @@ void TaxelTrack::clear() noexcept {
     samples_.clear();
     for (auto* stretch : {&inDeclared_, &beforeContact_, &atStart_}) stretch->clear();
     first_ = firstContact_ = kInfinity_s;
-    settled_ = cursor_ = window_ = invalid_ = outOfOrder_ = 0;
+    settled_ = cursor_ = window_ = invalid_ = beyond_ = outOfOrder_ = 0;
     known_ = preset_;
     if (!preset_) validFrom_ = kInfinity_s;
     assumed_ = assumed_ && preset_;
@@ -66,8 +68,12 @@ void TaxelTrack::preset(const RestLevels& rest) {
 }
 
 void TaxelTrack::push(double t_s, const double* values) noexcept {
-    if (!std::isfinite(t_s) || !std::all_of(values, values + taxels_, [](double x) { return std::isfinite(x); })) {
+    if (!std::isfinite(t_s) || std::any_of(values, values + taxels_, [](double x) { return std::isnan(x); })) {
         ++invalid_;
+        return;
+    }
+    if (!std::all_of(values, values + taxels_, [&](double x) { return std::abs(x) <= most_; })) {
+        ++beyond_;
         return;
     }
     if (!(t_s > newest_s())) {

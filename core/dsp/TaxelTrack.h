@@ -51,6 +51,7 @@ public:
     [[nodiscard]] const std::vector<double>& baseline() const noexcept { return baseline_; }
     [[nodiscard]] double floor() const noexcept { return floor_; }
     [[nodiscard]] std::size_t invalidSamples() const noexcept { return invalid_; }
+    [[nodiscard]] std::size_t samplesBeyond() const noexcept { return beyond_; }
     [[nodiscard]] std::size_t outOfOrder() const noexcept { return outOfOrder_; }
 
 private:
@@ -68,6 +69,7 @@ private:
     [[nodiscard]] double variance(std::size_t sample, bool dynamic, double& meanAbove) noexcept;
 
     const std::size_t taxels_;
+    const double most_;
     const std::optional<TimeInterval> declared_;
     double reach_;
     SampleHistory samples_;
@@ -86,6 +88,7 @@ private:
     bool assumed_ = false;
     bool preset_ = false;
     std::size_t invalid_ = 0;
+    std::size_t beyond_ = 0;
     std::size_t outOfOrder_ = 0;
 };
 
