@@ -7,6 +7,7 @@
 
 #include "core/base/Csv.h"
 #include "core/base/CsvNumber.h"
+#include "core/base/CsvStamp.h"
 #include "core/base/Text.h"
 #include "core/base/Utf16.h"
 
@@ -54,10 +55,30 @@ bool isRowOfNumbers(const std::vector<std::string>& fields, char point) {
     bool any = false;
     for (const auto& field : fields) {
         if (field.empty()) continue;
-        if (!fieldNumber(field, point)) return false;
-        any = true;
+        const bool isNumber = fieldNumber(field, point).has_value();
+        if (!isNumber && !fieldStamp(field, point)) return false;
+        any = any || isNumber;
     }
     return any;
+}
+
+/// Whether `line`, which holds text beside numbers, is a row like `row`: numbers and stamps stand in the same columns,
+/// the first among them.
+bool isRowLike(const CsvLine& line, const CsvLine& row, char point) {
+    if (line.fields.size() != row.fields.size()) return false;
+    const auto isRead = [&](const std::string& field) {
+        return !field.empty() && (fieldNumber(field, point) || fieldStamp(field, point));
+    };
+    bool anyNumber = false;
+    for (std::size_t c = 0; c < row.fields.size(); ++c) {
+        if (isRead(row.fields[c])) {
+            if (!line.fields[c].empty() && !isRead(line.fields[c])) return false;
+            anyNumber = anyNumber || fieldNumber(line.fields[c], point).has_value();
+        } else if (c == 0) {
+            return false;
+        }
+    }
+    return anyNumber && isRead(line.fields.front());
 }
 
 }  // namespace
@@ -135,8 +156,34 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
             row = withComma;
         }
     }
+    if (!row && head.separator != ',' && !lines.empty()) {
+        const auto like = lineAt(lines.size() > 1 ? lines.size() - 2 : 0);
+        const auto numbers = [&](char point) {
+            return std::ranges::count_if(like.fields,
+                                         [&](const auto& field) { return fieldNumber(field, point).has_value(); });
+        };
+        if (numbers(',') > numbers('.')) head.point = ',';
+    }
+    // Rows with a text in one of their columns, before the first without or where all are so.
+    constexpr std::size_t kLikeRows = 3;
+    const bool allHaveText = !row && lines.size() > kLikeRows;
+    if (row || allHaveText) {
+        const auto like = lineAt(row.value_or(lines.size() - 2));  // the last one may be cut off
+        std::size_t first = row.value_or(lines.size() - 2);
+        while (first > 0 && isRowLike(lineAt(first - 1), like, head.point)) --first;
+        if (row || first + kLikeRows < lines.size()) row = first;
+    }
     for (std::size_t i = 0; i < row.value_or(lines.size()); ++i) head.header.push_back(lineAt(i));
     if (row) head.firstRow = lineAt(*row);
+    constexpr std::size_t kBody = 40;
+    for (std::size_t i = row.value_or(lines.size()); i < lines.size() && head.body.size() < kBody; ++i) {
+        head.body.push_back(lineAt(i));
+    }
+    if (head.body.size() > 2 && head.body.size() < kBody) head.body.pop_back();  // it may be cut off
+    for (const auto& line : head.body) {
+        const auto& key = line.fields.front();
+        if (!key.empty() && !fieldNumber(key, head.point) && !fieldStamp(key, head.point)) head.beside.push_back(line);
+    }
     std::ranges::sort(remarks, {}, &Remark::number);
     for (auto [line, words] : remarks) {
         if (row && line > seen[*row].number) break;

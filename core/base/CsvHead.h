@@ -26,7 +26,9 @@ struct CsvLine {
 struct CsvHead {
     std::vector<std::string> remarks;  ///< the comments before the first row of numbers, without their marks
     std::vector<CsvLine> header;       ///< the lines before the first row of numbers; all that were seen where none is
-    std::optional<CsvLine> firstRow;   ///< the first line whose fields are numbers or empty
+    std::optional<CsvLine> firstRow;   ///< the first line whose fields are numbers, stamps or empty
+    std::vector<CsvLine> body;         ///< some lines from the first row on
+    std::vector<CsvLine> beside;       ///< of them, those that begin with a key (KeyedCsv.h)
     char separator = ',';
     char point = '.';
 };

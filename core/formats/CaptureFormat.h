@@ -57,6 +57,14 @@ struct CaptureReading {
     std::string formatName;             ///< likewise, for people
 };
 
+/// What SCPI instruments write for a sample that has no value: 9.9E37 (infinity) or 9.91E37 (not a number), of either
+/// sign (SCPI-1999, volume 1, 7.2.1). Asked of the number in the file, before a unit scales it; such a sample is NaN.
+[[nodiscard]] constexpr bool isNoValue(double number) noexcept { return number >= 9.8e37 || number <= -9.8e37; }
+/// The sentence about `count` of them in channel `name`.
+[[nodiscard]] std::string noValueWarning(std::string_view file, std::string_view name, std::size_t count);
+/// Makes those among samples that were read NaN, with a warning for each channel.
+void dropNoValues(CaptureReading& reading, std::string_view file);
+
 /// What `read` gives; where its samples do not fit into memory, Io naming `file` in place of an exception.
 [[nodiscard]] Result<CaptureReading> readWithinMemory(std::string_view file,
                                                       const std::function<Result<CaptureReading>()>& read);

@@ -13,46 +13,34 @@ namespace tacto {
 
 namespace {
 
-struct KnownUnit {
+struct UnitPrefix {
+    std::string_view letter, word;
+    double factor;
+};
+constexpr std::array<UnitPrefix, 6> kUnitPrefixes{{{"", "", 1},
+                                                   {"k", "kilo", 1e3},
+                                                   {"m", "milli", 1e-3},
+                                                   {"u", "micro", 1e-6},
+                                                   {"n", "nano", 1e-9},
+                                                   {"p", "pico", 1e-12}}};
+
+/// Behind a letter or a word; those that stand alone have an empty unit of their own.
+struct UnitWord {
     std::string_view spelled;  // lower case
     SpelledUnit means;
+    bool takesPrefix = true;
 };
-constexpr std::array<KnownUnit, 36> kUnits{{{"", {"", 1}},
-                                            {"s", {"s", 1}},
-                                            {"sec", {"s", 1}},
-                                            {"second", {"s", 1}},
-                                            {"seconds", {"s", 1}},
-                                            {"ms", {"s", 1e-3}},
-                                            {"us", {"s", 1e-6}},
-                                            {"ns", {"s", 1e-9}},
-                                            {"ps", {"s", 1e-12}},
-                                            {"v", {"V", 1}},
-                                            {"volt", {"V", 1}},
-                                            {"volts", {"V", 1}},
-                                            {"mv", {"V", 1e-3}},
-                                            {"uv", {"V", 1e-6}},
-                                            {"kv", {"V", 1e3}},
-                                            {"a", {"A", 1}},
-                                            {"amp", {"A", 1}},
-                                            {"amps", {"A", 1}},
-                                            {"ampere", {"A", 1}},
-                                            {"amperes", {"A", 1}},
-                                            {"ma", {"A", 1e-3}},
-                                            {"ua", {"A", 1e-6}},
-                                            {"na", {"A", 1e-9}},
-                                            {"ka", {"A", 1e3}},
-                                            {"value", {"", 1}},
-                                            {"logic", {"", 1}},
-                                            {"none", {"", 1}},
-                                            {"msec", {"s", 1e-3}},
-                                            {"usec", {"s", 1e-6}},
-                                            {"nsec", {"s", 1e-9}},
-                                            {"milliseconds", {"s", 1e-3}},
-                                            {"microseconds", {"s", 1e-6}},
-                                            {"nanoseconds", {"s", 1e-9}},
-                                            {"picoseconds", {"s", 1e-12}},
-                                            {"v dc", {"V", 1}},
-                                            {"a dc", {"A", 1}}}};
+constexpr std::array<UnitWord, 21> kUnitWords{{{"v", {"V", 1}},           {"volt", {"V", 1}},
+                                               {"volts", {"V", 1}},       {"a", {"A", 1}},
+                                               {"amp", {"A", 1}},         {"amps", {"A", 1}},
+                                               {"ampere", {"A", 1}},      {"amperes", {"A", 1}},
+                                               {"s", {"s", 1}},           {"sec", {"s", 1}},
+                                               {"second", {"s", 1}},      {"seconds", {"s", 1}},
+                                               {"min", {"s", 60}, false}, {"minutes", {"s", 60}, false},
+                                               {"h", {"s", 3600}, false}, {"hours", {"s", 3600}, false},
+                                               {"", {"", 1}, false},      {"value", {"", 1}, false},
+                                               {"logic", {"", 1}, false}, {"none", {"", 1}, false},
+                                               {"bit", {"", 1}, false}}};
 
 std::string namesOf(const std::vector<ChannelPlan>& channels) {
     std::vector<std::string> names;
@@ -60,24 +48,35 @@ std::string namesOf(const std::vector<ChannelPlan>& channels) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// By name first: a channel may be called "1" and be the second column.
-std::optional<std::size_t> indexOf(const std::vector<ChannelPlan>& channels, std::string_view wanted) {
+/// By name first: a channel may be called "1" and be the second column. Those of that name, else the one of that
+/// number.
+std::vector<std::size_t> indicesOf(const std::vector<ChannelPlan>& channels, std::string_view wanted) {
+    std::vector<std::size_t> found;
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const auto& channel = channels[i];
         const auto asColumn = channel.unit.empty() ? channel.name : fmt::format("{}_{}", channel.name, channel.unit);
-        if (folded(channel.name) == folded(wanted) || folded(asColumn) == folded(wanted)) return i;
+        if (folded(channel.name) == folded(wanted) || folded(asColumn) == folded(wanted)) found.push_back(i);
     }
     const auto number = parseNumber(wanted);
-    for (std::size_t i = 0; i < channels.size() && number; ++i) {
-        if (static_cast<double>(channels[i].number) == *number) return i;
+    for (std::size_t i = 0; i < channels.size() && number && found.empty(); ++i) {
+        if (static_cast<double>(channels[i].number) == *number) found.push_back(i);
     }
-    return std::nullopt;
+    return found;
 }
 
-tl::unexpected<Error> noChannel(const std::vector<ChannelPlan>& channels, std::string_view option,
-                                std::string_view wanted, std::string_view file) {
-    return fail(ErrorCode::InvalidArgument, "{}: there is no channel '{}', which {} names; there are {}", file, wanted,
-                option, channels.empty() ? "none" : namesOf(channels));
+/// The one channel that `option` names. Errors: InvalidArgument where there is none, or two.
+Result<std::size_t> indexOf(const std::vector<ChannelPlan>& channels, std::string_view option, std::string_view wanted,
+                            std::string_view file) {
+    const auto found = indicesOf(channels, wanted);
+    if (found.empty()) {
+        return fail(ErrorCode::InvalidArgument, "{}: there is no channel '{}', which {} names; there are {}", file,
+                    wanted, option, channels.empty() ? "none" : namesOf(channels));
+    }
+    if (found.size() > 1) {
+        return fail(ErrorCode::InvalidArgument, "{}: '{}' names columns {} and {}; the number of one was expected",
+                    file, wanted, channels[found[0]].number, channels[found[1]].number);
+    }
+    return found.front();
 }
 
 }  // namespace
@@ -94,8 +93,21 @@ std::optional<SpelledUnit> spelledUnit(std::string_view text) {
         if (wanted.starts_with(micro)) wanted.replace(0, micro.size(), "u");
     }
     if (wanted.starts_with('\xB5')) wanted[0] = 'u';  // the micro sign of Latin-1
-    const auto found = std::ranges::find(kUnits, wanted, &KnownUnit::spelled);
-    return found == kUnits.end() ? std::nullopt : std::optional(found->means);
+    for (const std::string_view coupling : {"dc", "ac"}) {
+        if (wanted.size() <= 2 || !wanted.ends_with(coupling)) continue;
+        auto coupled = channelUnit(wanted.substr(0, wanted.size() - 2));
+        return coupled && !coupled->unit.empty() ? coupled : std::nullopt;
+    }
+    for (const auto& word : kUnitWords) {
+        if (!wanted.ends_with(word.spelled)) continue;
+        const auto before = std::string_view(wanted).substr(0, wanted.size() - word.spelled.size());
+        for (const auto& prefix : kUnitPrefixes) {
+            if (before != prefix.letter && before != prefix.word) continue;
+            if (!before.empty() && !word.takesPrefix) continue;
+            return SpelledUnit{word.means.unit, word.means.factor * prefix.factor};
+        }
+    }
+    return std::nullopt;
 }
 
 std::optional<SpelledUnit> channelUnit(std::string_view text) {
@@ -106,8 +118,8 @@ std::optional<SpelledUnit> channelUnit(std::string_view text) {
 Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels, const ReadOptions& options,
                                               std::string_view file) {
     for (const auto& [name, spelled] : options.units) {
-        const auto index = indexOf(channels, name);
-        if (!index) return noChannel(channels, "the unit", name, file);
+        const auto index = indexOf(channels, "the unit", name, file);
+        if (!index) return failure(index);
         const auto unit = channelUnit(spelled);
         if (!unit) {
             return fail(ErrorCode::InvalidArgument,
@@ -119,8 +131,8 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
         channels[*index].unknownUnit.clear();
     }
     for (const auto& [name, factor] : options.probeFactors) {
-        const auto index = indexOf(channels, name);
-        if (!index) return noChannel(channels, "the probe factor", name, file);
+        const auto index = indexOf(channels, "the probe factor", name, file);
+        if (!index) return failure(index);
         if (!std::isfinite(factor) || factor == 0) {
             return fail(ErrorCode::InvalidArgument,
                         "the probe factor of channel '{}' is {}; a finite number other than 0 was expected", name,
@@ -129,8 +141,8 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
         channels[*index].factor *= factor;
     }
     for (const auto& [name, range] : options.ranges) {
-        const auto index = indexOf(channels, name);
-        if (!index) return noChannel(channels, "the range", name, file);
+        const auto index = indexOf(channels, "the range", name, file);
+        if (!index) return failure(index);
         const auto& [low, high] = range;
         if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) {
             return fail(ErrorCode::InvalidArgument,
@@ -142,8 +154,8 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
     }
     std::vector<ChannelPlan> kept;
     for (const auto& name : options.columns) {
-        const auto index = indexOf(channels, name);
-        if (!index) return noChannel(channels, "the choice of columns", name, file);
+        const auto index = indexOf(channels, "the choice of columns", name, file);
+        if (!index) return failure(index);
         kept.push_back(channels[*index]);
         if (secondIn(kept, &ChannelPlan::number))
             return fail(ErrorCode::InvalidArgument, "{}: {}", file, givenTwice("column '{}'", name));

@@ -106,7 +106,7 @@ Result<void> readText(ByteFile& file, const IsfPreamble& pre, const ReadWatch& w
                     return fail(ErrorCode::ParseError, "{}: point {} is '{}'; a number was expected", file.name(),
                                 samples.size() + 1, field.substr(0, 40));
                 }
-                samples.push_back(static_cast<float>(pre.valueOf(*code)));
+                samples.push_back(static_cast<float>(isNoValue(*code) ? *code : pre.valueOf(*code)));
             }
             at = comma == std::string::npos ? rest.size() : comma + 1;
             if (at >= rest.size() || samples.size() == pre.points) break;
@@ -147,6 +147,7 @@ Result<CaptureReading> IsfFormat::read(const std::filesystem::path& path, const 
                            [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     auto read = pre->text ? readText(*file, *pre, watch, reading) : readBlock(*file, *head, *pre, watch, reading);
     if (!read) return failure(read);
+    if (pre->text) dropNoValues(reading, file->name());
     if (channel.samples.size() < 2) {
         return fail(ErrorCode::ParseError, "{}: {} point(s) in the file; at least 2 were expected", file->name(),
                     channel.samples.size());

@@ -270,6 +270,7 @@ Result<CaptureReading> WavFormat::read(const std::filesystem::path& path, const 
     }
     if (auto read = readSamples(sound->get(), static_cast<std::size_t>(info.frames), watch, file, capture); !read)
         return failure(read);
+    if (isFloat) dropNoValues(reading, file);
     for (auto& channel : capture.channels) {
         if (!isFloat) {
             channel.low = -1;

@@ -86,21 +86,33 @@ TEST(CaptureFile, RefusalsNameFileLineAndWhatWasExpected) {
     EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n1,1,1\n"), "c.csv:3: 3 fields; 2 were expected, as in the header");
     EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n1,1\n2\n"), "c.csv:4: 1 fields; 2 were expected, as in the header");
     EXPECT_EQ(refusal("0,1\n1,2\n"),
-              "c.csv:1: a header line naming the columns was expected before the numbers; a time column or a sampling "
-              "rate, given as an option, reads a table without one");
+              "c.csv:1: a header line naming the columns, time among them, was expected before the numbers; "
+              "--time-column 1 reads it, its numbers as seconds");
     EXPECT_EQ(refusal("a,b\n0,1\n"),
               "c.csv:1: columns 'a,b'; a time column and channels were expected, as in time_s,voltage_v,current_a");
+    EXPECT_EQ(refusal("a,b\n0,1\n0.5,1\n"),
+              "c.csv:1: columns 'a,b'; a time column and channels were expected, as in time_s,voltage_v,current_a; "
+              "--time-column 1 reads it, its numbers as seconds");
     EXPECT_EQ(refusal("time_s,force (lbf)\n0,1\n"),
               "c.csv:1: the unit of column 'force (lbf)' is unknown; s, V or A with m, u, n or k were expected");
     EXPECT_EQ(refusal("time_s,v,v\n0,1,1\n"), "c.csv:1: column 'v' is given twice; once is expected");
     EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n"), "c.csv:2: 1 row(s) with values; at least 2 were expected");
-    EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n,1\n2,1\n"), "c.csv:3: the time is missing; every row needs one");
-    EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n1,1\n2,1\n7,1\n8,1\n9,1\n"),
-              "c.csv:5: time moves by 5 s here; it must rise in even steps (most are 1 s)");
-    EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n1,1\n2,1\n1,1\n2,1\n3,1\n"),
-              "c.csv:5: time moves by -1 s here; it must rise in even steps (most are 1 s)");
-    EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n0,1\n0,1\n"),
-              "c.csv:3: time moves by 0 s here; it must rise in even steps (most are 0 s)");
+    EXPECT_EQ(
+        refusal("time_s,voltage_v\n0,1\n,1\n2,1\n"),
+        "c.csv:3: the time is missing; every row needs one; where the samples are even all the same, --sample-rate HZ "
+        "reads them, where HZ is the instrument's rate");
+    EXPECT_EQ(
+        refusal("time_s,voltage_v\n0,1\n1,1\n2,1\n7,1\n8,1\n9,1\n"),
+        "c.csv:5: time moves by 5 s here; it must rise in even steps (most are 1 s); where the samples are even all "
+        "the same, --sample-rate 1 reads them");
+    EXPECT_EQ(
+        refusal("time_s,voltage_v\n0,1\n1,1\n2,1\n1,1\n2,1\n3,1\n"),
+        "c.csv:5: time moves by -1 s here; it must rise in even steps (most are 1 s); where the samples are even all "
+        "the same, --sample-rate 1 reads them");
+    EXPECT_EQ(
+        refusal("time_s,voltage_v\n0,1\n0,1\n0,1\n"),
+        "c.csv:3: time moves by 0 s here; it must rise in even steps (most are 0 s); where the samples are even all "
+        "the same, --sample-rate HZ reads them, where HZ is the instrument's rate");
 }
 
 TEST(CaptureFile, StampsThatJitterByLessThanHalfAStepAreRegular) {

@@ -164,11 +164,13 @@ TEST(CsvDialects, ABadRowIsNamedInEveryDialect) {
     };
     EXPECT_EQ(refusal("X,CH1,\nSecond,Volt,\n0,x,\n1,2,\n"), "t.csv:3: 'x' in column 'CH1'; a number was expected");
     EXPECT_EQ(refusal("X,CH1,Start,Increment,\nSequence,Volt,0,-1,\n0,1,\n1,2,\n"),
-              "t.csv:2: start and increment are '0,-1,'; two numbers, the increment above 0, were expected");
+              "t.csv:2: start and increment are '0,-1,'; two numbers, the increment above 0, were expected; "
+              "--sample-rate HZ reads it, where HZ is the instrument's rate");
     EXPECT_EQ(refusal("x-axis,1\nsecond,Volt\n0,1\n1\n"), "t.csv:4: 1 fields; 2 were expected, as in the header");
-    EXPECT_EQ(refusal("Time,Channel A\n(ms),(bar)\n\n0,1\n1,2\n"),
-              "t.csv:2: '(ms)' in column 'Time'; a number was expected")
-        << "unknown units make no line of units";
+    EXPECT_EQ(
+        refusal("Time,Channel A\n(ms),(bar)\n\n0,1\n1,2\n"),
+        "t.csv:1: the unit of column 'Channel A' is unknown; s, V or A with m, u, n or k were expected; --unit 2=V "
+        "reads it, its numbers as volts");
 }
 
 }  // namespace

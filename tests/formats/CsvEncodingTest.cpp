@@ -106,7 +106,9 @@ TEST(CsvEncoding, LatinNamesAndUnitsBecomeUtf8) {
 TEST(CsvEncoding, ADecimalCommaBetweenCommasIsNotGuessedAt) {
     const auto read = parseCapture("time_s,a\n0,0,1,5\n0,1,2,5\n", "t.csv");
     ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().message, "t.csv:2: 4 fields; 2 were expected, as in the header");
+    EXPECT_EQ(read.error().message,
+              "t.csv:2: 4 fields, where the header has 2: decimal commas cannot be told from commas between columns; "
+              "decimal points, or semicolons between columns, were expected");
 }
 
 TEST(CsvEncoding, ScaledUnitsAreConverted) {

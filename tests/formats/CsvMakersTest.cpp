@@ -94,7 +94,8 @@ TEST(CsvMakers, RigolMso5000) {
     expectRead({"csv-rigol", 2e6, 0.01, {{"CH1", "V", {1, 2}}, {"CH3", "A", {3, 4}}}},
                "CH1(V),CH3(A),t0=10ms,tInc=0.5us,\n1,3,\n2,4,\n");
     EXPECT_EQ(saidOf("CH1(V),t0 = 0s, tInc = -2e-06s,\n0.5,\n0.25,\n"),
-              "t.csv: the time between samples is 't0 = 0s, tInc = -2e-06s'; a finite one above 0 was expected");
+              "t.csv: the time between samples is 't0 = 0s, tInc = -2e-06s'; a finite one above 0 was expected; "
+              "--sample-rate HZ reads it, where HZ is the instrument's rate");
     EXPECT_THAT(saidOf("CH1(V),t0=0s,tInc=1s,CH2(V),t0=0s,tInc=1s,\n0.5,\n0.25,\n"),
                 HasSubstr("all channels before one t0 and one tInc were expected"));
 }
@@ -149,7 +150,7 @@ TEST(CsvMakers, TektronixMdoWithDigitalChannels) {
 
 // A decoder of MSO/DPO2000 files quotes this header; "Peak Detect" is a second value of the same samples.
 TEST(CsvMakers, TektronixDpo2000) {
-    expectRead({"csv-tektronix", 312500, -0.2, {{"CH1", "V", {0.2F, 0.4F}}, {"CH1 Peak Detect", "", {0, 0.6F}}}},
+    expectRead({"csv-tektronix", 312500, -0.2, {{"CH1", "V", {0.2F, 0.4F}}, {"CH1 Peak Detect", "V", {0, 0.6F}}}},
                "Model,DPO2012B\nFirmware Version,1.35\nPoint Format,Y,\nHorizontal Units,S,\nHorizontal Scale,0.04,\n"
                "Sample Interval,3.2e-06,\nFilter Frequency,4.2e+07,\nRecord Length,2,\nGating,0.0% to 100.0%,\n"
                "Probe Attenuation,1,\nVertical Units,V,\nVertical Offset,0,\nVertical Scale,5,\nLabel,,\n"
@@ -243,8 +244,10 @@ TEST(CsvMakers, Owon) {
     expectRead({"csv-owon", 5e6, 0, {{"CH1", "V", {1, 2}}, {"CH2", "V", {3, 4}}}},
                "Channel :,CH1,CH2\nTime interval :,0.20000us\nindex,CH1_Voltage(mV),CH2_Voltage(mV)\n0,1000,3000\n"
                "1,2000,4000\n");
-    EXPECT_EQ(saidOf("Time interval :,none\nindex,CH1_Voltage(mV)\n0,1\n1,2\n"),
-              "t.csv: the time between samples is 'none'; a finite one above 0 was expected");
+    EXPECT_EQ(
+        saidOf("Time interval :,none\nindex,CH1_Voltage(mV)\n0,1\n1,2\n"),
+        "t.csv: the time between samples is 'none'; a finite one above 0 was expected; --sample-rate HZ reads it, "
+        "where HZ is the instrument's rate");
 }
 
 // Keys and columns as four versions of a public reader (OpenQlab) have them; what Detail and Fast are:
@@ -314,7 +317,7 @@ TEST(CsvMakers, RohdeSchwarz) {
     // Batronix Magnova, as a public reader has it.
     expectRead({"csv", 1e6, 0, {{"CH1", "V", {1, 2}}}}, "time in s,CH1 in V\n0,1\n1e-06,2\n");
     // Samples of an RTO alone ("x.Wfm.csv"; its keys are in a file beside it): no names, no times.
-    EXPECT_THAT(saidOf("-0.031620555\n0\n0.015810277\n"), HasSubstr("a sampling rate, given as an option"));
+    EXPECT_THAT(saidOf("-0.031620555\n0\n0.015810277\n"), HasSubstr("; --sample-rate HZ reads it"));
     const auto read = parseCapture("-0.031620555\n0\n0.015810277\n", "t.csv", {.rate = Hertz(1e9)});
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->capture.samples(), 3U);

@@ -32,7 +32,7 @@ TEST(CsvOptions, ColumnsAreChosenByNameOrNumberInTheirOrder) {
     EXPECT_THAT(refusal(kTable, {.columns = {"CH9"}}), HasSubstr("there is no channel 'CH9'"));
     EXPECT_THAT(refusal(kTable, {.columns = {"CH9"}}), HasSubstr("CH1 (2), CH2 (3), note (4)"));
     EXPECT_THAT(refusal(kTable, {.columns = {"CH1", "2"}}), HasSubstr("is given twice"));
-    EXPECT_THAT(refusal(kTable, {}), HasSubstr("t.csv:2: 'a' in column 'note'"));
+    EXPECT_THAT(refusal(kTable, {.columns = {"note"}}), HasSubstr("t.csv:2: 'a' in column 'note'"));
 }
 
 TEST(CsvOptions, UnitsAndProbesReplaceAndMultiply) {

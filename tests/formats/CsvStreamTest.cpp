@@ -44,7 +44,8 @@ TEST(CsvStream, ALineFarBehindIsStillNamedRight) {
     text += "1.000000,1,1\n\n# a word\n1.000010,oops,1\n";
     const auto read = parseCapture(text, "t.csv");
     ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().message, "t.csv:100005: 'oops' in column 'a_v'; a number was expected");
+    EXPECT_EQ(read.error().message,
+              "t.csv:100005: 'oops' in column 'a_v'; a number was expected; --columns 3 reads it");
     auto uneven = longTable(100'000);
     uneven += "1.5,1,1\n";
     const auto jump = parseCapture(uneven, "t.csv");

@@ -1,27 +1,79 @@
 #include "core/formats/csv/CsvColumns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/CsvNumber.h"
-#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
 namespace tacto {
 
 namespace {
 
-/// `text` with its unit behind `mark`: "C1 in V", "t / s".
-std::optional<CsvColumn> withUnitBehind(std::string_view text, std::string_view mark) {
-    const auto at = text.rfind(mark);
-    if (at == std::string_view::npos) return std::nullopt;
-    const auto unit = spelledUnit(text.substr(at + mark.size()));
-    if (!unit || unit->unit.empty()) return std::nullopt;
-    return CsvColumn{std::string(trimmed(text.substr(0, at))), std::string(unit->unit), unit->factor, ""};
+/// "time", in the languages that programs are translated to.
+bool isTimeWord(std::string_view text) {
+    constexpr std::array<std::string_view, 18> kWords{"time",  "t",     "zeit", "temps", "tiempo", "tempo",
+                                                      "tijd",  "tid",   "czas", "čas",   "aika",   "idő",
+                                                      "zaman", "время", "时间", "時間",  "시간",   "χρόνος"};
+    return std::ranges::find(kWords, folded(text)) != kWords.end();
 }
 
-bool isDigits(std::string_view text) {
-    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+/// Units of what is neither a voltage, a current nor a time, as they stand behind a slash or below a name.
+bool isOtherUnit(std::string_view text) {
+    constexpr std::array<std::string_view, 54> kOthers{
+        "°c",  "°f",  "℃",   "degc", "k",    "hz",  "khz",  "mhz",  "ghz",  "%",  "n",    "mn",   "kn", "pa",
+        "hpa", "kpa", "mpa", "bar",  "mbar", "ohm", "ohms", "kohm", "Ω",    "Ω",  "kΩ",   "kΩ",   "mΩ", "mΩ",
+        "w",   "mw",  "kw",  "db",   "dbm",  "dbv", "rpm",  "m",    "mm",   "cm", "µm",   "um",   "g",  "kg",
+        "deg", "°",   "rad", "mt",   "nf",   "j",   "lbf",  "m/s",  "km/h", "va", "m/s²", "m/s^2"};
+    return std::ranges::find(kOthers, folded(text)) != kOthers.end();
+}
+
+/// "Unit: mV" in DSView's brackets.
+std::string_view withoutWord(std::string_view spelled) {
+    const auto mark = spelled.find_first_of(":=");
+    if (mark == std::string_view::npos) return spelled;
+    const auto word = folded(spelled.substr(0, mark));
+    return word == "unit" || word == "units" || word == "einheit" ? spelled.substr(mark + 1) : spelled;
+}
+
+/// The column called `name` with its unit as it is spelled.
+CsvColumn withUnit(std::string_view name, std::string_view spelled) {
+    spelled = trimmed(withoutWord(spelled));
+    name = trimmed(name);
+    while (name.ends_with('/')) name = trimmed(name.substr(0, name.size() - 1));
+    if (const auto unit = spelledUnit(spelled)) {
+        return {std::string(name), std::string(unit->unit), unit->factor, ""};
+    }
+    return {std::string(name), "", 1, std::string(spelled)};
+}
+
+/// `text` with its unit behind `mark`: "C1 in V", "t / s", "t/ms"; DIN 1313 writes quantity/unit.
+std::optional<CsvColumn> withUnitBehind(std::string_view text, std::string_view mark) {
+    for (auto at = text.find(mark, 1); at != std::string_view::npos; at = text.find(mark, at + 1)) {
+        const auto spelled = trimmed(text.substr(at + mark.size()));
+        const auto unit = spelledUnit(spelled);
+        if ((unit && !unit->unit.empty()) || isOtherUnit(spelled)) return withUnit(text.substr(0, at), spelled);
+    }
+    return std::nullopt;
+}
+
+/// "Time ms", "CH1 mV", "Spannung V"; a letter alone is a unit behind a digit or a quantity only: "Channel A".
+std::optional<CsvColumn> withUnitBehindBlank(std::string_view text) {
+    const auto at = text.rfind(' ');
+    if (at == std::string_view::npos) return std::nullopt;
+    const auto name = trimmed(text.substr(0, at));
+    const auto unit = spelledUnit(text.substr(at + 1));
+    if (!unit || unit->unit.empty() || name.empty()) return std::nullopt;
+    if (text.size() - at == 2) {
+        constexpr std::array<std::string_view, 8> kQuantities{"voltage", "current", "spannung", "strom",
+                                                              "tension", "courant", "u",        "i"};
+        const bool isQuantity = std::ranges::find(kQuantities, folded(name)) != kQuantities.end();
+        const bool isOfTime = unit->unit == "s" && isTimeWord(name);
+        const bool isNumbered = unit->unit != "s" && name.back() >= '0' && name.back() <= '9';
+        if (!isOfTime && (unit->unit == "s" || (!isQuantity && !isNumbered))) return std::nullopt;
+    }
+    return withUnit(name, text.substr(at + 1));
 }
 
 /// A number and what stands behind it.
@@ -36,31 +88,45 @@ std::optional<std::pair<double, std::string_view>> numberAndRest(std::string_vie
 }  // namespace
 
 CsvColumn columnNamed(std::string_view text) {
-    const auto bracket = text.find_first_of("([");
-    if (bracket != std::string_view::npos && bracket > 0 && (text.ends_with(')') || text.ends_with(']'))) {
-        const auto spelled = text.substr(bracket + 1, text.size() - bracket - 2);
-        std::string name(trimmed(text.substr(0, bracket)));
-        if (const auto unit = spelledUnit(spelled)) return {std::move(name), std::string(unit->unit), unit->factor, ""};
-        return {std::move(name), "", 1, std::string(spelled)};
+    if (text.ends_with(')') || text.ends_with(']')) {
+        for (const auto bracket : {text.find_last_of("(["), text.find_first_of("([")}) {
+            if (bracket == std::string_view::npos) break;
+            const auto spelled = text.substr(bracket + 1, text.size() - bracket - 2);
+            auto column = withUnit(text.substr(0, bracket), spelled);
+            if (bracket == 0) {  // the unit of a column without a name, which is the time
+                if (column.unit != "s") break;
+                column.name = "time";
+            }
+            if (column.unknownUnit.empty() || bracket == text.find_first_of("([")) return column;
+        }
     }
     const auto mark = text.rfind('_');
     if (mark != std::string_view::npos && mark > 0 && mark + 1 < text.size()) {
         const auto unit = spelledUnit(text.substr(mark + 1));
-        if (unit && !unit->unit.empty()) {
-            return {std::string(text.substr(0, mark)), std::string(unit->unit), unit->factor, ""};
+        // Not the least of voltages, and not the first of some channels.
+        constexpr std::array<std::string_view, 7> kLettered{"channel", "ch",    "kanal", "phase",
+                                                            "input",   "probe", "line"};
+        const bool isLettered =
+            mark + 2 == text.size() && std::ranges::find(kLettered, folded(text.substr(0, mark))) != kLettered.end();
+        if (unit && !unit->unit.empty() && (unit->unit != "s" || unit->factor <= 1) && !isLettered) {
+            return withUnit(text.substr(0, mark), text.substr(mark + 1));
         }
     }
-    for (const std::string_view between : {" in ", " / "}) {
+    for (const std::string_view between : {" in ", " en ", "/", ", "}) {
         if (auto column = withUnitBehind(text, between)) return *std::move(column);
     }
-    if (text.starts_with("in ")) {  // the unit of a column without a name, which is the time
-        if (const auto unit = spelledUnit(text.substr(3)); unit && unit->unit == "s") {
-            return {"time", "s", unit->factor, ""};
-        }
+    for (const std::string_view before : {"in ", "en "}) {  // of the time again
+        if (!text.starts_with(before)) continue;
+        if (const auto unit = spelledUnit(text.substr(3)); unit && unit->unit == "s")
+            return withUnit("time", text.substr(3));
     }
-    if (text.size() > 3 && text.starts_with("CH") && isDigits(text.substr(2, text.size() - 3)) &&
-        (text.back() == 'V' || text.back() == 'A')) {
-        return {std::string(text.substr(0, text.size() - 1)), std::string(1, text.back()), 1, ""};
+    if (auto column = withUnitBehindBlank(text)) return *std::move(column);
+    if (folded(text).starts_with("ch")) {  // "CH1V"
+        const auto behind = text.find_first_not_of("0123456789", 2);
+        if (behind != std::string_view::npos && behind > 2) {
+            const auto unit = channelUnit(text.substr(behind));
+            if (unit && !unit->unit.empty()) return withUnit(text.substr(0, behind), text.substr(behind));
+        }
     }
     return {std::string(text), "", 1, ""};
 }
@@ -69,7 +135,7 @@ bool isTimeColumn(const CsvColumn& column) {
     if (column.unit == "s") return true;
     const auto name = folded(column.name);
     return column.unit.empty() && column.unknownUnit.empty() &&
-           (name == "time" || name == "t" || name == "seconds" || name == "second");
+           (isTimeWord(name) || name == "seconds" || name == "second");
 }
 
 bool isIndexColumn(const CsvColumn& column) {
@@ -78,29 +144,35 @@ bool isIndexColumn(const CsvColumn& column) {
            (name == "index" || name == "sample" || name == "samples" || name == "sequence" || name == "nr");
 }
 
-std::optional<SpelledUnit> unitField(std::string_view field) {
-    if (field.size() >= 2 && (field.front() == '(' || field.front() == '[')) field = field.substr(1, field.size() - 2);
-    return spelledUnit(field);
+std::string_view withoutBrackets(std::string_view field) {
+    const bool bracketed = field.size() >= 2 && ((field.front() == '(' && field.back() == ')') ||
+                                                 (field.front() == '[' && field.back() == ']'));
+    return trimmed(withoutWord(bracketed ? field.substr(1, field.size() - 2) : field));
 }
+
+std::optional<SpelledUnit> unitField(std::string_view field) { return spelledUnit(withoutBrackets(field)); }
 
 bool isLineOfUnits(const CsvLine& line) {
     bool any = false;
-    for (const auto& field : line.fields) {
+    for (const std::string_view field : line.fields) {
         const auto unit = unitField(field);
+        if (!unit && withoutBrackets(field).size() == field.size() && !isOtherUnit(field)) return false;
         // "a" and "s" name channels as well as units: a line of units has the one of time in it.
-        if (!unit) return false;
-        any = any || unit->unit == "s";
+        any = any || (unit && unit->unit == "s");
     }
     return any;
 }
 
 const CsvLine* lineCalled(const CsvHead& head, std::string_view key) {
-    const auto found = std::ranges::find_if(head.header, [&](const CsvLine& line) {
-        auto name = folded(line.fields.front());
-        if (name.ends_with(':') || name.ends_with('=')) name.pop_back();
-        return trimmed(name) == folded(key);
-    });
-    return found == head.header.end() ? nullptr : &*found;
+    for (const auto* lines : {&head.header, &head.beside}) {
+        const auto found = std::ranges::find_if(*lines, [&](const CsvLine& line) {
+            auto name = folded(line.fields.front());
+            if (name.ends_with(':') || name.ends_with('=')) name.pop_back();
+            return trimmed(name) == folded(key);
+        });
+        if (found != lines->end()) return &*found;
+    }
+    return nullptr;
 }
 
 std::string_view wordCalled(const CsvHead& head, std::string_view key) {
@@ -149,24 +221,63 @@ std::optional<double> hertzIn(std::string_view text, char point) {
     return number->first * factor;
 }
 
+std::optional<StatedInterval> intervalStated(const CsvHead& head) {
+    constexpr std::array<std::string_view, 6> kRates{"sample rate",   "samplerate",         "sampling rate",
+                                                     "sampling_rate", "sampling frequency", "sample_rate"};
+    constexpr std::array<std::string_view, 5> kIntervals{"sample interval", "sampling interval", "sampling period",
+                                                         "sample period", "time interval"};
+    const auto read = [&](std::string_view key, std::string_view value,
+                          std::size_t line) -> std::optional<StatedInterval> {
+        if (!value.empty() && (value.front() == ':' || value.front() == '=')) value.remove_prefix(1);
+        auto column = columnNamed(trimmed(key));  // "Sample Rate (Hz)"
+        const auto name = folded(column.name);
+        if (std::ranges::find(kRates, name) != kRates.end()) {
+            std::string text(value);
+            if (!column.unknownUnit.empty()) text += " " + column.unknownUnit;
+            const auto rate = hertzIn(text, head.point);
+            if (rate && *rate > 0 && std::isfinite(*rate)) return StatedInterval{1 / *rate, line};
+        }
+        if (std::ranges::find(kIntervals, name) != kIntervals.end()) {
+            const auto interval = secondsIn(value, head.point);
+            if (interval && *interval > 0 && std::isfinite(*interval)) {
+                return StatedInterval{*interval * (column.unit == "s" ? column.factor : 1), line};
+            }
+        }
+        return std::nullopt;
+    };
+    for (const std::string_view remark : head.remarks) {
+        const auto mark = remark.find_first_of(":=,");
+        if (mark == std::string_view::npos) continue;
+        if (auto stated = read(remark.substr(0, mark), remark.substr(mark), 0)) return stated;
+    }
+    for (const auto& line : head.header) {
+        const std::string_view first = line.fields.front();
+        const auto mark = first.find_first_of(":=");
+        if (auto stated = read(first.substr(0, mark),
+                               mark + 1 < first.size() && mark != std::string_view::npos ? first.substr(mark)
+                               : line.fields.size() > 1 ? std::string_view(line.fields[1])
+                                                        : "",
+                               line.number)) {
+            return stated;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string unitNotStated(std::string_view file, const CsvLine& line, std::string_view column) {
+    return fmt::format("{}:{}: the file does not state the unit of column '{}'; the option --unit does, as in {}=V",
+                       file, line.number, column, column);
+}
+
 std::size_t filled(const CsvLine& line) {
     auto width = line.fields.size();
     while (width > 0 && line.fields[width - 1].empty()) --width;
     return width;
 }
 
-Result<std::vector<std::string>> namesIn(const CsvLine& line, std::string_view file) {
+std::vector<std::string> namesIn(const CsvLine& line) {
     std::vector<std::string> names = line.fields;
-    while (!names.empty() && names.back().empty()) names.pop_back();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (names[i].empty()) {
-            return fail(ErrorCode::ParseError,
-                        "{}:{}: column {} has no name; a header line naming every column was expected", file,
-                        line.number, i + 1);
-        }
-    }
-    if (const auto* second = secondIn(names))
-        return fail(ErrorCode::ParseError, "{}:{}: {}", file, line.number, givenTwice("column '{}'", *second));
+    names.resize(filled(line));
     return names;
 }
 

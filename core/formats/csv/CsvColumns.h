@@ -1,4 +1,4 @@
-// CsvColumns.h - what the names of columns say: "voltage_v", "CH1 (mV)", "time [us]", "C1 in V", "t / s", "CH2V", and
+// CsvColumns.h - what the names of columns say: "voltage_v", "CH1 (mV)", "time [us]", "C1 in V", "t/ms", "CH2V", and
 // lines of units below them; and what lines of keys say.
 //
 // Thread-safety: pure functions.
@@ -12,24 +12,26 @@ struct CsvColumn {
     std::string name;  ///< without its unit
     std::string unit;  ///< "s", "V", "A" or ""
     double factor = 1;
-    std::string unknownUnit;  ///< a bracketed unit that is not understood
+    std::string unknownUnit;  ///< a unit that is none of these
 };
 
 [[nodiscard]] CsvColumn columnNamed(std::string_view text);
 
 [[nodiscard]] bool isTimeColumn(const CsvColumn& column);
 
-/// Whether every field is a unit, in brackets or spelled out, and there is at least one: the second of two header
-/// lines.
+/// Whether every field is in brackets or a unit, and one of them is of time: the second of two header lines.
 [[nodiscard]] bool isLineOfUnits(const CsvLine& line);
 
-/// The unit in a field of such a line.
+/// A field of such a line without the brackets about it.
+[[nodiscard]] std::string_view withoutBrackets(std::string_view field);
+/// The unit in it.
 [[nodiscard]] std::optional<SpelledUnit> unitField(std::string_view field);
 
 /// Whether a column counts rows: "index", "Sample".
 [[nodiscard]] bool isIndexColumn(const CsvColumn& column);
 
-/// The header line whose first field is `key`, capitals and a colon or equals sign at its end ignored.
+/// The line of the header, or of keys beside rows, whose first field is `key`, capitals and a colon or equals sign at
+/// its end ignored.
 [[nodiscard]] const CsvLine* lineCalled(const CsvHead& head, std::string_view key);
 /// The second field of that line; empty where there is none.
 [[nodiscard]] std::string_view wordCalled(const CsvHead& head, std::string_view key);
@@ -43,11 +45,21 @@ struct CsvColumn {
 /// "50 MHz", "1e+06Hz", "2.5 GSa/s" or a bare number, in Hz.
 [[nodiscard]] std::optional<double> hertzIn(std::string_view text, char point);
 
+/// The time between samples as any line of keys or comment states it: "Sample rate: 100 kHz", "Sampling Period,4E-06".
+struct StatedInterval {
+    double interval_s;
+    std::size_t line;  ///< the header line; 0 for a comment
+};
+[[nodiscard]] std::optional<StatedInterval> intervalStated(const CsvHead& head);
+
+/// The sentence about a column of `line` whose unit the file does not state.
+[[nodiscard]] std::string unitNotStated(std::string_view file, const CsvLine& line, std::string_view column);
+
 /// How many fields a line has without the empty ones at its end.
 [[nodiscard]] std::size_t filled(const CsvLine& line);
 
-/// The names that end a header, without empty ones at the end.
-/// Errors: ParseError where a column has no name or two have the same.
-[[nodiscard]] Result<std::vector<std::string>> namesIn(const CsvLine& line, std::string_view file);
+/// The names that end a header, without empty ones at the end. Whether the columns that are read have names of their
+/// own is asked by finished().
+[[nodiscard]] std::vector<std::string> namesIn(const CsvLine& line);
 
 }  // namespace tacto

@@ -8,8 +8,9 @@ namespace tacto {
 namespace {
 
 bool isPicoScope(const CsvHead& head) {
-    return head.header.size() > 1 && folded(head.header[0].fields.front()) == "time" && isLineOfUnits(head.header[1]) &&
-           head.header[1].fields.front().starts_with('(');
+    // "Time", "Zeit", "Temps", by the language of the program
+    return head.header.size() > 1 && isTimeColumn({head.header[0].fields.front(), "", 1, ""}) &&
+           isLineOfUnits(head.header[1]) && head.header[1].fields.front().starts_with('(');
 }
 
 Result<CsvDraft> picoScope(const CsvHead& head, std::string_view /*file*/) {
@@ -51,7 +52,7 @@ Result<CsvLayout> layOut(CsvDialect dialect, const CsvHead& head, const ReadOpti
     const auto* maker = makerOf(dialect);
     auto draft = maker != nullptr ? maker->draft(head, file) : plainDraft(head, options, file);
     if (!draft) return failure(draft);
-    return finished(*std::move(draft), options, file);
+    return finished(*std::move(draft), head, options, file);
 }
 
 }  // namespace tacto

@@ -27,10 +27,9 @@ struct CsvDraft {
     void addChannel(std::string name, std::string_view spelled);
     /// The same of a column that is not read.
     void addOther(std::string name) { layout.names.push_back(std::move(name)); }
-    /// The rows are apart by `interval_s`, from `start_s` on. Errors: ParseError unless it is finite and above 0;
-    /// `stated` is how the file writes it.
-    [[nodiscard]] Result<void> countRows(std::optional<double> interval_s, double start_s, std::string_view stated,
-                                         std::string_view file);
+    /// The rows are apart by `interval_s`, from `start_s` on. Where it is not finite and above 0 the table needs a rate
+    /// from the options; `stated` is how the file writes it.
+    void countRows(std::optional<double> interval_s, double start_s, std::string_view stated, std::string_view file);
 };
 
 /// Names in one line, units in the next; the first column is time. Empty fields at the end are not columns.
@@ -39,9 +38,10 @@ struct CsvDraft {
 /// The layout of a plain table. Errors: ParseError where no line names a time column and channels, and no option helps.
 [[nodiscard]] Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std::string_view file);
 
-/// With the options: time column, rate, choice, units, probes.
-/// Errors: as layOut().
-[[nodiscard]] Result<CsvLayout> finished(CsvDraft draft, const ReadOptions& options, std::string_view file);
+/// With the options: time column, rate, choice, units, probes. Columns of text and of other quantities are left out
+/// with a warning, unless they were chosen. Errors: as layOut().
+[[nodiscard]] Result<CsvLayout> finished(CsvDraft draft, const CsvHead& head, const ReadOptions& options,
+                                         std::string_view file);
 
 /// The column that `wanted` names: its text, its name without the unit, or its number from 1.
 [[nodiscard]] std::optional<std::size_t> columnCalled(const std::vector<std::string>& names, std::string_view wanted);

@@ -1,5 +1,6 @@
 #include "core/formats/csv/CsvFormat.h"
 
+#include "core/formats/csv/CsvAdvice.h"
 #include "core/formats/csv/CsvMakers.h"
 #include "core/formats/csv/CsvTable.h"
 #include "core/measure/CaptureDescription.h"
@@ -39,32 +40,72 @@ std::string_view headOf(std::string_view text) {
 
 bool isText(std::string_view head) { return head.find('\0') == std::string_view::npos; }
 
+/// The dialect that the options name, else the one that the table is of.
+CsvDialect dialectFor(const CsvHead& head, const ReadOptions& options) {
+    if (options.format == known(CsvDialect::Plain).id) return CsvDialect::Plain;
+    for (const auto& maker : csvMakers()) {
+        if (maker.id == options.format) return maker.dialect;
+    }
+    return dialectOf(head);
+}
+
+/// `blocks` stands at its beginning, of which `text` is the first part.
+Result<CaptureReading> readOnce(TextBlocks& blocks, std::string_view text, CsvDialect dialect, const CsvHead& head,
+                                const ReadOptions& options, const ReadWatch& watch) {
+    const auto layout = layOut(dialect, head, options, blocks.name());
+    if (!layout) return failure(layout);
+    // The numbers of columns that were chosen, scaled or timed by hand are not those that the header is about.
+    const bool asWritten =
+        options.columns.empty() && options.units.empty() && options.probeFactors.empty() && !options.rate;
+    const auto header = asWritten ? headerIn(text) : std::nullopt;
+    auto reading = readCsvTable(blocks, head, *layout, watch);
+    if (reading) {
+        if (header) takeHeader(reading->capture, *header);
+        reading->formatId = known(dialect).id;
+        reading->formatName = known(dialect).name;
+    }
+    return reading;
+}
+
+/// `refusal` with the options that read the table all the same, which were tried. Errors: Stopped.
+tl::unexpected<Error> withAdvice(Error refusal, TextBlocks& blocks, const std::string& text, CsvDialect dialect,
+                                 const ReadOptions& options, const ReadWatch& watch) {
+    const bool isOfTable = refusal.code == ErrorCode::ParseError || refusal.code == ErrorCode::InvalidArgument;
+    if (!isOfTable || refusal.message.find("--") != std::string::npos) return tl::unexpected(std::move(refusal));
+    constexpr std::uint64_t kLong = 32UL * 1024 * 1024;
+    std::size_t readings = blocks.size() > kLong ? 3 : 40;  // of all rows, at most
+    for (const auto& advice : adviceToTry(text, dialect, options, blocks.name())) {
+        const auto head = readCsvHead(text, advice.options.skipRows);
+        if (head.header.empty() && !head.firstRow) continue;
+        const auto tried = dialectFor(head, advice.options);
+        if (!layOut(tried, head, advice.options, blocks.name())) continue;
+        if (readings-- == 0 || !blocks.rewind()) break;
+        const auto reading = readOnce(blocks, text, tried, head, advice.options, {{}, watch.stop});
+        if (reading) {
+            refusal.message += "; " + advice.words;
+            break;
+        }
+        if (reading.error().code == ErrorCode::Stopped) return failure(reading);
+    }
+    return tl::unexpected(std::move(refusal));
+}
+
 Result<CaptureReading> readTable(TextBlocks blocks, std::optional<CsvDialect> dialect, const ReadOptions& options,
                                  const ReadWatch& watch) {
     const auto block = blocks.next();
     if (!block) return failure(block);
-    const auto text = headOf(*block);
+    const std::string text(headOf(*block));
     if (!isText(text)) {
         return fail(ErrorCode::ParseError,
                     "{}: not a text in UTF-8, in UTF-16 with its mark, or in ASCII; a table of numbers was expected",
                     blocks.name());
     }
     const auto head = readCsvHead(text, options.skipRows);
-    if (!dialect) dialect = dialectOf(head);
-    const auto layout = layOut(*dialect, head, options, blocks.name());
-    if (!layout) return failure(layout);
-    // The numbers of columns that were chosen, scaled or timed by hand are not those that the header is about.
-    const bool asWritten =
-        options.columns.empty() && options.units.empty() && options.probeFactors.empty() && !options.rate;
-    const auto header = asWritten ? headerIn(text) : std::nullopt;
+    if (!dialect) dialect = dialectFor(head, options);
     if (auto back = blocks.rewind(); !back) return failure(back);
-    auto reading = readCsvTable(blocks, head, *layout, watch);
-    if (reading) {
-        if (header) takeHeader(reading->capture, *header);
-        reading->formatId = known(*dialect).id;
-        reading->formatName = known(*dialect).name;
-    }
-    return reading;
+    auto reading = readOnce(blocks, text, *dialect, head, options, watch);
+    if (reading) return reading;
+    return withAdvice(std::move(reading.error()), blocks, text, *dialect, options, watch);
 }
 
 Result<CaptureReading> readFile(const std::filesystem::path& path, std::optional<CsvDialect> dialect,

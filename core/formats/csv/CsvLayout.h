@@ -23,6 +23,8 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <cstdint>
+
 #include "core/base/CsvHead.h"
 #include "core/formats/ChannelOptions.h"
 
@@ -59,10 +61,17 @@ struct CsvLayout {
     std::size_t headerLine = 0;      ///< of the line that names the columns, for messages
     RowTimes times = RowTimes::Column;
     std::size_t timeColumn = 0;
-    double timeFactor = 1;             ///< of the time column to seconds
-    std::optional<double> interval_s;  ///< as the header states it
-    double start_s = 0;                ///< of sample 0 where times are an index or counted
-    std::optional<double> rows;        ///< how many the header announces
+    double timeFactor = 1;                    ///< of the time column to seconds
+    std::optional<std::int64_t> stampOrigin;  ///< where that column holds dates and times: what they are counted from
+    struct OtherTime {
+        std::size_t column;
+        double factor;  ///< to seconds
+    };
+    std::vector<OtherTime> otherTimes;  ///< of other channels: they must agree with the time column
+    std::optional<double> interval_s;   ///< as the header states it
+    std::string noInterval;             ///< why it states none, where the rows are counted: needs a rate
+    double start_s = 0;                 ///< of sample 0 where times are an index or counted
+    std::optional<double> rows;         ///< how many the header announces
     /// What another number of rows means, where they are then no single record: such a table is refused.
     std::string otherRows;
     std::optional<double> givenRate_hz;  ///< by the options: stamps are then not asked

@@ -1,5 +1,6 @@
 #include "core/formats/csv/CsvRows.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -7,6 +8,8 @@
 #include "core/base/Csv.h"
 #include "core/base/CsvHead.h"
 #include "core/base/CsvNumber.h"
+#include "core/base/CsvStamp.h"
+#include "core/base/Utf16.h"
 
 namespace tacto {
 
@@ -30,6 +33,13 @@ CsvRows::CsvRows(const CsvLayout& layout, char separator, char point, TextBlocks
     if (layout.times != RowTimes::Counted) {
         batch_.times.resize(RowBatch::kRows);
         uses_[layout.timeColumn].ignored = false;
+        uses_[layout.timeColumn].stamps = layout.stampOrigin.has_value();
+    }
+    for (std::size_t k = 0; k < layout.otherTimes.size(); ++k) {
+        auto& use = uses_[layout.otherTimes[k].column];
+        use.ignored = false;
+        use.channel = Use::kOther + k;
+        batch_.others.emplace_back(RowBatch::kRows);
     }
     batch_.channels.assign(layout.channels.size(), std::vector<float>(RowBatch::kRows));
     batch_.lines.resize(RowBatch::kRows);
@@ -103,7 +113,8 @@ const char* CsvRows::takePlainRow(const char* text, const char* end, std::size_t
             while (*text != separator && *text != '\n' && *text != '"') ++text;
             if (*text == '"') return nullptr;
         } else {
-            text = takeNumber(text, end, point, use->values[row]);
+            text =
+                use->stamps ? takeStampOf(text, end, use->values[row]) : takeNumber(text, end, point, use->values[row]);
             if (text == nullptr) return nullptr;
             text = overBlanks(text, separator);
         }
@@ -113,16 +124,36 @@ const char* CsvRows::takePlainRow(const char* text, const char* end, std::size_t
     return *text == '\n' ? text + 1 : nullptr;
 }
 
+const char* CsvRows::takeStampOf(const char* text, const char* end, double& value) const {
+    CsvStamp stamp;
+    const char* const behind = takeStamp(text, end, point_, stamp);
+    value = stamp.since(*layout_.stampOrigin);
+    return behind;
+}
+
 void CsvRows::deliver() {
-    for (const auto& use : uses_) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    for (auto& use : uses_) {
         if (use.ignored) continue;
         const double* const from = use.values.data();
-        if (use.channel == Use::kTime) {
-            std::copy_n(from, batch_.rows, batch_.times.begin());
+        if (use.channel >= Use::kOther) {
+            auto& times = use.channel == Use::kTime ? batch_.times : batch_.others[use.channel - Use::kOther];
+            std::ranges::transform(from, from + batch_.rows, times.begin(),
+                                   [](double time) { return isNoValue(time) ? kNone : time; });
             continue;
         }
         float* const into = batch_.channels[use.channel].data();
-        for (std::size_t i = 0; i < batch_.rows; ++i) into[i] = static_cast<float>(from[i] * use.factor);
+        std::size_t none = 0;
+        for (std::size_t i = 0; i < batch_.rows; ++i) {
+            into[i] = static_cast<float>(from[i] * use.factor);
+            none += isNoValue(from[i]) ? 1U : 0U;
+        }
+        if (none == 0) continue;
+        for (std::size_t i = 0; i < batch_.rows; ++i) {
+            if (!isNoValue(from[i])) continue;
+            into[i] = std::numeric_limits<float>::quiet_NaN();
+            if (std::isfinite(from[i])) ++use.noValues;
+        }
     }
 }
 
@@ -131,17 +162,31 @@ Result<void> CsvRows::takeFields(std::string_view line, std::size_t row) {
     const std::size_t width = uses_.size();
     bool surplus = false;
     for (std::size_t i = width; i < fields_.size(); ++i) surplus = surplus || !fields_[i].empty();
+    const auto hasPoint = [](std::string_view field) { return field.find('.') != std::string_view::npos; };
+    if (separator_ == ',' && surplus && fields_.size() == 2 * width && std::ranges::none_of(fields_, hasPoint)) {
+        return fail(
+            ErrorCode::Unsupported,
+            "{}:{}: {} fields, where the header has {}: decimal commas cannot be told from commas between columns; "
+            "decimal points, or semicolons between columns, were expected",
+            blocks_.name(), line_, fields_.size(), width);
+    }
     if (fields_.size() < width || surplus) {
         return fail(ErrorCode::ParseError, "{}:{}: {} fields; {} were expected, as in the header", blocks_.name(),
                     line_, fields_.size(), width);
     }
     for (std::size_t c = 0; c < width; ++c) {
         if (uses_[c].ignored) continue;
-        const auto value =
-            fields_[c].empty() ? std::numeric_limits<double>::quiet_NaN() : fieldNumber(fields_[c], point_);
+        std::optional<double> value = std::numeric_limits<double>::quiet_NaN();
+        if (uses_[c].stamps && !fields_[c].empty()) {
+            const auto stamp = fieldStamp(fields_[c], point_);
+            value = stamp ? std::optional(stamp->since(*layout_.stampOrigin)) : std::nullopt;
+        } else if (!fields_[c].empty()) {
+            value = fieldNumber(fields_[c], point_);
+        }
         if (!value) {
-            return fail(ErrorCode::ParseError, "{}:{}: '{}' in column '{}'; a number was expected", blocks_.name(),
-                        line_, fields_[c].substr(0, 40), layout_.names[c]);
+            return fail(ErrorCode::ParseError, "{}:{}: '{}' in column '{}'; {} was expected", blocks_.name(), line_,
+                        latin1AsUtf8(fields_[c].substr(0, 40)), layout_.names[c],
+                        uses_[c].stamps ? "a date and time, as in the first row," : "a number");
         }
         sawInfinite_ = sawInfinite_ || std::isinf(*value);
         uses_[c].values[row] = *value;

@@ -18,6 +18,7 @@ struct RowBatch {
     static constexpr std::size_t kRows = 4096;
     std::size_t rows = 0;
     std::vector<double> times;                 ///< as the file has them; empty where no column is one
+    std::vector<std::vector<double>> others;   ///< of the layout's other columns of times
     std::vector<std::vector<float>> channels;  ///< in V, A or 1; not finite where the field is empty or says so
     std::vector<std::size_t> lines;            ///< in the file, from 1
 };
@@ -35,6 +36,10 @@ public:
     [[nodiscard]] double bytesPerRow() const noexcept;
     /// Whether some value was infinite: beyond the instrument's range, not missing.
     [[nodiscard]] bool sawInfinite() const noexcept { return sawInfinite_; }
+    /// Samples so far of the layout's channel `index` that are SCPI's mark of no value.
+    [[nodiscard]] std::size_t noValues(std::size_t index) const {
+        return uses_[layout_.channels[index].number - 1].noValues;
+    }
 
 private:
     /// A column of the file; what is read of it waits here until the batch is full.
@@ -43,12 +48,16 @@ private:
         std::vector<double> values{};
         std::size_t channel = kTime;  ///< in the batch
         double factor = 1;
+        std::size_t noValues = 0;
+        bool stamps = false;  ///< dates and times
         static constexpr std::size_t kTime = static_cast<std::size_t>(-1);
+        static constexpr std::size_t kOther = kTime / 2;  ///< and the number of the other column of times
     };
     /// Takes rows from text_ until the batch is full or the block is used up.
     [[nodiscard]] Result<void> takeRows();
     /// Reads the row at `text` into batch row `row`; the start of the next line, or null when it is not a plain row.
     [[nodiscard]] const char* takePlainRow(const char* text, const char* end, std::size_t row);
+    [[nodiscard]] const char* takeStampOf(const char* text, const char* end, double& value) const;
     [[nodiscard]] Result<void> takeFields(std::string_view line, std::size_t row);
     /// The values that wait, into the batch.
     void deliver();

@@ -42,6 +42,22 @@ public:
         }
     }
 
+    /// Notes the first row whose channels have other times.
+    void compareTimes(const RowBatch& batch, const CsvLayout& layout) {
+        constexpr double kAgreeing = 0.05;  // of a step: rounding, and nothing that a pulse's edges would show
+        if (rows == 0 && batch.rows > 1 && !batch.others.empty()) {
+            agreeing_s_ = kAgreeing * std::abs(batch.times[batch.rows - 1] - batch.times[0]) * layout.timeFactor /
+                          static_cast<double>(batch.rows - 1);
+        }
+        for (std::size_t i = 0; i < batch.rows && differing.line == 0; ++i) {
+            for (std::size_t k = 0; k < batch.others.size(); ++k) {
+                const auto& other = layout.otherTimes[k];
+                const double off = std::abs(batch.others[k][i] * other.factor - batch.times[i] * layout.timeFactor);
+                if (off > agreeing_s_) differing = {batch.lines[i], other.column, off};
+            }
+        }
+    }
+
     void reserve(std::size_t expected) {
         for (auto& channel : channels_) channel.samples.reserve(expected);
     }
@@ -91,16 +107,24 @@ public:
             auto& samples = channels_[c].samples;
             samples.resize(rowsWithValues);
             if (missing_[c].row >= rowsWithValues) continue;
+            const auto count = std::ranges::count_if(samples, [](float sample) { return !std::isfinite(sample); });
             warnings.push_back(fmt::format(
-                "{}:{}: column '{}' has no finite value here; pulses that touch a missing sample are not measured",
-                file, missing_[c].line, layout.names[layout.channels[c].number - 1]));
+                "{}:{}: column '{}' has no finite value here{}; pulses that touch a missing sample are not measured",
+                file, missing_[c].line, layout.names[layout.channels[c].number - 1],
+                count == 1 ? "" : fmt::format(", and in {} rows in all", count)));
             // Beyond a float is beyond any oscilloscope: as missing as nan.
             std::ranges::replace_if(
                 samples, [](float sample) { return !std::isfinite(sample); }, std::numeric_limits<float>::quiet_NaN());
         }
     }
 
+    struct Difference {
+        std::size_t line = 0;  ///< 0: none
+        std::size_t column = 0;
+        double by_s = 0;
+    };
     CsvTimes times;
+    Difference differing;  ///< the first of other times
     std::size_t rows = 0;
     std::size_t rowsWithValues = 0;
     std::size_t lastLine = 0;
@@ -122,6 +146,7 @@ private:
 
     std::vector<CaptureChannel>& channels_;
     std::vector<Missing> missing_;
+    double agreeing_s_ = 0;
 };
 
 /// The stamps once more, where they are not plainly even.
@@ -153,6 +178,7 @@ Result<CaptureReading> readCsvTable(TextBlocks& blocks, const CsvHead& head, con
         const auto batch = rows.next(watch);
         if (!batch) return failure(batch);
         if ((*batch)->rows == 0) break;
+        growing.compareTimes(**batch, layout);
         growing.add(**batch);
         if (growing.rows == (*batch)->rows) {
             growing.reserve(static_cast<std::size_t>(1.02 * static_cast<double>(blocks.size()) / rows.bytesPerRow()) +
@@ -169,12 +195,16 @@ Result<CaptureReading> readCsvTable(TextBlocks& blocks, const CsvHead& head, con
         return fail(ErrorCode::ParseError, "{}:{}: {} row(s) with values; at least 2 were expected", blocks.name(),
                     growing.lastLine, found);
     }
+    for (std::size_t c = 0; c < layout.channels.size(); ++c) {
+        if (rows.noValues(c) == 0) continue;
+        reading.warnings.push_back(noValueWarning(blocks.name(), layout.channels[c].name, rows.noValues(c)));
+    }
     if (rows.sawInfinite()) {
         reading.warnings.push_back(fmt::format(
             "{}: some values are infinite, which means beyond the range; they are missing samples", blocks.name()));
     }
     if (layout.rows && !layout.otherRows.empty() && *layout.rows != static_cast<double>(found)) {
-        return fail(ErrorCode::ParseError, "{}: {} rows, where the header announces {}: {}", blocks.name(), found,
+        return fail(ErrorCode::Unsupported, "{}: {} rows, where the header announces {}: {}", blocks.name(), found,
                     *layout.rows, layout.otherRows);
     }
     if (layout.rows && *layout.rows != static_cast<double>(found)) {
@@ -185,6 +215,13 @@ Result<CaptureReading> readCsvTable(TextBlocks& blocks, const CsvHead& head, con
         if (auto again = readTimesAgain(blocks, head, layout, watch, growing.times); !again) return failure(again);
     }
     if (auto timed = growing.times.into(reading, blocks.name()); !timed) return failure(timed);
+    if (growing.differing.line != 0) {
+        const auto& [line, column, by_s] = growing.differing;
+        return fail(ErrorCode::ParseError,
+                    "{}:{}: the times of column {} ('{}') differ by {:.3g} s from those of column {} here; columns of "
+                    "times that agree, or the channels of one of them, were expected",
+                    blocks.name(), line, column + 1, layout.names[column], by_s, layout.timeColumn + 1);
+    }
     reading.capture.trigger_s = std::numeric_limits<double>::quiet_NaN();
     return reading;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numeric>
 
@@ -58,6 +59,13 @@ double farthestFrom(std::span<const double> stamps, double step) {
 /// Stamps written with too few digits repeat and jump by the last digit, but keep to a straight line.
 bool areOnlyCoarse(const Steps& steps, double farthest) {
     return steps.everZero && !steps.everDown && std::isfinite(steps.least) && farthest <= 1.01 * steps.least;
+}
+
+/// What reads rows whose times are not even: samples that are even all the same.
+std::string rateInstead(double step_s) {
+    return fmt::format("; where the samples are even all the same, --sample-rate {} reads them{}",
+                       step_s > 0 && std::isfinite(1 / step_s) ? fmt::format("{:.10g}", 1 / step_s) : "HZ",
+                       step_s > 0 && std::isfinite(1 / step_s) ? "" : ", where HZ is the instrument's rate");
 }
 
 }  // namespace
@@ -191,17 +199,19 @@ Result<void> CsvTimes::setTimes(CaptureReading& reading, const std::string& file
         capture.start_s = layout_.start_s;
         return {};
     }
-    if (missingRow_ != kNone) {
-        return fail(ErrorCode::ParseError, "{}:{}: the time is missing; every row needs one", file,
-                    lineOf(missingRow_));
-    }
     // An index counts samples, a column of times seconds.
     const double unit_s = layout_.times == RowTimes::Index ? *layout_.interval_s : 1;
-    capture.start_s = layout_.start_s + stamps_.front() * unit_s;
     if (layout_.givenRate_hz) {
         capture.rate_hz = *layout_.givenRate_hz;
+        capture.start_s = layout_.start_s + (std::isfinite(stamps_.front()) ? stamps_.front() * unit_s : 0);
         return {};
     }
+    if (missingRow_ != kNone) {
+        const double usual = missingRow_ > 1 && stamps_.size() > 1 ? stamps_[1] - stamps_[0] : 0;
+        return fail(ErrorCode::ParseError, "{}:{}: the time is missing; every row needs one{}", file,
+                    lineOf(missingRow_), rateInstead(usual * unit_s));
+    }
+    capture.start_s = layout_.start_s + stamps_.front() * unit_s;
     if (keepToStated()) {
         capture.rate_hz = 1 / *layout_.interval_s;
         return {};
@@ -214,9 +224,9 @@ Result<void> CsvTimes::setTimes(CaptureReading& reading, const std::string& file
         const auto steps = stepsOf(stamps_);
         if (!areOnlyCoarse(steps, farthest)) {
             return fail(ErrorCode::ParseError,
-                        "{}:{}: time moves by {:.6g} s here; it must rise in even steps (most are {:.6g} s)", file,
+                        "{}:{}: time moves by {:.6g} s here; it must rise in even steps (most are {:.6g} s){}", file,
                         lineOf(steps.worst), (stamps_[steps.worst] - stamps_[steps.worst - 1]) * unit_s,
-                        steps.usual * unit_s);
+                        steps.usual * unit_s, rateInstead(steps.usual * unit_s));
         }
         // The last digit may hide up to this much of the duration at either end.
         const double doubt = steps.least / (stamps_.back() - stamps_.front());

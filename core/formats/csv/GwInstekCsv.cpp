@@ -1,6 +1,6 @@
 // The tables of GW Instek's oscilloscopes. Each trace has two fields in every line of keys (`Source,CH1,Source,CH2,`)
 // and in every row: time and volts (Detail), or the value and nothing (Fast). Fast values are steps of a 25th of a
-// division.
+// division. The GDS-1000 series does not write which it is.
 #include "core/formats/csv/CsvColumns.h"
 #include "core/formats/csv/CsvMakers.h"
 
@@ -25,7 +25,9 @@ bool isGwInstek(const CsvHead& head) {
 
 Result<CsvDraft> gwInstek(const CsvHead& head, std::string_view file) {
     const auto traces = filled(*lineCalled(head, "Memory Length")) / 2;
-    const auto mode = folded(wordCalled(head, "Mode"));
+    auto mode = folded(wordCalled(head, "Mode"));
+    const bool isStated = !mode.empty();
+    if (!isStated) mode = filled(*head.firstRow) == 2 * traces ? "detail" : "fast";
     if (mode != "detail" && mode != "fast") {
         return fail(ErrorCode::ParseError, "{}: the mode of saving is '{}'; Detail or Fast was expected", file,
                     wordCalled(head, "Mode"));
@@ -51,10 +53,12 @@ Result<CsvDraft> gwInstek(const CsvHead& head, std::string_view file) {
         return draft;
     }
     const double middle_s = numberCalled(head, "Horizontal Position").value_or(0);
-    const double half_s = 5 * numberCalled(head, "Horizontal Scale").value_or(0);
-    auto counted = draft.countRows(numberCalled(head, "Sampling Period"), middle_s - half_s,
-                                   wordCalled(head, "Sampling Period"), file);
-    if (!counted) return failure(counted);
+    // Without a mode, the memory is longer than the ten divisions of the screen.
+    const double half_s = isStated
+                              ? 5 * numberCalled(head, "Horizontal Scale").value_or(0)
+                              : draft.layout.rows.value_or(0) / 2 * numberCalled(head, "Sampling Period").value_or(0);
+    draft.countRows(numberCalled(head, "Sampling Period"), middle_s - half_s, wordCalled(head, "Sampling Period"),
+                    file);
     return draft;
 }
 

@@ -34,7 +34,7 @@ Result<CsvDraft> hantek(const CsvHead& head, std::string_view file) {
     }
     if (hasTimes(head)) {
         if (baseLine(head)->fields[1].starts_with("#threshold")) {
-            return fail(ErrorCode::ParseError,
+            return fail(ErrorCode::Unsupported,
                         "{}:{}: words of a logic analyzer; an analog channel was expected, which states #voltbase",
                         file, baseLine(head)->number);
         }
@@ -44,15 +44,14 @@ Result<CsvDraft> hantek(const CsvHead& head, std::string_view file) {
     }
     // Channels stand one below the other, with nothing but comments between them.
     if (!draft.layout.rows) {
-        return fail(ErrorCode::ParseError, "{}: no number of samples; #SIZE= and a number were expected in a comment",
+        return fail(ErrorCode::Unsupported, "{}: no number of samples; #SIZE= and a number were expected in a comment",
                     file);
     }
     const std::string name(remarkCalled(head, "CHANNEL").value_or("CH1"));
     const auto unit = remarkCalled(head, "UNITS").value_or("V");
     for (std::size_t c = 0; c < columns; ++c) draft.addChannel(c == 0 ? name : fmt::format("column {}", c + 1), unit);
     const auto clock = *remarkCalled(head, "CLOCK");
-    auto counted = draft.countRows(secondsIn(clock, head.point), 0, clock, file);
-    if (!counted) return failure(counted);
+    draft.countRows(secondsIn(clock, head.point), 0, clock, file);
     return draft;
 }
 

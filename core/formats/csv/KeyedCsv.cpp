@@ -23,6 +23,14 @@ void readRecordKeys(const CsvHead& head, CsvLayout& layout) {
     layout.rows = numberCalled(head, "Record Length");
 }
 
+Result<void> checkHorizontalUnit(const CsvHead& head, std::string_view file) {
+    const auto spelled = wordCalled(head, "Horizontal Units");
+    const auto unit = spelledUnit(spelled);
+    if (spelled.empty() || (unit && unit->unit == "s" && unit->factor == 1)) return {};
+    return fail(ErrorCode::Unsupported, "{}:{}: the horizontal unit is '{}'; s, of a record over time, was expected",
+                file, lineCalled(head, "Horizontal Units")->number, spelled);
+}
+
 bool keysStandBesideRows(const CsvHead& head, std::size_t firstLine) {
     if (firstLine >= head.header.size()) return false;
     const auto& fields = head.header[firstLine].fields;

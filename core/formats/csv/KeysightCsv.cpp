@@ -52,7 +52,7 @@ Result<CsvDraft> infiniium(const CsvHead& head, std::string_view file) {
     }
     for (std::size_t c = 2; c < filled(increments); ++c) {
         if (increments.fields[c] != increments.fields[1]) {
-            return fail(ErrorCode::ParseError,
+            return fail(ErrorCode::Unsupported,
                         "{}:{}: the sources have samples {} and {} s apart; sources of one interval were expected",
                         file, increments.number, increments.fields[1], increments.fields[c]);
         }
@@ -76,9 +76,8 @@ Result<CsvDraft> infiniium(const CsvHead& head, std::string_view file) {
         return draft;
     }
     const auto origin_s = numberCalled(head, "XOrg");
-    auto counted = draft.countRows(origin_s ? numberCalled(head, "XInc") : std::nullopt, origin_s.value_or(0),
-                                   wordCalled(head, "XInc"), file);
-    if (!counted) return failure(counted);
+    draft.countRows(origin_s ? numberCalled(head, "XInc") : std::nullopt, origin_s.value_or(0),
+                    wordCalled(head, "XInc"), file);
     return draft;
 }
 

@@ -14,20 +14,16 @@ bool isLeCroy(const CsvHead& head) {
 Result<CsvDraft> leCroy(const CsvHead& head, std::string_view file) {
     const auto segments = numberCalled(head, "Segments");
     if (!segments || *segments != 1) {
-        return fail(ErrorCode::ParseError, "{}:{}: {} segments; one per file was expected: export each by itself", file,
-                    lineCalled(head, "Segments")->number, wordCalled(head, "Segments"));
+        return fail(ErrorCode::Unsupported, "{}:{}: {} segments; one per file was expected: export each by itself",
+                    file, lineCalled(head, "Segments")->number, wordCalled(head, "Segments"));
     }
     const auto& line = head.header.back();
-    const auto names = namesIn(line, file);
-    if (!names) return failure(names);
+    const auto names = namesIn(line);
     CsvDraft draft(line, line);
-    draft.addOther(names->front());
-    for (std::size_t c = 1; c < names->size(); ++c) {
-        draft.addChannel((*names)[c], "");
-        draft.layout.warnings.push_back(
-            fmt::format("{}:{}: the file does not state the unit of column '{}'; the option "
-                        "--unit does, as in {}=V",
-                        file, line.number, (*names)[c], (*names)[c]));
+    draft.addOther(names.front());
+    for (std::size_t c = 1; c < names.size(); ++c) {
+        draft.addChannel(names[c], "");
+        draft.layout.warnings.push_back(unitNotStated(file, line, names[c]));
     }
     return draft;
 }

@@ -13,19 +13,17 @@ bool isOwon(const CsvHead& head) {
 
 Result<CsvDraft> owon(const CsvHead& head, std::string_view file) {
     const auto& line = head.header.back();
-    const auto names = namesIn(line, file);
-    if (!names) return failure(names);
+    const auto names = namesIn(line);
     CsvDraft draft(line, line);
-    for (std::size_t c = 0; c < names->size(); ++c) {
-        auto column = columnNamed((*names)[c]);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        auto column = columnNamed(names[c]);
         constexpr std::string_view kVoltage = "_Voltage";
         if (column.name.ends_with(kVoltage)) column.name.resize(column.name.size() - kVoltage.size());
-        draft.addOther((*names)[c]);
+        draft.addOther(names[c]);
         if (c > 0) draft.columns.push_back({column.name, c + 1, column.unit, column.factor, column.unknownUnit});
     }
     const auto stated = wordCalled(head, "Time interval");
-    auto counted = draft.countRows(secondsIn(stated, head.point), 0, stated, file);
-    if (!counted) return failure(counted);
+    draft.countRows(secondsIn(stated, head.point), 0, stated, file);
     draft.layout.times = RowTimes::Index;
     return draft;
 }

@@ -26,9 +26,13 @@ std::size_t fieldGiving(const CsvLine& line, std::string_view key) {
     return static_cast<std::size_t>(found - line.fields.begin());
 }
 
-bool hasIndexAndIncrement(const CsvHead& head) {
-    return head.header.size() > 1 && fieldAt(head.header[0], 0) == "x" && fieldAt(head.header[1], 0) == "sequence" &&
-           std::ranges::any_of(head.header[0].fields, [](const auto& name) { return folded(name) == "start"; });
+/// `X,CH1,Start,Increment`, or without the X where its column is switched off.
+bool hasIncrement(const CsvHead& head) {
+    const auto& names = head.header[0];
+    const auto width = filled(names);
+    if (width < 3 || fieldAt(names, width - 2) != "start" || fieldAt(names, width - 1) != "increment") return false;
+    if (fieldAt(names, 0) == "x") return head.header.size() > 1 && fieldAt(head.header[1], 0) == "sequence";
+    return head.firstRow && head.header.size() <= 2 && filled(*head.firstRow) == width - 2;
 }
 
 bool hasSeconds(const CsvHead& head) {
@@ -58,32 +62,42 @@ bool isUltraScope(const CsvHead& head) {
 }
 
 bool isRigol(const CsvHead& head) {
-    return !head.header.empty() && (hasIndexAndIncrement(head) || hasSeconds(head) || hasMemoryTimes(head) ||
+    return !head.header.empty() && (hasIncrement(head) || hasSeconds(head) || hasMemoryTimes(head) ||
                                     hasUnitsInNames(head) || isUltraScope(head));
 }
 
-Result<CsvDraft> indexAndIncrement(const CsvHead& head, std::string_view file) {
+/// Start and increment stand behind the units; where that line is missing, nothing is known of either.
+CsvDraft startAndIncrement(const CsvHead& head, std::string_view file) {
     const auto& names = head.header[0];
-    const auto& units = head.header[1];
-    const auto start =
-        std::ranges::find_if(names.fields, [](const std::string& name) { return folded(name) == "start"; });
-    const auto width = static_cast<std::size_t>(start - names.fields.begin());
-    auto draft = twoLineDraft(names, units, width);
+    const auto* units = head.header.size() > 1 ? &head.header[1] : nullptr;
+    const auto width = filled(names) - 2;
+    const bool hasIndex = fieldAt(names, 0) == "x";
+    CsvDraft draft(names, units != nullptr ? *units : names);
+    if (hasIndex) draft.addOther(names.fields.front());
+    for (std::size_t c = hasIndex ? 1 : 0; c < width; ++c) {
+        draft.addChannel(names.fields[c],
+                         units != nullptr && c < units->fields.size() ? std::string_view(units->fields[c]) : "");
+        if (units == nullptr) draft.layout.warnings.push_back(unitNotStated(file, names, names.fields[c]));
+    }
     const auto number = [&](std::size_t column) {
-        return column < units.fields.size() ? fieldNumber(units.fields[column], head.point) : std::nullopt;
+        return units != nullptr && column < units->fields.size() ? fieldNumber(units->fields[column], head.point)
+                                                                 : std::nullopt;
     };
     const auto start_s = number(width);
-    const auto interval_s = number(width + 1);
-    if (!start_s || !interval_s || !(*interval_s > 0)) {
-        return fail(ErrorCode::ParseError,
-                    "{}:{}: start and increment are '{}'; two numbers, the increment above 0, were expected", file,
-                    units.number,
-                    fmt::join(units.fields.begin() + static_cast<std::ptrdiff_t>(std::min(width, units.fields.size())),
-                              units.fields.end(), ","));
+    draft.countRows(start_s ? number(width + 1) : std::nullopt, start_s.value_or(0), "", file);
+    if (units == nullptr) {
+        draft.layout.noInterval = fmt::format(
+            "{}:{}: no line of units, start and increment below the names; one, as in Volt,-0.006,1e-05, was expected",
+            file, names.number);
+    } else if (!draft.layout.interval_s) {
+        draft.layout.noInterval = fmt::format(
+            "{}:{}: start and increment are '{}'; two numbers, the increment above 0, were expected", file,
+            units->number,
+            fmt::join(units->fields.begin() + static_cast<std::ptrdiff_t>(std::min(width, units->fields.size())),
+                      units->fields.end(), ","));
+    } else if (hasIndex) {
+        draft.layout.times = RowTimes::Index;
     }
-    draft.layout.times = RowTimes::Index;
-    draft.layout.start_s = *start_s;
-    draft.layout.interval_s = *interval_s;
     return draft;
 }
 
@@ -117,9 +131,8 @@ Result<CsvDraft> memoryTimes(const CsvHead& head, std::string_view file) {
         draft.columns.push_back({column.name, c + 1, column.unit, column.factor, column.unknownUnit});
     }
     const auto start_s = valueOf("t0=");
-    auto counted = draft.countRows(start_s ? valueOf("tinc=") : std::nullopt, start_s.value_or(0),
-                                   fmt::format("{}, {}", line.fields[first], line.fields[first + 1]), file);
-    if (!counted) return failure(counted);
+    draft.countRows(start_s ? valueOf("tinc=") : std::nullopt, start_s.value_or(0),
+                    fmt::format("{}, {}", line.fields[first], line.fields[first + 1]), file);
     return draft;
 }
 
@@ -156,7 +169,7 @@ CsvDraft ultraScope(const CsvHead& head) {
 }
 
 Result<CsvDraft> rigol(const CsvHead& head, std::string_view file) {
-    if (hasIndexAndIncrement(head)) return indexAndIncrement(head, file);
+    if (hasIncrement(head)) return startAndIncrement(head, file);
     if (hasSeconds(head)) return seconds(head);
     if (hasMemoryTimes(head)) return memoryTimes(head, file);
     if (hasUnitsInNames(head)) return unitsInNames(head);

@@ -19,15 +19,17 @@ bool isSiglent(const CsvHead& head) {
            (lines == 1 || (lines == 2 && folded(head.header.front().fields.front()) == "source"));
 }
 
-Result<CsvDraft> siglent(const CsvHead& head, std::string_view /*file*/) {
+Result<CsvDraft> siglent(const CsvHead& head, std::string_view file) {
+    if (auto timed = checkHorizontalUnit(head, file); !timed) return failure(timed);
     const auto& last = head.header.back();
     const auto* units = lineCalled(head, "Vertical Units");
-    if (units == nullptr) units = lineCalled(head, "Vertical Scale");  // "CH1: 0.05" names the channel too
+    const auto* scales = lineCalled(head, "Vertical Scale");  // "CH1: 0.05" names the channel too
     const auto* source = lineCalled(head, "Source");
     CsvDraft draft(last, last);
     draft.addOther(last.fields.front());
     for (std::size_t c = 1; c < filled(last); ++c) {
         auto [name, spelled] = keyedValue(units, c - 1);
+        if (name.empty()) name = keyedValue(scales, c - 1).first;
         if (source != nullptr && c < source->fields.size() && !source->fields[c].empty()) name = source->fields[c];
         if (name.empty()) name = fmt::format("CH{}", c);
         if (const auto own = spelledUnit(last.fields[c]); own && !own->unit.empty()) spelled = last.fields[c];

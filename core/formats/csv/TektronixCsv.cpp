@@ -19,6 +19,7 @@ bool isTektronix(const CsvHead& head) {
 
 /// `TIME,CH1,,TIME,D1,D0`: the digital channels have a table of their own beside the first.
 Result<CsvDraft> tektronix(const CsvHead& head, std::string_view file) {
+    if (auto timed = checkHorizontalUnit(head, file); !timed) return failure(timed);
     if (isTds(head)) return draftBesideKeys(head, 0);
     auto line = *lineCalled(head, "TIME");
     const auto width = filled(line);
@@ -26,12 +27,17 @@ Result<CsvDraft> tektronix(const CsvHead& head, std::string_view file) {
     const bool second = blank + 1 < width && folded(line.fields[blank + 1]) == "time";
     auto own = line;
     if (second) own.fields.resize(blank);
-    const auto names = namesIn(own, file);
-    if (!names) return failure(names);
+    const auto names = namesIn(own);
     const auto* units = lineCalled(head, "Vertical Units");
     CsvDraft draft(line, line);
-    draft.addOther(names->front());
-    for (std::size_t c = 1; c < names->size(); ++c) draft.addChannel((*names)[c], keyedValue(units, c - 1).second);
+    draft.addOther(names.front());
+    std::string unit;
+    for (std::size_t c = 1; c < names.size(); ++c) {
+        // "CH1,CH1 Peak Detect": two values of the same samples, with the unit of the first.
+        const bool isSecond = c > 1 && names[c].starts_with(names[c - 1] + " ");
+        if (const auto stated = keyedValue(units, c - 1).second; !stated.empty() || !isSecond) unit = stated;
+        draft.addChannel(names[c], unit);
+    }
     if (second) {
         for (std::size_t c = blank; c < width; ++c) draft.addOther(line.fields[c]);
         draft.layout.warnings.push_back(
@@ -57,7 +63,7 @@ bool isMicsig(const CsvHead& head) {
 
 Result<CsvDraft> micsig(const CsvHead& head, std::string_view file) {
     if (filled(head.header.front()) > 5) {
-        return fail(ErrorCode::ParseError,
+        return fail(ErrorCode::Unsupported,
                     "{}:{}: {} columns; the five of one channel were expected: export each channel by itself", file,
                     head.header.front().number, filled(head.header.front()));
     }

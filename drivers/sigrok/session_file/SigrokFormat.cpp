@@ -18,9 +18,11 @@ Result<CaptureReading> SigrokFormat::read(const std::filesystem::path& path, con
     const auto layout = sigrok_driver::readSrLayout(path);
     if (!layout) return failure(layout);
     if (!layout->samplerateIsSensible && !options.rate) {
-        return fail(ErrorCode::ParseError,
-                    "{}: its sampling rate is '{}'; a frequency above 0 was expected, as in 1 MHz, or --sample-rate",
-                    path.string(), layout->samplerate.substr(0, 40));
+        return fail(
+            ErrorCode::ParseError,
+            "{}: its sampling rate is '{}'; a frequency above 0 was expected, as in 1 MHz; --sample-rate HZ reads "
+            "it, where HZ is the instrument's rate",
+            path.string(), layout->samplerate.substr(0, 40));
     }
     auto read = sigrok_driver::readSr(*layout, watch, path.string());
     if (!read) return failure(read);
@@ -31,12 +33,15 @@ Result<CaptureReading> SigrokFormat::read(const std::filesystem::path& path, con
         reading.capture.rate_hz = *rate;
     }
     if (!(reading.capture.rate_hz > 0)) {
-        return fail(ErrorCode::ParseError, "{}: it states no sampling rate; --sample-rate can give one", path.string());
+        return fail(ErrorCode::ParseError,
+                    "{}: it states no sampling rate; --sample-rate HZ reads it, where HZ is the instrument's rate",
+                    path.string());
     }
     if (reading.capture.samples() < 2) {
         return fail(ErrorCode::ParseError, "{}: {} sample(s) per channel; at least 2 were expected", path.string(),
                     reading.capture.samples());
     }
+    dropNoValues(reading, path.string());
     std::vector<ChannelPlan> plans;
     for (const auto& channel : reading.capture.channels) {
         plans.push_back({channel.name, plans.size() + 1, channel.unit, 1, ""});

@@ -1,0 +1,28 @@
+// CsvStamp.h - dates and times of day as stamps of samples: ISO 8601 ("2026-11-29T10:00:00.000Z",
+// "20261129T100000+0100", a blank in place of the T, no zone) and a time of day alone ("10:00:00.5").
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace tacto {
+
+struct CsvStamp {
+    std::int64_t seconds = 0;  ///< since 1970 in UTC (without a zone: as written), of a time of day since midnight
+    double fraction = 0;       ///< 0 to 1
+    /// Seconds since `origin`, the whole seconds of another stamp.
+    [[nodiscard]] double since(std::int64_t origin) const noexcept {
+        return static_cast<double>(seconds - origin) + fraction;
+    }
+};
+
+/// Reads the stamp that begins at `text` and gives the place behind it; null where none begins. `point` is '.' or ','.
+[[nodiscard]] const char* takeStamp(const char* text, const char* end, char point, CsvStamp& stamp) noexcept;
+
+/// The whole of a field as a stamp.
+[[nodiscard]] std::optional<CsvStamp> fieldStamp(std::string_view field, char point) noexcept;
+
+}  // namespace tacto
