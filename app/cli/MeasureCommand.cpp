@@ -121,8 +121,13 @@ int runMeasure(const QCommandLineParser& parser) {
                         stated.parameters.front().first));
     }
     if (*statement) applyStatement(reading->capture, **statement);
-    const auto lacking = notStatedText(reading->capture);
     const auto found = measureCapture(reading->capture, channel, *options);
+    for (auto& its : reading->capture.channels) {
+        for (const auto& m : found.channels) {
+            if (m.name == its.name && m.quality.foundStep > 0) its.lsb = m.quality.foundStep;
+        }
+    }
+    const auto lacking = notStatedText(reading->capture);
     const auto load = loadIn(reading->capture, *options);
     auto warnings = reading->warnings;
     warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());

@@ -54,6 +54,9 @@ void printChannel(const ChannelMeasurement& m) {
     addStatistic(table, "gap", m.gap_s, "s");
     if (m.imbalance.n > 0) table.add({"imbalance", fmt::format("{:.3g} %", 100 * m.imbalance.mean)});
     if (m.measuredPulses > 0) {
+        if (m.quality.foundStep > 0) {
+            table.add({"resolution", scaledText(m.quality.foundStep, m.unit, 3), "not stated, found in the samples"});
+        }
         table.addLine(uncertaintiesOf(m));
         if (std::isfinite(m.quality.snr_db)) table.add({"above noise", fmt::format("{:.1f} dB", m.quality.snr_db)});
     }
@@ -71,6 +74,8 @@ void addTrust(nlohmann::json& channel, const ChannelMeasurement& m) {
     channel["quality"] = {{"snr_db", numberOrNull(q.snr_db)},
                           {"averaged", q.mean},
                           {"averaged_second", q.meanOfSecond},
+                          {"resolution_found", q.foundStep > 0 ? nlohmann::json(q.foundStep) : nlohmann::json()},
+                          {"samples_left_out", q.leaps},
                           {"drift", q.drift},
                           {"unrest", q.unrest},
                           {"level_after", q.levelAfter},

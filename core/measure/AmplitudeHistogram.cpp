@@ -13,10 +13,11 @@ constexpr double kPeakOverValley = 2;  // two modes are two when the valley betw
 
 }  // namespace
 
-AmplitudeHistogram::AmplitudeHistogram(const SampleBlocks& blocks, double noise) {
+AmplitudeHistogram::AmplitudeHistogram(const SampleBlocks& blocks, double noise, double lsb) {
     low_ = static_cast<double>(blocks.thirdLowest());
     width_ = (static_cast<double>(blocks.thirdHighest()) - low_) / static_cast<double>(kBins);
-    halfWindow_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(1.5 * noise / width_)), 2, kBins / 8);
+    halfWindow_ = std::clamp<std::size_t>(
+        static_cast<std::size_t>(std::ceil(std::max(1.5 * noise, 0.6 * lsb) / width_)), 2, kBins / 8);
     noiseReach_ = std::max(halfWindow_, static_cast<std::size_t>(std::ceil(5 * noise / width_)));
     if (blocks.complete()) {
         fill(blocks.samples());

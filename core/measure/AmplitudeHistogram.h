@@ -24,8 +24,9 @@ struct Mode {
 /// Counts and sums per bin, so that a level is a mean of samples and not a bin's centre.
 class AmplitudeHistogram {
 public:
-    /// `noise`: standard deviation; sets how far apart two modes must be. The range must not be empty.
-    AmplitudeHistogram(const SampleBlocks& blocks, double noise);
+    /// `noise`: standard deviation; sets how far apart two modes must be. Neighbouring codes, `lsb` apart (0 =
+    /// unknown), are one mode. The range must not be empty.
+    AmplitudeHistogram(const SampleBlocks& blocks, double noise, double lsb);
 
     /// Local maxima of the smoothed histogram that are separated by valleys, ascending.
     [[nodiscard]] std::vector<Mode> modes() const;

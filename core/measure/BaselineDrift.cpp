@@ -66,14 +66,14 @@ bool follow(std::span<const float> samples, std::size_t blocks, BaselineDrift& d
     return true;
 }
 
-/// A baseline bends little from block to block (a sine eleven blocks long by 0.16 of its span). What jumps to and fro
-/// is a state of the signal, such as a long recharge.
+/// A baseline bends little from block to block (a sine eleven blocks long by 0.16 of its span). What jumps, and be it
+/// once, is a state of the signal.
 bool bendsLittle(const BaselineDrift& drift, double still) {
-    std::vector<double> bends;
-    for (std::size_t b = 2; b < drift.medians.size(); ++b) {
-        bends.push_back(std::abs(drift.medians[b] - 2 * drift.medians[b - 1] + drift.medians[b - 2]));
+    const auto& m = drift.medians;
+    for (std::size_t b = 2; b < m.size(); ++b) {
+        if (!(std::abs(m[b] - 2 * m[b - 1] + m[b - 2]) <= kMaxBend * drift.span + still)) return false;
     }
-    return quantile(bends, 0.9) <= kMaxBend * drift.span + still;
+    return true;
 }
 
 /// Spread of the middle seven tenths of the samples about the baseline, as a standard deviation.

@@ -124,6 +124,10 @@ void PulseAssembly::pairNext() {
     const double next = gapAfter(k + 1);
     const double step = 1.0 / capture_.rate_hz;
     const bool pairs = std::isfinite(gap) && !(std::isfinite(next) && gap > 2 * next + step && k == 0);
+    // From a phase that the record cut on, phases follow so closely that each may belong to either neighbour.
+    if (k == 0) chainedToCut_ = at(k).truncated;
+    const bool chained = chainedToCut_;
+    chainedToCut_ = chainedToCut_ && std::isfinite(pairs ? next : gap);
     if (pairs) {
         addPulse(at(k), &at(k + 1), false);
         paired_ += 2;
@@ -133,7 +137,7 @@ void PulseAssembly::pairNext() {
     const double end_s = capture_.start_s + static_cast<double>(capture_.samples()) / capture_.rate_hz;
     const bool cutBefore = k == 0 && at(k).from_s() - capture_.start_s <= gapMax_s_;
     const bool cutAfter = k + 1 == kept_ && end_s - at(k).to_s() <= gapMax_s_;
-    addPulse(at(k), nullptr, levels_.count == StateCount::Three && (cutBefore || cutAfter));
+    addPulse(at(k), nullptr, levels_.count == StateCount::Three && (cutBefore || cutAfter || chained));
     paired_ += 1;
 }
 

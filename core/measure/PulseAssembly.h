@@ -47,8 +47,9 @@ private:
     double gapMax_s_;
     std::array<FoundPhase, 8> window_;  ///< of the last phases: five are looked at
     bool hasNewest_ = false;
-    std::size_t kept_ = 0;    ///< phases that are not ringing
-    std::size_t paired_ = 0;  ///< of these, in pulses already
+    std::size_t kept_ = 0;       ///< phases that are not ringing
+    std::size_t paired_ = 0;     ///< of these, in pulses already
+    bool chainedToCut_ = false;  ///< the next to be paired
     double widest_s_ = 0;
     std::vector<PulseMeasurement> pulses_;
 };

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <optional>
 
 #include "core/base/Statistics.h"
 #include "core/measure/BaselineDrift.h"
+#include "core/measure/ConverterStep.h"
+#include "core/measure/LeapingSamples.h"
 #include "core/measure/PhaseFinder.h"
 #include "core/measure/PulseAssembly.h"
 
@@ -21,6 +24,8 @@ constexpr std::size_t kLongestMean = 4096;
 constexpr double kShallowest = 0.02;   // of the leading phase: less beyond the other side is not a second phase
 constexpr double kSecondReliable = 6;  // times the noise: that it follows a leading phase is known besides
 constexpr std::size_t kJudgedPulses = 1000;
+constexpr double kMostUnrest = 0.06;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
+constexpr double kMostlyEdges = 0.6;  // of the width: half a sine has 0.67
 
 double distanceOf(double state, double baseline) { return std::isfinite(state) ? std::abs(state - baseline) : 0; }
 
@@ -74,7 +79,7 @@ bool restsOnPlateaus(const std::vector<PulseMeasurement>& pulses) {
         const double share = (m.rise_s + m.fall_s) / m.width_s;
         if (std::isfinite(share)) edgeShares.push_back(share);
     }
-    return edgeShares.empty() || statisticsOf(edgeShares).median <= 1;
+    return edgeShares.empty() || statisticsOf(edgeShares).median <= kMostlyEdges;
 }
 
 /// One way to look at the channel and what it shows.
@@ -88,6 +93,7 @@ struct Attempt {
     double unrest = 0;           // see SignalQuality
     double levelAfter = 0;       // the same
     double levelBefore = 0;
+    double beside = 0;  ///< see SignalQuality
 
     [[nodiscard]] bool hasStates() const noexcept { return levels.count != StateCount::None; }
     [[nodiscard]] bool mostlyMeasured() const {
@@ -103,8 +109,8 @@ struct Attempt {
 
 class ChannelSearch {
 public:
-    ChannelSearch(const Capture& capture, const CaptureChannel& channel, const MeasureOptions& options)
-        : capture_(capture), channel_(channel), gapMax_s_(options.interPhaseGapMax.count()) {}
+    ChannelSearch(const Capture& capture, const CaptureChannel& channel, double lsb, const MeasureOptions& options)
+        : capture_(capture), channel_(channel), lsb_(lsb), gapMax_s_(options.interPhaseGapMax.count()) {}
 
     [[nodiscard]] Attempt logic() const {
         const auto view = asRecorded(capture_, channel_);
@@ -119,7 +125,7 @@ public:
     [[nodiscard]] Attempt best(const SampleView& base) const {
         Attempt plain = on(base);
         const double standsOut = strongOf(plain.levels);
-        if (plain.hasStates() && standsOut >= kReliable) return withSecondSide(base, std::move(plain));
+        if (plain.hasStates() && standsOut >= kReliable) return complete(base, std::move(plain));
         std::size_t mean = plain.hasStates() ? std::max<std::size_t>(2, meanFor(standsOut)) : 4;
         // Each step goes to a longer mean, but for one step back to the shortest that is reliable.
         for (bool back = false; mean <= kLongestMean && base.samples.size() / mean >= 20;) {
@@ -140,17 +146,34 @@ public:
                 continue;
             }
             if (!isWhite(base, attempt)) break;
-            if (attempt.mostlyMeasured()) return withSecondSide(view, std::move(attempt));
+            if (attempt.mostlyMeasured()) return complete(view, std::move(attempt));
             if (back || enough >= mean) break;
             mean = enough;
             back = true;
         }
+        plain.beside = levelBeside(base, plain);
         return plain;
     }
 
 private:
+    [[nodiscard]] Attempt complete(const SampleView& view, Attempt found) const {
+        auto whole = withSecondSide(view, std::move(found));
+        whole.beside = levelBeside(view, whole);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const double state : {whole.levels.low, whole.levels.high}) {
+            if (state != whole.levels.baseline) nearest = std::min(nearest, distanceOf(state, whole.levels.baseline));
+        }
+        if (whole.unrest > kMostUnrest * nearest) {
+            whole.levels.why =
+                fmt::format("its baseline moves by {:.2g} (s.d.), too much beside its pulses", whole.unrest);
+            whole.levels.count = StateCount::None;
+            whole.pulses.clear();
+        }
+        return whole;
+    }
+
     [[nodiscard]] double lsbOf(const SampleView& view) const {
-        return channel_.lsb / std::sqrt(static_cast<double>(view.mean));
+        return lsb_ / std::sqrt(static_cast<double>(view.mean));
     }
 
     /// Averaging shows pulses in white noise. In what wanders it shows whatever is there at the time.
@@ -167,7 +190,7 @@ private:
         attempt.widest_s = std::max(attempt.widest_s, assembly.widest_s());
         if (restsOnPlateaus(attempt.pulses)) return;
         attempt.levels = {};
-        attempt.levels.why = "its edges are longer than its pulses";
+        attempt.levels.why = "its edges fill its pulses, which have no plateau";
         attempt.pulses.clear();
     }
 
@@ -237,6 +260,41 @@ private:
         return both;
     }
 
+    struct Silence {
+        double sum = 0, n = 0;
+        [[nodiscard]] double mean() const noexcept { return sum / n; }
+    };
+
+    /// From the baseline, within the silence before and after pulse k: up to two of its widths, half a width from it.
+    /// Where the silence is short, its middle half.
+    [[nodiscard]] static std::pair<Silence, Silence> silencesBeside(const SampleView& view, const Attempt& found,
+                                                                    std::size_t k) {
+        constexpr double kFrom = 0.5, kTo = 2.5;
+        const auto last = static_cast<double>(view.samples.size());
+        const auto sumOf = [&](double from, double to) {
+            Silence silence;
+            const auto end = static_cast<std::size_t>(std::clamp(to, 0.0, last));
+            for (auto i = static_cast<std::size_t>(std::clamp(from, 0.0, last)); i < end; ++i) {
+                const double x = static_cast<double>(view.samples[i]) - found.levels.baseline;
+                if (std::isnan(x)) continue;
+                silence.sum += x;
+                silence.n += 1;
+            }
+            return silence;
+        };
+        const auto& p = found.pulses[k];
+        const double width = p.leading.width_s * view.rate_hz;
+        const double onset = view.positionOf(p.leading.onset_s);
+        const double end = view.positionOf(p.second ? p.second->end_s : p.leading.end_s);
+        const double previous = k == 0 ? 0 : view.positionOf(found.pulses[k - 1].seenTo_s);
+        const double next = k + 1 == found.pulses.size() ? last : view.positionOf(found.pulses[k + 1].seenFrom_s);
+        const double before = onset - previous, after = next - end;
+        return {sumOf(std::max(onset - kTo * width, previous + (k == 0 ? 0 : 0.25 * before)),
+                      onset - std::min(kFrom * width, 0.25 * before)),
+                sumOf(end + std::min(kFrom * width, 0.25 * after),
+                      std::min(end + kTo * width, next - (next < last ? 0.25 * after : 0)))};
+    }
+
     struct AfterPulses {
         double difference = 0;  // after less before
         double before = 0;
@@ -244,47 +302,51 @@ private:
 
     /// The level just after pulses against that just before them, where the difference goes against the pulses and is
     /// no noise: five standard deviations of the means.
-    [[nodiscard]] std::optional<AfterPulses> levelAfter(const SampleView& view, const Attempt& found) const {
-        constexpr double kFrom = 0.5, kTo = 2.5;  // widths from the pulse, on either side
-        double before = 0, after = 0, amplitude = 0, nBefore = 0, nAfter = 0;
-        const auto sumOf = [&](double from_s, double to_s, double& sum, double& n) {
-            const double last = static_cast<double>(view.samples.size());
-            const auto first = static_cast<std::size_t>(std::clamp(view.positionOf(from_s), 0.0, last));
-            const auto end = static_cast<std::size_t>(std::clamp(view.positionOf(to_s), 0.0, last));
-            for (std::size_t i = first; i < end; ++i) {
-                const double x = static_cast<double>(view.samples[i]) - found.levels.baseline;
-                if (std::isnan(x)) continue;
-                sum += x;
-                n += 1;
-            }
-        };
+    [[nodiscard]] static std::optional<AfterPulses> levelAfter(const SampleView& view, const Attempt& found) {
+        Silence before, after;
+        double amplitude = 0;
         const std::size_t stride = std::max<std::size_t>(1, found.pulses.size() / kJudgedPulses);
         for (std::size_t k = 0; k < found.pulses.size(); k += stride) {
-            const auto& p = found.pulses[k];
-            if (!p.flags.measured()) continue;
-            const double width_s = p.leading.width_s;
-            // Only into the silence, not into a neighbour.
-            const double previous_s =
-                k == 0 ? -std::numeric_limits<double>::infinity() : found.pulses[k - 1].seenTo_s + kFrom * width_s;
-            const double next_s = k + 1 == found.pulses.size() ? std::numeric_limits<double>::infinity()
-                                                               : found.pulses[k + 1].seenFrom_s - kFrom * width_s;
-            sumOf(std::max(p.leading.onset_s - kTo * width_s, previous_s), p.leading.onset_s - kFrom * width_s, before,
-                  nBefore);
-            sumOf(p.leading.end_s + kFrom * width_s, std::min(p.leading.end_s + kTo * width_s, next_s), after, nAfter);
-            amplitude = p.leading.plateau;
+            if (!found.pulses[k].flags.measured()) continue;
+            const auto [left, right] = silencesBeside(view, found, k);
+            before.sum += left.sum;
+            before.n += left.n;
+            after.sum += right.sum;
+            after.n += right.n;
+            amplitude = found.pulses[k].leading.plateau;
         }
-        if (!(nBefore > 0) || !(nAfter > 0)) return std::nullopt;
-        const double difference = after / nAfter - before / nBefore;
-        const double noise = found.levels.noise * std::sqrt(1 / nBefore + 1 / nAfter);
+        if (!(after.n > 0)) return std::nullopt;
+        if (!(before.n > 0))
+            before.n = std::numeric_limits<double>::infinity();  // the record begins too late: the baseline
+        const double difference = after.mean() - before.mean();
+        const double noise = found.levels.noise * std::sqrt(1 / before.n + 1 / after.n);
         if (!(difference * amplitude < 0) || !(std::abs(difference) > 5 * noise) ||
             !(std::abs(difference) > kShallowest * std::abs(amplitude))) {
             return std::nullopt;
         }
-        return AfterPulses{difference, found.levels.baseline + before / nBefore};
+        return AfterPulses{difference, found.levels.baseline + before.mean()};
+    }
+
+    /// How far the signal lies from the baseline just beside its pulses: RMS over pulses of the larger side.
+    [[nodiscard]] static double levelBeside(const SampleView& view, const Attempt& found) {
+        double squares = 0, n = 0;
+        const std::size_t stride = std::max<std::size_t>(1, found.pulses.size() / kJudgedPulses);
+        for (std::size_t k = 0; k < found.pulses.size(); k += stride) {
+            if (!found.pulses[k].flags.measured()) continue;
+            const auto [left, right] = silencesBeside(view, found, k);
+            double largest = 0;
+            for (const auto& silence : {left, right}) {
+                if (silence.n > 0) largest = std::max(largest, std::abs(silence.mean()));
+            }
+            squares += largest * largest;
+            n += 1;
+        }
+        return n > 0 ? std::sqrt(squares / n) : 0;
     }
 
     const Capture& capture_;
     const CaptureChannel& channel_;
+    double lsb_;
     double gapMax_s_;
 };
 
@@ -292,20 +354,27 @@ private:
 
 FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, const MeasureOptions& options) {
     FoundPulses found;
-    const ChannelSearch search(capture, channel, options);
     const bool logic = channel.unit.empty() && std::all_of(channel.samples.begin(), channel.samples.end(),
                                                            [](float x) { return x == 0.0F || x == 1.0F; });
+    if (!logic && !(channel.lsb > 0)) found.quality.foundStep = converterStep(channel.samples);
+    const double lsb = channel.lsb > 0 ? channel.lsb : found.quality.foundStep;
     if (!(capture.rate_hz > 0)) {
-        found.levels = findStateLevels(channel.samples, channel.lsb, logic);
+        found.levels = findStateLevels(channel.samples, lsb, logic);
         if (found.levels.count == StateCount::None) return found;
         found.levels = {};
         found.levels.why = "its sampling rate is unknown";
         return found;
     }
     Attempt attempt;
-    const auto recorded = asRecorded(capture, channel);
-    const double noise = logic ? 0 : neighbourNoise(recorded.samples, channel.lsb);
-    const auto drift = logic ? std::nullopt : findDrift(recorded.samples, noise, channel.lsb);
+    const ChannelSearch search(capture, channel, lsb, options);
+    auto recorded = asRecorded(capture, channel);
+    const double noise = logic ? 0 : neighbourNoise(recorded.samples, lsb);
+    if (!logic) {
+        const auto leaps = leapingSamples(SampleBlocks(recorded.samples), noise, lsb);
+        if (!leaps.empty()) recorded = withoutLeaps(recorded, leaps);
+        found.quality.leaps = leaps.size();
+    }
+    const auto drift = logic ? std::nullopt : findDrift(recorded.samples, noise, lsb);
     if (drift) {
         attempt = search.best(withoutDrift(recorded, *drift));
         // A phase of half a block's length moves its median: what was taken for drift was pulses.
@@ -327,6 +396,7 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
     found.quality.snr_db = 20 * std::log10(standsOut);
     found.quality.doubtful = standsOut < kReliable || (biphasic && attempt.secondStandsOut < kSecondReliable);
     found.quality.unrest = attempt.unrest;
+    found.quality.beside = attempt.beside;
     found.quality.levelAfter = attempt.levelAfter;
     return found;
 }

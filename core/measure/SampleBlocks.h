@@ -33,6 +33,11 @@ public:
     /// The first sample at or after `from` that is below `below` or above `above`; samples().size() if none is.
     [[nodiscard]] std::size_t nextBeyond(std::size_t from, float below, float above) const noexcept;
 
+    /// Whether the block of sample `i` spans more than `by`. An infinite or missing sample counts as such.
+    [[nodiscard]] bool moves(std::size_t i, float by) const noexcept {
+        return !complete() || high_[i / kSamples] - low_[i / kSamples] > by;
+    }
+
     /// False where no sample from `first` to before `end` is at or below `low`, or at or above `high`; a quick look, so
     /// that true promises nothing. An infinite sample is at every limit.
     [[nodiscard]] bool mayReach(std::size_t first, std::size_t end, double low, double high) const noexcept;

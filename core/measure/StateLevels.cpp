@@ -195,7 +195,7 @@ StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic) 
     if (!(span > kSpanInNoise * noise) || !(span > 4 * lsb)) {
         return none(fmt::format("it moves by {:.3g} in all, no more than its noise", high - low));
     }
-    const AmplitudeHistogram histogram(blocks, noise);
+    const AmplitudeHistogram histogram(blocks, noise, lsb);
     const auto modes = histogram.modes();
     StateLevels levels;
     if (!threeStates(histogram, modes, blocks.finite(), levels) && !twoStates(histogram, modes, levels)) {

@@ -117,11 +117,12 @@ MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const Cap
     const double noise = result.states.noise / std::sqrt(std::max(1.0, 0.6 * width / step));
     // What is not stated is NaN, and so is all that needs it.
     // A level is the difference of two, each to a step; an offset is in both and cancels.
-    const double resolution = (channel.lsb > 0 ? channel.lsb : kNotMeasured) / std::sqrt(6.0);
+    const double lsb = channel.lsb > 0 ? channel.lsb : result.quality.foundStep;
+    const double resolution = (lsb > 0 ? lsb : kNotMeasured) / std::sqrt(6.0);
     const double gain =
         std::hypot(std::hypot(channel.gainTolerance, channel.probeTolerance) * amplitude, channel.linearityTolerance) /
         std::sqrt(3.0);
-    const double unrest = result.quality.unrest;
+    const double unrest = std::max(result.quality.unrest, result.quality.beside);
     u.amplitude = std::hypot(std::hypot(noise, resolution), std::hypot(gain, unrest));
     // Two edges, each somewhere within a step; and noise moves each by itself over the edge's steepness.
     const double edge = std::max(std::isfinite(result.rise_s.mean) ? result.rise_s.mean / 0.8 : 0, step);
@@ -154,6 +155,10 @@ void warnOfQuality(ChannelMeasurement& result) {
     }
     if (quality.mean > 1) {
         warn(fmt::format("its noise asked for the mean of every {} samples before measuring", quality.mean));
+    }
+    if (quality.leaps > 0) {
+        warn(fmt::format("{} of its samples {} far from both neighbours and {} left out", quality.leaps,
+                         quality.leaps == 1 ? "lies" : "lie", quality.leaps == 1 ? "was" : "were"));
     }
     if (quality.drift > 0) {
         warn(fmt::format("its baseline moves by {} and was followed", scaledText(quality.drift, result.unit, 2)));

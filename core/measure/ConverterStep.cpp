@@ -1,0 +1,87 @@
+#include "core/measure/ConverterStep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace tacto {
+
+namespace {
+
+constexpr std::size_t kRun = 256;          // neighbours that are looked at together
+constexpr std::size_t kRuns = 64;          // of them, over the whole record
+constexpr double kRoundedTo = 5e-7;        // of the largest value: closer than this are digits of a float
+constexpr double kOffGrid = 0.2;           // of a step
+constexpr double kNeighbours = 6;          // steps: a wider gap says nothing, for the step is not known well enough
+constexpr std::size_t kManyCodes = 32;     // steps beside each other
+constexpr std::size_t kReturnsWithin = 4;  // samples: some instruments write each twice
+constexpr std::size_t kMinReturns = 4;     // to a code from its neighbour
+constexpr double kReturns = 0.005;         // of the samples
+
+struct Seen {
+    std::vector<float> values;    ///< all different, ascending
+    std::vector<double> returns;  ///< from a value to the one before: the larger of both changes
+    std::size_t samples = 0;
+};
+
+Seen lookAt(std::span<const float> samples) {
+    Seen seen;
+    const std::size_t stride = std::max(kRun, samples.size() / kRuns);
+    seen.values.reserve(kRun * (kRuns + 1));
+    for (std::size_t first = 0; first < samples.size(); first += stride) {
+        const auto run = samples.subspan(first, std::min(kRun, samples.size() - first));
+        std::copy_if(run.begin(), run.end(), std::back_inserter(seen.values), [](float x) { return std::isfinite(x); });
+        double before = 0;
+        std::size_t changed = 0;
+        for (std::size_t i = 1; i < run.size(); ++i) {
+            if (run[i] == run[i - 1]) continue;
+            const double jump = static_cast<double>(run[i]) - static_cast<double>(run[i - 1]);
+            if (before * jump < 0 && i - changed <= kReturnsWithin) {
+                seen.returns.push_back(std::max(std::abs(before), std::abs(jump)));
+            }
+            before = jump;
+            changed = i;
+        }
+    }
+    seen.samples = seen.values.size();
+    std::sort(seen.values.begin(), seen.values.end());
+    seen.values.erase(std::unique(seen.values.begin(), seen.values.end()), seen.values.end());
+    return seen;
+}
+
+}  // namespace
+
+double converterStep(std::span<const float> samples) {
+    const auto seen = lookAt(samples);
+    if (seen.values.size() < 2) return 0;
+    std::vector<double> gaps;
+    gaps.reserve(seen.values.size());
+    for (std::size_t k = 1; k < seen.values.size(); ++k) {
+        gaps.push_back(static_cast<double>(seen.values[k]) - static_cast<double>(seen.values[k - 1]));
+    }
+    std::sort(gaps.begin(), gaps.end());
+    const double largest =
+        std::max(std::abs(static_cast<double>(seen.values.front())), std::abs(static_cast<double>(seen.values.back())));
+    if (!(gaps.front() > kRoundedTo * largest)) return 0;
+    // What text rounded: one step is the mean of all that can be one.
+    const auto ones =
+        static_cast<std::size_t>(std::upper_bound(gaps.begin(), gaps.end(), 1.5 * gaps.front()) - gaps.begin());
+    double step = 0;
+    for (std::size_t k = 0; k < ones; ++k) step += gaps[k] / static_cast<double>(ones);
+    const auto near = static_cast<std::size_t>(
+        std::upper_bound(gaps.begin(), gaps.end(), (kNeighbours + kOffGrid) * step) - gaps.begin());
+    const auto onGrid = static_cast<std::size_t>(
+        std::count_if(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(near),
+                      [&](double gap) { return std::abs(gap / step - std::round(gap / step)) <= kOffGrid; }));
+    if (2 * near < gaps.size() || 20 * onGrid < 19 * near) return 0;
+    const auto returns =
+        static_cast<std::size_t>(std::count_if(seen.returns.begin(), seen.returns.end(), [&](float jump) {
+            return std::abs(static_cast<double>(jump) / step - 1) <= kOffGrid;
+        }));
+    const bool flickers =
+        returns >= kMinReturns && static_cast<double>(returns) >= kReturns * static_cast<double>(seen.samples);
+    return flickers || ones >= kManyCodes ? step : 0;
+}
+
+}  // namespace tacto
