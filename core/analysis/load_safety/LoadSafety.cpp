@@ -67,6 +67,26 @@ bool isReference(const SafetyRow& row) {
     return row.item == "reference" || row.item == "absolute_reference" || row.item == "time_reference";
 }
 
+/// What is said of those that passed is true of each: a command has no uncertainty, and a trip is judged by its time.
+std::string whatPassed(const std::vector<SafetyRow>& rows) {
+    std::size_t withU = 0, trips = 0, commanded = 0, others = 0;
+    for (const auto& row : rows) {
+        if (row.verdict != RowVerdict::Pass) continue;
+        ++(row.basis == RowBasis::Commanded ? commanded
+           : row.item == "trip"             ? trips
+           : row.expanded >= 0              ? withU
+                                            : others);
+    }
+    std::string text = fmt::format("{} values with their uncertainty inside their limits", withU);
+    const auto add = [&text](std::size_t count, std::string_view what) {
+        if (count > 0) text += fmt::format(", {} {}", count, what);
+    };
+    add(commanded, "as commanded");
+    add(trips, "by the end of output in time");
+    add(others, "without a value");
+    return text;
+}
+
 void decide(const LoadSafetyInput& input, LoadSafety& out) {
     bool areaSaid = false;
     const auto collect = [&](RowVerdict verdict) {
@@ -93,13 +113,12 @@ void decide(const LoadSafetyInput& input, LoadSafety& out) {
             return std::count(verdicts.begin() + 1, verdicts.end(), verdict);
         };
         const auto refused = count(RowVerdict::RefusedAsExpected);
-        out.reasons.push_back(
-            fmt::format("{} checks on {} loads passed, each with its uncertainty inside its limit{}",
-                        count(RowVerdict::Pass), out.loads.size(),
-                        refused == 0   ? ""
-                        : refused == 1 ? "; the one command that must be refused was refused"
-                        : refused == 2 ? "; both commands that must be refused were refused"
-                                       : fmt::format("; all {} commands that must be refused were refused", refused)));
+        out.reasons.push_back(fmt::format(
+            "{} checks on {} loads passed: {}{}", count(RowVerdict::Pass), out.loads.size(), whatPassed(out.rows),
+            refused == 0   ? ""
+            : refused == 1 ? "; the one command that must be refused was refused"
+            : refused == 2 ? "; both commands that must be refused were refused"
+                           : fmt::format("; all {} commands that must be refused were refused", refused)));
     }
     // Without a known load that reads as what it is, nothing else was asked.
     for (const auto& row : out.rows) {

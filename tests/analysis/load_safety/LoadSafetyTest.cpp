@@ -87,8 +87,23 @@ TEST_F(LoadSafetyCheck, PassesWhenEverythingIsMeasuredAndWithin) {
     const auto passed = std::count_if(found.rows.begin(), found.rows.end(),
                                       [](const SafetyRow& row) { return row.verdict == RowVerdict::Pass; });
     ASSERT_EQ(found.reasons.size(), 1U);
-    EXPECT_TRUE(found.reasons.front().starts_with(fmt::format(
-        "{} checks on {} loads passed, each with its uncertainty inside its limit", passed, benchLoads().size())))
+    // What is said of those that passed is true of each: commands and trips have no uncertainty.
+    const auto those = [&found](auto wanted) {
+        return std::count_if(found.rows.begin(), found.rows.end(),
+                             [&](const SafetyRow& row) { return row.verdict == RowVerdict::Pass && wanted(row); });
+    };
+    const auto withU = those([](const SafetyRow& row) {
+        return row.basis == RowBasis::Measured && row.item != "trip" && std::isfinite(row.expanded);
+    });
+    const auto commanded = those([](const SafetyRow& row) { return row.basis == RowBasis::Commanded; });
+    const auto trips = those([](const SafetyRow& row) { return row.item == "trip"; });
+    EXPECT_GT(commanded, 0);
+    EXPECT_GT(trips, 0);
+    EXPECT_EQ(withU + commanded + trips, passed);
+    EXPECT_TRUE(found.reasons.front().starts_with(
+        fmt::format("{} checks on {} loads passed: {} values with their uncertainty inside their limits, {} as "
+                    "commanded, {} by the end of output in time",
+                    passed, benchLoads().size(), withU, commanded, trips)))
         << found.reasons.front();
     EXPECT_EQ(found.loads.size(), benchLoads().size());
     for (const auto& line : found.loads) EXPECT_EQ(line.verdict, RowVerdict::Pass) << line.name;
