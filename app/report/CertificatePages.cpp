@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
@@ -55,28 +56,25 @@ QString certified(const QJsonObject& certificate, const char* key, const char* w
     return QString("%1, U = %2 (k = 2)").arg(QLatin1String(what), settingText(u.toDouble(), unit));
 }
 
-/// Whether the figure `what` of a channel was stated by the certificate itself: a later statement takes its place.
-bool standsOn(const ReportModel& model, const QString& unit, const QJsonObject& certificate) {
-    const QString number = "certificate " + certificate["number"].toString();
-    return std::ranges::any_of(model.basis.instruments, [&](const ReportInstrument& each) {
-        const bool right = unit.isEmpty() || (unit == "V" ? each.channel != "current" : each.channel == "current");
-        return right && each.statedBy.contains(number);
-    });
-}
+/// What a reading stands on, as the certificate of an oscilloscope states it.
+struct CertifiedFigure {
+    const char* key;
+    const char* what;
+    const char* unit;
+};
+const std::vector<CertifiedFigure> kOfVoltage{{"gain_u_pct", "voltage gain", "%"}, {"probe_u_pct", "probe", "%"}},
+    kOfCurrent{{"gain_u_pct", "voltage gain", "%"}, {"shunt_u_pct", "shunt", "%"}},
+    kOfTime{{"timebase_u_ppm", "time base", "ppm"}};
 
 struct Traced {
     QStringList by, lacking;
 };
 
-ReportFact tracedFact(const QString& name, const Traced& traced, const QString& certificate) {
-    QString text;
-    if (traced.by.isEmpty()) {
-        text = "not traceable: " + traced.lacking.join("; ");
-    } else {
-        text = "through " + certificate + ": " + traced.by.join("; ");
-        if (!traced.lacking.isEmpty()) text += ". Not traceable: " + traced.lacking.join("; ");
-    }
-    return {name, text + "."};
+QString tracedText(const Traced& traced, const QString& certificate) {
+    if (traced.by.isEmpty()) return "not traceable: " + traced.lacking.join("; ") + ".";
+    QString text = "through " + certificate + ": " + traced.by.join("; ") + ".";
+    if (!traced.lacking.isEmpty()) text += " Not traceable: " + traced.lacking.join("; ") + ".";
+    return text;
 }
 
 void addTraceability(const ReportModel& model, std::vector<ReportFact>& facts) {
@@ -92,40 +90,30 @@ void addTraceability(const ReportModel& model, std::vector<ReportFact>& facts) {
         facts.push_back({"Traceability", "not traceable: " + why + "."});
         return;
     }
-    const auto* scope = deviceOf(model, Role::Oscilloscope);
     const QString named =
         QString("certificate %1 of %2, dated %3, due %4, of the oscilloscope %5 %6")
             .arg(certificate["number"].toString(), certificate["by"].toString(), certificate["date"].toString(),
                  certificate["due"].toString(), certificate["instrument"].toString(), certificate["serial"].toString());
-    const auto quantities = quantitiesOf(model);
-    const auto has = [&](auto wanted) { return std::ranges::any_of(quantities, wanted); };
-    for (const auto& each : quantities) {
-        if (each[u"quantity"].toString() != "amplitude") continue;
-        const QString unit = each[u"unit"].toString() == "mA" ? "A" : "V";
+    QStringList said;
+    bool timesSaid = false;
+    for (const auto& each : quantitiesOf(model)) {
+        const bool amplitude = each[u"quantity"].toString() == "amplitude";
+        if (!amplitude && std::exchange(timesSaid, true)) continue;
+        const bool current = each[u"unit"].toString() == "mA";
+        const auto& figures = amplitude ? (current ? kOfCurrent : kOfVoltage) : kOfTime;
         Traced traced;
-        const bool used = standsOn(model, unit, certificate);
-        if (used)
-            traced.by << certified(certificate, "gain_u_pct", "voltage gain", "%");
-        else
-            traced.lacking << "the gain is stated by " +
-                                  (scope == nullptr ? QString("nobody") : QString("another source"));
-        const char* key = unit == "A" ? "shunt_u_pct" : "probe_u_pct";
-        const char* what = unit == "A" ? "shunt" : "probe";
-        if (const auto share = certified(certificate, key, what, "%"); used && !share.isEmpty())
-            traced.by << share;
-        else
-            traced.lacking << QString("the %1, which this certificate does not state").arg(QLatin1String(what));
-        facts.push_back(tracedFact("Traceability of the amplitude", traced, named));
+        for (const auto& [key, what, unit] : figures) {
+            // What the operator states takes the certificate's place.
+            const auto share =
+                each[u"stated_by"].toString() == "the operator" ? QString() : certified(certificate, key, what, unit);
+            if (!share.isEmpty())
+                traced.by << share;
+            else
+                traced.lacking << QString("the %1, which is not from this certificate").arg(QLatin1String(what));
+        }
+        said << (amplitude ? "Amplitude: " : "Times: ") + tracedText(traced, named);
     }
-    if (has([](const QJsonValue& each) { return each[u"quantity"].toString() != "amplitude"; })) {
-        Traced traced;
-        const auto base = certified(certificate, "timebase_u_ppm", "time base", "ppm");
-        if (!base.isEmpty() && standsOn(model, {}, certificate))
-            traced.by << base;
-        else
-            traced.lacking << "this certificate does not state the time base";
-        facts.push_back(tracedFact("Traceability of the times", traced, named));
-    }
+    facts.push_back({"Traceability", said.join('\n')});
 }
 
 QString dayOf(const QString& started) { return started.left(10) + " (UTC)"; }
@@ -229,8 +217,8 @@ QString certificateTitle(const ReportModel& model) {
 void addCertificateItem(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     if (model.simulated) {
         blocks.emplace_back(
-            ParagraphBlock{"SIMULATED: this shows what a certificate would say. No device was calibrated, and it is to "
-                           "be issued to nobody."});
+            ParagraphBlock{"SIMULATED: this shows what a certificate would say. No device was calibrated, and it is "
+                           "not to be issued."});
     }
     blocks.emplace_back(captions.heading("Laboratory, customer and item"));
     FactsBlock who;
@@ -254,18 +242,22 @@ void addCertificateItem(const ReportModel& model, Captions& captions, std::vecto
     how.facts.push_back({"Calibrated on", dayOf(model.started)});
     how.facts.push_back(detailFact(model, "issued"));
     how.facts.push_back({"Conditions during it", model.basis.ambient, false, model.basis.ambient.isEmpty()});
+    blocks.emplace_back(std::move(how));
+}
+
+std::vector<ReportFact> certificateMethod(const ReportModel& model) {
     const auto fact = [&](const QString& name) {
         const auto found = std::ranges::find(model.identity, name, &ReportFact::name);
         return found == model.identity.end() ? QString() : found->value;
     };
     const QString from = fact("Script from");
-    how.facts.push_back(
+    std::vector<ReportFact> facts{
         {"Method", QString("%1.js%2, %3; definitions and uncertainty: science.md section 9")
-                       .arg(model.protocol, from.isEmpty() ? QString() : " (" + from + ")", fact("Program"))});
-    how.facts.push_back({"Its edition, SHA-256", fact("Script " + model.protocol), true});
-    how.facts.push_back({"Deviations from it", deviations(model)});
-    addTraceability(model, how.facts);
-    blocks.emplace_back(std::move(how));
+                       .arg(model.protocol, from.isEmpty() ? QString() : " (" + from + ")", fact("Program"))},
+        {"Its edition, SHA-256", fact("Script " + model.protocol), true},
+        {"Deviations from it", deviations(model)}};
+    addTraceability(model, facts);
+    return facts;
 }
 
 void addCertificateConformity(const ReportModel& model, Captions&, std::vector<ReportBlock>& blocks) {
@@ -274,24 +266,20 @@ void addCertificateConformity(const ReportModel& model, Captions&, std::vector<R
     rule.facts.push_back({"Specification", specification(model)});
     rule.facts.insert(rule.facts.end(), model.basis.rule.begin(), model.basis.rule.end());
     blocks.emplace_back(std::move(rule));
-    const auto detail = [&](const char* key) { return model.certificate->details[QLatin1String(key)].toString(); };
-    SignaturesBlock sign{{"Authorised by"}, {"Name", "Function", "Date", "Signature"}, {detail("authorised_by")}};
-    sign.second = detail("function");
-    sign.open = true;
-    blocks.emplace_back(std::move(sign));
     QStringList statements{
         "The results relate only to the items calibrated.",
         "This certificate shall not be reproduced except in full without approval of the laboratory.",
         "Laboratory, customer, make, condition, conditions, and days of receipt and issue are as they were entered; "
         "the "
-        "program measured none of them."};
-    if (const auto kept = model.certificate->results["kept"]; kept.isObject()) {
-        statements << QString(
-                          "That this bench applies the stored correction until %1 is its setting, and recommends no "
-                          "interval of calibration.")
-                          .arg(kept[u"valid_until"].toString());
-    }
+        "program measured none of them.",
+        "How long this bench applies a stored correction is its own setting; no interval of calibration is "
+        "recommended."};
     blocks.emplace_back(ParagraphBlock{statements.join('\n')});
+    const auto detail = [&](const char* key) { return model.certificate->details[QLatin1String(key)].toString(); };
+    SignaturesBlock sign{{"Authorised by"}, {"Name", "Function", "Date", "Signature"}, {detail("authorised_by")}};
+    sign.second = detail("function");
+    sign.open = true;
+    blocks.emplace_back(std::move(sign));
 }
 
 void addCertificateResults(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
@@ -303,7 +291,12 @@ void addCertificateResults(const ReportModel& model, Captions& captions, std::ve
         "k "
         "times the standard uncertainty, for a coverage probability of 95 %; k stands beside it. What is delivered has "
         "the same U."};
-    if (corrected) {
+    const auto applied = results["correction_in_readings"].toArray();
+    if (!applied.isEmpty()) {
+        said
+            << "As found: the stored correction was applied before this run, and to the readings: as found is what was "
+               "measured with it.";
+    } else if (corrected) {
         said << QString(
                     "As found: before this run the correction of %1 was applied. The readings were taken without a "
                     "correction; what was delivered with it is computed from them and was not measured.")
@@ -327,7 +320,6 @@ void addCertificateResults(const ReportModel& model, Captions& captions, std::ve
             const CertifiedColumns columns(each[QLatin1String(key)].toArray(), each[u"unit"].toString());
             blocks.emplace_back(columns.table(captions.table(each[u"title"].toString() + what)));
         };
-        const auto applied = results["correction_in_readings"].toArray();
         const bool inReadings = applied.contains(each[u"quantity"]);
         add("measured", inReadings  ? QString(", as found, with the stored correction, measured")
                         : corrected ? QString(" without a correction, measured")

@@ -31,7 +31,7 @@ FactsBlock factsOf(const ReportModel& model) {
     block.oneColumn = true;
     const auto& basis = model.basis;
     const bool certified = isCertificate(model);  // its first page has said some of it
-    if (!certified) block.facts.insert(block.facts.end(), basis.rule.begin(), basis.rule.end());
+    block.facts = certified ? certificateMethod(model) : basis.rule;
     block.facts.insert(block.facts.end(), basis.restsOn.begin(), basis.restsOn.end());
     if (has(model, Role::Oscilloscope)) {
         block.facts.push_back(
@@ -53,7 +53,8 @@ FactsBlock factsOf(const ReportModel& model) {
 }  // namespace
 
 void addFrontPage(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
-    blocks.emplace_back(captions.heading("How it was decided, and what that rests on"));
+    blocks.emplace_back(captions.heading(isCertificate(model) ? "Method, traceability and what the values rest on"
+                                                              : "How it was decided, and what that rests on"));
     blocks.emplace_back(factsOf(model));
     if (!model.basis.instruments.empty())
         blocks.emplace_back(instrumentsTable(model, captions.table("Instruments, and what their accuracy rests on")));

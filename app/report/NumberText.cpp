@@ -148,7 +148,9 @@ ColumnName columnName(const QString& key) {
             break;
         }
     }
-    static const std::array<std::pair<const char*, const char*>, 10> known{{{"a", "Condition"},
+    static const std::array<std::pair<const char*, const char*>, 12> known{{{"a", "Condition"},
+                                                                            {"s", "s"},
+                                                                            {"k", "k"},
                                                                             {"b", "Against"},
                                                                             {"n", "n"},
                                                                             {"mahalanobis", "Mahalanobis distance"},
@@ -284,7 +286,7 @@ std::optional<FigureCell> figureCell(QString& text) {
 }  // namespace
 
 void sharePrefix(const std::vector<QString*>& cells) {
-    constexpr qsizetype kMuchShorter = 3;
+    constexpr qsizetype kMuchShorter = 6;  // characters
     std::vector<FigureCell> figures;
     for (auto* cell : cells) {
         if (auto figure = figureCell(*cell)) figures.push_back(*std::move(figure));

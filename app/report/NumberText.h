@@ -20,8 +20,8 @@ namespace tacto {
 /// A value and its uncertainty, "40.12 ± 0.46 V", as uncertainText(); one that is not known is left out.
 [[nodiscard]] QString quantityText(double value, double uncertainty, const QString& unit);
 
-/// A mean and its standard deviation, "40.12, s.d. 0.46 V": ± is kept for uncertainties and tolerances. A deviation that
-/// is not known (of one reading, say) is left out.
+/// A mean and its standard deviation, "40.12, s.d. 0.46 V": ± is kept for uncertainties and tolerances. A deviation
+/// that is not known (of one reading, say) is left out.
 [[nodiscard]] QString spreadText(double mean, double sd, const QString& unit);
 
 /// A value and its expanded uncertainty after GUM 7.2.6, as measuredText() of core/base/QuantityText.h: one that is not

@@ -11,8 +11,7 @@ namespace {
 constexpr double kGap = 12;       // between blocks
 constexpr double kTextSize = 12;  // 9 pt
 constexpr double kFactColumn = 150;
-constexpr double kTextLine = 16;
-constexpr double kOpenLine = 22;          // room to write on
+constexpr double kAboveLine = 7;          // room to write on a line
 constexpr double kSymbol = 34;            // room of a verdict's shape before its word
 constexpr double kHalf = 316;             // two columns of facts with a gutter
 constexpr double kBriefFactColumn = 210;  // of a half: a setting's name is longer than its value
@@ -196,18 +195,17 @@ private:
     }
 
     static double factHeight(const ReportFact& fact, double width, double name) {
-        if (fact.isOpen) return kOpenLine;
         const QFont font = fact.isHash ? monoFont(11) : textFont(kTextSize);
-        return std::max(PdfPages::textHeight(width - name, fact.value, font, fact.isHash),
-                        PdfPages::textHeight(name - 10, fact.name, textFont(kTextSize)));
+        const double named = PdfPages::textHeight(name - 10, fact.name, textFont(kTextSize));
+        if (fact.isOpen) return named + kAboveLine;
+        return std::max(PdfPages::textHeight(width - name, fact.value, font, fact.isHash), named);
     }
     void setFact(const ReportFact& fact, double left, double width, double name) {
         if (fact.isOpen) {
-            pages_.advance(kOpenLine - kTextLine);
-            pages_.text(left, name - 10, fact.name, textFont(kTextSize), ink::kQuiet);
-            pages_.advance(kTextLine - kOpenLine);
+            pages_.advance(kAboveLine);
+            const double below = pages_.y() + pages_.text(left, name - 10, fact.name, textFont(kTextSize), ink::kQuiet);
+            pages_.advance(-kAboveLine);
             if (auto* painter = pages_.painter()) {
-                const double below = pages_.y() + kOpenLine - 1;
                 painter->setPen(QPen(ink::kQuiet, 0.7));
                 painter->drawLine(QPointF(left + name, below), QPointF(left + width, below));
             }

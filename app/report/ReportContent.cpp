@@ -125,7 +125,10 @@ void addMarks(const ReportModel& model, std::vector<ReportBlock>& blocks) {
         blocks.emplace_back(
             ParagraphBlock{"Simulated without a device: its numbers are predicted, none was measured."});
     } else if (!model.marks.isEmpty()) {
-        blocks.emplace_back(ParagraphBlock{model.marks.join('\n')});
+        // Which correction was applied before a calibration, its certificate says in full.
+        QStringList marks = model.marks;
+        if (isCertificate(model)) marks.removeIf([](const QString& mark) { return mark.contains("not calibrated"); });
+        if (!marks.isEmpty()) blocks.emplace_back(ParagraphBlock{marks.join('\n')});
     } else if (model.simulated) {
         blocks.emplace_back(ParagraphBlock{
             "At least one device of this session was simulated. Its numbers say what the software does, not what "
@@ -210,16 +213,18 @@ ReportContent contentOf(const ReportModel& whole) {
                              : content.alarming ? "SIMULATED: no device was calibrated  ·  "
                                                 : "") +
                      head +
-                     (isAllSimulated(model) ? "  ·  simulated"
-                      : model.simulated     ? "  ·  simulated in part"
-                                            : "");
+                     (content.alarming && certified ? ""
+                      : isAllSimulated(model)       ? "  ·  simulated"
+                      : model.simulated             ? "  ·  simulated in part"
+                                                    : "");
     content.footer = "Session " + (model.session.isEmpty() ? QString("–") : shownText(whole.session, kShownHead)) +
                      "  ·  chain head " + (model.chainHead.isEmpty() ? QString("–") : model.chainHead.left(12) + "…");
 
     Captions captions(isAllSimulated(model));
     auto& blocks = content.blocks;
-    blocks.emplace_back(TitleBlock{content.documentTitle,
-                                   certified ? reportNumber(model) + '\n' + subtitleOf(model) : subtitleOf(model)});
+    blocks.emplace_back(
+        TitleBlock{content.documentTitle,
+                   certified ? "Certificate " + reportNumber(model) + '\n' + model.purpose : subtitleOf(model)});
     if (certified) {
         addCertificateItem(model, captions, blocks);
         blocks.emplace_back(captions.heading("Statement of conformity"));

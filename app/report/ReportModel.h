@@ -36,7 +36,7 @@ struct ReportFact {
     QString name;
     QString value;
     bool isHash = false;  ///< set in a monospaced face, broken anywhere
-    bool isOpen = false;  ///< nobody has said it: a ruled line to write on
+    bool isOpen = false;  ///< not known: a ruled line to write on
 };
 
 struct ReportFigure {
@@ -91,7 +91,7 @@ struct ReportBasis {
     QString tags;
 };
 
-/// Of a stimulator that was calibrated: what makes the report a certificate (CertificatePages.h).
+/// What makes the report of a stimulator's calibration a certificate (CertificatePages.h).
 struct ReportCertificate {
     QJsonObject details;       ///< as entered: CertificateDetails.h; what is missing is an open line
     QJsonObject results;       ///< what report.certificate() wrote: quantities, before, kept

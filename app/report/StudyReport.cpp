@@ -5,6 +5,7 @@
 #include "app/report/StudyPerson.h"
 #include "app/report/StudyPreferences.h"
 #include "app/report/StudyText.h"
+#include "app/report/TableContent.h"
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/IdentificationText.h"
 
@@ -104,6 +105,7 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
     blocks.emplace_back(captions.heading("Flow of participants"));
     blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
     addApproval(blocks, captions, study);
+    sharePrefixes(blocks);
     return content;
 }
 
@@ -127,6 +129,7 @@ ReportContent committeeReport(const StudyRecord& study) {
         blocks.emplace_back(eventsTable(study, captions.table("Adverse events")));
     }
     blocks.emplace_back(SignaturesBlock{{"Principal investigator"}, {"Name", "Date", "Signature"}, {QString()}});
+    sharePrefixes(blocks);
     return content;
 }
 

@@ -143,23 +143,33 @@ MatrixBlock::Cell cellOf(const QJsonValue& value, const QString& rowUnit) {
     return {text.left(at), text.mid(at + 1), State::Plain};
 }
 
-/// One prefix in a row: the row is the quantity, and its cells are compared. What stands in two lines of a cell is one
-/// figure.
-void sharePrefix(std::vector<MatrixBlock::Cell>& row) {
-    const QString between = " ± ";
-    std::vector<QString> joined;
-    for (const auto& cell : row)
-        joined.push_back(cell.detail.startsWith("± ") ? cell.main + ' ' + cell.detail : cell.main);
-    std::vector<QString*> figures;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        figures.push_back(&joined[i]);
-        if (!row[i].detail.startsWith("± ")) figures.push_back(&row[i].detail);
+/// One prefix for each unit of a matrix, whose columns are columns and whose rows are compared; the unit that all of a
+/// row share stands in its title. What stands in two lines of a cell is one figure.
+void shareUnits(std::vector<MatrixBlock::Row>& rows) {
+    const auto isOne = [](const MatrixBlock::Cell& cell) { return cell.detail.startsWith("± "); };
+    std::vector<QStringList> figures;
+    std::vector<QString*> all;
+    for (const auto& row : rows) {
+        figures.emplace_back();
+        for (const auto& cell : row.cells)
+            figures.back() << (isOne(cell)             ? cell.main + ' ' + cell.detail
+                               : cell.detail.isEmpty() ? cell.main
+                                                       : cell.detail);
     }
-    tacto::sharePrefix(figures);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const auto at = row[i].detail.startsWith("± ") ? joined[i].indexOf(between) : -1;
-        row[i].main = at < 0 ? joined[i] : joined[i].left(at);
-        if (at >= 0) row[i].detail = joined[i].mid(at + 1);
+    for (auto& row : figures)
+        for (auto& figure : row) all.push_back(&figure);
+    sharePrefix(all);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        if (const auto unit = takeUnit(figures[r]); !unit.isEmpty()) rows[r].title += " (" + unit + ")";
+        for (std::size_t c = 0; c < rows[r].cells.size(); ++c) {
+            auto& cell = rows[r].cells[c];
+            const auto& figure = figures[r][static_cast<qsizetype>(c)];
+            const auto at = figure.indexOf(" ± ");
+            if (isOne(cell)) cell.main = figure.left(at);
+            (isOne(cell)             ? cell.detail
+             : cell.detail.isEmpty() ? cell.main
+                                     : cell.detail) = isOne(cell) ? figure.mid(at + 1) : figure;
+        }
     }
 }
 
@@ -224,16 +234,30 @@ MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
             row.cells.push_back(cellOf(cell, object.value("unit").toString()));
         }
         row.cells.resize(static_cast<std::size_t>(matrix.columns.size()));
-        sharePrefix(row.cells);
         matrix.rows.push_back(std::move(row));
     }
+    shareUnits(matrix.rows);
     if (judged) {
         matrix.legend =
-            "Each cell: the share of the limit used, (value + U) / limit, and below it the value ± U (95\u202f%). ✖ "
+            "Each cell: the share of the limit used, (value + U) / limit, and below it the value ± U (95\u202f%); what "
+            "was "
+            "commanded stands without a U. ✖ "
             "exceeded, ? indeterminate, ▲ above a figure that asks for attention; shaded: 80\u202f% or more used, "
             "hatched: not evaluated. Rows of which the most is used come first.";
     }
     return matrix;
+}
+
+void sharePrefixes(std::vector<ReportBlock>& blocks) {
+    for (auto& block : blocks) {
+        auto* table = std::get_if<TableBlock>(&block);
+        for (qsizetype c = 0; table != nullptr && c < qsizetype(table->columns.size()); ++c) {
+            std::vector<QString*> cells;
+            for (auto& row : table->rows)
+                if (c < row.size()) cells.push_back(&row[c]);
+            sharePrefix(cells);
+        }
+    }
 }
 
 TableBlock eventsTable(const ReportModel& model, const QString& caption) {

@@ -12,6 +12,8 @@ namespace tacto {
 /// column, "40.12 ± 0.46 V".
 [[nodiscard]] TableBlock tableOf(const ReportTable& source, const QString& caption);
 [[nodiscard]] MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption);
+/// One prefix for each unit in each column of the tables that were not made by tableOf().
+void sharePrefixes(std::vector<ReportBlock>& blocks);
 [[nodiscard]] TableBlock eventsTable(const ReportModel& model, const QString& caption);
 
 /// "FDA guidance" of "fda-pms"; "this program" of "gate"; an id that is not known

@@ -21,8 +21,8 @@ struct RunOrder : BenchOrder {
     ProtocolSettings settings;
     std::string ownLoad = {};      ///< in place of the load that the parameters declare: a virtual participant's skin
     std::set<Role> ownNeeds = {};  ///< in place of what the script declares to need: a massager study's; empty: that
-    /// Of the order, for the certificate of a stimulator calibration: CertificateDetails.h; empty: the laboratory's own
-    /// alone. Without use for another kind of result.
+    /// File of the order's details for the certificate of a stimulator calibration: CertificateDetails.h; empty: the
+    /// laboratory's own alone. Other kinds of results do not use it.
     std::filesystem::path certificateDetails = {};
     bool resetFault = false;  ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
 };

@@ -11,7 +11,7 @@ namespace tacto {
 
 namespace {
 
-/// Of the keys that are accepted: "laboratory, address, place".
+/// The keys that are accepted: "laboratory, address, place".
 std::string detailKeys(bool laboratoryAlone) {
     std::string all;
     for (const auto& detail : kCertificateDetails) {

@@ -278,7 +278,8 @@ function watchMovements(p, changes, results) {
 }
 
 function writeLatency(latency) {
-  report.table("Latency: from the step to the first train that carries it, mean and s.d.", latencyRows(latency), COLUMNS);
+  report.table("Latency: from the step to the first train that carries it, with its s.d.", latencyRows(latency),
+               COLUMNS);
   report.text(
     "Design: the pending train is pulled forward to max(now, last onset + new interval), and carries the newest " +
       "amplitude. Steps fall on moments spread over the interval. Off is the largest difference between a step and " +

@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
+#include <regex>
+#include <set>
 
 #include "app/report/Report.h"
 #include "app/report/StudyReport.h"
@@ -399,6 +402,33 @@ TEST(StudyReport, WithAMassagerSaysStrengthAndNeverCurrentOrVoltage) {
     EXPECT_THAT(all, HasSubstr("between strengths of 0.30 and 0.55"));
     EXPECT_THAT(all, HasSubstr("Too strong (strength)"));
     EXPECT_THAT(all, HasSubstr("0.30 to 0.55"));
+}
+
+TEST(StudyReport, AColumnHasOnePrefixOfAUnitAndNoDeviationAfterPlusMinus) {
+    RecordProperty("hazard", "H8");
+    const std::regex unit("^[−±≤ ]*[0-9.]+ ([pnµmkM]?)(V|A|s|Ω|N)\\b");
+    std::vector<ReportContent> all;
+    all.push_back(studyReport(studyOfThree()).value());
+    all.push_back(studyReport(vibratedStudy()).value());
+    all.push_back(committeeReport(studyOfThree()));
+    for (const auto& content : all) {
+        for (const auto& block : content.blocks) {
+            const auto* table = std::get_if<TableBlock>(&block);
+            if (table == nullptr) continue;
+            for (std::size_t c = 0; c < table->columns.size(); ++c) {
+                std::map<std::string, std::set<std::string>> met;
+                for (const auto& row : table->rows) {
+                    const auto cell = QString(row.value(qsizetype(c))).replace(QChar(0x202f), ' ').toStdString();
+                    std::smatch found;
+                    if (std::regex_search(cell, found, unit)) met[found[2]].insert(found[1]);
+                    EXPECT_THAT(cell, Not(HasSubstr("± s.d.")));
+                }
+                for (const auto& [base, prefixes] : met)
+                    EXPECT_EQ(prefixes.size(), 1U)
+                        << table->caption.toStdString() << ", " << table->columns[c].title.toStdString();
+            }
+        }
+    }
 }
 
 TEST(StudyReport, SaysWhatTheMotorDidOrThatItWasNotMeasured) {

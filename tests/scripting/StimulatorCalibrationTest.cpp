@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/JsonFields.h"
 #include "core/session/SessionReader.h"
 #include "tests/scripting/DataHome.h"
 #include "tests/scripting/RunBench.h"
@@ -188,6 +189,71 @@ TEST_F(CalibrationKept, RefusesAnIncompleteOneAndAnOverdueOscilloscope) {
     ASSERT_TRUE(late.error);
     EXPECT_THAT(late.error->message, HasSubstr("was itself due on 2020-01-01"));
     EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+/// The certificate's item of a run; null where the report is none.
+nlohmann::json certificateOf(const std::string& device, const Settings& settings) {
+    RunBench rig(true, device, 1, true, kNeeded);
+    const auto outcome = runProtocol(rig.shipped(kName, settings)).value();
+    EXPECT_FALSE(outcome.error) << outcome.error->message;
+    rig.closeBench();
+    EXPECT_TRUE(rig.writer().close());
+    const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
+    nlohmann::json item;
+    const auto rows = reader.reportItems().value();
+    for (const auto& row : rows)
+        if (textOr(row.body, "kind") == "certificate") item = row.body;
+    return item;
+}
+
+/// What the twin delivers is known: gain · command. So is what it then delivers by another line.
+TEST_F(CalibrationKept, ItsCertificateSaysWhatWasFoundAndWhatIsLeft) {
+    RecordProperty("hazard", "H9");
+    const auto errors = [](const nlohmann::json& item, const char* key, double share) {
+        const auto& amplitude = item["quantities"][0];
+        EXPECT_EQ(amplitude["quantity"], "amplitude");
+        ASSERT_EQ(amplitude[key].size(), 11U) << key;
+        for (const auto& row : amplitude[key]) {
+            const double u = row["expanded_uncertainty"];
+            EXPECT_NEAR(row["error"].get<double>(), share * row["commanded"].get<double>(), u) << key << row;
+            EXPECT_GT(row["coverage_factor"].get<double>(), 1.5);
+            EXPECT_LT(u, 0.01 * row["commanded"].get<double>());
+        }
+    };
+    const auto first = certificateOf("sim:stimulator?gain=1.03&flaws=none", {{"store", "true"}});
+    ASSERT_EQ(first["quantities"].size(), 4U);
+    errors(first, "measured", 0.03);
+    EXPECT_TRUE(first["quantities"][0]["found"].is_null()) << "no correction was stored before";
+    EXPECT_TRUE(first["before"]["made"].is_null());
+    errors(first, "left", 0);
+    EXPECT_TRUE(first["kept"].is_object());
+
+    const auto moved = certificateOf("sim:stimulator?gain=1.05&flaws=none", {});
+    errors(moved, "measured", 0.05);
+    errors(moved, "found", 1.05 / 1.03 - 1);
+    EXPECT_TRUE(moved["quantities"][0]["left"].is_null()) << "nothing was stored by this run";
+    EXPECT_TRUE(moved["kept"].is_null());
+    EXPECT_TRUE(moved["before"]["made"].is_string());
+
+    const auto again = certificateOf("sim:stimulator?gain=1.05&flaws=none", {{"store", "true"}});
+    errors(again, "found", 1.05 / 1.03 - 1);
+    errors(again, "left", 0);
+    EXPECT_TRUE(certificateOf("sim:stimulator?gain=1.05&flaws=none", {{"mode", "check"}}).is_null())
+        << "a check does not calibrate";
+}
+
+TEST_F(CalibrationKept, ACertificateIsOfTheRunsOwnReadingsAlone) {
+    RecordProperty("hazard", "H8");
+    const auto refused = [](const std::string& call) {
+        RunBench rig(true, "sim:", 1, true, kNeeded);
+        const auto outcome = rig.run(test::withRun(call + " return verdict({ verdict: null });"));
+        return outcome.error ? outcome.error->message : std::string("was accepted");
+    };
+    EXPECT_THAT(
+        refused("report.certificate([{ quantity: 'amplitude', calibration: 1, levels: [] }], bench.calibration);"),
+        HasSubstr("made of this run's own readings"));
+    EXPECT_THAT(refused("report.certificate([], { calibrated: true, text: 'made up', made: '2026-01-01' });"),
+                HasSubstr("bench.calibration, unchanged"));
 }
 
 /// Devices fail at every step in turn: while the reference is checked, while it warms up, and in amplitude, interval,

@@ -162,6 +162,7 @@ Result<Json> keepCalibration(ScriptSession& session, const Arguments& arguments)
     const auto* before = store->latest(made.serial, made.unit);
     const Json supersedes = before == nullptr ? Json() : Json(dateText(before->made));
     if (auto added = store->add(made); !added) return failure(added);
+    session.own().note({{"kept at", made.sessionHead}});  // for the certificate
     return Json{{"serial", made.serial},     {"valid_until", dateText(made.validUntil)}, {"supersedes", supersedes},
                 {"readings", made.readings}, {"session_head", made.sessionHead},         {"simulated", made.simulated}};
 }

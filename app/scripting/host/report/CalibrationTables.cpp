@@ -23,6 +23,9 @@ Json tableOf(const std::string& caption, Json rows, Json columns) {
     return {{"kind", "table"}, {"caption", caption}, {"rows", std::move(rows)}, {"columns", std::move(columns)}};
 }
 
+/// k beside its U.
+std::string factorText(double k) { return std::isfinite(k) ? fmt::format("{:.2f}", k) : "–"; }
+
 Json levels(const Json& found, const std::string& title, const std::string& unit) {
     Json rows = Json::array();
     for (const auto& level : listIn(found, "levels")) {
@@ -35,11 +38,12 @@ Json levels(const Json& found, const std::string& title, const std::string& unit
                         {"hysteresis", plain(down - up, unit)},
                         {"error judged ± U",
                          withU(numberOr(level, "worst_error"), numberOr(level, "worst_expanded_uncertainty"), unit)},
+                        {"k", factorText(numberOr(level, "worst_coverage_factor"))},
                         {"tolerance", "± " + measuredText(numberOr(level, "tolerance"), 0, unit)},
                         {"verdict", level.at("verdict")}});
     }
     return tableOf(title + ": levels", std::move(rows),
-                   {"commanded", "n", "error_going_up", "error_going_down", "hysteresis", "error judged ± U",
+                   {"commanded", "n", "error_going_up", "error_going_down", "hysteresis", "error judged ± U", "k",
                     "tolerance", "verdict"});
 }
 
@@ -113,14 +117,17 @@ Json calibrationSummary(const Json& all) {
         rows.push_back(
             {{"quantity", titleOfQuantity(textOr(found, "quantity"))},
              {"gain", withU(numberOr(found, "gain"), numberOr(found, "gain_expanded_uncertainty"), "")},
+             {"gain_k", factorText(numberOr(found, "gain_coverage_factor"))},
              {"offset", withU(numberOr(found, "offset"), numberOr(found, "offset_expanded_uncertainty"), unit)},
+             {"offset_k", factorText(numberOr(found, "offset_coverage_factor"))},
              {"residual", brief("residual_max_pct_fs")},
              {"repeatability", brief("repeatability_pct_fs")},
              {"hysteresis", brief("hysteresis_pct_fs")},
              {"verdict", found.at("verdict")}});
     }
-    return tableOf("What was found, in % of the largest command where a % stands", std::move(rows),
-                   {"quantity", "gain", "offset", "residual", "repeatability", "hysteresis", "verdict"});
+    return tableOf(
+        "What was found: gain and offset ± U (95 %), the rest in % of the largest command", std::move(rows),
+        {"quantity", "gain", "gain_k", "offset", "offset_k", "residual", "repeatability", "hysteresis", "verdict"});
 }
 
 Json calibrationCheckTable(const Json& rows) {

@@ -31,15 +31,18 @@ void addForce(Json& items, const Json& force) {
                          {"caption", "Force against weights"},
                          {"figure", plot::calibrationFigure(shown, "measured")}});
     }
-    Json rows = Json::array();
+    Json rows = Json::array(), columns{"weight_n", "n"};
+    const std::string inUnit = unit == "N" ? "_n" : "";  // counts have none
+    for (const char* key : {"mean", "mean_up", "mean_down", "s", "residual"}) columns.push_back(key + inUnit);
     for (const auto& level : listIn(force, "levels")) {
         Json row = Json::object();
         copy(row, "weight_n", level, "commanded");
-        for (const char* key : {"n", "mean", "mean_up", "mean_down", "s", "residual"}) copy(row, key, level, key);
+        copy(row, "n", level, "n");
+        for (const char* key : {"mean", "mean_up", "mean_down", "s", "residual"})
+            copy(row, (key + inUnit).c_str(), level, key);
         rows.push_back(std::move(row));
     }
-    items.push_back(tableItem("Force against weights (reading in " + unit + ")", std::move(rows),
-                              {"weight_n", "n", "mean", "mean_up", "mean_down", "s", "residual"}));
+    items.push_back(tableItem("Force against weights (reading in " + unit + ")", std::move(rows), std::move(columns)));
     const auto digits = [&force](const char* key, int count) { return digitsOf(numberOr(force, key), count); };
     items.push_back(paragraph(fmt::format(
         "Force: {} ± {} N per {}, offset {} ± {} N (95 %); hysteresis {} % and repeatability {} % of the "

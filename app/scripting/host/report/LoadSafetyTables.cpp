@@ -134,10 +134,12 @@ Json loadsMatrix(const Json& found) {
         rows.push_back({{"title", measured.title}, {"note", note}, {"unit", measured.unit}, {"cells", cells}});
     }
     rows.push_back({{"title", "Verdict"}, {"cells", verdicts}});
-    return {{"kind", "matrix"},
-            {"caption", "What was measured into each load, the strongest command that the limits allow"},
-            {"columns", columns},
-            {"rows", rows}};
+    return {
+        {"kind", "matrix"},
+        {"caption",
+         "Each load, and what was measured into it or computed from that, the strongest command that the limits allow"},
+        {"columns", columns},
+        {"rows", rows}};
 }
 
 /// The outputs that are described and disclosed, each with the loads it is asked for.

@@ -49,7 +49,7 @@ std::optional<StoredCalibration> keptByThisRun(ScriptSession& session) {
     const auto* kept =
         store ? store->latest(calibratedOutput(device.serial, device.uri), amplitudeUnit(stimulator.traits().drive))
               : nullptr;
-    if (kept == nullptr || kept->session != session.writer()->path().filename().string()) return {};
+    if (kept == nullptr || !session.own().noted({{"kept at", kept->sessionHead}})) return {};
     return *kept;
 }
 
@@ -98,7 +98,7 @@ Result<Json> calibrationCheck(ScriptSession& session, const Arguments& arguments
     return writeItem(session, calibrationCheckTable(listIn(arguments.object("check"), "rows")));
 }
 
-/// Of the run's own calibrations alone, and of what the program itself told of the stored one: a certificate says
+/// It is made of the run's own calibrations alone, and of what the program itself told of the stored one: a certificate says
 /// nothing that a script made up (hazard H8).
 Result<Json> certificate(ScriptSession& session, const Arguments& arguments) {
     const Json& before = arguments.object("before");
@@ -120,6 +120,7 @@ Result<Json> certificate(ScriptSession& session, const Arguments& arguments) {
         quantities.push_back(certifiedQuantity(own->found,
                                                plain ? correctionOf(before.value(own->quantity, Json())) : Correction(),
                                                plain && line != nullptr ? Correction(*line) : Correction()));
+        quantities.back()["stated_by"] = own->statedBy;
     }
     Json item = {{"kind", "certificate"},
                  {"quantities", std::move(quantities)},
