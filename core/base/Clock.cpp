@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <ctime>
-#include <iomanip>
-#include <locale>
-#include <sstream>
+#include <fmt/format.h>
 #include <string>
+
+#include "core/base/WholeNumber.h"
 
 namespace tacto {
 
@@ -57,13 +57,11 @@ void VirtualClock::sleepFor(Instant duration) noexcept {
 
 namespace {
 
-constexpr const char* kWallFormat = "%Y-%m-%dT%H:%M:%SZ";
-
 std::string wallText(std::time_t at) {
     std::tm parts{};
     gmtime_r(&at, &parts);
-    char text[32];
-    return {text, std::strftime(text, sizeof text, kWallFormat, &parts)};
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
+                       parts.tm_hour, parts.tm_min, parts.tm_sec);
 }
 
 }  // namespace
@@ -71,12 +69,19 @@ std::string wallText(std::time_t at) {
 std::string wallTimeUtc() { return wallText(std::time(nullptr)); }
 
 std::optional<std::chrono::sys_seconds> wallTimeFrom(const std::string& utc) {
+    if (utc.size() != std::string_view("2026-11-21T09:30:00Z").size()) return std::nullopt;
+    const auto number = [&](std::size_t from, std::size_t digits) {
+        return parseWhole<int>(std::string_view(utc).substr(from, digits)).value_or(0);
+    };
     std::tm parts{};
-    std::istringstream text(utc);
-    text.imbue(std::locale::classic());
-    text >> std::get_time(&parts, kWallFormat);
+    parts.tm_year = number(0, 4) - 1900;
+    parts.tm_mon = number(5, 2) - 1;
+    parts.tm_mday = number(8, 2);
+    parts.tm_hour = number(11, 2);
+    parts.tm_min = number(14, 2);
+    parts.tm_sec = number(17, 2);
     const auto at = timegm(&parts);
-    if (!text || wallText(at) != utc) return std::nullopt;  // get_time() is lenient
+    if (wallText(at) != utc) return std::nullopt;  // a day that does not exist, or other text between the numbers
     return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::from_time_t(at));
 }
 

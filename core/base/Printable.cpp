@@ -66,6 +66,15 @@ std::string printable(std::string_view text, Newlines newlines) {
     return out;
 }
 
+bool isUtf8(std::string_view text) noexcept {
+    while (!text.empty()) {
+        const auto bytes = firstOf(text).bytes;
+        if (bytes == 0) return false;
+        text.remove_prefix(bytes);
+    }
+    return true;
+}
+
 std::size_t charactersOf(std::string_view utf8) noexcept {
     return static_cast<std::size_t>(
         std::count_if(utf8.begin(), utf8.end(), [](char byte) { return (byte & 0xC0) != 0x80; }));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "core/base/Text.h"
+
 namespace tacto {
 
 namespace {
@@ -83,7 +85,7 @@ UnitPrefix prefixFor(std::string_view base, int exponent) noexcept {
 int decimalExponent(double value, int digits) {
     if (value == 0 || !std::isfinite(value)) return 0;
     const std::string rounded = fmt::format("{:.{}e}", std::abs(value), digits - 1);
-    return std::stoi(rounded.substr(rounded.find('e') + 1));
+    return static_cast<int>(parseNumber(std::string_view(rounded).substr(rounded.find('e') + 1)).value_or(0));
 }
 
 std::string decimalText(double value, int decimals) { return std::isfinite(value) ? fixedText(value, decimals) : "–"; }

@@ -93,8 +93,9 @@ public:
                                                       const ReadWatch& watch) const = 0;
 
     [[nodiscard]] virtual bool canWrite() const noexcept { return false; }
-    /// Replaces the file. Errors: InvalidArgument for a capture that the format cannot hold (no samples, no rate,
-    /// channels of unequal length), Io, Unsupported where canWrite() is false.
+    /// Replaces the file by a whole one, or leaves it. Errors: InvalidArgument for a capture that the format cannot
+    /// hold (no samples, no rate, channels of unequal length), Io with the system's reason, Unsupported where
+    /// canWrite() is false.
     [[nodiscard]] virtual Result<void> write(const std::filesystem::path& path, const Capture& capture) const;
 
 protected:

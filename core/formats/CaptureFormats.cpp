@@ -1,10 +1,10 @@
 #include "core/formats/CaptureFormats.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/ranges.h>
 #include <system_error>
 
+#include "core/base/Ascii.h"
 #include "core/base/Utf16.h"
 #include "core/formats/ByteFile.h"
 
@@ -12,11 +12,7 @@ namespace tacto {
 
 namespace {
 
-std::string suffixOf(const std::filesystem::path& path) {
-    std::string suffix = path.extension().string();
-    std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix;
-}
+std::string suffixOf(const std::filesystem::path& path) { return lowered(path.extension().string()); }
 
 std::vector<std::string_view> suffixesOf(const std::vector<std::unique_ptr<CaptureFormat>>& formats,
                                          bool writableOnly) {
@@ -99,20 +95,7 @@ Result<const CaptureFormat*> CaptureFormats::writerOf(const std::filesystem::pat
 
 Result<void> CaptureFormats::write(const std::filesystem::path& path, const Capture& capture) const {
     const auto format = writerOf(path);
-    if (!format) return failure(format);
-    // Beside it, so that it can take its place at once: what was there stays until then.
-    auto unfinished = path;
-    unfinished += ".part" + suffixOf(path);
-    auto written = (*format)->write(unfinished, capture);
-    std::error_code error;
-    if (written) {
-        std::filesystem::rename(unfinished, path, error);
-        if (error) {
-            written = fail(ErrorCode::Io, "{} could not be written: {}", path.string(), error.message());
-        }
-    }
-    if (!written) std::filesystem::remove(unfinished, error);
-    return written;
+    return format ? (*format)->write(path, capture) : failure(format);
 }
 
 }  // namespace tacto

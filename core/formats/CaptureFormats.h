@@ -36,8 +36,7 @@ public:
     /// The format that writes files of this suffix. Errors: InvalidArgument listing the suffixes that are written.
     [[nodiscard]] Result<const CaptureFormat*> writerOf(const std::filesystem::path& path) const;
 
-    /// Writes in the format of the suffix: the whole file or none of it.
-    /// Errors: those of writerOf() and of the format's write(); Io.
+    /// Writes in the format of the suffix. Errors: those of writerOf() and of the format's write().
     [[nodiscard]] Result<void> write(const std::filesystem::path& path, const Capture& capture) const;
 
 private:

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fmt/ranges.h>
 
+#include "core/base/Ascii.h"
 #include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
@@ -81,11 +81,7 @@ Result<std::size_t> indexOf(const std::vector<ChannelPlan>& channels, std::strin
 
 }  // namespace
 
-std::string folded(std::string_view text) {
-    std::string result(trimmed(text));
-    std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
+std::string folded(std::string_view text) { return lowered(trimmed(text)); }
 
 std::optional<SpelledUnit> spelledUnit(std::string_view text) {
     auto wanted = folded(text);

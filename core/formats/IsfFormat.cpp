@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/Ascii.h"
 #include "core/base/Text.h"
 #include "core/formats/ByteFile.h"
 #include "core/formats/ChannelOptions.h"
@@ -141,10 +142,8 @@ Result<CaptureReading> IsfFormat::read(const std::filesystem::path& path, const 
     CaptureReading reading;
     auto& channel = reading.capture.channels.emplace_back();
     // "Ch1, DC coupling, 2.000V/div, …": the source comes first.
-    channel.name = std::string(trimmed(std::string_view(pre->title).substr(0, pre->title.find(','))));
+    channel.name = capitals(trimmed(std::string_view(pre->title).substr(0, pre->title.find(','))));
     if (channel.name.empty()) channel.name = "CH1";
-    std::ranges::transform(channel.name, channel.name.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     auto read = pre->text ? readText(*file, *pre, watch, reading) : readBlock(*file, *head, *pre, watch, reading);
     if (!read) return failure(read);
     if (pre->text) dropNoValues(reading, file->name());

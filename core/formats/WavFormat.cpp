@@ -1,14 +1,17 @@
 #include "core/formats/WavFormat.h"
 
 #include <algorithm>
+#include <bit>
+#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <sndfile.h>
+#include <system_error>
 #include <utility>
 
 #include "core/base/Text.h"
+#include "core/base/WholeFile.h"
 #include "core/formats/ByteFile.h"
 #include "core/formats/ChannelOptions.h"
 #include "core/measure/CaptureFile.h"
@@ -18,7 +21,7 @@ namespace tacto {
 namespace {
 
 constexpr std::string_view kOwnComment = "Tactoscope capture";
-constexpr int kMaxChannels = 1024;  // libsndfile's
+constexpr std::size_t kMaxChannels = 1024;  // libsndfile's
 constexpr std::size_t kSamplesAtOnce = 256UL * 1024;
 
 struct CloseSound {
@@ -26,119 +29,91 @@ struct CloseSound {
 };
 using Sound = std::unique_ptr<SNDFILE, CloseSound>;
 
-std::uint32_t numberAt(std::string_view bytes, std::size_t at, std::size_t count) {
-    std::uint32_t value = 0;
+std::uint64_t numberAt(std::string_view bytes, std::size_t at, std::size_t count) {
+    std::uint64_t value = 0;
     for (std::size_t i = count; i > 0; --i) value = value << 8U | static_cast<unsigned char>(bytes[at + i - 1]);
     return value;
 }
+
+/// RF64 (EBU Tech 3306) and BW64 (ITU-R BS.2088) are RIFF with sizes of 64 bits, which begin with a chunk ds64.
+bool isKindOfFile(std::string_view bytes) noexcept {
+    return bytes.starts_with("RIFF") || bytes.starts_with("RF64") || bytes.starts_with("BW64");
+}
+
+bool isWav(std::string_view head) noexcept {
+    return head.size() >= 12 && isKindOfFile(head) && head.substr(8, 4) == "WAVE";
+}
+
+constexpr std::uint64_t kUnstated = 0xFFFFFFFF;  // a size that does not fit into 32 bits, or was not known yet
 
 /// The chunks that say how to read the samples: those up to the first that holds samples. What stands behind that one
 /// is passed over: a second file joined to the first, a second data chunk.
 struct Layout {
     std::string format;           ///< the fmt chunk, its first 64 kB
     std::string info;             ///< the INFO list, its first 64 kB; empty where there is none
+    std::string sizes;            ///< the ds64 chunk of RF64 and BW64 (EBU Tech 3306), its first 64 kB
     std::uint64_t samplesAt = 0;  ///< where the samples begin, in bytes
     std::uint64_t end = 0;        ///< where they end; where that is not announced, the end of the file
-    std::uint32_t announced = 0;  ///< bytes of samples, as the file states them
+    std::uint64_t announced = 0;  ///< bytes of samples, as the file states them
     bool more = false;            ///< a second data chunk or a second file stands behind
 
     /// Programs that write to a pipe announce all ones; one that is killed while it records leaves 0.
-    [[nodiscard]] bool openEnded() const noexcept {
-        return announced == 0 || announced == std::numeric_limits<std::uint32_t>::max();
+    [[nodiscard]] bool openEnded() const noexcept { return announced == 0 || announced == kUnstated; }
+
+    /// The size that stands beside chunk `id`, or in ds64 where that has no room: sizes of the file and of the samples,
+    /// a count of samples, then a table of other chunks.
+    [[nodiscard]] std::uint64_t sizeOf(std::string_view id, std::uint64_t stated) const {
+        constexpr std::size_t kTable = 28, kEntry = 12;
+        if (stated != kUnstated || sizes.size() < kTable) return stated;
+        if (id == "data") return numberAt(sizes, 8, 8);
+        for (std::size_t at = kTable; at + kEntry <= sizes.size(); at += kEntry)
+            if (std::string_view(sizes).substr(at, 4) == id) return numberAt(sizes, at + 4, 8);
+        return stated;
     }
 };
 
 /// Errors: ParseError without a data chunk among the first thousand; Io.
 Result<Layout> layoutOf(ByteFile& file) {
     constexpr int kMaxChunks = 1000;
-    constexpr std::uint32_t kLongest = 65536;
+    constexpr std::uint64_t kLongest = 65536;
     Layout layout;
     std::uint64_t at = 12;
     for (int n = 0; n < kMaxChunks && at + 8 <= file.size(); ++n) {
         std::string bytes(8, '\0');
         if (auto placed = file.seek(at); !placed) return failure(placed);
         if (auto got = file.read(bytes.data(), bytes.size()); !got) return failure(got);
-        const auto size = numberAt(bytes, 4, 4);
+        const auto id = bytes.substr(0, 4);
         const auto begin = at + 8;
-        if (bytes.starts_with("data")) {
+        const auto size = layout.sizeOf(id, numberAt(bytes, 4, 4));
+        const auto end = begin + std::min(size, file.size() - begin);
+        if (id == "data") {
             layout.samplesAt = begin;
             layout.announced = size;
-            layout.end = layout.openEnded() ? file.size() : std::min(file.size(), begin + size);
+            layout.end = layout.openEnded() ? file.size() : end;
             const auto next = std::min(file.size(), layout.end + layout.end % 2);
             if (auto placed = file.seek(next); !placed) return failure(placed);
             bytes.assign(4, '\0');
             if (auto got = file.read(bytes.data(), bytes.size()); !got) return failure(got);
-            layout.more = bytes == "data" || bytes == "RIFF";
+            layout.more = bytes == "data" || isKindOfFile(bytes);
             return layout;
         }
-        const bool isFormat = bytes.starts_with("fmt ");
-        const bool isList = bytes.starts_with("LIST");
-        if (isFormat || isList) {
-            bytes.resize(std::min<std::uint64_t>({size, kLongest, file.size() - begin}));
+        if (id == "fmt " || id == "LIST" || id == "ds64") {
+            bytes.resize(std::min(end - begin, kLongest));
             if (auto got = file.read(bytes.data(), bytes.size()); !got) return failure(got);
-            if (isFormat) layout.format = bytes;
+            if (id == "fmt ") layout.format = bytes;
+            if (id == "ds64") layout.sizes = bytes;
             // Markers ("adtl") are a list, too.
-            if (isList && bytes.starts_with("INFO")) layout.info = bytes;
+            if (id == "LIST" && bytes.starts_with("INFO")) layout.info = bytes;
         }
-        at = begin + size + size % 2;
+        at = end + size % 2;
     }
     return fail(ErrorCode::ParseError, "{}: it holds no data chunk; RIFF WAVE with samples was expected", file.name());
 }
 
-/// A file as libsndfile is to see it: it ends where the samples end, and says so where it was never finished.
-class SoundBytes {
-public:
-    SoundBytes(ByteFile file, const Layout& layout)
-        : file_(std::move(file)), size_(layout.end), unfinished_(layout.announced == 0) {}
-
-    /// Errors: ParseError with libsndfile's reason; Io. The sound reads from this object.
-    Result<Sound> open(SF_INFO& info) {
-        if (auto placed = file_.seek(0); !placed) return failure(placed);
-        SF_VIRTUAL_IO io{};
-        io.get_filelen = [](void* self) { return static_cast<sf_count_t>(of(self).size_); };
-        io.seek = [](sf_count_t offset, int whence, void* self) { return of(self).seek(offset, whence); };
-        io.read = [](void* into, sf_count_t count, void* self) {
-            return of(self).read(static_cast<char*>(into), static_cast<std::uint64_t>(count));
-        };
-        io.tell = [](void* self) { return static_cast<sf_count_t>(of(self).at_); };
-        // libsndfile keeps why it could not open a file in one place for all threads.
-        static std::mutex opening;
-        const std::lock_guard lock(opening);
-        Sound sound(::sf_open_virtual(&io, SFM_READ, &info, this));
-        if (sound) return sound;
-        return fail(ErrorCode::ParseError, "{}: it cannot be read as WAV: {}", file_.name(), ::sf_strerror(nullptr));
-    }
-
-private:
-    static SoundBytes& of(void* self) { return *static_cast<SoundBytes*>(self); }
-    sf_count_t seek(sf_count_t offset, int whence) {
-        const auto from = whence == SEEK_SET ? 0 : whence == SEEK_CUR ? at_ : size_;
-        const auto to = static_cast<sf_count_t>(from) + offset;
-        if (to < 0 || !file_.seek(static_cast<std::uint64_t>(to))) return -1;
-        at_ = static_cast<std::uint64_t>(to);
-        return to;
-    }
-    sf_count_t read(char* into, std::uint64_t count) {
-        const auto got = file_.read(into, std::min(count, size_ - std::min(size_, at_)));
-        if (!got) return 0;
-        // For libsndfile samples without an announced size go to the end if the whole file announces 8 bytes.
-        for (std::uint64_t i = 0; unfinished_ && i < *got && at_ + i < 8; ++i) {
-            if (at_ + i >= 4) into[i] = at_ + i == 4 ? 8 : 0;
-        }
-        at_ += *got;
-        return static_cast<sf_count_t>(*got);
-    }
-
-    ByteFile file_;
-    std::uint64_t size_;
-    std::uint64_t at_ = 0;
-    bool unfinished_;
-};
-
 /// INFO ICMT. Read here because libsndfile passes over texts of 2 kB, and so over the names of some 70 channels.
 std::string commentIn(std::string_view info) {
     for (std::size_t at = 4; at + 8 <= info.size();) {
-        const std::size_t size = numberAt(info, at + 4, 4);
+        const auto size = static_cast<std::size_t>(numberAt(info, at + 4, 4));
         if (info.substr(at, 4) == "ICMT") {
             const auto text = info.substr(at + 8, size);
             return std::string(text.substr(0, text.find('\0')));
@@ -182,45 +157,105 @@ bool takeOwnComment(std::string_view comment, Capture& capture) {
     return next == capture.channels.size();
 }
 
-/// The bits of a sample. Errors: ParseError for what is neither linear PCM nor floats.
-Result<unsigned> bitsOf(std::string_view format, bool isFloat, const std::string& file) {
-    constexpr std::uint32_t kExtensible = 0xFFFE;
+/// What the fmt chunk says of the samples.
+struct Samples {
+    std::uint64_t channels = 0;
+    double rate_hz = 0;
+    std::uint64_t bits = 0;
+    bool isFloat = false;
+
+    /// One of them: floats as they are, PCM as a fraction of the full scale (of 8 bits it has no sign).
+    [[nodiscard]] float at(const char* bytes) const noexcept {
+        const auto raw = numberAt({bytes, static_cast<std::size_t>(bits / 8)}, 0, static_cast<std::size_t>(bits / 8));
+        if (isFloat && bits == 32) return std::bit_cast<float>(static_cast<std::uint32_t>(raw));
+        if (isFloat) return static_cast<float>(std::bit_cast<double>(raw));
+        const auto half = std::int64_t{1} << (bits - 1);
+        auto value = static_cast<std::int64_t>(raw);
+        if (bits == 8 || value >= half) value -= bits == 8 ? half : 2 * half;
+        return static_cast<float>(static_cast<double>(value) / static_cast<double>(half));
+    }
+};
+
+/// Errors: ParseError for what is neither linear PCM nor floats, no channel, more than kMaxChannels or no rate.
+Result<Samples> samplesIn(std::string_view format, const std::string& file) {
+    constexpr std::uint64_t kPcm = 1, kFloat = 3, kExtensible = 0xFFFE;
     const bool whole = format.size() >= 16;
     auto kind = whole ? numberAt(format, 0, 2) : 0;
     // The extensible form carries the old number at the beginning of an identifier.
     if (kind == kExtensible && format.size() >= 26) kind = numberAt(format, 24, 2);
     const auto bits = whole ? numberAt(format, 14, 2) : 0;
     const bool known =
-        isFloat ? kind == 3 && (bits == 32 || bits == 64) : kind == 1 && bits <= 32 && bits > 0 && bits % 8 == 0;
-    if (known) return bits;
-    return fail(ErrorCode::ParseError,
-                "{}: samples of kind {} with {} bits; PCM of 8, 16, 24 or 32 or floats of 32 or 64 were expected", file,
-                kind, bits);
+        kind == kFloat ? bits == 32 || bits == 64 : kind == kPcm && bits <= 32 && bits > 0 && bits % 8 == 0;
+    if (!known) {
+        return fail(ErrorCode::ParseError,
+                    "{}: samples of kind {} with {} bits; PCM of 8, 16, 24 or 32 or floats of 32 or 64 were expected",
+                    file, kind, bits);
+    }
+    const Samples samples{numberAt(format, 2, 2), static_cast<double>(numberAt(format, 4, 4)), bits, kind == kFloat};
+    if (samples.channels < 1 || samples.channels > kMaxChannels || !(samples.rate_hz > 0)) {
+        return fail(ErrorCode::ParseError, "{}: {} channels at {} Hz; 1 to {} and a rate above 0 were expected", file,
+                    samples.channels, samples.rate_hz, kMaxChannels);
+    }
+    return samples;
 }
 
-Result<void> readSamples(SNDFILE* sound, std::size_t frames, const ReadWatch& watch, const std::string& file,
+Result<void> readSamples(ByteFile& file, const Layout& layout, const Samples& samples, const ReadWatch& watch,
                          Capture& capture) {
+    const auto width = static_cast<std::size_t>(samples.bits / 8);
     const std::size_t channels = capture.channels.size();
+    const auto frames = static_cast<std::size_t>((layout.end - layout.samplesAt) / (width * channels));
     for (auto& channel : capture.channels) channel.samples.reserve(frames);
-    const std::size_t atOnce = kSamplesAtOnce / channels;
-    std::vector<float> chunk(atOnce * channels);
+    const std::size_t atOnce = std::max<std::size_t>(kSamplesAtOnce / channels, 1);
+    std::vector<char> chunk(atOnce * channels * width);
+    if (auto placed = file.seek(layout.samplesAt); !placed) return placed;
     for (std::size_t done = 0; done < frames;) {
         const auto wanted = std::min(atOnce, frames - done);
-        if (::sf_readf_float(sound, chunk.data(), static_cast<sf_count_t>(wanted)) != static_cast<sf_count_t>(wanted)) {
-            return fail(ErrorCode::Io, "{} became shorter while it was read", file);
-        }
-        for (std::size_t i = 0; i < wanted * channels; ++i) {
-            capture.channels[i % channels].samples.push_back(chunk[i]);
-        }
+        const auto got = file.read(chunk.data(), wanted * channels * width);
+        if (!got) return failure(got);
+        if (*got < wanted * channels * width)
+            return fail(ErrorCode::Io, "{} became shorter while it was read", file.name());
+        for (std::size_t i = 0; i < wanted * channels; ++i)
+            capture.channels[i % channels].samples.push_back(samples.at(chunk.data() + i * width));
         done += wanted;
         const auto fraction = static_cast<double>(done) / static_cast<double>(frames);
-        if (auto going = keepReading(watch, fraction, file); !going) return going;
+        if (auto going = keepReading(watch, fraction, file.name()); !going) return going;
     }
     return {};
 }
 
-bool isWav(std::string_view head) noexcept {
-    return head.size() >= 12 && head.starts_with("RIFF") && head.substr(8, 4) == "WAVE";
+/// Errors: Io with the system's reason, else libsndfile's.
+Result<void> writeSamples(const std::filesystem::path& path, const Capture& capture, int rate) {
+    auto file = FileOut::create(path);
+    if (!file) return failure(file);
+    SF_INFO info{};
+    info.samplerate = rate;
+    info.channels = static_cast<int>(capture.channels.size());
+    info.format = SF_FORMAT_WAV | SF_FORMAT_FLOAT;
+    errno = 0;
+    Sound sound(::sf_open_fd(file->descriptor(), SFM_WRITE, &info, SF_FALSE));
+    // The PEAK chunk would hold the time of writing: the same capture gives the same bytes.
+    bool whole = sound && ::sf_command(sound.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE) == SF_FALSE &&
+                 ::sf_set_string(sound.get(), SF_STR_COMMENT, ownComment(capture).c_str()) == SF_ERR_NO_ERROR;
+    std::vector<float> frames;
+    const std::size_t channels = capture.channels.size();
+    const std::size_t atOnce = kSamplesAtOnce / channels;
+    for (std::size_t i = 0; i < capture.samples() && whole; i += atOnce) {
+        const auto count = std::min(atOnce, capture.samples() - i);
+        frames.resize(count * channels);
+        for (std::size_t c = 0; c < channels; ++c) {
+            for (std::size_t k = 0; k < count; ++k) frames[k * channels + c] = capture.channels[c].samples[i + k];
+        }
+        const auto wanted = static_cast<sf_count_t>(count);
+        whole = ::sf_writef_float(sound.get(), frames.data(), wanted) == wanted;
+    }
+    int reason = whole ? 0 : errno;
+    // It writes the head once more; what it could not write before, it says again.
+    if (::sf_close(sound.release()) != SF_ERR_NO_ERROR || !whole) {
+        if (reason == 0) reason = errno;
+        return fail(ErrorCode::Io, "{}",
+                    reason != 0 ? std::generic_category().message(reason) : std::string(::sf_strerror(nullptr)));
+    }
+    return {};
 }
 
 }  // namespace
@@ -237,44 +272,38 @@ Result<CaptureReading> WavFormat::read(const std::filesystem::path& path, const 
     if (!opened) return failure(opened);
     const auto layout = layoutOf(*opened);
     if (!layout) return failure(layout);
-    SoundBytes bytes(std::move(*opened), *layout);
-    SF_INFO info{};
-    const auto sound = bytes.open(info);
-    if (!sound) return failure(sound);
-    const int subtype = info.format & SF_FORMAT_SUBMASK;
-    const bool isFloat = subtype == SF_FORMAT_FLOAT || subtype == SF_FORMAT_DOUBLE;
-    const auto bits = bitsOf(layout->format, isFloat, file);
-    if (!bits) return failure(bits);
-    if (info.frames < 2) {
-        return fail(ErrorCode::ParseError, "{}: {} sample(s) per channel; at least 2 were expected", file, info.frames);
+    const auto samples = samplesIn(layout->format, file);
+    if (!samples) return failure(samples);
+    const auto frames = (layout->end - layout->samplesAt) / (samples->channels * samples->bits / 8);
+    if (frames < 2) {
+        return fail(ErrorCode::ParseError, "{}: {} sample(s) per channel; at least 2 were expected", file, frames);
     }
     CaptureReading reading;
     auto& capture = reading.capture;
     std::vector<ChannelPlan> plans;
-    for (int c = 0; c < info.channels; ++c) {
+    for (std::uint64_t c = 0; c < samples->channels; ++c) {
         auto& channel = capture.channels.emplace_back();
         channel.name = fmt::format("CH{}", c + 1);
     }
-    capture.rate_hz = info.samplerate;
+    capture.rate_hz = samples->rate_hz;
     capture.trigger_s = std::numeric_limits<double>::quiet_NaN();
-    const bool own = isFloat && takeOwnComment(commentIn(layout->info), capture);
+    const bool own = samples->isFloat && takeOwnComment(commentIn(layout->info), capture);
     if (layout->announced == 0) {
         reading.warnings.push_back(
             fmt::format("{}: it was never finished (it announces no samples): all that it holds were read", file));
-    } else if (!layout->openEnded() && layout->samplesAt + layout->announced > layout->end) {
+    } else if (!layout->openEnded() && layout->announced > layout->end - layout->samplesAt) {
         reading.warnings.push_back(fmt::format("{}: fewer samples than announced: the file was cut short", file));
     }
     if (layout->more) {
         reading.warnings.push_back(
             fmt::format("{}: a second recording stands behind the first; it was not read", file));
     }
-    if (auto read = readSamples(sound->get(), static_cast<std::size_t>(info.frames), watch, file, capture); !read)
-        return failure(read);
-    if (isFloat) dropNoValues(reading, file);
+    if (auto read = readSamples(*opened, *layout, *samples, watch, capture); !read) return failure(read);
+    if (samples->isFloat) dropNoValues(reading, file);
     for (auto& channel : capture.channels) {
-        if (!isFloat) {
+        if (!samples->isFloat) {
             channel.low = -1;
-            channel.lsb = std::exp2(1 - static_cast<double>(*bits));
+            channel.lsb = std::exp2(1 - static_cast<double>(samples->bits));
             channel.high = 1 - channel.lsb;
         }
         plans.push_back({channel.name, plans.size() + 1, channel.unit, 1, ""});
@@ -310,29 +339,9 @@ Result<void> WavFormat::write(const std::filesystem::path& path, const Capture& 
                     "{}: a WAV holds {} channels and 4.2 GB; the capture has {} and {:.3g} GB", path.string(),
                     kMaxChannels, capture.channels.size(), bytes / 1e9);
     }
-    SF_INFO info{};
-    info.samplerate = static_cast<int>(rate);
-    info.channels = static_cast<int>(capture.channels.size());
-    info.format = SF_FORMAT_WAV | SF_FORMAT_FLOAT;
-    Sound sound(::sf_open(path.c_str(), SFM_WRITE, &info));
-    // The PEAK chunk would hold the time of writing: the same capture gives the same bytes.
-    bool whole = sound && ::sf_command(sound.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE) == SF_FALSE &&
-                 ::sf_set_string(sound.get(), SF_STR_COMMENT, ownComment(capture).c_str()) == SF_ERR_NO_ERROR;
-    std::vector<float> frames;
-    const std::size_t channels = capture.channels.size();
-    const std::size_t atOnce = kSamplesAtOnce / channels;
-    for (std::size_t i = 0; i < capture.samples() && whole; i += atOnce) {
-        const auto count = std::min(atOnce, capture.samples() - i);
-        frames.resize(count * channels);
-        for (std::size_t c = 0; c < channels; ++c) {
-            for (std::size_t k = 0; k < count; ++k) frames[k * channels + c] = capture.channels[c].samples[i + k];
-        }
-        const auto wanted = static_cast<sf_count_t>(count);
-        whole = ::sf_writef_float(sound.get(), frames.data(), wanted) == wanted;
-    }
-    whole = ::sf_close(sound.release()) == SF_ERR_NO_ERROR && whole;
-    if (!whole) return fail(ErrorCode::Io, "{} could not be written", path.string());
-    return {};
+    return namedAs(path, replaceWholeFile(path, [&](const std::filesystem::path& draft) {
+                       return writeSamples(draft, capture, static_cast<int>(rate));
+                   }));
 }
 
 }  // namespace tacto

@@ -1,9 +1,9 @@
 // WavFormat.h - RIFF WAVE: recordings from sound interfaces, and captures for programs that know no other table.
 //
-// Read through libsndfile: PCM of 8 (unsigned), 16, 24 and 32 bits and floats of 32 and 64, plain or extensible. PCM
-// samples are fractions of the full scale, which no WAV states: --unit and --probe say what 1 stands for, else a
-// warning does. Written: 32-bit floats in V and A as they are, with names, units and start in an INFO comment that
-// other programs pass over; so a capture returns bit by bit.
+// Read: PCM of 8 (unsigned), 16, 24 and 32 bits and floats of 32 and 64, plain or extensible, in RIFF, and in RF64 and
+// BW64, which recorders write beyond 4 GB. PCM samples are fractions of the full scale, which no WAV states: --unit and
+// --probe say what 1 stands for, else a warning does. Written by libsndfile: 32-bit floats in V and A as they are, with
+// names, units and start in an INFO comment that other programs pass over; so a capture returns bit by bit.
 //
 // Thread-safety: as CaptureFormat.
 #pragma once

@@ -2,26 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
-#include <fstream>
 #include <iterator>
 
+#include "core/base/Ascii.h"
 #include "core/base/Text.h"
+#include "core/base/WholeFile.h"
 #include "core/measure/CaptureDescription.h"
 
 namespace tacto {
 
 namespace {
-
-std::string lowered(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
 
 std::string columnNameOf(const CaptureChannel& channel) {
     std::string name = channel.unit.empty() ? channel.name : fmt::format("{}_{}", channel.name, lowered(channel.unit));
@@ -51,6 +44,31 @@ void appendTime(fmt::memory_buffer& text, double t, int decimals) {
     text.append(digits.data() + at, digits.data() + digits.size());
 }
 
+Result<void> writeRows(FileOut& file, const Capture& capture) {
+    constexpr std::size_t kPiece = 1024UL * 1024;  // written at a time: a long record's text is larger than itself
+    fmt::memory_buffer text;
+    auto out = std::back_inserter(text);
+    fmt::format_to(out, "time_s");
+    for (const auto& channel : capture.channels) fmt::format_to(out, ",{}", columnNameOf(channel));
+    fmt::format_to(out, "\n{}", captureHeader(capture));
+    const int decimals = std::clamp(static_cast<int>(std::ceil(std::log10(1000 * capture.rate_hz))), 3, 12);
+    for (std::size_t i = 0; i < capture.samples(); ++i) {
+        appendTime(text, capture.start_s + static_cast<double>(i) / capture.rate_hz, decimals);
+        for (const auto& channel : capture.channels) {
+            if (std::isfinite(channel.samples[i])) {
+                fmt::format_to(out, ",{}", channel.samples[i]);
+            } else {
+                text.push_back(',');
+            }
+        }
+        text.push_back('\n');
+        if (text.size() < kPiece) continue;
+        if (auto written = file.write({text.data(), text.size()}); !written) return written;
+        text.clear();
+    }
+    return file.write({text.data(), text.size()});
+}
+
 }  // namespace
 
 Result<void> checkWritable(const Capture& capture) {
@@ -72,46 +90,21 @@ Result<void> checkWritable(const Capture& capture) {
 
 Result<void> writeCapture(const std::filesystem::path& path, const Capture& capture) {
     if (auto writable = checkWritable(capture); !writable) return writable;
-    std::ofstream stream(path, std::ios::binary);
-    constexpr std::size_t kPiece = 1024UL * 1024;  // written at a time: a long record's text is larger than itself
-    fmt::memory_buffer text;
-    const auto flush = [&] {
-        stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-        text.clear();
-    };
-    auto out = std::back_inserter(text);
-    fmt::format_to(out, "time_s");
-    for (const auto& channel : capture.channels) fmt::format_to(out, ",{}", columnNameOf(channel));
-    fmt::format_to(out, "\n{}", captureHeader(capture));
-    const int decimals = std::clamp(static_cast<int>(std::ceil(std::log10(1000 * capture.rate_hz))), 3, 12);
-    for (std::size_t i = 0; i < capture.samples() && stream; ++i) {
-        appendTime(text, capture.start_s + static_cast<double>(i) / capture.rate_hz, decimals);
-        for (const auto& channel : capture.channels) {
-            if (std::isfinite(channel.samples[i])) {
-                fmt::format_to(out, ",{}", channel.samples[i]);
-            } else {
-                text.push_back(',');
-            }
-        }
-        text.push_back('\n');
-        if (text.size() >= kPiece) flush();
-    }
-    flush();
-    stream.flush();
-    if (!stream) return fail(ErrorCode::Io, "{} could not be written", path.string());
-    return {};
+    return namedAs(path, replaceWholeFile(path, [&](const std::filesystem::path& draft) -> Result<void> {
+                       auto file = FileOut::create(draft);
+                       return file ? writeRows(*file, capture) : failure(file);
+                   }));
 }
 
 Result<std::size_t> findChannel(const Capture& capture, std::string_view name) {
-    const auto wanted = lowered(trimmed(name));
+    name = trimmed(name);
     std::string known;
     for (std::size_t c = 0; c < capture.channels.size(); ++c) {
         const auto& channel = capture.channels[c];
-        if (lowered(channel.name) == wanted || lowered(columnNameOf(channel)) == wanted) return c;
+        if (sameLetters(channel.name, name) || sameLetters(columnNameOf(channel), name)) return c;
         known += (c == 0 ? "" : ", ") + channel.name;
     }
-    return fail(ErrorCode::NotFound, "no channel '{}'; the capture has {}", trimmed(name),
-                known.empty() ? "none" : known);
+    return fail(ErrorCode::NotFound, "no channel '{}'; the capture has {}", name, known.empty() ? "none" : known);
 }
 
 Result<void> convertShunt(Capture& capture, std::optional<std::string_view> channel, Ohms shunt) {

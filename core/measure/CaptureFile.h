@@ -18,8 +18,8 @@
 
 namespace tacto {
 
-/// Writes `capture`, replacing the file. Times carry enough digits for a thousandth of a step, samples round-trip.
-/// Errors: those of checkWritable(); Io.
+/// Writes `capture`, replacing the file by a whole one. Times carry enough digits for a thousandth of a step, samples
+/// round-trip. Errors: those of checkWritable(); Io with the system's reason.
 [[nodiscard]] Result<void> writeCapture(const std::filesystem::path& path, const Capture& capture);
 
 /// Whether a file can hold it. Errors: InvalidArgument when it has no samples, no rate or channels of unequal length.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/JsonText.h"
+#include "core/base/WholeFile.h"
 #include "core/measure/CaptureDescription.h"
 
 namespace tacto {
@@ -30,11 +31,8 @@ std::optional<bool> readOrigin(const std::filesystem::path& folder) {
 Result<void> stateCaptureOrigin(const std::filesystem::path& folder, bool simulated) {
     const auto said = readOrigin(folder);
     if (said && (*said || *said == simulated)) return {};
-    std::ofstream stream(folder / kFile, std::ios::binary);
-    stream << dumpJson(nlohmann::json{{"simulated", simulated}}) << "\n";
-    stream.flush();
-    if (!stream) return fail(ErrorCode::Io, "{} could not be written", (folder / kFile).string());
-    return {};
+    const auto file = folder / kFile;
+    return namedAs(file, writeWholeFile(file, dumpJson(nlohmann::json{{"simulated", simulated}}) + "\n"));
 }
 
 std::optional<bool> statedSimulated(const std::filesystem::path& file) {

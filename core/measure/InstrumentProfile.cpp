@@ -1,9 +1,9 @@
 #include "core/measure/InstrumentProfile.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "core/base/Ascii.h"
 #include "core/base/RecordFields.h"
 
 namespace tacto {
@@ -16,11 +16,6 @@ constexpr Word<bool> kGainOf[] = {{"reading", false}, {"full scale", true}};
 constexpr double kMaxPct = 50;
 constexpr double kMaxPpm = 1e5;
 constexpr std::size_t kMaxNames = 10'000;
-
-bool sameLetters(std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b,
-                              [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
 
 bool modelMatches(std::string_view pattern, std::string_view model) {
     if (!pattern.ends_with('*')) return sameLetters(pattern, model);

@@ -1,9 +1,9 @@
 #include "core/pilot/Prompt.h"
 
-#include <cctype>
 #include <utility>
 
 #include "core/analysis/identification/IdentificationText.h"
+#include "core/base/Ascii.h"
 #include "core/base/Words.h"
 
 namespace tacto {
@@ -32,7 +32,7 @@ PilotPrompt prompt(PromptKind kind, std::string name, std::string text, std::vec
 
 /// As a button says it.
 std::string capitalised(std::string words) {
-    if (!words.empty()) words.front() = char(std::toupper(static_cast<unsigned char>(words.front())));
+    if (!words.empty()) words.front() = capital(words.front());
     return words;
 }
 

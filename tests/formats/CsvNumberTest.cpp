@@ -1,3 +1,4 @@
+#include <clocale>
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -54,6 +55,7 @@ TEST(CsvNumber, ANumberBeginsWithASignADigitOrThePoint) {
 
 TEST(CsvNumber, GivesTheNearestDouble) {
     Random random(20261121, "numbers");
+    const auto plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
     for (int k = 0; k < 200'000; ++k) {
         std::string text = random.below(2) == 0 ? "-" : "";
         for (auto digits = 1 + random.below(11); digits > 0; --digits)
@@ -66,9 +68,10 @@ TEST(CsvNumber, GivesTheNearestDouble) {
         if (random.below(2) == 0) text += fmt::format("e{}", static_cast<int>(random.below(40)) - 20);
         const auto taken = take(text);
         ASSERT_TRUE(taken.taken) << text;
-        ASSERT_EQ(taken.value, std::strtod(text.c_str(), nullptr)) << text;
+        ASSERT_EQ(taken.value, ::strtod_l(text.c_str(), nullptr, plain)) << text;
         ASSERT_EQ(taken.length, text.size()) << text;
     }
+    ::freelocale(plain);
 }
 
 }  // namespace

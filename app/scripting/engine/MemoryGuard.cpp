@@ -7,8 +7,11 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#include "core/base/WholeNumber.h"
 
 namespace tacto {
 
@@ -21,10 +24,12 @@ constexpr std::size_t kMaxGuardedBytes = std::size_t{2} << 30;
 std::size_t resident() noexcept {
     std::FILE* file = std::fopen("/proc/self/statm", "re");
     if (file == nullptr) return 0;
-    unsigned long all = 0, inMemory = 0;
-    const bool read = std::fscanf(file, "%lu %lu", &all, &inMemory) == 2;
+    char line[128];
+    std::string_view pages = std::fgets(line, sizeof line, file) != nullptr ? line : "";
     static_cast<void>(std::fclose(file));
-    return read ? inMemory * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) : 0;
+    pages.remove_prefix(std::min(pages.find(' ') + 1, pages.size()));  // the first number is of addresses
+    const auto inMemory = parseWhole<std::size_t>(pages.substr(0, pages.find(' ')));
+    return inMemory.value_or(0) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
 /// Memory that programs can still be given, in bytes.
@@ -32,9 +37,12 @@ std::size_t available() noexcept {
     std::FILE* file = std::fopen("/proc/meminfo", "re");
     if (file == nullptr) return kMaxGuardedBytes;
     char line[128];
-    unsigned long kilobytes = 0;
-    while (std::fgets(line, sizeof line, file) != nullptr) {
-        if (std::sscanf(line, "MemAvailable: %lu kB", &kilobytes) == 1) break;
+    std::size_t kilobytes = 0;
+    while (kilobytes == 0 && std::fgets(line, sizeof line, file) != nullptr) {
+        std::string_view text = line;
+        if (!text.starts_with("MemAvailable:")) continue;
+        text.remove_prefix(std::min(text.find_first_of("0123456789"), text.size()));
+        kilobytes = parseWhole<std::size_t>(text.substr(0, text.find(' '))).value_or(0);
     }
     static_cast<void>(std::fclose(file));
     return kilobytes == 0 ? kMaxGuardedBytes : std::size_t{1024} * kilobytes;

@@ -2,24 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/Ascii.h"
 #include "core/base/Text.h"
 
 namespace tacto {
 
 namespace {
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
 
 std::string_view withoutQuotes(std::string_view field) {
     field = trimmed(field);
@@ -82,7 +76,7 @@ struct Label {
 
 std::optional<Label> labelOf(std::string_view field) {
     field = withoutQuotes(field);
-    const auto name = lower(field.substr(0, 2));
+    const auto name = lowered(field.substr(0, 2));
     if (name != "ra" && name != "rz") return std::nullopt;
     Label out{name == "ra" ? Parameter::Ra : Parameter::Rz, std::nullopt, std::nullopt};
     auto rest = field.substr(2);
@@ -123,7 +117,7 @@ std::vector<std::string_view> fieldsOf(std::string_view line, char separator) {
 }
 
 bool beginsWith(std::string_view field, std::initializer_list<std::string_view> words) {
-    auto word = lower(withoutQuotes(field));
+    auto word = lowered(withoutQuotes(field));
     const auto end = std::find_if(word.begin(), word.end(), [](char c) { return c == ' ' || c == '.' || c == ':'; });
     word.erase(end, word.end());
     return std::find(words.begin(), words.end(), word) != words.end();

@@ -1,10 +1,12 @@
 #include "drivers/sigrok/session_file/SrWriter.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <system_error>
 
+#include "core/base/WholeFile.h"
 #include "drivers/sigrok/driver/ConfigValues.h"
 
 namespace tacto::sigrok_driver {
@@ -65,6 +67,15 @@ void writeSession(const SigrokLibrary& library, const std::string& file, const C
     (void)output->receive(context->create_end_packet());
 }
 
+/// What the system said, of a sentence of libsigrok's about an error of libzip's about it; else the whole.
+std::string systemReasonIn(const std::string& sentence) {
+    for (const int reason : {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EIO}) {
+        auto said = std::generic_category().message(reason);
+        if (sentence.find(said) != std::string::npos) return said;
+    }
+    return sentence;
+}
+
 }  // namespace
 
 Result<void> writeSr(const std::filesystem::path& path, const Capture& capture) {
@@ -81,16 +92,11 @@ Result<void> writeSr(const std::filesystem::path& path, const Capture& capture) 
     if (!library) return failure(library);
     const auto calls = (*library)->calls();
     if (!calls) return failure(calls);
-    const std::string part = path.string() + ".part";
-    const auto written = guarded(path.string() + " cannot be written", [&] { writeSession(**library, part, capture); });
-    std::error_code error;
-    if (written) std::filesystem::rename(part, path, error);
-    if (written && !error) return {};
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    return fail(
-        ErrorCode::Io, "{}",
-        written ? fmt::format("{} cannot be written: {}", path.string(), error.message()) : written.error().message);
+    return namedAs(path, replaceWholeFile(path, [&](const std::filesystem::path& draft) -> Result<void> {
+                       const auto written = guarded("", [&] { writeSession(**library, draft.string(), capture); });
+                       if (written) return {};
+                       return fail(ErrorCode::Io, "{}", systemReasonIn(written.error().message));
+                   }));
 }
 
 }  // namespace tacto::sigrok_driver

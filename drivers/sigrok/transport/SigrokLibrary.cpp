@@ -61,7 +61,7 @@ Error currentError(std::string_view what, unsigned before) noexcept {
     }
     const SigrokLog& log = sigrokLog();
     if (log.errors != before) text += " (" + log.last + ")";
-    return {ErrorCode::Device, fmt::format("{}: {}", what, text)};
+    return {ErrorCode::Device, what.empty() ? text : fmt::format("{}: {}", what, text)};
 }
 
 }  // namespace tacto::sigrok_driver

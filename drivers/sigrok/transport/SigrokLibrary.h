@@ -60,7 +60,8 @@ private:
     const std::shared_ptr<sigrok::Context> context_;
 };
 
-/// The sentence for the exception that is being handled: `what`, its text, and what libsigrok logged since `before`.
+/// The sentence for the exception that is being handled: `what` (or nothing), its text, and what libsigrok logged since
+/// `before`.
 [[nodiscard]] Error currentError(std::string_view what, unsigned before) noexcept;
 
 /// Runs `call` and turns whatever it throws into an Error Device that begins with `what`.
