@@ -5,6 +5,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "core/base/CsvBlanks.h"
 #include "core/base/Text.h"
 
 namespace tacto {
@@ -102,7 +103,7 @@ bool CsvReader::next() {
         blanks_ += trimmed(*line).empty() && (!tabs || line->find('\t') != std::string_view::npos) ? 1 : 0;
         if (isBlankOrComment(*line)) continue;
         if (separator_ == '\0') separator_ = separatorOf(*line);
-        cutLine(*line, separator_, fields_);
+        cutRow(*line, separator_, fields_);
         return true;
     }
     return false;

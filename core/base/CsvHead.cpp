@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/Csv.h"
+#include "core/base/CsvBlanks.h"
 #include "core/base/CsvNumber.h"
 #include "core/base/CsvStamp.h"
 #include "core/base/Text.h"
@@ -35,6 +36,8 @@ char separatorOf(const std::vector<std::string_view>& lines) {
         tabs += line.find('\t') != std::string_view::npos && commasAreDecimal(line) ? 1U : 0U;
         semicolons += line.find(';') != std::string_view::npos ? 1U : 0U;
     }
+    const auto whole = std::span(lines).first(seen > 2 ? seen - 1 : seen);  // the last one may be cut off
+    if (areApartByBlanks(whole)) return areApartByTabs(whole) ? '\t' : ' ';
     if (2 * tabs > seen) return '\t';
     return 2 * semicolons > seen ? ';' : ',';
 }
@@ -83,6 +86,8 @@ bool isRowLike(const CsvLine& line, const CsvLine& row, char point) {
 
 }  // namespace
 
+bool isPassedOver(std::string_view line) { return isBlankOrComment(line) || trimmed(line).starts_with('%'); }
+
 std::optional<double> fieldNumber(std::string_view field, char point) {
     const bool negative = field.starts_with('-');
     if (field.ends_with("∞") && field.size() <= std::string_view("-∞").size()) {
@@ -110,7 +115,7 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
         const auto line = text.substr(at, end - at);
         ++number;
         if (number > skipRows) {
-            if (!isBlankOrComment(line)) {
+            if (!isPassedOver(line)) {
                 seen.push_back({number, at, behind});
                 lines.push_back(line);
             } else if (const auto words = trimmed(line); !words.empty()) {
@@ -136,7 +141,7 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
     }
     std::vector<std::string_view> fields;
     const auto lineAt = [&](std::size_t i) {
-        cutLine(lines[i], head.separator, fields);
+        cutRow(lines[i], head.separator, fields);
         CsvLine line{seen[i].number, seen[i].offset, seen[i].behind, {}};
         for (const auto field : fields) line.fields.push_back(latin1AsUtf8(field));
         return line;
@@ -184,10 +189,19 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
         const auto& key = line.fields.front();
         if (!key.empty() && !fieldNumber(key, head.point) && !fieldStamp(key, head.point)) head.beside.push_back(line);
     }
+    if (row && head.separator == ' ') {
+        for (std::size_t i = 0; i < *row; ++i) {
+            auto& names = head.header[i].fields;
+            names.clear();
+            for (const auto name : namesApartByBlanks(lines[i], head.firstRow->fields.size()))
+                names.push_back(latin1AsUtf8(name));
+        }
+    }
     std::ranges::sort(remarks, {}, &Remark::number);
     for (auto [line, words] : remarks) {
         if (row && line > seen[*row].number) break;
-        while (!words.empty() && (words.front() == '#' || words.front() == ';')) words.remove_prefix(1);
+        while (!words.empty() && std::string_view("#%;").find(words.front()) != std::string_view::npos)
+            words.remove_prefix(1);
         head.remarks.push_back(latin1AsUtf8(trimmed(words)));
     }
     return head;

@@ -1,8 +1,9 @@
 // CsvHead.h - the beginning of a table: where its header ends and its numbers begin, what separates them.
 //
 // Tolerated, as in core/base/Csv.h: CR LF, blank lines, `#` comment lines, quoted fields, trailing separators; comma,
-// semicolon or tab between fields. Lines that begin with `;` are comments too where fields are separated by something
-// else. A decimal comma is taken where fields are separated by something else and hold numbers only so.
+// semicolon, tab or blanks (CsvBlanks.h) between fields; lines that begin with `%`. Lines that begin with `;` are
+// comments too where fields are separated by something else. A decimal comma is taken where fields
+// are separated by something else and hold numbers only so.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -29,9 +30,12 @@ struct CsvHead {
     std::optional<CsvLine> firstRow;   ///< the first line whose fields are numbers, stamps or empty
     std::vector<CsvLine> body;         ///< some lines from the first row on
     std::vector<CsvLine> beside;       ///< of them, those that begin with a key (KeyedCsv.h)
-    char separator = ',';
+    char separator = ',';              ///< ' ': any number of blanks and tabs
     char point = '.';
 };
+
+/// A line without fields: blank, or a comment that begins with # or, as Octave writes it, with %.
+[[nodiscard]] bool isPassedOver(std::string_view line);
 
 /// A number as tables have them: also nan, inf, ∞ (what PicoScope writes beyond the range; read as inf).
 [[nodiscard]] std::optional<double> fieldNumber(std::string_view field, char point);

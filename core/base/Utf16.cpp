@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/Printable.h"
 #include "core/base/Utf8.h"
 
 namespace tacto {
@@ -14,23 +15,6 @@ constexpr std::uint32_t kReplacement = 0xFFFD;
 void appendCodePoint(std::uint32_t c, std::string& text) {
     std::array<char, 4> bytes{};
     text.append(bytes.data(), encodeUtf8(c, bytes));
-}
-
-bool isUtf8(std::string_view text) noexcept {
-    for (std::size_t i = 0; i < text.size();) {
-        const auto first = static_cast<unsigned char>(text[i]);
-        const std::size_t length = first < 0x80                     ? 1
-                                   : first >= 0xC2 && first < 0xE0  ? 2
-                                   : first >= 0xE0 && first < 0xF0  ? 3
-                                   : first >= 0xF0 && first <= 0xF4 ? 4
-                                                                    : 0;
-        if (length == 0 || i + length > text.size()) return false;
-        for (std::size_t k = 1; k < length; ++k) {
-            if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80) return false;
-        }
-        i += length;
-    }
-    return true;
 }
 
 }  // namespace

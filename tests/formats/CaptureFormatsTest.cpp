@@ -35,7 +35,7 @@ TEST(CaptureFormats, AnotherFormatCanBeNamedAndAnUnknownOneIsRefused) {
     EXPECT_EQ(unknown.error().message,
               "format 'dat' is not known; known are wav, isf, csv-rigol, csv-siglent, csv-tektronix, csv-keysight, "
               "csv-picoscope, "
-              "csv-lecroy, csv-hantek, csv-owon, csv-gwinstek, csv-yokogawa, csv-micsig, csv-sigrok, csv");
+              "csv-lecroy, csv-hantek, csv-owon, csv-gwinstek, csv-yokogawa, csv-micsig, csv-sigrok, csv-labview, csv");
 }
 
 TEST(CaptureFormats, SkippedRowsAreNotAskedWhoseTheyAre) {

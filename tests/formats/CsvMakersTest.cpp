@@ -331,11 +331,15 @@ TEST(CsvMakers, DigilentWaveForms) {
                "Time (s),Channel 1 (V),Channel 2 (V)\n-1e-06,0,0.01\n0,1,0.02\n1e-06,2,0.03\n");
 }
 
-// pastebin.com/et1AHHqB: a row for each change, which is not an evenly sampled record.
-TEST(CsvMakers, SaleaeLogicChangesAreRefused) {
-    EXPECT_THAT(saidOf("Time [s],Channel 0,Channel 1\n289.692741059,0,0\n289.693153750,1,0\n289.693153875,0,0\n"
-                       "289.693166125,1,1\n"),
-                HasSubstr("it must rise in even steps"));
+// pastebin.com/et1AHHqB: a row for each change, which is not an evenly sampled record (CsvChangesTest.cpp).
+TEST(CsvMakers, SaleaeLogicChangesAreLevels) {
+    const auto read = madeOf(
+        "Time [s],Channel 0,Channel 1\n289.692741059,0,0\n289.693153750,1,0\n289.693153875,0,0\n"
+        "289.693166125,1,1\n");
+    EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("it lists 3 changes of level and not samples")));
+    EXPECT_NEAR(static_cast<double>(read.capture.samples()) / read.capture.rate_hz, 425.066e-6 + 125e-9, 1e-9);
+    const auto& first = read.capture.channels[0].samples;
+    EXPECT_EQ(std::ranges::count_if(first, [](float level) { return level > 0.5F; }), 200) << "two levels of 125 ns";
     expectRead({"csv", 1e3, 0, {{"Channel 0", "", {0.5F, 0.6F}}}}, "Time [s],Channel 0\n0.000,0.5\n0.001,0.6\n");
 }
 

@@ -71,7 +71,7 @@ class Trials {
 public:
     Trials(std::string_view text, CsvDialect dialect, const ReadOptions& given, std::string_view file)
         : given_(given),
-          head_(readCsvHead(text, given.skipRows)),
+          head_(readCaptureHead(text, given.skipRows)),
           columns_(columnsOf(head_)),
           file_(file),
           dialect_(dialect) {}

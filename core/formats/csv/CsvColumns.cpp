@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/CsvBlanks.h"
 #include "core/base/CsvNumber.h"
 #include "core/base/Text.h"
 
@@ -279,6 +280,20 @@ std::vector<std::string> namesIn(const CsvLine& line) {
     std::vector<std::string> names = line.fields;
     names.resize(filled(line));
     return names;
+}
+
+CsvHead readCaptureHead(std::string_view text, std::size_t skipRows) {
+    auto head = readCsvHead(text, skipRows);
+    if (!head.firstRow || !head.header.empty() || head.remarks.empty()) return head;
+    const auto& row = *head.firstRow;
+    std::vector<std::string_view> names;
+    cutRow(head.remarks.back(), head.separator, names);
+    if (head.separator == ' ') names = namesApartByBlanks(head.remarks.back(), row.fields.size());
+    const auto isTime = [](std::string_view name) { return isTimeColumn(columnNamed(name)); };
+    if (names.size() < 2 || names.size() != row.fields.size() || std::ranges::none_of(names, isTime)) return head;
+    head.header.push_back({row.number - 1, row.offset, row.offset, {names.begin(), names.end()}});
+    head.remarks.pop_back();
+    return head;
 }
 
 }  // namespace tacto

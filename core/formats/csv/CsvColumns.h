@@ -19,6 +19,9 @@ struct CsvColumn {
 
 [[nodiscard]] bool isTimeColumn(const CsvColumn& column);
 
+/// readCsvHead(), where the last comment is the header if it names a time and each of the other columns.
+[[nodiscard]] CsvHead readCaptureHead(std::string_view text, std::size_t skipRows);
+
 /// Whether every field is in brackets or a unit, and one of them is of time: the second of two header lines.
 [[nodiscard]] bool isLineOfUnits(const CsvLine& line);
 

@@ -29,8 +29,9 @@ const CsvMaker* makerOf(CsvDialect dialect) noexcept {
 const CsvMaker kPicoScopeCsv{CsvDialect::PicoScope, "csv-picoscope", "PicoScope CSV", isPicoScope, picoScope};
 
 std::span<const CsvMaker> csvMakers() noexcept {
-    static const std::array kMakers{kRigolCsv,  kSiglentCsv, kTektronixCsv, kKeysightCsv, kPicoScopeCsv, kLeCroyCsv,
-                                    kHantekCsv, kOwonCsv,    kGwInstekCsv,  kYokogawaCsv, kMicsigCsv,    kSigrokCsv};
+    static const std::array kMakers{kRigolCsv,  kSiglentCsv, kTektronixCsv, kKeysightCsv, kPicoScopeCsv,
+                                    kLeCroyCsv, kHantekCsv,  kOwonCsv,      kGwInstekCsv, kYokogawaCsv,
+                                    kMicsigCsv, kSigrokCsv,  kLabViewCsv};
     return kMakers;
 }
 

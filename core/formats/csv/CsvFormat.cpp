@@ -1,6 +1,7 @@
 #include "core/formats/csv/CsvFormat.h"
 
 #include "core/formats/csv/CsvAdvice.h"
+#include "core/formats/csv/CsvColumns.h"
 #include "core/formats/csv/CsvMakers.h"
 #include "core/formats/csv/CsvTable.h"
 #include "core/measure/CaptureDescription.h"
@@ -75,7 +76,7 @@ tl::unexpected<Error> withAdvice(Error refusal, TextBlocks& blocks, const std::s
     constexpr std::uint64_t kLong = 32UL * 1024 * 1024;
     std::size_t readings = blocks.size() > kLong ? 3 : 40;  // of all rows, at most
     for (const auto& advice : adviceToTry(text, dialect, options, blocks.name())) {
-        const auto head = readCsvHead(text, advice.options.skipRows);
+        const auto head = readCaptureHead(text, advice.options.skipRows);
         if (head.header.empty() && !head.firstRow) continue;
         const auto tried = dialectFor(head, advice.options);
         if (!layOut(tried, head, advice.options, blocks.name())) continue;
@@ -100,7 +101,7 @@ Result<CaptureReading> readTable(TextBlocks blocks, std::optional<CsvDialect> di
                     "{}: not a text in UTF-8, in UTF-16 with its mark, or in ASCII; a table of numbers was expected",
                     blocks.name());
     }
-    const auto head = readCsvHead(text, options.skipRows);
+    const auto head = readCaptureHead(text, options.skipRows);
     if (!dialect) dialect = dialectFor(head, options);
     if (auto back = blocks.rewind(); !back) return failure(back);
     auto reading = readOnce(blocks, text, *dialect, head, options, watch);
@@ -123,7 +124,7 @@ std::string_view CsvFormat::name() const noexcept { return known(dialect_).name;
 bool CsvFormat::recognises(const std::filesystem::path& /*path*/, std::string_view head) const {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (head.starts_with(kByteOrderMark)) head.remove_prefix(kByteOrderMark.size());
-    return isText(head) && isOfDialect(dialect_, readCsvHead(headOf(head), 0));
+    return isText(head) && isOfDialect(dialect_, readCaptureHead(headOf(head), 0));
 }
 
 Result<CaptureReading> CsvFormat::read(const std::filesystem::path& path, const ReadOptions& options,

@@ -14,7 +14,9 @@ public:
 
     std::string_view id() const noexcept override;
     std::string_view name() const noexcept override;
-    std::vector<std::string_view> suffixes() const override { return {".csv"}; }
+    std::vector<std::string_view> suffixes() const override {
+        return {dialect_ == CsvDialect::LabView ? ".lvm" : ".csv"};
+    }
     /// Plain takes any text, which a .txt may be; but not every .txt in a folder is a capture.
     bool recognises(const std::filesystem::path& path, std::string_view head) const override;
     Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options,

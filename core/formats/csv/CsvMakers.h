@@ -34,5 +34,6 @@ extern const CsvMaker kGwInstekCsv;
 extern const CsvMaker kYokogawaCsv;
 extern const CsvMaker kMicsigCsv;
 extern const CsvMaker kSigrokCsv;
+extern const CsvMaker kLabViewCsv;
 
 }  // namespace tacto

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/Csv.h"
+#include "core/base/CsvBlanks.h"
 #include "core/base/CsvHead.h"
 #include "core/base/CsvNumber.h"
 #include "core/base/CsvStamp.h"
@@ -59,7 +60,7 @@ double CsvRows::bytesPerRow() const noexcept {
 
 Result<const RowBatch*> CsvRows::next(const ReadWatch& watch) {
     batch_.rows = 0;
-    while (batch_.rows < RowBatch::kRows) {
+    while (batch_.rows < RowBatch::kRows && endLine_ == 0) {
         if (text_.empty()) {
             const auto block = blocks_.next();
             if (!block) return failure(block);
@@ -79,8 +80,13 @@ Result<const RowBatch*> CsvRows::next(const ReadWatch& watch) {
 Result<void> CsvRows::takeRows() {
     const char* text = text_.data();
     const char* const end = text + text_.size();
+    const bool mayEnd = !layout_.endsAt.empty();
     while (text != end && batch_.rows < RowBatch::kRows) {
         const std::size_t row = batch_.rows;
+        if (mayEnd && std::string_view(text, static_cast<std::size_t>(end - text)).starts_with(layout_.endsAt)) {
+            endLine_ = line_;
+            break;
+        }
         if (const char* const next = takePlainRow(text, end, row)) {
             batch_.lines[row] = line_++;
             ++batch_.rows;
@@ -90,7 +96,7 @@ Result<void> CsvRows::takeRows() {
         const auto length = static_cast<std::size_t>(
             static_cast<const char*>(std::memchr(text, '\n', static_cast<std::size_t>(end - text))) - text);
         const std::string_view line(text, length);
-        if (!isBlankOrComment(line)) {
+        if (!isPassedOver(line)) {
             if (auto taken = takeFields(line, row); !taken) return taken;
             batch_.lines[row] = line_;
             ++batch_.rows;
@@ -110,13 +116,13 @@ const char* CsvRows::takePlainRow(const char* text, const char* end, std::size_t
         if (use != uses_.data() && *text++ != separator) return nullptr;
         text = overBlanks(text, separator);
         if (use->ignored) {
-            while (*text != separator && *text != '\n' && *text != '"') ++text;
+            while (*text != separator && *text != '\n' && *text != '"' && !(*text == '\t' && separator == ' ')) ++text;
             if (*text == '"') return nullptr;
         } else {
             text =
                 use->stamps ? takeStampOf(text, end, use->values[row]) : takeNumber(text, end, point, use->values[row]);
             if (text == nullptr) return nullptr;
-            text = overBlanks(text, separator);
+            if (separator != ' ') text = overBlanks(text, separator);
         }
     }
     while (*text == separator) text = overBlanks(text + 1, separator);
@@ -158,7 +164,7 @@ void CsvRows::deliver() {
 }
 
 Result<void> CsvRows::takeFields(std::string_view line, std::size_t row) {
-    cutLine(line, separator_, fields_);
+    cutRow(line, separator_, fields_);
     const std::size_t width = uses_.size();
     bool surplus = false;
     for (std::size_t i = width; i < fields_.size(); ++i) surplus = surplus || !fields_[i].empty();
@@ -170,7 +176,7 @@ Result<void> CsvRows::takeFields(std::string_view line, std::size_t row) {
             "decimal points, or semicolons between columns, were expected",
             blocks_.name(), line_, fields_.size(), width);
     }
-    if (fields_.size() < width || surplus) {
+    if (fields_.size() < width || (surplus && !layout_.mayEndInText)) {
         return fail(ErrorCode::ParseError, "{}:{}: {} fields; {} were expected, as in the header", blocks_.name(),
                     line_, fields_.size(), width);
     }

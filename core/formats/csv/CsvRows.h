@@ -40,6 +40,8 @@ public:
     [[nodiscard]] std::size_t noValues(std::size_t index) const {
         return uses_[layout_.channels[index].number - 1].noValues;
     }
+    /// The line before which the layout says that the rows end; 0 where the file ends.
+    [[nodiscard]] std::size_t endLine() const noexcept { return endLine_; }
 
 private:
     /// A column of the file; what is read of it waits here until the batch is full.
@@ -75,6 +77,7 @@ private:
     std::uint64_t bytes_ = 0;
     std::uint64_t rows_ = 0;
     bool sawInfinite_ = false;
+    std::size_t endLine_ = 0;
 };
 
 }  // namespace tacto

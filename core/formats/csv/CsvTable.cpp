@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/formats/csv/CsvChanges.h"
 #include "core/formats/csv/CsvRows.h"
 #include "core/formats/csv/CsvTimes.h"
 
@@ -185,6 +186,10 @@ Result<CaptureReading> readCsvTable(TextBlocks& blocks, const CsvHead& head, con
                             RowBatch::kRows);
         }
     }
+    if (rows.endLine() != 0) {
+        reading.warnings.push_back(
+            fmt::format("{}:{}: another segment begins here; it was not read", blocks.name(), rows.endLine()));
+    }
     if (growing.rows == 0) {
         return fail(ErrorCode::ParseError, "{}: nothing after the header line; rows of numbers were expected",
                     blocks.name());
@@ -211,10 +216,24 @@ Result<CaptureReading> readCsvTable(TextBlocks& blocks, const CsvHead& head, con
         reading.warnings.push_back(
             fmt::format("{}: the header announces {} rows; there are {}", blocks.name(), *layout.rows, found));
     }
-    if (growing.times.needsAll()) {
+    const auto& channels = reading.capture.channels;
+    const bool isTimed = layout.times == RowTimes::Column && !growing.times.keepToStated();
+    const bool changes = isTimed && listsChanges(channels);
+    if (growing.times.needsAll() || (changes && !growing.times.hasAll())) {
         if (auto again = readTimesAgain(blocks, head, layout, watch, growing.times); !again) return failure(again);
     }
-    if (auto timed = growing.times.into(reading, blocks.name()); !timed) return failure(timed);
+    // Where columns were left out, rows may be the changes of those.
+    const bool ofMore = isTimed && channels.size() + 1 < layout.width && growing.times.hasAll();
+    const bool drawn = changes || (ofMore && listsChangesOfMore(channels, growing.times.stamps()));
+    if (drawn && layout.givenRate_hz) {
+        return fail(ErrorCode::InvalidArgument,
+                    "{}: it lists changes of level and not samples, so it has no sampling rate; without the option the "
+                    "levels between the changes are read",
+                    blocks.name());
+    }
+    const auto timed =
+        drawn ? drawLevels(growing.times.stamps(), reading, blocks.name()) : growing.times.into(reading, blocks.name());
+    if (!timed) return failure(timed);
     if (growing.differing.line != 0) {
         const auto& [line, column, by_s] = growing.differing;
         return fail(ErrorCode::ParseError,

@@ -64,6 +64,10 @@ public:
     void addAgain(std::span<const double> stamps);
     /// Every stamp that counts is there.
     [[nodiscard]] bool hasAll() const noexcept { return stamps_.size() == seen_.rows; }
+    /// Every stamp is where the interval that the header states has it.
+    [[nodiscard]] bool keepToStated() const noexcept;
+    /// In seconds, or samples where they are an index; of rows that count.
+    [[nodiscard]] std::span<const double> stamps() const noexcept { return stamps_; }
 
     /// Sets rate and start, with warnings. At least two stamps were added, unless the layout has none. Not while
     /// needsAll().
@@ -84,7 +88,6 @@ private:
     [[nodiscard]] double step() const noexcept {
         return (seen_.last - stamps_.front()) / static_cast<double>(seen_.rows - 1);
     }
-    [[nodiscard]] bool keepToStated() const noexcept;
     [[nodiscard]] Result<void> setTimes(CaptureReading& reading, const std::string& file) const;
     [[nodiscard]] std::size_t lineOf(std::size_t row) const;
 
