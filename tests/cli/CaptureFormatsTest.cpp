@@ -9,6 +9,7 @@
 
 #include "core/base/Result.h"
 #include "tests/cli/Shape.h"
+#include "tests/support/TakenAdvice.h"
 
 namespace tacto::test {
 namespace {
@@ -51,6 +52,31 @@ TEST(CaptureFormatsCommands, MeasureTakesTheUsersWordOverTheFiles) {
 
     const auto titled = desk.write("titled.csv", "a title\nanother\nwhen;what\n0;1\n1;2\n2;3\n");
     EXPECT_EQ(desk.run({"measure", titled, "--skip-rows", "2", "--time-column", "when"}).code, 0);
+}
+
+// A refusal is taken at its word, as it stands on the screen.
+TEST(CaptureFormatsCommands, TheOptionsThatARefusalNamesReadTheFile) {
+    const Desk desk;
+    std::string rows;
+    for (int i = 0; i < 400; ++i) rows += fmt::format("{};{};{}\n", 0.5 * i, i / 50 % 2 * 5, i % 7);
+    const std::pair<std::string, std::string> files[] = {
+        {"when;what;more\n" + rows, "--time-column 1"},
+        {rows, "--time-column 1"},
+        {"t/s;F/lbf;n\n" + rows + "200;x;1\n", "--columns 3"},
+        {"t/s;a;a\n" + rows, "--columns 2,3"},
+        {"1;2\nt/s;a;b\n" + rows, "--skip-rows 1"},
+        {"t/s;p/bar;m/kg\n" + rows, "--unit 2=V"},
+        {rows.substr(rows.find('\n') + 1) + "500;1;1\n", "--sample-rate 2"}};
+    for (const auto& [text, advice] : files) {
+        const auto path = desk.write("a.csv", text);
+        const auto refused = desk.run({"measure", path});
+        EXPECT_EQ(refused.code, 3) << refused.out;
+        EXPECT_THAT(refused.err, HasSubstr(advice));
+        std::vector<std::string> words{"measure", path};
+        for (const auto& word : advisedWords(refused.err)) words.push_back(word);
+        const auto read = desk.run(words);
+        EXPECT_EQ(read.code, 0) << read.err;
+    }
 }
 
 TEST(CaptureFormatsCommands, ClippingIsWhatTheStatedRangeSays) {

@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-#include "core/base/Text.h"
 #include "core/formats/CaptureFormats.h"
 #include "core/formats/csv/CsvFormat.h"
 #include "tests/formats/WrittenTables.h"
 #include "tests/support/Support.h"
+#include "tests/support/TakenAdvice.h"
 #include "tests/support/Trials.h"
 
 namespace tacto::test {
@@ -18,38 +18,18 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The options that a sentence advises, beside those given, as a user would type them; HZ becomes 1000. Nothing where
-/// it advises none.
-std::optional<ReadOptions> advised(const std::string& sentence, ReadOptions options) {
-    const auto at = sentence.find(" --");
-    if (at == std::string::npos) return std::nullopt;
-    std::istringstream words(sentence.substr(at));
-    for (std::string option, value; words >> option && option.starts_with("--") && words >> value;) {
-        if (option == "--format") options.format = value;
-        if (option == "--skip-rows") options.skipRows = static_cast<std::size_t>(parseNumber(value).value());
-        if (option == "--time-column") options.timeColumn = value;
-        if (option == "--sample-rate") options.rate = Hertz(value == "HZ" ? 1000 : parseNumber(value).value());
-        if (option == "--unit") options.units[value.substr(0, value.find('='))] = value.substr(value.find('=') + 1);
-        if (option == "--columns") {
-            options.columns.clear();
-            for (const auto name : split(value, ',')) options.columns.emplace_back(name);
-        }
-    }
-    return options;
-}
-
 /// Refused, and what it advises reads it; or it says what was expected. Whether it advised something.
 bool expectHonest(const std::string& text, const ReadOptions& options = {}) {
     const auto refused = parseCapture(text, "t.csv", options);
     if (refused) return false;
     const auto& sentence = refused.error().message;
     EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
-    const auto better = advised(sentence, options);
-    if (!better) {
+    const auto words = advisedWords(sentence);
+    if (words.empty()) {
         EXPECT_THAT(sentence, ::testing::AnyOf(HasSubstr("expected"), HasSubstr("there are"))) << text;
         return false;
     }
-    const auto read = parseCapture(text, "t.csv", *better);
+    const auto read = parseCapture(text, "t.csv", withAdvice(options, words));
     EXPECT_TRUE(read) << sentence << "\n" << (read ? "" : read.error().message) << "\n" << text;
     return true;
 }
@@ -75,6 +55,7 @@ TEST(CsvAdvice, NamesTheOptionWithItsValueForThisFile) {
         {"time_s,a,a\n0,1,2\n1,2,3\n", "; --columns 2,3 reads it"},
         {"time_s,,b\n0,1,2\n1,2,3\n", "; --columns 2,3 reads it"},
         {"time_s,a,b\n0,1,2\n1,x,3\n2,5,3\n", "; --columns 3 reads it"},
+        {"time_s,a,b\n0,--,2\n1,1,3\n2,5,3\n", "; --columns 3 reads it"},
         {"time_s,note,b\n0,1,2\n1,2,2\n2,ERR,2\n", "; --columns 3 reads it"},
         {"Time (s),A (V),Time (s),B (V)\n0,1,5,1\n1,1,6,1\n2,2,7,1\n", "; --columns 2 reads it"},
         {"time_s,a\n0,1\n1,1\n2,1\n9,1\n10,1\n",
@@ -198,9 +179,7 @@ TEST(CsvAdvice, IsTheSameForFiles) {
     const auto path = scratch.write("a.csv", "a,b\n7,1\n9,2\n11,7\n");
     const auto refused = ownCaptureFormats()->read(path);
     ASSERT_FALSE(refused);
-    const auto better = advised(refused.error().message, {});
-    ASSERT_TRUE(better);
-    const auto read = ownCaptureFormats()->read(path, *better);
+    const auto read = ownCaptureFormats()->read(path, withAdvice({}, advisedWords(refused.error().message)));
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_NEAR(read->capture.rate_hz, 0.5, 1e-12);
 }

@@ -1,4 +1,5 @@
-// Whatever bytes call themselves a capture: read or refused with a sentence, and measured without harm.
+// Whatever bytes call themselves a capture: read, or refused with a sentence whose advice reads it; and measured
+// without harm.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -7,6 +8,7 @@
 #include "core/measure/CaptureFile.h"
 #include "core/measure/PulseMeasurement.h"
 #include "tests/fuzz/FuzzTarget.h"
+#include "tests/support/TakenAdvice.h"
 
 namespace tacto::fuzz::CaptureCsvFuzz {
 
@@ -15,6 +17,8 @@ TACTO_FUZZ(CaptureCsvFuzz, const std::uint8_t* data, std::size_t size) {
     auto reading = tacto::parseCapture(text, "fuzz.csv");
     if (!reading) {
         if (reading.error().message.empty()) std::abort();
+        const auto words = test::advisedWords(reading.error().message);
+        if (!words.empty() && !tacto::parseCapture(text, "fuzz.csv", test::withAdvice({}, words))) std::abort();
         return 0;
     }
     for (const auto& channel : tacto::measureCapture(reading->capture).channels) {

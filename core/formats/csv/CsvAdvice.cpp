@@ -29,9 +29,9 @@ bool risesEvenly(const std::vector<double>& values) {
 }
 
 ColumnsOfRows columnsOf(const CsvHead& head) {
-    constexpr std::size_t kMost = 12;
+    constexpr std::size_t kMaxColumns = 12;
     ColumnsOfRows columns;
-    const auto width = head.firstRow ? std::min(filled(*head.firstRow), kMost) : 0;
+    const auto width = head.firstRow ? std::min(filled(*head.firstRow), kMaxColumns) : 0;
     for (std::size_t c = 0; c < width; ++c) {
         std::vector<double> values;
         std::size_t stamps = 0;
@@ -54,14 +54,14 @@ ColumnsOfRows columnsOf(const CsvHead& head) {
 
 /// How many lines to pass over so that a table begins with the names of its columns.
 std::vector<std::size_t> skipsOf(const CsvHead& head, std::size_t given) {
-    constexpr std::size_t kMost = 6;
+    constexpr std::size_t kMaxSkips = 6;
     std::vector<std::size_t> skips;
     for (const auto* lines : {&head.header, &head.body}) {
         for (const auto& line : *lines) {
             const bool names =
                 filled(line) > 1 && !isLineOfUnits(line) &&
                 std::ranges::any_of(line.fields, [](const auto& field) { return isTimeColumn(columnNamed(field)); });
-            if (names && line.number > given + 1 && skips.size() < kMost) skips.push_back(line.number - 1);
+            if (names && line.number > given + 1 && skips.size() < kMaxSkips) skips.push_back(line.number - 1);
         }
     }
     return skips;
@@ -121,12 +121,9 @@ private:
     void addAll(CsvDialect dialect, const ReadOptions& base) {
         timeOfFile_ = timeColumnOf(dialect, base);
         addColumns(base);
-        if (base.columns.empty()) {
-            for (const auto column : columns_.numbers) {
-                auto options = base;
-                options.units[fmt::to_string(column)] = "V";
-                add(options, ", its numbers as volts");
-            }
+        for (const auto column : columns_.numbers) {
+            auto options = base;
+            if (options.units.try_emplace(fmt::to_string(column), "V").second) add(options, ", its numbers as volts");
         }
         for (const auto time : columns_.rising) {
             if (timeOfFile_ != 0 && (timeOfFile_ != time || base.timeColumn.empty())) continue;

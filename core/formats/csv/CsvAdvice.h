@@ -16,6 +16,9 @@ struct CsvAdvice {
     std::string words;
 };
 
+/// How the sentences about times that are not even go on: they advise a rate themselves, where it is meant.
+constexpr std::string_view kRateInstead = "; where the samples are even all the same, --sample-rate ";
+
 /// What is worth a try on the table that begins with `text` (whole lines) and is of `dialect`, the least first. A rate
 /// is among them where no column of times was found: the one that the file states, else the word HZ stands for it, and
 /// the options hold 1 Hz.

@@ -30,9 +30,10 @@ bool hasStamps(const CsvHead& head) {
 
 /// The line that names the columns: the one nearest to the rows that names a time (keys above it may be called so too,
 /// units below it are); where the time is known without one, the last of the header.
-const CsvLine* lineOfNames(const CsvHead& head, bool timeIsKnown) {
+const CsvLine* lineOfNames(const CsvHead& head, const std::optional<StatedInterval>& stated, bool timeIsKnown) {
     const CsvLine* units = nullptr;
     for (const auto& line : std::views::reverse(head.header)) {
+        if (stated && line.number == stated->line) continue;
         if (!hasTimeAndChannel(line) && !isLineOfUnits(line)) continue;
         if (!isLineOfUnits(line)) return &line;
         units = &line;
@@ -136,7 +137,7 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
                     "{}:{}: a header line naming the columns, time among them, was expected before the numbers", file,
                     head.firstRow->number);
     }
-    const auto* named = lineOfNames(head, stated || hasStamps(head) || optionsGiveTheTime(options));
+    const auto* named = lineOfNames(head, stated, stated || hasStamps(head) || optionsGiveTheTime(options));
     if (named == nullptr && !head.header.empty()) {
         return fail(ErrorCode::ParseError,
                     "{}:{}: columns '{}'; a time column and channels were expected, as in time_s,voltage_v,current_a",
@@ -153,16 +154,26 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
             names.push_back(fmt::format("column {}", c + 1));
         }
     }
-    const auto& last = units != nullptr   ? *units
-                       : named != nullptr ? *named
-                       : head.firstRow    ? *head.firstRow
-                                          : head.header.back();
-    CsvDraft draft(named != nullptr ? *named : last, last);
+    const auto* last = units != nullptr ? units : named;
+    if (last == nullptr) last = head.firstRow ? &*head.firstRow : &head.header.back();
+    const auto hasNumber = [&](const CsvLine& line) {
+        return std::ranges::any_of(line.fields, [&](const auto& field) {
+            return fieldNumber(field, head.point) || fieldStamp(field, head.point);
+        });
+    };
+    std::size_t remarks = 0;  // below the names, as Origin writes them
+    for (; named != nullptr && last != &head.header.back() && !hasNumber(last[1]); ++last) ++remarks;
+    CsvDraft draft(named != nullptr ? *named : *last, *last);
     if (named == nullptr && head.firstRow) draft.startAt(*head.firstRow);
     if (named != nullptr && named != head.header.data()) {
         draft.layout.warnings.push_back(fmt::format(
             "{}:{}: {} before the names of the columns passed over", file, head.header.front().number,
             named - head.header.data() == 1 ? "a line" : fmt::format("{} lines", named - head.header.data())));
+    }
+    if (remarks > 0) {
+        draft.layout.warnings.push_back(
+            fmt::format("{}:{}: {} without numbers below the names of the columns passed over", file, last->number,
+                        remarks == 1 ? "a line" : fmt::format("{} lines", remarks)));
     }
     draft.layout.times = RowTimes::Counted;
     if (stated) draft.layout.interval_s = stated->interval_s;
@@ -236,9 +247,8 @@ Result<void> chooseTimeColumn(CsvDraft& draft, const CsvHead& head, ReadOptions&
                 options.units, [&](const auto& unit) { return columnCalled(layout.names, unit.first) == *column; });
             if (!wrong.empty() && !said && !firstStampIn(head, layout, *column)) {
                 return fail(ErrorCode::InvalidArgument,
-                            "{}:{}: column '{}' is in '{}', which is no unit of time; a time column in s, ms, us or ns "
-                            "was expected",
-                            file, layout.headerLine, layout.names[*column], wrong);
+                            "{}:{}: column '{}' is in '{}'; a column of times, in s, ms, us or ns, was expected", file,
+                            layout.headerLine, layout.names[*column], wrong);
             }
         }
     }
@@ -298,7 +308,7 @@ void pairTimes(CsvLayout& layout, const std::vector<CsvLayout::OtherTime>& times
     if (!layout.givenRate_hz) layout.otherTimes.assign(used.begin() + 1, used.end());
 }
 
-/// Drops what is no channel, by name: texts, times, other quantities. What the user chose stays, and is refused.
+/// Drops texts, times and other quantities, by name. What the user chose stays, and is refused.
 Result<void> keepChannels(CsvLayout& layout, std::vector<ChannelPlan>& channels, const CsvHead& head, bool chosen,
                           bool paired, std::string_view file) {
     const auto leaveOut = [&](const auto& is, std::string_view what) {

@@ -72,7 +72,8 @@ Result<CaptureReading> readOnce(TextBlocks& blocks, std::string_view text, CsvDi
 tl::unexpected<Error> withAdvice(Error refusal, TextBlocks& blocks, const std::string& text, CsvDialect dialect,
                                  const ReadOptions& options, const ReadWatch& watch) {
     const bool isOfTable = refusal.code == ErrorCode::ParseError || refusal.code == ErrorCode::InvalidArgument;
-    if (!isOfTable || refusal.message.find("--") != std::string::npos) return tl::unexpected(std::move(refusal));
+    if (!isOfTable || refusal.message.find(kRateInstead) != std::string::npos)
+        return tl::unexpected(std::move(refusal));
     constexpr std::uint64_t kLong = 32UL * 1024 * 1024;
     std::size_t readings = blocks.size() > kLong ? 3 : 40;  // of all rows, at most
     for (const auto& advice : adviceToTry(text, dialect, options, blocks.name())) {

@@ -33,11 +33,13 @@ private:
 /// A table in any of the known dialects. Everything becomes V and A; the input range, resolution and trigger moment are
 /// not in such files and stay unknown, so that no sample is known to be clipped (see core/measure/Clipping.h),
 /// unless the options state a range.
-/// A field that is empty or says nan is a missing sample: dropped (with a warning) at the end of the record, NaN in its
-/// middle, where pulses that touch it are not measured.
-/// Errors: NotFound; Io, also where the samples do not fit into memory; ParseError naming file, line and what was
-/// expected: a field that is not a number, a row of the wrong length, no time column, an unknown unit, time that does
-/// not rise in even steps (± half a step), fewer than two rows; InvalidArgument for options that do not fit; Stopped.
+/// A field that is empty, says nan or 9.9E+37 (isNoValue()) is a missing sample: dropped (with a warning) at the end of
+/// the record, NaN in its middle, where pulses that touch it are not measured. Errors: NotFound; Io, also where the
+/// samples do not fit into memory; ParseError naming file, line and what was expected: a field that is not a number, a
+/// row of the wrong length, no time column, an unknown unit, time that does not rise in even steps (± half a step),
+/// fewer than two rows; InvalidArgument for options that do not fit; Unsupported for what is no one record over time
+/// (segments, a spectrum); Stopped. The sentence ends with the options that read the table all the same, where some do
+/// (CsvAdvice.h).
 [[nodiscard]] Result<CaptureReading> readCapture(const std::filesystem::path& path, const ReadOptions& options = {},
                                                  const ReadWatch& watch = {});
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/formats/csv/CsvAdvice.h"
+
 namespace tacto {
 
 namespace {
@@ -61,9 +63,18 @@ bool areOnlyCoarse(const Steps& steps, double farthest) {
     return steps.everZero && !steps.everDown && std::isfinite(steps.least) && farthest <= 1.01 * steps.least;
 }
 
+/// Whether every stamp stands twice: Rohde & Schwarz' pairs of minimum and maximum, and others' peak detection.
+bool arePairs(std::span<const double> stamps) {
+    if (stamps.size() < 4 || stamps.size() % 2 != 0) return false;
+    for (std::size_t i = 0; i < stamps.size(); i += 2) {
+        if (stamps[i] != stamps[i + 1] || (i > 0 && stamps[i] == stamps[i - 1])) return false;
+    }
+    return true;
+}
+
 /// What reads rows whose times are not even: samples that are even all the same.
 std::string rateInstead(double step_s) {
-    return fmt::format("; where the samples are even all the same, --sample-rate {} reads them{}",
+    return fmt::format("{}{} reads them{}", kRateInstead,
                        step_s > 0 && std::isfinite(1 / step_s) ? fmt::format("{:.10g}", 1 / step_s) : "HZ",
                        step_s > 0 && std::isfinite(1 / step_s) ? "" : ", where HZ is the instrument's rate");
 }
@@ -227,6 +238,13 @@ Result<void> CsvTimes::setTimes(CaptureReading& reading, const std::string& file
                         "{}:{}: time moves by {:.6g} s here; it must rise in even steps (most are {:.6g} s){}", file,
                         lineOf(steps.worst), (stamps_[steps.worst] - stamps_[steps.worst - 1]) * unit_s,
                         steps.usual * unit_s, rateInstead(steps.usual * unit_s));
+        }
+        if (!hasStated && arePairs(stamps_)) {
+            return fail(
+                ErrorCode::ParseError,
+                "{}: every time stands twice, as where the minimum and the maximum of each interval are saved; one "
+                "value for each time was expected{}",
+                file, rateInstead(step_s));
         }
         // The last digit may hide up to this much of the duration at either end.
         const double doubt = steps.least / (stamps_.back() - stamps_.front());

@@ -1,17 +1,25 @@
 #include "core/formats/csv/KeyedCsv.h"
 
+#include <algorithm>
+
 #include "core/base/Text.h"
 #include "core/formats/csv/CsvColumns.h"
 
 namespace tacto {
 
 std::pair<std::string, std::string> keyedValue(const CsvLine* line, std::size_t index) {
-    if (line == nullptr || index + 1 >= line->fields.size()) return {};
-    const auto& field = line->fields[index + 1];
-    const auto colon = field.find(':');
-    if (colon == std::string::npos) return {"", field};
-    return {std::string(trimmed(std::string_view(field).substr(0, colon))),
-            std::string(trimmed(std::string_view(field).substr(colon + 1)))};
+    if (line == nullptr) return {};
+    std::vector<std::string_view> values;
+    for (std::size_t c = 1; c < line->fields.size(); ++c) {
+        const std::string_view field = line->fields[c];
+        const bool hasSeveral = std::ranges::count(field, ':') > 1;  // "CH1:V CH2:V"
+        for (const auto value : split(field, hasSeveral ? ' ' : ',')) values.push_back(value);
+    }
+    if (index >= values.size()) return {};
+    const auto value = values[index];
+    const auto colon = value.find(':');
+    if (colon == std::string_view::npos) return {"", std::string(value)};
+    return {std::string(trimmed(value.substr(0, colon))), std::string(trimmed(value.substr(colon + 1)))};
 }
 
 void readRecordKeys(const CsvHead& head, CsvLayout& layout) {

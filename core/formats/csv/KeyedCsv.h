@@ -7,8 +7,8 @@
 
 namespace tacto {
 
-/// "CH1:V,CH2:mV" or "V,mV": name and value that a line of keys gives channel `index` (from 0). Empty where it does
-/// not.
+/// "CH1:V,CH2:mV", "CH1:V CH2:mV" or "V,mV": name and value that a line of keys gives channel `index` (from 0). Empty
+/// where it does not.
 [[nodiscard]] std::pair<std::string, std::string> keyedValue(const CsvLine* line, std::size_t index);
 
 /// Sample interval and number of rows, as "Sample Interval" or "Sample Rate", and "Record Length", state them.

@@ -51,7 +51,7 @@ Result<CsvDraft> sigrok(const CsvHead& head, std::string_view file) {
         // The label is the channel's unit or its name.
         const bool labelled = labels != nullptr && before + c < labels->fields.size();
         const std::string_view label = labelled ? std::string_view(labels->fields[before + c]) : "";
-        draft.addChannel(std::string(trimmed(names[c])), unitField(label) ? label : "");
+        draft.addChannel(std::string(trimmed(names[c])), label == trimmed(names[c]) ? "" : label);
     }
     if (hasTrigger) draft.addOther("Trigger");
     draft.countRows(1 / *rate, 0, stated, file);
