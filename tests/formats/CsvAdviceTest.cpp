@@ -160,7 +160,7 @@ TEST(CsvAdvice, OfDamagedTablesIsHonest) {
     Random random(20261129, "damage");
     int refused = 0;
     int withAdvice = 0;
-    const int tables = trials<int>({.local = 600, .ci = 2000, .campaign = 50'000});
+    const int tables = trials<int>({.local = 400, .ci = 1000, .campaign = 20'000});
     for (int i = 0; i < tables; ++i) {
         auto text = anyWrittenTable(random).text;
         for (auto mishaps = 1 + random.below(3); mishaps > 0; --mishaps) text = damaged(text, random);

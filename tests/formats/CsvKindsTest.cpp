@@ -18,7 +18,7 @@ using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-int drawn() { return trials<int>({.local = 150, .ci = 600, .campaign = 20'000}); }
+int drawn() { return trials<int>({.local = 100, .ci = 300, .campaign = 5000}); }
 
 using Drawing = WrittenTable (*)(Random&);
 class CsvKinds : public ::testing::TestWithParam<std::pair<const char*, Drawing>> {};

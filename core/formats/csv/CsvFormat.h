@@ -37,7 +37,7 @@ private:
 /// the record, NaN in its middle, where pulses that touch it are not measured. Errors: NotFound; Io, also where the
 /// samples do not fit into memory; ParseError naming file, line and what was expected: a field that is not a number, a
 /// row of the wrong length, no time column, an unknown unit, time that does not rise in even steps (± half a step),
-/// fewer than two rows; InvalidArgument for options that do not fit; Unsupported for what is no one record over time
+/// fewer than two rows; InvalidArgument for options that do not fit; Unsupported for what is not one record over time
 /// (segments, a spectrum); Stopped. The sentence ends with the options that read the table all the same, where some do
 /// (CsvAdvice.h).
 [[nodiscard]] Result<CaptureReading> readCapture(const std::filesystem::path& path, const ReadOptions& options = {},
