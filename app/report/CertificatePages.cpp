@@ -144,7 +144,9 @@ public:
         }
         set_ = axisUnit(set, unit);
         error_ = axisUnit(error, unit);
-        tolerance_ = axisUnit(tolerance, unit);
+        // Beside the error it is compared with, unless that takes too many digits.
+        constexpr double kFourDigits = 1e4;
+        tolerance_ = tolerance * error_.factor < kFourDigits ? error_ : axisUnit(tolerance, unit);
     }
 
     [[nodiscard]] TableBlock table(const QString& caption) const {

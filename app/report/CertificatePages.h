@@ -1,8 +1,8 @@
 // CertificatePages.h - the report of a stimulator's calibration as a certificate that a laboratory can sign: what
 // ISO/IEC 17025:2017 asks for in 7.8.2.1, 7.8.4.1 and 7.8.6.2.
 //
-// It claims no more than was done: what was not measured says so, what was not entered is a ruled line, what rests on no
-// certificate is not traceable, and a simulated bench says SIMULATED in the title and on every page.
+// It claims no more than was done: what was not measured says so, what was not entered is a ruled line, what rests on
+// no certificate is not traceable, and a simulated bench says SIMULATED in the title and on every page.
 //
 // Thread-safety: the GUI thread.
 #pragma once

@@ -363,7 +363,7 @@ void alignPoints(QStringList& cells) {
         }
         if (n == 0) continue;
         if (!like) like = between(cell);
-        if (between(cell) != *like) return;
+        if (between(cell) != *like || like->contains(',')) return;  // a comma follows its number
     }
     for (auto& cell : cells) {
         QString filled;

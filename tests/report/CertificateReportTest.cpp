@@ -233,7 +233,7 @@ TEST_F(Certificate, EveryValueHasItsUAndItsFactorInOnePrefix) {
         QStringList titles;
         for (const auto& column : table->columns) titles << column.title;
         EXPECT_EQ(titles, (volts ? QStringList{"Verdict", "Set (V)", "Delivered (V)", "Error (V)", "U (V)", "k",
-                                               "Coverage (%)", "Tolerance (mV)"}
+                                               "Coverage (%)", "Tolerance (V)"}
                                  : QStringList{"Verdict", "Set (µs)", "Delivered (µs)", "Error (µs)", "U (µs)", "k",
                                                "Coverage (%)", "Tolerance (µs)"}))
             << titles.join(", ").toStdString();

@@ -98,8 +98,8 @@ Result<Json> calibrationCheck(ScriptSession& session, const Arguments& arguments
     return writeItem(session, calibrationCheckTable(listIn(arguments.object("check"), "rows")));
 }
 
-/// It is made of the run's own calibrations alone, and of what the program itself told of the stored one: a certificate says
-/// nothing that a script made up (hazard H8).
+/// It is made of the run's own calibrations alone, and of what the program itself told of the stored one: a certificate
+/// says nothing that a script made up (hazard H8).
 Result<Json> certificate(ScriptSession& session, const Arguments& arguments) {
     const Json& before = arguments.object("before");
     if (!session.own().noted(before)) return arguments.wrong("before", before, "bench.calibration, unchanged,");
