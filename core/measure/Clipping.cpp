@@ -17,6 +17,9 @@ constexpr std::size_t kJudgedTriples = 100'000;  // triples of neighbours
 constexpr std::size_t kMinTriples = 50;          // of them
 constexpr double kEdge = 0.05;                   // of the record's span: a larger step is an edge and no noise
 constexpr double kJitters = 0.01;                // of the triples: noise of at least three codes
+constexpr double kNoisyCodes = 2;                // a noise of which no code keeps a third of the samples
+constexpr double kNoisy = 0.3;                   // of the triples
+constexpr double kKeepsInNoise = 0.3;            // of the samples, where the noise was added to a clipped top
 constexpr double kMoves = 0.2;                   // of the steps: noise at all
 
 /// First and end of a phase's samples as recorded.
@@ -46,7 +49,7 @@ void markAtRange(PhaseSpans& phases, const CaptureChannel& channel, const ClipLi
 }
 
 /// How much the signal moves where it rests.
-enum class Rest { Still, Moves, Jitters };
+enum class Rest { Still, Moves, Jitters, Noisy };
 
 /// Judged on three neighbours at a time, away from the phases. Noise turns back from one sample to the next; what
 /// settles slowly does not.
@@ -88,10 +91,13 @@ Rest restBetween(const PhaseSpans& phases, const CaptureChannel& channel, double
     }
     const auto n = static_cast<double>(judged.size());
     if (judged.size() < kMinTriples || static_cast<double>(moves) < kMoves * n) return Rest::Still;
-    const auto turns = std::ranges::count_if(judged, [&](const Steps& s) {
-        return s.before * s.after < 0 && std::max(std::abs(s.before), std::abs(s.after)) > 1.5 * least;
-    });
-    return static_cast<double>(turns) >= kJitters * n ? Rest::Jitters : Rest::Moves;
+    const auto turnsBeyond = [&](double steps) {
+        return static_cast<double>(std::ranges::count_if(judged, [&](const Steps& s) {
+            return s.before * s.after < 0 && std::max(std::abs(s.before), std::abs(s.after)) > steps * least;
+        }));
+    };
+    if (turnsBeyond(kNoisyCodes + 0.5) >= kNoisy * n) return Rest::Noisy;
+    return turnsBeyond(1.5) >= kJitters * n ? Rest::Jitters : Rest::Moves;
 }
 
 bool isFlat(std::span<const float> samples, float extreme, Rest rest) {
@@ -103,6 +109,9 @@ bool isFlat(std::span<const float> samples, float extreme, Rest rest) {
     if (length < kMinFlat || 2 * length < samples.size()) return false;
     const auto kept = static_cast<std::size_t>(std::count(first, end, extreme));
     if (rest == Rest::Moves) return kept == length && length >= kManyFlat;
+    if (rest == Rest::Noisy && kept >= kMinFlat &&
+        static_cast<double>(kept) >= kKeepsInNoise * static_cast<double>(length))
+        return true;
     return static_cast<double>(kept) >= kKeeps * static_cast<double>(length);
 }
 

@@ -6,6 +6,9 @@
 // signal's own. Where a top then keeps the record's extreme from sample to sample although the signal is noisy where it
 // rests, the noise was cut off: such a phase is flat-topped, is measured, and flagged for the reader.
 //
+// Where the noise is of several codes, a third of them at the extreme is enough: an amplifier clipped and noise came
+// after it.
+//
 // A top is flat when it keeps the extreme in 95 % of at least 10 samples that are at least half of the phase, and the
 // resting signal jitters over three codes or more: such noise never keeps one code 95 % of the time. Noise
 // of two codes is seen or not by where the level lies between them, so that the top must then keep the extreme in every

@@ -16,12 +16,16 @@ constexpr double kOffGrid = 0.2;           // of a step
 constexpr double kNeighbours = 6;          // steps: a wider gap says nothing, for the step is not known well enough
 constexpr std::size_t kManyCodes = 32;     // steps beside each other
 constexpr std::size_t kReturnsWithin = 4;  // samples: some instruments write each twice
-constexpr std::size_t kMinReturns = 4;     // to a code from its neighbour
+constexpr double kMinReturns = 4;          // to a code from its neighbour
+constexpr std::size_t kHeld = 3;           // samples: a stair and no edge
+constexpr std::size_t kFewCodes = 4;       // steps beside each other, climbed one by one
+constexpr double kStairs = 0.8;            // of the stairs
 constexpr double kReturns = 0.005;         // of the samples
 
 struct Seen {
     std::vector<float> values;    ///< all different, ascending
     std::vector<double> returns;  ///< from a value to the one before: the larger of both changes
+    std::vector<double> stairs;   ///< from a value that was held to another that is
     std::size_t samples = 0;
 };
 
@@ -33,13 +37,15 @@ Seen lookAt(std::span<const float> samples) {
         const auto run = samples.subspan(first, std::min(kRun, samples.size() - first));
         std::copy_if(run.begin(), run.end(), std::back_inserter(seen.values), [](float x) { return std::isfinite(x); });
         double before = 0;
-        std::size_t changed = 0;
+        std::size_t changed = 0, held = 0;
         for (std::size_t i = 1; i < run.size(); ++i) {
             if (run[i] == run[i - 1]) continue;
             const double jump = static_cast<double>(run[i]) - static_cast<double>(run[i - 1]);
             if (before * jump < 0 && i - changed <= kReturnsWithin) {
                 seen.returns.push_back(std::max(std::abs(before), std::abs(jump)));
             }
+            if (held >= kHeld && i - changed >= kHeld) seen.stairs.push_back(std::abs(before));
+            held = i - changed;
             before = jump;
             changed = i;
         }
@@ -75,13 +81,15 @@ double converterStep(std::span<const float> samples) {
         std::count_if(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(near),
                       [&](double gap) { return std::abs(gap / step - std::round(gap / step)) <= kOffGrid; }));
     if (2 * near < gaps.size() || 20 * onGrid < 19 * near) return 0;
-    const auto returns =
-        static_cast<std::size_t>(std::count_if(seen.returns.begin(), seen.returns.end(), [&](float jump) {
-            return std::abs(static_cast<double>(jump) / step - 1) <= kOffGrid;
-        }));
-    const bool flickers =
-        returns >= kMinReturns && static_cast<double>(returns) >= kReturns * static_cast<double>(seen.samples);
-    return flickers || ones >= kManyCodes ? step : 0;
+    const auto single = [&](const std::vector<double>& jumps) {
+        return static_cast<double>(
+            std::ranges::count_if(jumps, [&](double jump) { return std::abs(jump / step - 1) <= kOffGrid; }));
+    };
+    const double returns = single(seen.returns), stairs = single(seen.stairs);
+    const bool flickers = returns >= kMinReturns && returns >= kReturns * static_cast<double>(seen.samples);
+    const bool climbs =
+        ones >= kFewCodes && stairs >= kMinReturns && stairs >= kStairs * static_cast<double>(seen.stairs.size());
+    return flickers || climbs || ones >= kManyCodes ? step : 0;
 }
 
 }  // namespace tacto

@@ -17,7 +17,8 @@ namespace {
 // plateau. Ringing stays below this, noise below the multiple of its standard deviation.
 constexpr double kThreshold = 0.15;
 constexpr double kThresholdInNoise = 6;
-constexpr double kRelease = 0.6;  // of the threshold: hysteresis
+constexpr double kRelease = 0.6;         // of the threshold: hysteresis
+constexpr double kReleaseInNoise = 4.5;  // below the threshold at least, so that noise on a slow edge stays one phase
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -45,13 +46,16 @@ struct Thresholds {
             const double distance = std::abs(state - levels.baseline);
             return std::min(0.5 * distance, std::max(kThreshold * distance, kThresholdInNoise * levels.noise));
         };
+        const auto release = [&](double from) {
+            return std::max(0.0, std::min(kRelease * from, from - kReleaseInNoise * levels.noise));
+        };
         if (levels.high > levels.baseline && sides != Sides::Down) {
             above = static_cast<float>(levels.baseline + threshold(levels.high));
-            aboveRelease = static_cast<float>(levels.baseline + kRelease * threshold(levels.high));
+            aboveRelease = static_cast<float>(levels.baseline + release(threshold(levels.high)));
         }
         if (levels.low < levels.baseline && sides != Sides::Up) {
             below = static_cast<float>(levels.baseline - threshold(levels.low));
-            belowRelease = static_cast<float>(levels.baseline - kRelease * threshold(levels.low));
+            belowRelease = static_cast<float>(levels.baseline - release(threshold(levels.low)));
         }
     }
 };

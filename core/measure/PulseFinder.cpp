@@ -1,6 +1,7 @@
 #include "core/measure/PulseFinder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -24,7 +25,12 @@ constexpr std::size_t kLongestMean = 4096;
 constexpr double kShallowest = 0.02;   // of the leading phase: less beyond the other side is not a second phase
 constexpr double kSecondReliable = 6;  // times the noise: that it follows a leading phase is known besides
 constexpr std::size_t kJudgedPulses = 1000;
-constexpr double kMostUnrest = 0.06;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
+constexpr double kOtherSide = 0.15;  // of the state: a phase on the other side
+constexpr double kOtherSideInNoise = 6;
+constexpr double kUnseenInSteps = 0.2;  // of the converter
+constexpr double kUnseen = 2e-4;        // of the largest state
+constexpr double kDithers = 0.5;
+constexpr double kMostUnrest = 0.05;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
 constexpr double kMostlyEdges = 0.6;  // of the width: half a sine has 0.67
 
 double distanceOf(double state, double baseline) { return std::isfinite(state) ? std::abs(state - baseline) : 0; }
@@ -93,7 +99,7 @@ struct Attempt {
     double unrest = 0;           // see SignalQuality
     double levelAfter = 0;       // the same
     double levelBefore = 0;
-    double beside = 0;  ///< see SignalQuality
+    double beside = 0;  ///< of the signal just beside its pulses, from the baseline
 
     [[nodiscard]] bool hasStates() const noexcept { return levels.count != StateCount::None; }
     [[nodiscard]] bool mostlyMeasured() const {
@@ -109,8 +115,9 @@ struct Attempt {
 
 class ChannelSearch {
 public:
-    ChannelSearch(const Capture& capture, const CaptureChannel& channel, double lsb, const MeasureOptions& options)
-        : capture_(capture), channel_(channel), lsb_(lsb), gapMax_s_(options.interPhaseGapMax.count()) {}
+    ChannelSearch(const Capture& capture, const CaptureChannel& channel, double noise, double lsb,
+                  const MeasureOptions& options)
+        : capture_(capture), channel_(channel), noise_(noise), lsb_(lsb), gapMax_s_(options.interPhaseGapMax.count()) {}
 
     [[nodiscard]] Attempt logic() const {
         const auto view = asRecorded(capture_, channel_);
@@ -158,6 +165,7 @@ public:
 private:
     [[nodiscard]] Attempt complete(const SampleView& view, Attempt found) const {
         auto whole = withSecondSide(view, std::move(found));
+        markCutPulses(view, whole);
         whole.beside = levelBeside(view, whole);
         double nearest = std::numeric_limits<double>::infinity();
         for (const double state : {whole.levels.low, whole.levels.high}) {
@@ -172,8 +180,33 @@ private:
         return whole;
     }
 
+    /// Of two states, one side is known only. Where the record begins or ends on the other, a phase is cut there that
+    /// may belong to the pulse beside it.
+    void markCutPulses(const SampleView& view, Attempt& found) const {
+        if (found.levels.count != StateCount::Two || found.pulses.empty()) return;
+        const auto& levels = found.levels;
+        const double state = levels.high > levels.baseline ? levels.high : levels.low;
+        const double height = state - levels.baseline;
+        const double least = std::max(kOtherSide * std::abs(height), kOtherSideInNoise * levels.noise);
+        const auto liesThere = [&](float x) {
+            return (levels.baseline - static_cast<double>(x)) * (height > 0 ? 1 : -1) > least;
+        };
+        const auto cut = [](PulseMeasurement& pulse) {
+            const auto samples = pulse.leading.samples;
+            pulse.flags.truncated = true;
+            pulse.leading = {};
+            pulse.leading.samples = samples;
+        };
+        auto& first = found.pulses.front();
+        auto& last = found.pulses.back();
+        const double end_s = view.timeOf(static_cast<double>(view.samples.size()));
+        if (liesThere(view.samples.front()) && first.seenFrom_s - view.start_s <= gapMax_s_) cut(first);
+        if (liesThere(view.samples.back()) && end_s - last.seenTo_s <= gapMax_s_) cut(last);
+    }
+
     [[nodiscard]] double lsbOf(const SampleView& view) const {
-        return lsb_ / std::sqrt(static_cast<double>(view.mean));
+        // Only noise of half a step and more lets a mean see between two codes.
+        return noise_ > kDithers * lsb_ ? lsb_ / std::sqrt(static_cast<double>(view.mean)) : lsb_;
     }
 
     /// Averaging shows pulses in white noise. In what wanders it shows whatever is there at the time.
@@ -263,36 +296,67 @@ private:
     struct Silence {
         double sum = 0, n = 0;
         [[nodiscard]] double mean() const noexcept { return sum / n; }
+        void add(const Silence& other) noexcept {
+            sum += other.sum;
+            n += other.n;
+        }
     };
 
-    /// From the baseline, within the silence before and after pulse k: up to two of its widths, half a width from it.
-    /// Where the silence is short, its middle half.
-    [[nodiscard]] static std::pair<Silence, Silence> silencesBeside(const SampleView& view, const Attempt& found,
-                                                                    std::size_t k) {
-        constexpr double kFrom = 0.5, kTo = 2.5;
+    /// Of the samples between two positions, from the baseline.
+    [[nodiscard]] static Silence silence(const SampleView& view, const Attempt& found, double from, double to) {
+        Silence result;
         const auto last = static_cast<double>(view.samples.size());
-        const auto sumOf = [&](double from, double to) {
-            Silence silence;
-            const auto end = static_cast<std::size_t>(std::clamp(to, 0.0, last));
-            for (auto i = static_cast<std::size_t>(std::clamp(from, 0.0, last)); i < end; ++i) {
-                const double x = static_cast<double>(view.samples[i]) - found.levels.baseline;
-                if (std::isnan(x)) continue;
-                silence.sum += x;
-                silence.n += 1;
-            }
-            return silence;
-        };
-        const auto& p = found.pulses[k];
-        const double width = p.leading.width_s * view.rate_hz;
-        const double onset = view.positionOf(p.leading.onset_s);
-        const double end = view.positionOf(p.second ? p.second->end_s : p.leading.end_s);
-        const double previous = k == 0 ? 0 : view.positionOf(found.pulses[k - 1].seenTo_s);
-        const double next = k + 1 == found.pulses.size() ? last : view.positionOf(found.pulses[k + 1].seenFrom_s);
-        const double before = onset - previous, after = next - end;
-        return {sumOf(std::max(onset - kTo * width, previous + (k == 0 ? 0 : 0.25 * before)),
-                      onset - std::min(kFrom * width, 0.25 * before)),
-                sumOf(end + std::min(kFrom * width, 0.25 * after),
-                      std::min(end + kTo * width, next - (next < last ? 0.25 * after : 0)))};
+        const auto end = static_cast<std::size_t>(std::clamp(to, 0.0, last));
+        for (auto i = static_cast<std::size_t>(std::clamp(from, 0.0, last)); i < end; ++i) {
+            const double x = static_cast<double>(view.samples[i]) - found.levels.baseline;
+            if (std::isnan(x)) continue;
+            result.sum += x;
+            result.n += 1;
+        }
+        return result;
+    }
+
+    /// Positions of a pulse, and of the silence about it.
+    struct Place {
+        double width, onset, end;
+        double silentFrom, silentTo;
+        bool first, last;
+
+        Place(const SampleView& view, const Attempt& found, std::size_t k)
+            : first(k == 0), last(k + 1 == found.pulses.size()) {
+            const auto& p = found.pulses[k];
+            width = p.leading.width_s * view.rate_hz;
+            onset = view.positionOf(p.leading.onset_s);
+            end = view.positionOf(p.second ? p.second->end_s : p.leading.end_s);
+            silentFrom = first ? 0 : view.positionOf(found.pulses[k - 1].seenTo_s);
+            silentTo =
+                last ? static_cast<double>(view.samples.size()) : view.positionOf(found.pulses[k + 1].seenFrom_s);
+        }
+    };
+    static constexpr double kFrom = 0.5, kTo = 2.5;  // widths from a pulse
+
+    /// Up to two widths, half a width before the pulse; where the silence is short, its middle half.
+    [[nodiscard]] static Silence before(const SampleView& view, const Attempt& found, const Place& p) {
+        const double quarter = 0.25 * (p.onset - p.silentFrom);
+        return silence(view, found, std::max(p.onset - kTo * p.width, p.silentFrom + (p.first ? 0 : quarter)),
+                       p.onset - std::min(kFrom * p.width, quarter));
+    }
+    /// The same after it, or `later` times two widths further on.
+    [[nodiscard]] static Silence after(const SampleView& view, const Attempt& found, const Place& p,
+                                       std::size_t later = 0) {
+        const double quarter = 0.25 * (p.silentTo - p.end);
+        const double shift = static_cast<double>(later) * (kTo - kFrom) * p.width;
+        return silence(view, found, p.end + shift + std::min(kFrom * p.width, quarter),
+                       std::min(p.end + shift + kTo * p.width, p.silentTo - (p.last ? 0 : quarter)));
+    }
+
+    /// Every so many pulses are looked at.
+    template <class Look>
+    static void lookAtPulses(const Attempt& found, Look look) {
+        const std::size_t stride = std::max<std::size_t>(1, found.pulses.size() / kJudgedPulses);
+        for (std::size_t k = 0; k < found.pulses.size(); k += stride) {
+            if (found.pulses[k].flags.measured()) look(k);
+        }
     }
 
     struct AfterPulses {
@@ -300,52 +364,59 @@ private:
         double before = 0;
     };
 
-    /// The level just after pulses against that just before them, where the difference goes against the pulses and is
-    /// no noise: five standard deviations of the means.
-    [[nodiscard]] static std::optional<AfterPulses> levelAfter(const SampleView& view, const Attempt& found) {
-        Silence before, after;
+    /// The level after pulses, as far as a second phase may begin, against that just before them, where the difference
+    /// goes against the pulses and is no noise: five standard deviations of the means.
+    [[nodiscard]] std::optional<AfterPulses> levelAfter(const SampleView& view, const Attempt& found) const {
+        constexpr std::size_t kWindows = 8;
+        Silence ahead;
+        std::array<Silence, kWindows> behind{};
         double amplitude = 0;
-        const std::size_t stride = std::max<std::size_t>(1, found.pulses.size() / kJudgedPulses);
-        for (std::size_t k = 0; k < found.pulses.size(); k += stride) {
-            if (!found.pulses[k].flags.measured()) continue;
-            const auto [left, right] = silencesBeside(view, found, k);
-            before.sum += left.sum;
-            before.n += left.n;
-            after.sum += right.sum;
-            after.n += right.n;
+        lookAtPulses(found, [&](std::size_t k) {
+            const Place place(view, found, k);
+            ahead.add(before(view, found, place));
+            for (std::size_t later = 0; later < kWindows; ++later) {
+                if (later > 0 && static_cast<double>(later) * 2 * place.width > gapMax_s_ * view.rate_hz) break;
+                behind[later].add(after(view, found, place, later));
+            }
             amplitude = found.pulses[k].leading.plateau;
+        });
+        // A record that begins too late for the level before its pulses has the baseline.
+        const double level = ahead.n > 0 ? ahead.mean() : 0;
+        std::optional<AfterPulses> most;
+        for (const auto& one : behind) {
+            if (!(one.n > 0)) continue;
+            const double difference = one.mean() - level;
+            const double noise = found.levels.noise * std::sqrt((ahead.n > 0 ? 1 / ahead.n : 0) + 1 / one.n);
+            if (!(difference * amplitude < 0) || !(std::abs(difference) > 5 * noise) ||
+                !(std::abs(difference) > kShallowest * std::abs(amplitude))) {
+                continue;
+            }
+            if (most && std::abs(most->difference) >= std::abs(difference)) continue;
+            most = AfterPulses{difference, found.levels.baseline + level};
         }
-        if (!(after.n > 0)) return std::nullopt;
-        if (!(before.n > 0))
-            before.n = std::numeric_limits<double>::infinity();  // the record begins too late: the baseline
-        const double difference = after.mean() - before.mean();
-        const double noise = found.levels.noise * std::sqrt(1 / before.n + 1 / after.n);
-        if (!(difference * amplitude < 0) || !(std::abs(difference) > 5 * noise) ||
-            !(std::abs(difference) > kShallowest * std::abs(amplitude))) {
-            return std::nullopt;
-        }
-        return AfterPulses{difference, found.levels.baseline + before.mean()};
+        return most;
     }
 
-    /// How far the signal lies from the baseline just beside its pulses: RMS over pulses of the larger side.
+    /// How far the signal lies from the baseline just beside its pulses, where that is no noise: RMS over pulses of the
+    /// larger side.
     [[nodiscard]] static double levelBeside(const SampleView& view, const Attempt& found) {
         double squares = 0, n = 0;
-        const std::size_t stride = std::max<std::size_t>(1, found.pulses.size() / kJudgedPulses);
-        for (std::size_t k = 0; k < found.pulses.size(); k += stride) {
-            if (!found.pulses[k].flags.measured()) continue;
-            const auto [left, right] = silencesBeside(view, found, k);
+        lookAtPulses(found, [&](std::size_t k) {
+            const Place place(view, found, k);
             double largest = 0;
-            for (const auto& silence : {left, right}) {
-                if (silence.n > 0) largest = std::max(largest, std::abs(silence.mean()));
+            for (const auto& one : {before(view, found, place), after(view, found, place)}) {
+                const double level = one.n > 0 ? std::abs(one.mean()) : 0;
+                if (level > 3 * found.levels.noise / std::sqrt(one.n)) largest = std::max(largest, level);
             }
             squares += largest * largest;
             n += 1;
-        }
+        });
         return n > 0 ? std::sqrt(squares / n) : 0;
     }
 
     const Capture& capture_;
     const CaptureChannel& channel_;
+    double noise_;
     double lsb_;
     double gapMax_s_;
 };
@@ -366,9 +437,9 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
         return found;
     }
     Attempt attempt;
-    const ChannelSearch search(capture, channel, lsb, options);
     auto recorded = asRecorded(capture, channel);
     const double noise = logic ? 0 : neighbourNoise(recorded.samples, lsb);
+    const ChannelSearch search(capture, channel, noise, lsb, options);
     if (!logic) {
         const auto leaps = leapingSamples(SampleBlocks(recorded.samples), noise, lsb);
         if (!leaps.empty()) recorded = withoutLeaps(recorded, leaps);
@@ -396,7 +467,10 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
     found.quality.snr_db = 20 * std::log10(standsOut);
     found.quality.doubtful = standsOut < kReliable || (biphasic && attempt.secondStandsOut < kSecondReliable);
     found.quality.unrest = attempt.unrest;
-    found.quality.beside = attempt.beside;
+    const double height = standsOut * found.levels.noise;
+    if (attempt.beside > std::max(kUnseenInSteps * lsb, kUnseen * height)) {
+        found.quality.unrest = std::max(attempt.unrest, attempt.beside);
+    }
     found.quality.levelAfter = attempt.levelAfter;
     return found;
 }

@@ -89,7 +89,6 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
         result.quality.drift = std::max(result.quality.drift, found.quality.drift);
         result.quality.unrest = std::max(result.quality.unrest, found.quality.unrest);
         result.quality.leaps += described == &samples ? 0 : found.quality.leaps;
-        result.quality.beside = std::max(result.quality.beside, found.quality.beside);
         result.quality.foundStep = std::max(result.quality.foundStep, found.quality.foundStep);
         if (std::abs(found.quality.levelAfter) > std::abs(result.quality.levelAfter)) {
             result.quality.levelAfter = found.quality.levelAfter;

@@ -104,8 +104,8 @@ struct SignalQuality {
     double foundStep = 0;          ///< of the converter, found in the samples because none is stated; 0 = none found
     std::size_t leaps = 0;         ///< single samples far from both of their neighbours, which were left out
     double drift = 0;              ///< peak to peak, of the baseline that was followed; 0 = it stays
-    double unrest = 0;             ///< standard deviation of a baseline that moves and could not be followed
-    double beside = 0;             ///< how far it lies from the baseline just beside its pulses: RMS over the pulses
+    double unrest = 0;             ///< standard deviation of a baseline that moves and could not be followed, or what
+                                   ///< it is off just beside the pulses
     double levelAfter = 0;         ///< of the signal after its pulses less that before them, where a second phase seems
                                    ///< to be hidden in the noise; 0 = none
     bool doubtful = false;         ///< too much noise: pulses may be missing or invented

@@ -19,7 +19,9 @@ namespace {
 constexpr std::size_t kMinForLevels = 20;
 constexpr double kSpanInNoise = 8;          // Gaussian noise alone reaches 7 to 9 in a record's span
 constexpr double kSmallestBaseline = 0.05;  // of the samples, between two other states
+constexpr double kWideWindow = 0.06;        // of the way to the next state
 constexpr double kSmallestReturn = 0.2;     // of the leading phase's charge, to be a second phase and not ringing
+constexpr double kStepsApart = 2.5;         // of the converter, from the baseline to a state
 constexpr double kRestingSpread = 0.2;  // of the way to the next state; a sine has 0.24, a square wave's ringing less
 
 /// The mode that holds most, weighing time by distance: a state, not the ringing beside one.
@@ -140,9 +142,11 @@ bool refineBaseline(std::span<const float> samples, double noise, StateLevels& l
     for (const double state : {levels.low, levels.high}) {
         if (state != levels.baseline) nearest = std::min(nearest, std::abs(state - levels.baseline));
     }
-    const double window = std::max(4 * noise, 0.005 * nearest);
     const double origin = levels.baseline;
-    const auto [near, sum, squares, half, spread] = momentsAbout(samples, origin, window, 0.5 * nearest);
+    Moments moments = momentsAbout(samples, origin, std::max(4 * noise, 0.005 * nearest), 0.5 * nearest);
+    // The mode is the mean of codes that lie further apart than the noise says.
+    if (!(moments.near > 0)) moments = momentsAbout(samples, origin, kWideWindow * nearest, 0.5 * nearest);
+    const auto [near, sum, squares, half, spread] = moments;
     if (!(half > 0) || !(near > 0)) return false;
     if (std::sqrt(spread / half) > kRestingSpread * nearest) return false;
     const double mean = sum / near;  // from the origin; the squares are about it to a float's digits
@@ -200,6 +204,10 @@ StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic) 
     StateLevels levels;
     if (!threeStates(histogram, modes, blocks.finite(), levels) && !twoStates(histogram, modes, levels)) {
         return none("it rests at fewer than two levels");
+    }
+    for (const double state : {levels.low, levels.high}) {
+        if (state == levels.baseline || std::abs(state - levels.baseline) >= kStepsApart * lsb) continue;
+        return none("its levels lie fewer than three steps of the converter apart");
     }
     if (!refineBaseline(blocks.samples(), noise, levels)) return none("it moves all the time and rests at no level");
     return levels;

@@ -122,7 +122,7 @@ MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const Cap
     const double gain =
         std::hypot(std::hypot(channel.gainTolerance, channel.probeTolerance) * amplitude, channel.linearityTolerance) /
         std::sqrt(3.0);
-    const double unrest = std::max(result.quality.unrest, result.quality.beside);
+    const double unrest = result.quality.unrest;
     u.amplitude = std::hypot(std::hypot(noise, resolution), std::hypot(gain, unrest));
     // Two edges, each somewhere within a step; and noise moves each by itself over the edge's steepness.
     const double edge = std::max(std::isfinite(result.rise_s.mean) ? result.rise_s.mean / 0.8 : 0, step);
