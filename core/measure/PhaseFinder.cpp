@@ -22,6 +22,11 @@ constexpr double kReleaseInNoise = 4.5;  // below the threshold at least, so tha
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// From the baseline; `distance`: of the state.
+double thresholdOf(double distance, double noise) {
+    return std::min(0.5 * distance, std::max(kThreshold * distance, kThresholdInNoise * noise));
+}
+
 /// Single samples beyond the threshold are noise where real phases are much larger.
 void dropGlitches(PhaseSpans& phases) {
     double largest[2] = {0, 0};
@@ -34,6 +39,16 @@ void dropGlitches(PhaseSpans& phases) {
     });
 }
 
+/// Where noise makes the threshold, a phase whose mean does not reach it is noise.
+void dropNoise(PhaseSpans& phases, const StateLevels& levels, double rate_hz) {
+    std::erase_if(phases, [&](const PhaseSpan& phase) {
+        const double distance = std::abs((phase.sign > 0 ? levels.high : levels.low) - levels.baseline);
+        const double threshold = thresholdOf(distance, levels.noise);
+        return threshold > kThreshold * distance &&
+               phase.area * rate_hz < threshold * static_cast<double>(phase.end - phase.begin);
+    });
+}
+
 /// What lies beyond a phase's threshold and comes back from it, in the channel's unit.
 struct Thresholds {
     float above = kInfinity;
@@ -43,8 +58,7 @@ struct Thresholds {
 
     Thresholds(const StateLevels& levels, Sides sides) {
         const auto threshold = [&](double state) {
-            const double distance = std::abs(state - levels.baseline);
-            return std::min(0.5 * distance, std::max(kThreshold * distance, kThresholdInNoise * levels.noise));
+            return thresholdOf(std::abs(state - levels.baseline), levels.noise);
         };
         const auto release = [&](double from) {
             return std::max(0.0, std::min(kRelease * from, from - kReleaseInNoise * levels.noise));
@@ -119,6 +133,7 @@ PhaseSpans findPhases(const SampleView& view, const SampleBlocks& blocks, const 
         i = phase.end;
     }
     dropGlitches(phases);
+    dropNoise(phases, levels, view.rate_hz);
     markClipped(phases, view, blocks);
     return phases;
 }

@@ -30,16 +30,18 @@ constexpr double kOtherSideInNoise = 6;
 constexpr double kUnseenInSteps = 0.2;  // of the converter
 constexpr double kUnseen = 2e-4;        // of the largest state
 constexpr double kDithers = 0.5;
+constexpr double kMostBeside = 0.1;   // of the largest state
 constexpr double kMostUnrest = 0.05;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
 constexpr double kMostlyEdges = 0.6;  // of the width: half a sine has 0.67
 
 double distanceOf(double state, double baseline) { return std::isfinite(state) ? std::abs(state - baseline) : 0; }
 
-/// How far the larger state stands out of the noise; and the smaller, of three.
-double strongOf(const StateLevels& levels) {
-    const double distance = std::max(distanceOf(levels.high, levels.baseline), distanceOf(levels.low, levels.baseline));
-    return distance / levels.noise;
+/// From the baseline to the state that is further away.
+double heightOf(const StateLevels& levels) {
+    return std::max(distanceOf(levels.high, levels.baseline), distanceOf(levels.low, levels.baseline));
 }
+/// How far the larger state stands out of the noise; and the smaller, of three.
+double strongOf(const StateLevels& levels) { return heightOf(levels) / levels.noise; }
 double weakOf(const StateLevels& levels) {
     const double distance = std::min(distanceOf(levels.high, levels.baseline), distanceOf(levels.low, levels.baseline));
     return distance / levels.noise;
@@ -115,13 +117,10 @@ struct Attempt {
 
 class ChannelSearch {
 public:
-    ChannelSearch(const Capture& capture, const CaptureChannel& channel, double noise, double lsb,
-                  const MeasureOptions& options)
-        : capture_(capture), channel_(channel), noise_(noise), lsb_(lsb), gapMax_s_(options.interPhaseGapMax.count()) {}
+    ChannelSearch(const Capture& capture, double noise, double lsb, const MeasureOptions& options)
+        : capture_(capture), noise_(noise), lsb_(lsb), gapMax_s_(options.interPhaseGapMax.count()) {}
 
-    [[nodiscard]] Attempt logic() const {
-        const auto view = asRecorded(capture_, channel_);
-        const SampleBlocks blocks(view.samples);
+    [[nodiscard]] Attempt logic(const SampleView& view, const SampleBlocks& blocks) const {
         Attempt attempt;
         attempt.levels = findStateLevels(blocks, 0, true);
         if (attempt.hasStates()) finish(findPhases(view, blocks, attempt.levels, Sides::Both), attempt);
@@ -129,15 +128,15 @@ public:
     }
 
     /// The least averaged view of `base` in which pulses are reliable; `base` itself where there is none.
-    [[nodiscard]] Attempt best(const SampleView& base) const {
-        Attempt plain = on(base);
+    [[nodiscard]] Attempt best(const SampleView& base, const SampleBlocks& blocks) const {
+        Attempt plain = on(base, blocks);
         const double standsOut = strongOf(plain.levels);
         if (plain.hasStates() && standsOut >= kReliable) return complete(base, std::move(plain));
         std::size_t mean = plain.hasStates() ? std::max<std::size_t>(2, meanFor(standsOut)) : 4;
         // Each step goes to a longer mean, but for one step back to the shortest that is reliable.
         for (bool back = false; mean <= kLongestMean && base.samples.size() / mean >= 20;) {
             const auto view = averaged(base, mean);
-            Attempt attempt = on(view);
+            Attempt attempt = on(view, SampleBlocks(view.samples));
             const double nowOut = strongOf(attempt.levels);
             if (!attempt.hasStates()) {
                 if (back) break;
@@ -171,11 +170,15 @@ private:
         for (const double state : {whole.levels.low, whole.levels.high}) {
             if (state != whole.levels.baseline) nearest = std::min(nearest, distanceOf(state, whole.levels.baseline));
         }
-        if (whole.unrest > kMostUnrest * nearest) {
-            whole.levels.why =
-                fmt::format("its baseline moves by {:.2g} (s.d.), too much beside its pulses", whole.unrest);
+        const auto refuse = [&](std::string why) {
             whole.levels.count = StateCount::None;
+            whole.levels.why = std::move(why);
             whole.pulses.clear();
+        };
+        if (whole.unrest > kMostUnrest * nearest) {
+            refuse(fmt::format("its baseline moves by {:.2g} (s.d.), too much beside its pulses", whole.unrest));
+        } else if (whole.beside > kMostBeside * heightOf(whole.levels)) {
+            refuse(fmt::format("just beside what may be pulses it lies {:.2g} from its baseline", whole.beside));
         }
         return whole;
     }
@@ -227,8 +230,7 @@ private:
         attempt.pulses.clear();
     }
 
-    [[nodiscard]] Attempt on(const SampleView& view) const {
-        const SampleBlocks blocks(view.samples);
+    [[nodiscard]] Attempt on(const SampleView& view, const SampleBlocks& blocks) const {
         Attempt attempt;
         attempt.mean = attempt.meanOfSecond = view.mean;
         attempt.levels = findStateLevels(blocks, lsbOf(view), false);
@@ -327,7 +329,7 @@ private:
             const auto& p = found.pulses[k];
             width = p.leading.width_s * view.rate_hz;
             onset = view.positionOf(p.leading.onset_s);
-            end = view.positionOf(p.second ? p.second->end_s : p.leading.end_s);
+            end = view.positionOf(p.seenTo_s);
             silentFrom = first ? 0 : view.positionOf(found.pulses[k - 1].seenTo_s);
             silentTo =
                 last ? static_cast<double>(view.samples.size()) : view.positionOf(found.pulses[k + 1].seenFrom_s);
@@ -404,7 +406,8 @@ private:
         lookAtPulses(found, [&](std::size_t k) {
             const Place place(view, found, k);
             double largest = 0;
-            for (const auto& one : {before(view, found, place), after(view, found, place)}) {
+            const bool hidden = found.levelAfter != 0;  // is known already
+            for (const auto& one : {before(view, found, place), hidden ? Silence{} : after(view, found, place)}) {
                 const double level = one.n > 0 ? std::abs(one.mean()) : 0;
                 if (level > 3 * found.levels.noise / std::sqrt(one.n)) largest = std::max(largest, level);
             }
@@ -415,7 +418,6 @@ private:
     }
 
     const Capture& capture_;
-    const CaptureChannel& channel_;
     double noise_;
     double lsb_;
     double gapMax_s_;
@@ -438,16 +440,21 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
     }
     Attempt attempt;
     auto recorded = asRecorded(capture, channel);
+    SampleBlocks blocks(recorded.samples);
     const double noise = logic ? 0 : neighbourNoise(recorded.samples, lsb);
-    const ChannelSearch search(capture, channel, noise, lsb, options);
+    const ChannelSearch search(capture, noise, lsb, options);
     if (!logic) {
-        const auto leaps = leapingSamples(SampleBlocks(recorded.samples), noise, lsb);
-        if (!leaps.empty()) recorded = withoutLeaps(recorded, leaps);
+        const auto leaps = leapingSamples(blocks, noise, lsb);
         found.quality.leaps = leaps.size();
+        if (!leaps.empty()) {
+            recorded = withoutLeaps(recorded, leaps);
+            blocks = SampleBlocks(recorded.samples);
+        }
     }
     const auto drift = logic ? std::nullopt : findDrift(recorded.samples, noise, lsb);
     if (drift) {
-        attempt = search.best(withoutDrift(recorded, *drift));
+        const auto still = withoutDrift(recorded, *drift);
+        attempt = search.best(still, SampleBlocks(still.samples));
         // A phase of half a block's length moves its median: what was taken for drift was pulses.
         const double block_s = static_cast<double>(drift->block) / capture.rate_hz;
         if (attempt.hasStates() && !attempt.pulses.empty() && attempt.widest_s <= 0.5 * block_s) {
@@ -456,7 +463,7 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
             attempt = {};
         }
     }
-    if (!(found.quality.drift > 0)) attempt = logic ? search.logic() : search.best(recorded);
+    if (!(found.quality.drift > 0)) attempt = logic ? search.logic(recorded, blocks) : search.best(recorded, blocks);
     found.levels = std::move(attempt.levels);
     found.pulses = std::move(attempt.pulses);
     found.quality.mean = attempt.mean;
@@ -467,8 +474,7 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
     found.quality.snr_db = 20 * std::log10(standsOut);
     found.quality.doubtful = standsOut < kReliable || (biphasic && attempt.secondStandsOut < kSecondReliable);
     found.quality.unrest = attempt.unrest;
-    const double height = standsOut * found.levels.noise;
-    if (attempt.beside > std::max(kUnseenInSteps * lsb, kUnseen * height)) {
+    if (attempt.beside > std::max(kUnseenInSteps * lsb, kUnseen * heightOf(found.levels))) {
         found.quality.unrest = std::max(attempt.unrest, attempt.beside);
     }
     found.quality.levelAfter = attempt.levelAfter;

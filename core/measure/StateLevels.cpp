@@ -174,7 +174,17 @@ double neighbourNoise(std::span<const float> samples, double lsb) {
     if (steps.empty()) return quantisation;
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
-    return std::max(quantisation, static_cast<double>(*middle) / (0.6745 * std::sqrt(2.0)));
+    auto median = static_cast<double>(*middle);
+    if (lsb > 0) {
+        // Steps are multiples of the converter's: what it made equal is spread over half a step on either side.
+        const auto nearby = [&](float x) { return std::abs(static_cast<double>(x) - median) < 0.5 * lsb; };
+        const auto equal = static_cast<double>(std::ranges::count_if(steps, nearby));
+        const auto below = static_cast<double>(
+            std::ranges::count_if(steps, [&](float x) { return !nearby(x) && static_cast<double>(x) < median; }));
+        const double share = (0.5 * static_cast<double>(steps.size()) - below) / equal;
+        median = median < 0.5 * lsb ? 0.5 * lsb * share : median + lsb * (share - 0.5);
+    }
+    return std::max(quantisation, median / (0.6745 * std::sqrt(2.0)));
 }
 
 StateLevels findStateLevels(std::span<const float> samples, double lsb, bool logic) {
