@@ -34,6 +34,13 @@ bool flickersBefore(const FoundPhase& phase, const FoundPhase& after) {
            after.from_s() - phase.to_s() <= kFlickersFor * (after.to_s() - after.from_s());
 }
 
+/// Whether a whole edge and two samples of silence do not fit between it and an end of the record.
+bool reachesEnd(const FoundPhase& phase) {
+    const double rate = 1.25 * phase.view->rate_hz;  // an edge is 1.25 times as long as its middle eight tenths
+    const double last = static_cast<double>(phase.view->samples.size()) - 1;
+    return phase.onset < 2 + phase.measured.rise_s * rate || phase.end50 > last - 2 - phase.measured.fall_s * rate;
+}
+
 /// By samples where the edges could not be placed.
 double endOf(const FoundPhase& phase) { return std::isfinite(phase.end50) ? phase.measured.end_s : phase.to_s(); }
 double onsetOf(const FoundPhase& phase) { return std::isfinite(phase.onset) ? phase.measured.onset_s : phase.from_s(); }
@@ -64,6 +71,7 @@ PulseAssembly::PulseAssembly(const Capture& capture, const StateLevels& levels, 
 void PulseAssembly::add(const PhaseSpan& span) {
     auto& phase = at(kept_ + (hasNewest_ ? 1 : 0));
     measureShape(span, levels_.baseline, phase);
+    phase.truncated = phase.truncated || reachesEnd(phase);
     if (hasNewest_) settleNewest(false);
     hasNewest_ = true;
 }
