@@ -80,7 +80,7 @@ double converterStep(std::span<const float> samples) {
     const auto onGrid = static_cast<std::size_t>(
         std::count_if(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(near),
                       [&](double gap) { return std::abs(gap / step - std::round(gap / step)) <= kOffGrid; }));
-    if (2 * near < gaps.size() || 20 * onGrid < 19 * near) return 0;
+    if (20 * onGrid < 19 * near) return 0;
     const auto single = [&](const std::vector<double>& jumps) {
         return static_cast<double>(
             std::ranges::count_if(jumps, [&](double jump) { return std::abs(jump / step - 1) <= kOffGrid; }));
@@ -89,7 +89,9 @@ double converterStep(std::span<const float> samples) {
     const bool flickers = returns >= kMinReturns && returns >= kReturns * static_cast<double>(seen.samples);
     const bool climbs =
         ones >= kFewCodes && stairs >= kMinReturns && stairs >= kStairs * static_cast<double>(seen.stairs.size());
-    return flickers || climbs || ones >= kManyCodes ? step : 0;
+    // Without either, most of what occurs must lie on the grid.
+    const bool fills = ones >= kManyCodes && 2 * near >= gaps.size();
+    return flickers || climbs || fills ? step : 0;
 }
 
 }  // namespace tacto
