@@ -8,9 +8,9 @@
 #include <cstring>
 #include <exception>
 
-#include "app/report/WholeFile.h"
 #include "core/base/JsonText.h"
 #include "core/base/Text.h"
+#include "core/base/WholeFile.h"
 
 namespace tacto::cli {
 
@@ -130,11 +130,7 @@ void printJson(const nlohmann::json& value) {
 }
 
 Result<void> writeFile(const std::string& path, const std::string& content) {
-    if (const auto written = writeWholeFile(QString::fromStdString(path), QByteArray::fromStdString(content));
-        !written) {
-        return fail(ErrorCode::Io, "cannot write {}: {}", path, written.error().message);
-    }
-    return {};
+    return namedAs(path, writeWholeFile(path, content));
 }
 
 }  // namespace tacto::cli

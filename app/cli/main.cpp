@@ -9,6 +9,7 @@
 #include "app/cli/Command.h"
 #include "app/cli/ReportProgram.h"
 #include "app/scripting/engine/ScriptRun.h"
+#include "core/base/ProgramStart.h"
 #include "core/base/StandardStreams.h"
 
 namespace tacto::cli {
@@ -42,6 +43,7 @@ void printHelp(std::FILE* to) {
 }
 
 int runNamed(const Command& command, int argc, char** argv) {
+    if (const auto refused = refusedStart(argc, argv)) return couldNotRun({ErrorCode::Io, *refused});
     if (command.run == nullptr) return becomeReportProgram(argv);
     printFatalOnly();
     const QCoreApplication application(argc, argv);

@@ -1,29 +1,26 @@
 // tactoscope - the window.
 #include <QApplication>
+#include <QLocale>
 #include <QSettings>
-#include <algorithm>
 #include <cstdio>
+#include <optional>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/DisplayWatch.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SignalClose.h"
 #include "app/gui/window/StartedWith.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/SignalStop.h"
+#include "core/base/ProgramStart.h"
 #include "core/base/StandardStreams.h"
 
 namespace {
 
 int answer(const tacto::gui::StartedWith::Answer& answer) {
-    std::fprintf(answer.exitCode == 0 ? stdout : stderr, "%s\n", qUtf8Printable(answer.text));
+    std::fputs(qUtf8Printable(answer.text + '\n'), answer.exitCode == 0 ? stdout : stderr);
     return answer.exitCode;
-}
-
-/// Qt would end the program with a core dump.
-bool hasDisplay(const QStringList& arguments) {
-    if (arguments.contains("-platform") || arguments.contains("--platform")) return true;
-    const char* variables[] = {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"};
-    return std::ranges::any_of(variables, [](const char* name) { return !qEnvironmentVariableIsEmpty(name); });
 }
 
 }  // namespace
@@ -34,10 +31,14 @@ int main(int argc, char** argv) {
     const QStringList arguments(argv, argv + argc);
     const auto asked = StartedWith::read(arguments).answer;
     if (asked && asked->exitCode == 0) return answer(*asked);
-    if (!hasDisplay(arguments))
-        return answer({"tactoscope: no display: DISPLAY and WAYLAND_DISPLAY are empty; tactoscope-cli needs none", 3});
-    tacto::SignalStop stops;  // before any other thread
+    if (const auto refused = tacto::refusedStart(argc, argv))
+        return answer({"tactoscope: " + tacto::gui::qtext(*refused), 3});
+    if (const auto none = tacto::gui::DisplayWatch::noneIsNamed(arguments)) return answer({*none, 3});
+    QLocale::setDefault(QLocale::c());  // numbers are written alike everywhere
+    tacto::SignalStop stops;            // before any other thread
+    std::optional<tacto::gui::DisplayWatch> watch(std::in_place);
     QApplication application(argc, argv);
+    watch.reset();
     QApplication::setApplicationName("tactoscope");
     QApplication::setOrganizationName("tactoscope");
     QApplication::setApplicationDisplayName("Tactoscope");

@@ -5,7 +5,7 @@
 
 #include "app/report/HtmlReport.h"
 #include "app/report/PdfReport.h"
-#include "app/report/WholeFile.h"
+#include "core/base/WholeFile.h"
 
 namespace tacto {
 
@@ -36,7 +36,7 @@ Result<void> writeContent(const ReportContent& content, const QString& path, con
     } else {
         bytes = reportHtml(content);
     }
-    if (const auto written = writeWholeFile(path, bytes); !written) {
+    if (const auto written = writeWholeFile(path.toStdString(), bytes.toStdString()); !written) {
         return fail(ErrorCode::Io, "The report could not be written to \"{}\": {}. Nothing was changed there.",
                     path.toStdString(), written.error().message);
     }

@@ -1,14 +1,13 @@
 #include "app/run/InstrumentPresets.h"
 
-#include <QDir>
-#include <QFileInfo>
 #include <algorithm>
 #include <fmt/format.h>
+#include <system_error>
 
-#include "app/report/WholeFile.h"
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
 #include "core/base/RecordFields.h"
+#include "core/base/WholeFile.h"
 #include "core/calibration/CalibrationStore.h"
 #include "core/devices/StatementKeys.h"
 
@@ -155,10 +154,10 @@ Result<void> InstrumentPresets::remove(InstrumentKind kind, std::string_view nam
 }
 
 Result<void> InstrumentPresets::write(std::vector<InstrumentPreset> all) {
-    const auto path = QString::fromStdString(file_.string());
-    QDir().mkpath(QFileInfo(path).absolutePath());
+    std::error_code ignored;
+    std::filesystem::create_directories(file_.parent_path(), ignored);
     const auto text = dumpJson(fileFields().write({all}), 2) + "\n";
-    if (const auto written = writeWholeFile(path, QByteArray::fromStdString(text)); !written)
+    if (const auto written = writeWholeFile(file_, text); !written)
         return fail(ErrorCode::Io, "{} is not saved: {}", file_.string(), written.error().message);
     all_ = std::move(all);
     return {};

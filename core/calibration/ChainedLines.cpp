@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
 #include <sys/file.h>
 #include <thread>
 #include <unistd.h>
@@ -12,6 +11,7 @@
 #include "core/base/Csv.h"
 #include "core/base/DataFolder.h"
 #include "core/base/JsonText.h"
+#include "core/base/WholeFile.h"
 #include "core/session/Digest.h"
 #include "core/session/Durable.h"
 
@@ -81,17 +81,8 @@ Result<std::optional<ChainedLines::End>> ChainedLines::notedEnd() const {
 }
 
 Result<void> ChainedLines::noteEnd() const {
-    const auto draft = noteFile().string() + ".new";
-    {
-        std::ofstream out(draft, std::ios::binary | std::ios::trunc);
-        out << dumpJson({{"bytes", end_.bytes}, {"sha256", end_.head}}) << '\n';
-        out.flush();
-        if (!out) return fail(ErrorCode::Io, "{} cannot be written", draft);
-    }
-    if (const auto synced = syncFile(draft); !synced) return synced;
-    std::error_code error;
-    std::filesystem::rename(draft, noteFile(), error);
-    if (error) return fail(ErrorCode::Io, "{} cannot be replaced: {}", noteFile().string(), error.message());
+    const auto text = dumpJson({{"bytes", end_.bytes}, {"sha256", end_.head}}) + '\n';
+    if (auto written = namedAs(noteFile(), writeWholeFile(noteFile(), text)); !written) return written;
     syncFolderOf(noteFile());
     return {};
 }

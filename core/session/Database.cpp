@@ -1,6 +1,8 @@
 #include "core/session/Database.h"
 
+#include <filesystem>
 #include <sqlite3.h>
+#include <system_error>
 
 namespace tacto {
 
@@ -15,6 +17,22 @@ tl::unexpected<Error> failFrom(sqlite3* database, int code) {
         default:
             return fail(ErrorCode::Io, "{}", text);
     }
+}
+
+/// SQLite says of whatever keeps it from opening a file that it is unable to.
+Error whyNotOpened(sqlite3* database, int code, const std::string& target) {
+    constexpr int kSuffix = 8;  // of the journal's name, as SQLite counts it
+    const auto bytes = std::filesystem::absolute(target).native().size();
+    const auto most = static_cast<std::size_t>(sqlite3_vfs_find(nullptr)->mxPathname - kSuffix);
+    auto error = failFrom(database, code).value();
+    if (code != SQLITE_CANTOPEN) return error;
+    if (bytes > most) {
+        error.message =
+            fmt::format("its path has {} bytes; at most {} are expected, as SQLite has room for", bytes, most);
+    } else if (const int reason = database != nullptr ? sqlite3_system_errno(database) : 0; reason != 0) {
+        error.message = std::generic_category().message(reason);
+    }
+    return error;
 }
 
 }  // namespace
@@ -82,7 +100,7 @@ Result<Database> Database::open(const std::string& target, int flags) {
     sqlite3* opened = nullptr;
     const int code = sqlite3_open_v2(target.c_str(), &opened, flags, nullptr);
     Database database(opened);  // SQLite gives an object to close even when it fails
-    if (code != SQLITE_OK) return failFrom(opened, code);
+    if (code != SQLITE_OK) return tl::unexpected(whyNotOpened(opened, code, target));
     sqlite3_extended_result_codes(opened, 1);
     return database;
 }

@@ -1,9 +1,10 @@
 #include "core/session/DatabaseFile.h"
 
 #include <algorithm>
-#include <fstream>
 #include <sqlite3.h>
 #include <vector>
+
+#include "core/base/WholeFile.h"
 
 namespace tacto {
 
@@ -57,16 +58,15 @@ Result<void> copyDatabaseFile(const std::filesystem::path& from, const std::file
     if (!file) return failure(file);
     const auto size = file->size();
     if (!size) return failure(size);
-    std::ofstream out(to, std::ios::binary);
+    auto out = FileOut::create(to);
+    if (!out) return failure(out);
     std::vector<std::byte> block(kBlock);
     for (std::int64_t at = 0; at < *size;) {
         const auto next = std::span(block).first(std::min(kBlock, static_cast<std::size_t>(*size - at)));
         if (auto done = file->read(at, next); !done) return done;
-        out.write(reinterpret_cast<const char*>(next.data()), static_cast<std::streamsize>(next.size()));
+        if (auto done = out->write({reinterpret_cast<const char*>(next.data()), next.size()}); !done) return done;
         at += static_cast<std::int64_t>(next.size());
     }
-    out.close();
-    if (!out) return fail(ErrorCode::Io, "{} cannot be written", to.string());
     return {};
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/GivenOnce.h"
 #include "core/base/JsonFields.h"
 #include "core/base/Printable.h"
+#include "core/base/WholeFile.h"
 #include "core/session/Durable.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionReader.h"
@@ -61,7 +62,7 @@ private:
 /// A copy beside the session that goes unless it has taken its place.
 class Copy {
 public:
-    explicit Copy(const std::filesystem::path& of) : path_(of) { path_ += ".new-" + std::to_string(::getpid()); }
+    explicit Copy(const std::filesystem::path& of) : path_(draftBeside(of)) {}
     ~Copy() { removeDraft(path_); }
     Copy(const Copy&) = delete;
     Copy& operator=(const Copy&) = delete;
@@ -121,7 +122,8 @@ void applyLabels(const nlohmann::json& body, SessionLabels& labels) {
 Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader) {
     const auto name = session.filename().string();
     const std::filesystem::path journal = session.string() + "-wal";
-    if (!reader.closed() || std::filesystem::exists(journal)) {
+    std::error_code error;  // a journal of a name that is too long does not exist
+    if (!reader.closed() || std::filesystem::exists(journal, error)) {
         return fail(ErrorCode::Unsupported,
                     "session {} has no end mark: it is being recorded, or was interrupted. It is kept as it is, "
                     "without changes",
@@ -134,7 +136,6 @@ Result<void> takesLabels(const std::filesystem::path& session, const SessionRead
             "is; the study's own notes are sealed",
             name);
     }
-    std::error_code error;
     const auto writable = std::filesystem::perms::owner_write | std::filesystem::perms::group_write |
                           std::filesystem::perms::others_write;
     if ((std::filesystem::status(session, error).permissions() & writable) == std::filesystem::perms::none) {

@@ -6,6 +6,7 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include "core/base/WholeFile.h"
 #include "core/session/Durable.h"
 #include "core/session/Schema.h"
 #include "core/session/SealedRow.h"
@@ -56,17 +57,19 @@ Result<SessionStore> SessionStore::attach(Database database) {
 
 Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Instant at, std::string_view about,
                                           std::shared_ptr<const RowSeal> seal) {
-    for (const char* suffix : {"", "-wal"}) {
-        const auto taken = withSuffix(path, suffix);
-        if (std::filesystem::exists(taken)) {
-            return fail(ErrorCode::InvalidArgument, "{} exists; a session is never overwritten", taken.string());
-        }
-    }
     const auto because = [&](const auto& failed) {
         return fail(failed.error().code, "session {} cannot be made: {}", path.string(), failed.error().message);
     };
+    for (const char* suffix : {"", "-wal"}) {
+        const auto taken = withSuffix(path, suffix);
+        std::error_code error;  // of a name that is too long, for one
+        if (std::filesystem::exists(taken, error)) {
+            return fail(ErrorCode::InvalidArgument, "{} exists; a session is never overwritten", taken.string());
+        }
+        if (error) return because(Result<void>(fail(ErrorCode::Io, "{}", error.message())));
+    }
     // Made whole under another name first, so that a crash leaves either no session or a valid one.
-    const auto draft = withSuffix(path, ".new-" + std::to_string(::getpid()));
+    const auto draft = draftBeside(path);
     removeDraft(draft);
     auto made = [&]() -> Result<SessionStore> {
         auto database = Database::open(draft.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);

@@ -1,13 +1,13 @@
 #include "core/sharing/BidsFiles.h"
 
 #include <algorithm>
-#include <fstream>
 #include <numeric>
 
 #include "core/base/GivenOnce.h"
 #include "core/base/JsonText.h"
 #include "core/base/Random.h"
 #include "core/base/Text.h"
+#include "core/base/WholeFile.h"
 #include "core/sharing/BidsSessionTables.h"
 #include "core/study/ScoreWords.h"
 
@@ -272,10 +272,8 @@ Result<void> writeBids(const std::vector<BidsFile>& files, const fs::path& folde
         std::error_code failed;
         fs::create_directories(path.parent_path(), failed);
         if (failed) return fail(ErrorCode::Io, "{}: {}", path.parent_path().string(), failed.message());
-        std::ofstream out(path, std::ios::binary);
-        out << file.text;
-        out.close();
-        if (!out) return fail(ErrorCode::Io, "{} cannot be written", path.string());
+        auto out = FileOut::create(path);
+        if (auto written = namedAs(path, out ? out->write(file.text) : failure(out)); !written) return written;
     }
     return {};
 }

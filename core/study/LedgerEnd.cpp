@@ -1,10 +1,10 @@
 #include "core/study/LedgerEnd.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/Csv.h"
 #include "core/base/JsonFields.h"
+#include "core/base/WholeFile.h"
 #include "core/session/Durable.h"
 #include "core/session/SessionReader.h"
 #include "core/study/Gates.h"
@@ -14,16 +14,7 @@ namespace tacto {
 namespace fs = std::filesystem;
 
 void noteLedgerEnd(const fs::path& file, const LedgerEnd& end) {
-    auto draft = file;
-    draft += ".new";
-    {
-        std::ofstream out(draft, std::ios::binary | std::ios::trunc);
-        out << dumpJson({{"row", end.row}, {"head", end.head}}) << '\n';
-        out.flush();
-        if (!out) return;
-    }
-    std::error_code error;
-    if (syncFile(draft)) fs::rename(draft, file, error);
+    static_cast<void>(writeWholeFile(file, dumpJson({{"row", end.row}, {"head", end.head}}) + '\n'));
     syncFolderOf(file);
 }
 

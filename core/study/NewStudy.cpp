@@ -1,7 +1,6 @@
 #include "core/study/NewStudy.h"
 
-#include <unistd.h>
-
+#include "core/base/WholeFile.h"
 #include "core/session/Digest.h"
 #include "core/session/Durable.h"
 #include "core/session/Ledger.h"
@@ -95,8 +94,7 @@ Result<void> makeStudy(const StudyFiles& files, const StudySettings& settings, c
     std::error_code error;
     const auto parent = fs::absolute(files.folder).parent_path();
     fs::create_directories(parent, error);
-    StudyFiles draft{files.folder};
-    draft.folder += ".new-" + std::to_string(::getpid());
+    const StudyFiles draft{draftBeside(fs::absolute(files.folder))};
     fs::remove_all(draft.folder, error);
     if (!fs::create_directory(draft.folder, error))
         return fail(ErrorCode::Io, "{} cannot be made: {}", files.folder.string(), error.message());

@@ -1,10 +1,9 @@
 #include "core/study/StudyFiles.h"
 
-#include <fstream>
-
 #include "core/base/Csv.h"
 #include "core/base/Hex.h"
 #include "core/base/JsonFields.h"
+#include "core/base/WholeFile.h"
 #include "core/session/Digest.h"
 #include "core/session/Durable.h"
 
@@ -74,13 +73,10 @@ Result<StudySettings> parseStudy(std::string_view text, const std::string& sourc
 
 Result<void> draftStudy(const StudyFiles& files, std::string_view text) {
     const auto draft = draftOf(files);
-    {
-        std::ofstream out(draft, std::ios::binary | std::ios::trunc);
-        out << text;
-        out.flush();
-        if (!out) return fail(ErrorCode::Io, "{} cannot be written", draft.string());
-    }
-    return syncFile(draft);
+    auto out = FileOut::create(draft);
+    auto written = out ? out->write(text) : failure(out);
+    if (written) written = syncFile(draft);
+    return namedAs(files.settings(), std::move(written));
 }
 
 Result<void> publishStudy(const StudyFiles& files) {

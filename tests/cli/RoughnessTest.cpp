@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/Result.h"
+#include "core/base/Text.h"
 #include "tests/cli/Shape.h"
 
 namespace tacto::test {
@@ -45,7 +46,7 @@ void expectSummaryOf(const std::string& csv, const Json& summary) {
         if (row[1] != "1") continue;
         ++contact;
         for (std::size_t i = 0; i < 5; ++i) {
-            if (!row[3 + i].empty()) values[i].push_back(std::stod(row[3 + i]));
+            if (!row[3 + i].empty()) values[i].push_back(*parseNumber(row[3 + i]));
         }
     }
     EXPECT_EQ(contact, summary["contact_frames"].get<std::size_t>());
@@ -103,8 +104,8 @@ TEST(Roughness, RealSlidesHaveSpectralFeaturePressureAndR) {
                                                              Json("uncalibrated units")}));
         // Window of round(0.064 fs) = 141 samples, hop of round(0.016 fs) = 35; a frame's time is its centre.
         const auto rows = rowsOf(frames);
-        EXPECT_NEAR(std::stod(rows[1][0]), 70.5 / 2200, 1e-4);
-        EXPECT_NEAR(std::stod(rows[11][0]) - std::stod(rows[1][0]), 350.0 / 2200, 1e-4);
+        EXPECT_NEAR(*parseNumber(rows[1][0]), 70.5 / 2200, 1e-4);
+        EXPECT_NEAR(*parseNumber(rows[11][0]) - *parseNumber(rows[1][0]), 350.0 / 2200, 1e-4);
     }
 }
 

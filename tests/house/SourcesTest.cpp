@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <map>
 #include <regex>
+#include <set>
 
 #include "tests/support/Support.h"
 
@@ -89,6 +90,54 @@ TEST(Sources, TheUsersDataLieWhereOneFunctionSays) {
         if (text.find("getenv(\"XDG_DATA_HOME\")") != std::string::npos) asking.push_back(file.string());
     });
     EXPECT_THAT(asking, testing::ElementsAre("core/base/DataFolder.cpp"));
+}
+
+// Qt sets the locale of the C library, and std::locale("") has it too: letters are not folded in Turkish, and numbers
+// have a decimal comma in German. core/base/Ascii.h, core/base/Text.h and fmt follow none.
+const std::set<std::string_view> kFollowsTheLocale{
+    "tolower",  "toupper",  "towlower",  "towupper", "isalnum",    "isalpha",  "isblank",  "iscntrl",    "isdigit",
+    "isgraph",  "islower",  "isprint",   "ispunct",  "isspace",    "isupper",  "isxdigit", "iswalpha",   "iswspace",
+    "strtod",   "strtof",   "strtold",   "strtol",   "strtoll",    "strtoul",  "strtoull", "atof",       "atoi",
+    "atol",     "atoll",    "stod",      "stof",     "stold",      "stoi",     "stol",     "stoll",      "stoul",
+    "stoull",   "printf",   "fprintf",   "sprintf",  "snprintf",   "vprintf",  "vfprintf", "vsnprintf",  "scanf",
+    "fscanf",   "sscanf",   "strcoll",   "strxfrm",  "strcasecmp", "strftime", "strptime", "put_time",   "get_time",
+    "mbstowcs", "wcstombs", "put_money", "imbue",    "localeconv", "iequals",  "to_lower", "strncasecmp"};
+
+/// The names in `line` that follow the locale: functions by what stands before a bracket.
+std::string followingTheLocale(std::string_view line) {
+    line = line.substr(0, line.find("//"));
+    for (const std::string_view text : {"std::locale", "std::regex", "std::wregex", "QLocale::system", "QLocale()"})
+        if (line.find(text) != std::string_view::npos) return std::string(text);
+    for (auto at = line.find('('); at != std::string_view::npos; at = line.find('(', at + 1)) {
+        auto begin = at;
+        const auto isOfName = [](char c) {
+            return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+        };
+        while (begin > 0 && isOfName(line[begin - 1])) --begin;
+        if (const auto name = line.substr(begin, at - begin); kFollowsTheLocale.contains(name))
+            return std::string(name);
+    }
+    for (const std::string_view name : {"std::tolower", "std::toupper", "std::isspace", "std::isdigit", "std::isalpha"})
+        if (line.find(name) != std::string_view::npos) return std::string(name);
+    return {};
+}
+
+TEST(Sources, NothingFollowsTheLocale) {
+    std::size_t lines = 0;
+    forSources({"app", "core", "drivers"}, [&](const fs::path& file, const std::string& text) {
+        if (file.extension() != ".cpp" && file.extension() != ".h") return;
+        std::size_t number = 0;
+        for (std::size_t from = 0; from < text.size(); ++lines) {
+            const auto end = std::min(text.find('\n', from), text.size());
+            ++number;
+            EXPECT_EQ(followingTheLocale(std::string_view(text).substr(from, end - from)), "") << file << ":" << number;
+            from = end + 1;
+        }
+    });
+    EXPECT_GT(lines, 100'000U);
+    EXPECT_EQ(followingTheLocale("x = std::tolower(c);"), "tolower");
+    EXPECT_EQ(followingTheLocale("transform(a, b, std::toupper);  // by its name"), "std::toupper");
+    EXPECT_EQ(followingTheLocale("y = letters.isDigit() && tolowered(z);  // not tolower(z)"), "");
 }
 
 }  // namespace

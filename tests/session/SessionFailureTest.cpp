@@ -68,6 +68,36 @@ TEST(SessionFailure, AFullDiskIsSaidOnceAndForAllAndWhatWasCommittedStays) {
     EXPECT_EQ(report.trials, static_cast<std::uint64_t>(trials));
 }
 
+TEST(SessionFailure, APathThatCannotBeOpenedIsRefusedWithTheReason) {
+    const ScratchDir dir;
+    const test::HandClock clock;
+    const auto refusal = [&](const std::filesystem::path& path) {
+        const auto made = SessionWriter::create(path, test::someAbout(), clock);
+        return made ? std::string("made") : made.error().message;
+    };
+    const auto name = [](std::size_t bytes) { return std::string(bytes - 6, 's') + ".tacto"; };
+    // SQLite's journal has four bytes more.
+    EXPECT_EQ(refusal(dir.path() / name(251)), "made");
+    for (const std::size_t bytes : {252U, 255U, 256U}) {
+        const auto path = dir.path() / name(bytes);
+        EXPECT_EQ(refusal(path), fmt::format("session {} cannot be made: File name too long", path.string()));
+    }
+    EXPECT_EQ(
+        refusal(dir.path() / "none" / "s.tacto"),
+        fmt::format("session {} cannot be made: No such file or directory", (dir.path() / "none/s.tacto").string()));
+    auto folder = dir.path();
+    while (folder.native().size() < 470) folder /= std::string(20, 'd');
+    std::filesystem::create_directories(folder);
+    for (std::size_t bytes = 490; bytes < 530; ++bytes) {
+        const auto path = folder / name(bytes - folder.native().size() - 1);
+        const auto said = refusal(path);
+        EXPECT_EQ(said == "made", bytes <= 504) << said;
+        if (bytes > 504)
+            EXPECT_NE(said.find(fmt::format("its path has {} bytes; at most 504", bytes)), said.npos) << said;
+        if (said == "made") EXPECT_TRUE(SessionReader::open(path));
+    }
+}
+
 TEST(SessionFailure, AFileThatIsRemovedMeanwhileEndsTheRecording) {
     RecordProperty("hazard", "H8");
     Recording recording;

@@ -57,6 +57,23 @@ TEST_F(Labels, AreKeptBehindTheEndAndTheRecordingStaysAsItIs) {
     EXPECT_THAT(verified->notes, Contains(HasSubstr("were changed 1 time after")));
 }
 
+TEST_F(Labels, AreKeptInASessionOfEveryName) {
+    std::mt19937 random(20261129);
+    for (std::size_t length : {7U, 100U, 240U, 244U, 248U, 251U, 252U, 254U, 255U}) {
+        std::string name;
+        while (name.size() + 6 < length) name += static_cast<char>(random() % 3 == 0 ? 0x80 + random() % 128 : 'a');
+        const auto named = dir.path() / (name + ".tacto");
+        std::filesystem::rename(path, named);
+        path = named;
+        labels.note = std::string(length, 'n');
+        const auto saved = saveLabels(path, kept(), labels);
+        ASSERT_TRUE(saved) << length << ": " << saved.error().message;
+        EXPECT_EQ(kept(), labels);
+        EXPECT_EQ(filesBeside(), 1);
+        EXPECT_EQ(verifySession(path)->status, SessionStatus::Intact);
+    }
+}
+
 TEST_F(Labels, AreChangedOneByOneAndOnlyChangesAreWritten) {
     ASSERT_TRUE(saveLabels(path, {}, labels));
     const auto once = verifySession(path)->rows;

@@ -7,9 +7,9 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/report/WholeFile.h"
 #include "app/run/Shipped.h"
 #include "core/base/JsonText.h"
+#include "core/base/WholeFile.h"
 
 namespace tacto::gui {
 
@@ -173,7 +173,7 @@ void ProfileEditor::openFile(const QString& path) {
 void ProfileEditor::saveFile(const QString& path) {
     const auto now = read();
     if (!now.profile) return;
-    const auto written = writeWholeFile(path, QByteArray::fromStdString(dumpJson(toJson(*now.profile), 2) + "\n"));
+    const auto written = writeWholeFile(path.toStdString(), dumpJson(toJson(*now.profile), 2) + "\n");
     if (written) return say(tr("Saved to %1.").arg(path), false);
     say(tr("%1 was not written: %2. The previous file is unchanged.")
             .arg(path, QString::fromStdString(written.error().message)),

@@ -1,24 +1,18 @@
 #include "app/gui/runner/ReportMaker.h"
 
 #include <QCoreApplication>
-#include <QDir>
 #include <QFileInfo>
 #include <array>
 #include <fcntl.h>
 #include <unistd.h>
+
+#include "core/base/WholeFile.h"
 
 namespace tacto::gui {
 
 namespace {
 
 constexpr int kDamaged = 1;  // of tactoscope-report: written, of a session that was altered
-
-/// What a killed program leaves beside `out` while it writes: QSaveFile's "report.pdf.AbCdEf".
-void removeHalfWritten(const QString& out) {
-    const QFileInfo file(out);
-    auto folder = file.dir();
-    for (const auto& left : folder.entryList({file.fileName() + ".??????"}, QDir::Files)) folder.remove(left);
-}
 
 }  // namespace
 
@@ -35,7 +29,7 @@ ReportMaker::~ReportMaker() {
     process_.disconnect(this);
     process_.kill();
     process_.waitForFinished(1000);  // a killed process ends at once
-    if (!out_.isEmpty()) removeHalfWritten(out_);
+    if (!out_.isEmpty()) removeDraftsOf(writer_, out_.toStdString());
 }
 
 void ReportMaker::make(const QString& session, const QString& out) {
@@ -77,13 +71,14 @@ void ReportMaker::start(const QStringList& words, const Secret* passphrase) {
         if (whole) process_.setStandardInputFile(QString("/proc/self/fd/%1").arg(ends[0]));
     }
     process_.start(program, passphrase == nullptr ? words : words + QStringList{"--passphrase-file", "/dev/stdin"});
+    writer_ = int(process_.processId());
     if (piped) ::close(ends[0]);
 }
 
 void ReportMaker::ended(int code, QProcess::ExitStatus status) {
     const auto said = QString::fromUtf8(process_.readAllStandardError()).trimmed().remove("tactoscope-cli: ");
     const auto out = std::exchange(out_, QString());
-    if (status == QProcess::CrashExit) removeHalfWritten(out);
+    if (status == QProcess::CrashExit) removeDraftsOf(writer_, out.toStdString());
     if (cancelled_)
         emit failed(tr("The report was cancelled. %1").arg(assurance_));
     else if (status == QProcess::CrashExit)

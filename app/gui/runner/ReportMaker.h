@@ -43,6 +43,7 @@ private:
     void start(const QStringList& words, const Secret* passphrase);
     QList<Order> queue_;
     QString out_;
+    int writer_ = 0;  ///< the process that writes it
     QString assurance_;
     bool cancelled_ = false;  // by the person, who needs no error
 };

@@ -11,9 +11,9 @@
 
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Theme.h"
-#include "app/report/WholeFile.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "app/scripting/engine/ScriptRun.h"
+#include "core/base/WholeFile.h"
 
 namespace tacto::gui {
 
@@ -276,15 +276,15 @@ void ScriptEditor::saveAs(const QString& name) {
 
 void ScriptEditor::saveTo(const QString& path) {
     QDir().mkpath(QFileInfo(path).absolutePath());
-    const auto text = code_->toPlainText().toUtf8();
-    if (const auto written = writeWholeFile(path, text); !written) {
+    const auto text = code_->toPlainText().toStdString();
+    if (const auto written = writeWholeFile(path.toStdString(), text); !written) {
         stay();
         return message_->setText(tr("⚠ Not saved: %1: %2. The text is still here.")
                                      .arg(path, QString::fromStdString(written.error().message)));
     }
     source_.path = path.toStdString();
     source_.name = QFileInfo(path).completeBaseName().toStdString();
-    source_.text = text.toStdString();
+    source_.text = text;
     source_.shipped = false;
     naming_->hide();
     code_->setReadOnly(false);

@@ -1,10 +1,8 @@
 #include "app/gui/scope/ScopeExport.h"
 
 #include <QObject>
-#include <QTemporaryDir>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "core/measure/CaptureFile.h"
 
@@ -28,20 +26,10 @@ std::optional<QString> saveData(const ShownCapture& shown, double from_s, double
         channel.samples.assign(trace->samples->begin() + first, trace->samples->begin() + last);
         part.channels.push_back(std::move(channel));
     }
-    // In a folder of its own beside the file and then in its place: a reader never sees half of it, and no file of
-    // another name is touched.
-    const auto target = std::filesystem::absolute(path.toStdString());
-    const auto failed = [&](const std::string& why) {
-        return QObject::tr("%1 was not saved: %2. A file of that name is as it was.")
-            .arg(path, QString::fromStdString(why));
-    };
-    const QTemporaryDir holder(QString::fromStdString((target.parent_path() / "tactoscope-export-XXXXXX").string()));
-    if (!holder.isValid()) return failed(holder.errorString().toStdString());
-    const std::filesystem::path beside = std::filesystem::path(holder.path().toStdString()) / target.filename();
-    if (const auto written = writeCapture(beside, part); !written) return failed(written.error().message);
-    std::error_code error;
-    std::filesystem::rename(beside, target, error);
-    if (error) return failed(error.message());
+    if (const auto written = writeCapture(path.toStdString(), part); !written) {
+        return QObject::tr("%1. A file of that name is as it was.")
+            .arg(QString::fromStdString(written.error().message));
+    }
     return {};
 }
 

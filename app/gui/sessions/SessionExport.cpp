@@ -2,11 +2,10 @@
 
 #include <QTemporaryDir>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/base/JsonText.h"
+#include "core/base/WholeFile.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/CaptureOrigin.h"
 #include "core/session/Marks.h"
@@ -34,24 +33,32 @@ public:
         std::error_code error;
         if (fs::exists(fs::symlink_status(target_, error))) return isThere();
         if (!holder_.isValid())
-            return fail(ErrorCode::Io, "cannot make a folder in {}: {}", fs::absolute(target_).parent_path().string(),
+            return fail(ErrorCode::Io, "{} could not be written: {}", target_.string(),
                         holder_.errorString().toStdString());
         path_ = fs::path(holder_.path().toStdString()) / "draft";
         fs::create_directory(path_, error);
-        if (error) return fail(ErrorCode::Io, "cannot make the folder {}: {}", path_.string(), error.message());
+        if (error) return fail(ErrorCode::Io, "{} could not be written: {}", target_.string(), error.message());
         return {};
     }
     [[nodiscard]] Result<void> keep() {
         std::error_code error, ignored;
         // A rename would take the place of a folder that came in the meantime: one of our own, and empty, is ready.
         if (!fs::create_directory(target_, error)) {
-            if (error) return fail(ErrorCode::Io, "cannot write {}: {}", target_.string(), error.message());
+            if (error) return fail(ErrorCode::Io, "{} could not be written: {}", target_.string(), error.message());
             return isThere();
         }
         fs::rename(path_, target_, error);
         if (!error) return {};
         fs::remove(target_, ignored);  // not when something is in it
-        return fail(ErrorCode::Io, "cannot write {}: {}", target_.string(), error.message());
+        return fail(ErrorCode::Io, "{} could not be written: {}", target_.string(), error.message());
+    }
+
+    /// About the folder that was asked for, which the operator knows.
+    [[nodiscard]] Error asked(Error error) const {
+        const auto drawn = path_.string();
+        if (const auto at = error.message.find(drawn); !drawn.empty() && at != std::string::npos)
+            error.message.replace(at, drawn.size(), target_.string());
+        return error;
     }
 
 private:
@@ -64,24 +71,27 @@ private:
 
 class TextFile {
 public:
-    explicit TextFile(const fs::path& path) : path_(path), file_(std::fopen(path.c_str(), "wb"), &std::fclose) {}
+    explicit TextFile(fs::path path) : path_(std::move(path)), file_(FileOut::create(path_)) {}
     template <class... Parts>
     void write(fmt::format_string<Parts...> format, Parts&&... parts) {
-        if (!file_) return;
-        const auto text = fmt::format(format, std::forward<Parts>(parts)...);
-        good_ = good_ && std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Parts>(parts)...);
+        constexpr std::size_t kPiece = 1UL << 20;
+        if (text_.size() >= kPiece) flush();
     }
     [[nodiscard]] Result<void> close() {
-        good_ = good_ && file_ && std::fflush(file_.get()) == 0;
-        file_.reset();
-        if (!good_) return fail(ErrorCode::Io, "cannot write {}: is the disk full?", path_.string());
-        return {};
+        flush();
+        return namedAs(path_, file_ ? std::move(written_) : failure(file_));
     }
 
 private:
+    void flush() {
+        if (file_ && written_) written_ = file_->write({text_.data(), text_.size()});
+        text_.clear();
+    }
     fs::path path_;
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-    bool good_ = true;
+    Result<FileOut> file_;
+    Result<void> written_;
+    fmt::memory_buffer text_;
 };
 
 /// Empty where absent; all digits that a double has.
@@ -159,60 +169,50 @@ Result<void> writeRows(const Result<std::vector<SessionRow>>& rows, const char* 
     return file.close();
 }
 
-}  // namespace
-
-Result<void> exportCsv(const fs::path& session, const fs::path& folder, const WorkPort& port) {
-    const auto reader = SessionReader::open(session);
-    if (!reader) return failure(reader);
-    Draft draft(folder);
-    if (auto begun = draft.begin(); !begun) return begun;
-    const auto streams = reader->streams();
+Result<void> writeTables(const SessionReader& reader, const fs::path& folder, const WorkPort& port) {
+    const auto streams = reader.streams();
     if (!streams) return failure(streams);
-    const auto captures = reader->captures();
+    const auto captures = reader.captures();
     if (!captures) return failure(captures);
-    if (auto written = writeMarks(*reader, draft.path() / "marks.csv"); !written) return written;
+    if (auto written = writeMarks(reader, folder / "marks.csv"); !written) return written;
     const int total = int(streams->size() + captures->size()) + 3;
     int done = 0;
     for (const auto& stream : *streams) {
         const auto name = fmt::format("stream-{}-{}.csv", stream.id, fileName(stream.stream.name));
-        if (auto written = writeStream(*reader, stream, draft.path() / name, port); !written) return written;
+        if (auto written = writeStream(reader, stream, folder / name, port); !written) return written;
         port.progress(++done, total);
     }
-    if (auto written = writeTrials(*reader, draft.path() / "trials.csv"); !written) return written;
+    if (auto written = writeTrials(reader, folder / "trials.csv"); !written) return written;
     port.progress(++done, total);
-    if (auto written = writeRows(reader->events(), "event", draft.path() / "events.csv"); !written) return written;
+    if (auto written = writeRows(reader.events(), "event", folder / "events.csv"); !written) return written;
     port.progress(++done, total);
-    if (auto written = writeRows(reader->commands(), "command", draft.path() / "commands.csv"); !written)
-        return written;
+    if (auto written = writeRows(reader.commands(), "command", folder / "commands.csv"); !written) return written;
     port.progress(++done, total);
     std::error_code error;
-    if (!captures->empty()) fs::create_directories(draft.path() / "captures", error);
+    if (!captures->empty()) fs::create_directories(folder / "captures", error);
     for (const auto& info : *captures) {
         if (port.stopped()) return fail(ErrorCode::Stopped, "cancelled; nothing was written");
-        const auto capture = reader->capture(info.seq);
+        const auto capture = reader.capture(info.seq);
         if (!capture) return failure(capture);
         const auto name = fmt::format("trial-{:04}-{:05}.csv", info.trial.value_or(0), info.seq);
-        if (auto written = writeCapture(draft.path() / "captures" / name, *capture); !written) return written;
-        if (auto stated = stateCaptureOrigin(draft.path() / "captures", capture->simulated); !stated) return stated;
+        if (auto written = writeCapture(folder / "captures" / name, *capture); !written) return written;
+        if (auto stated = stateCaptureOrigin(folder / "captures", capture->simulated); !stated) return stated;
         port.progress(++done, total);
     }
-    return draft.keep();
+    return {};
 }
 
-Result<void> exportRecording(const fs::path& session, const fs::path& folder, const WorkPort& port) {
-    const auto reader = SessionReader::open(session);
-    if (!reader) return failure(reader);
-    const auto streams = reader->streams();
+Result<void> writeRecording(const SessionReader& reader, const fs::path& session, const fs::path& folder,
+                            const WorkPort& port) {
+    const auto streams = reader.streams();
     if (!streams) return failure(streams);
-    Draft draft(folder);
-    if (auto begun = draft.begin(); !begun) return begun;
     Json described = Json::array();
     int done = 0;
     for (const auto& stream : *streams) {
         const auto& kind = stream.stream.kind;
         if ((kind != "acceleration" && kind != "force" && kind != "taxels") || stream.samples == 0) continue;
         const auto file = kind + ".csv";
-        if (auto written = writeStream(*reader, stream, draft.path() / file, port); !written) return written;
+        if (auto written = writeStream(reader, stream, folder / file, port); !written) return written;
         described.push_back({{"kind", kind},
                              {"file", file},
                              {"time_column", "time_s"},
@@ -225,19 +225,43 @@ Result<void> exportRecording(const fs::path& session, const fs::path& folder, co
         return fail(ErrorCode::NotFound, "{} holds no sensor stream to replay", session.filename().string());
     Json recording{
         {"title", session.stem().string()},
-        {"source", fmt::format("session {}, chain head {}", session.filename().string(), reader->chainHead())},
+        {"source", fmt::format("session {}, chain head {}", session.filename().string(), reader.chainHead())},
         {"licence", "the lab's own"},
         {"streams", described}};
-    for (const auto& device : reader->about().devices) {
+    for (const auto& device : reader.about().devices) {
         const auto from = originOf(device);
         if (device.is(Role::Sensor) && !device.serial.empty()) recording["fingertip"] = device.serial;
         if (device.is(Role::Sensor) && from != origin::kReplayedUnknown)
             recording["simulated"] = from == origin::kSimulated || from == origin::kReplayedSimulated;
     }
-    TextFile file(draft.path() / "recording.json");
+    TextFile file(folder / "recording.json");
     file.write("{}\n", dumpJson(recording, 2));
-    if (auto closed = file.close(); !closed) return closed;
+    return file.close();
+}
+
+/// Lets `write` fill a folder that takes the place of `folder`.
+template <class Write>
+Result<void> exportTo(const fs::path& session, const fs::path& folder, Write&& write) {
+    const auto reader = SessionReader::open(session);
+    if (!reader) return failure(reader);
+    Draft draft(folder);
+    if (auto begun = draft.begin(); !begun) return begun;
+    if (auto written = write(*reader, draft.path()); !written) return tl::unexpected(draft.asked(written.error()));
     return draft.keep();
+}
+
+}  // namespace
+
+Result<void> exportCsv(const fs::path& session, const fs::path& folder, const WorkPort& port) {
+    return exportTo(session, folder, [&](const SessionReader& reader, const fs::path& draft) {
+        return writeTables(reader, draft, port);
+    });
+}
+
+Result<void> exportRecording(const fs::path& session, const fs::path& folder, const WorkPort& port) {
+    return exportTo(session, folder, [&](const SessionReader& reader, const fs::path& draft) {
+        return writeRecording(reader, session, draft, port);
+    });
 }
 
 }  // namespace tacto::gui

@@ -94,6 +94,8 @@ public:
                 return say(QObject::tr("⚠ %1 cannot be made there. Choose another place.").arg(file.fileName()));
             file.refresh();
         }
+        if (acceptMode() == AcceptOpen && !file.exists() && file.fileName().contains(QChar::ReplacementCharacter))
+            return say(QObject::tr("⚠ The name of %1 is not UTF-8. Rename it first.").arg(file.fileName()));
         if (acceptMode() == AcceptOpen && !file.exists())
             return say(QObject::tr("⚠ %1 is not there. Choose another name.").arg(file.fileName()));
         const bool replaces = acceptMode() == AcceptSave && file.isFile();

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "app/gui/theme/Dialogs.h"
-#include "app/report/WholeFile.h"
+#include "core/base/WholeFile.h"
 
 namespace tacto::gui {
 
@@ -177,7 +177,7 @@ std::optional<QString> savePicture(const Still& still, const QString& path) {
     } else {
         return QObject::tr("%1 was not saved: its name must end in .png, .svg or .pdf.").arg(path);
     }
-    if (const auto written = writeWholeFile(path, bytes); !written) {
+    if (const auto written = writeWholeFile(path.toStdString(), bytes.toStdString()); !written) {
         return QObject::tr("%1 was not saved: %2. A file of that name is as it was.")
             .arg(path, QString::fromStdString(written.error().message));
     }

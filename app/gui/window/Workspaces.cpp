@@ -156,7 +156,9 @@ void Workspaces::refresh(const Telemetry& telemetry, bool measured) {
 void Workspaces::openFile(const QString& path) {
     const QFileInfo file(path);
     bool opened = false;
-    if (file.isDir() || file.suffix() == "json") {
+    if (!file.exists() && path.contains(QChar::ReplacementCharacter)) {
+        emit complained(tr("The name of %1 is not UTF-8. Rename it first.").arg(path));
+    } else if (file.isDir() || file.suffix() == "json") {
         opened = live_->openRecording(path);
         if (opened) showLive(kTouch);
     } else if (file.suffix() == "tacto") {

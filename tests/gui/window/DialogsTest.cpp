@@ -1,5 +1,6 @@
 // Dialogs open in one way, beside the window: no click and no key is kept from STOP.
 #include <QAbstractButton>
+#include <QDir>
 #include <QFile>
 #include <QFileDialog>
 #include <QMessageBox>
@@ -106,6 +107,16 @@ TEST_F(Asking, AFileThatIsNotThereIsSaidInPlace) {
     answer("missing.json");
     EXPECT_TRUE(chosen.isEmpty());
     EXPECT_THAT(trouble().toStdString(), HasSubstr("missing.json is not there"));
+}
+
+TEST_F(Asking, AFileWhoseNameIsNotUtf8IsSaidInPlace) {
+    static_cast<void>(folder.write("caf\xE9.json", "{}"));
+    const auto shown = QDir(QString::fromStdString(folder.path().string())).entryList(QDir::Files);
+    ASSERT_EQ(shown.size(), 1);
+    ask(gui::FileQuestion::Wants::ExistingFile);
+    answer(shown.front());
+    EXPECT_TRUE(chosen.isEmpty());
+    EXPECT_THAT(trouble().toStdString(), HasSubstr("is not UTF-8"));
 }
 
 TEST_F(Asking, AComplaintIsGoneOnceAnotherNameIsTyped) {

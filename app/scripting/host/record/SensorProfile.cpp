@@ -36,10 +36,12 @@ Result<std::filesystem::path> writeNew(const std::filesystem::path& folder, cons
             return fail(ErrorCode::Io, "{} cannot be written: {}", path.string(), std::strerror(errno));
         }
         const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+        int reason = written ? 0 : errno;
         const bool closed = std::fclose(file) == 0;
         if (written && closed) return path;
+        if (reason == 0) reason = errno;
         std::filesystem::remove(path, problem);
-        return fail(ErrorCode::Io, "{} could not be written completely; the disk may be full", path.string());
+        return fail(ErrorCode::Io, "{} could not be written: {}", path.string(), std::strerror(reason));
     }
     return fail(ErrorCode::Io, "{}: {} profiles of one day; fewer are expected", (folder / stem).string(), kMaxADay);
 }
