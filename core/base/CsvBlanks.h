@@ -13,7 +13,7 @@ namespace tacto {
 /// Whether most of the lines are two numbers or more with blanks between them, and nothing else.
 [[nodiscard]] bool areApartByBlanks(std::span<const std::string_view> lines);
 
-/// Of such lines, whether single tabs divide them: then a field may be empty. Rows agree in their tabs, with a number
+/// Whether single tabs divide such lines, where a field may be empty. Rows agree in their tabs, with a number
 /// or nothing between two of them, and no gap between two numbers in all rows; one before the first number is a column
 /// where a line of words has tabs too.
 [[nodiscard]] bool areApartByTabs(std::span<const std::string_view> lines);

@@ -27,7 +27,7 @@ TEST(CsvBlanks, HoldWhatTheSameTableWithCommasHolds) {
             for (auto n = (mayBeNone ? 0 : 1) + among(5); n > 0; --n) text += among(4) == 0 ? '\t' : ' ';
             return text;
         };
-        std::string text = among(2) == 0 ? "# written by a program\n% of somebody's\n\n" : "";
+        std::string text = among(2) == 0 ? "# written by a program\n% by hand\n\n" : "";
         std::string names = "time", commas = "time_s";
         for (std::size_t c = 1; c <= channels; ++c) {
             names += blanks(false) + fmt::format("x{}", c);

@@ -52,7 +52,7 @@ void hear(QtMsgType type, const QMessageLogContext& context, const QString& text
         endProgram(noDisplay(QString(" (%1)").arg(why)).toStdString() + '\n');
     }
     to.all << text;
-    // Of a plugin that could not reach its display Qt says another time that it did not start.
+    // Qt says another time that the plugin did not start.
     const bool isOfDisplay = QString(context.category).startsWith("qt.qpa") || text.contains("display");
     const bool isReason = isOfDisplay && !text.contains("even though it was found");
     if (isReason && !to.reasons.contains(text)) to.reasons << text.simplified();

@@ -9,9 +9,9 @@ namespace tacto {
 namespace {
 
 constexpr double kWantedOfShortest = 100;  // samples of the shortest level
-constexpr double kLeastOfShortest = 20;
+constexpr double kMinOfShortest = 20;
 constexpr double kCheap = 8e6;  // samples in all channels: what is drawn as finely as wanted
-constexpr double kMost = 64e6;
+constexpr double kMaxSamples = 64e6;
 
 bool holdLevelsAlone(const std::vector<CaptureChannel>& channels) {
     const auto isLevel = [](float sample) { return sample == 0 || sample == 1; };
@@ -101,8 +101,8 @@ Result<void> drawLevels(std::span<const double> stamps_s, CaptureReading& readin
     const double duration = stamps_s.back() - stamps_s.front() + (endsInARow ? 0 : shortest);
     const double channels = static_cast<double>(capture.channels.size());
     const double levels = duration / shortest;
-    const double fine = std::clamp(std::floor(kCheap / (channels * levels)), kLeastOfShortest, kWantedOfShortest);
-    if (!(channels * levels * fine <= kMost)) {
+    const double fine = std::clamp(std::floor(kCheap / (channels * levels)), kMinOfShortest, kWantedOfShortest);
+    if (!(channels * levels * fine <= kMaxSamples)) {
         return fail(ErrorCode::ParseError,
                     "{}: it lists changes of level and not samples: levels from {:.3g} s on in {:.3g} s are too many "
                     "samples; a shorter part was expected, without glitches, or an export of samples (in DSView: "
