@@ -36,6 +36,9 @@ struct Capture {
     double programmed = kNaN;
     double timeBaseTolerance = kNaN;  ///< relative half-width (50e-6 = 50 ppm); NaN = not stated
     double stampTolerance_s = kNaN;   ///< half-width of start_s and trigger_s against other captures'; NaN = not stated
+    /// The channels' gain errors are one and the same (one reference for all): they divide out of a voltage over a
+    /// current. false: not known to be, and taken as independent of each other.
+    bool gainShared = false;
     bool simulated = false;
     bool untriggered = false;  ///< taken because no trigger came: it shows the signal, not an event; trigger_s is NaN
     std::vector<CaptureChannel> channels;  ///< equally long

@@ -49,6 +49,7 @@ RecordFields<Capture> buildCaptureFields() {
     all.number("start_s", &C::start_s);
     all.number("trigger_s", &C::trigger_s);
     all.flag("simulated", &C::simulated);
+    all.flag("gain_shared", &C::gainShared);
     all.add("timebase_tolerance", &C::timeBaseTolerance, toleranceKind());
     all.add("stamp_tolerance_s", &C::stampTolerance_s, toleranceKind());
     all.list("channels", &C::channels, channel.kind(), 0, kAnyNumber);
@@ -108,6 +109,7 @@ void takeHeader(Capture& capture, const Capture& header) {
     capture.trigger_s = header.trigger_s;
     capture.timeBaseTolerance = header.timeBaseTolerance;
     capture.stampTolerance_s = header.stampTolerance_s;
+    capture.gainShared = header.gainShared;
     for (std::size_t c = 0; c < capture.channels.size(); ++c) {
         auto& channel = capture.channels[c];
         auto samples = std::move(channel.samples);

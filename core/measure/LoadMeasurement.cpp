@@ -132,16 +132,17 @@ Statistics statisticsOver(const std::vector<PulseLoad>& pulses, Value value) {
 }
 
 /// One reading's standard uncertainty of a level at the end of the line, relative to the level.
-double relativeUncertainty(const CaptureChannel& channel, double noise, double samples, double level) {
+double relativeUncertainty(const CaptureChannel& channel, bool gainShared, double noise, double samples, double level) {
     const double random = kEndOfLine * noise / std::sqrt(std::max(2.0, samples));
     const double step = (channel.lsb > 0 ? channel.lsb : kNotMeasured) / std::sqrt(6.0);
     const double absolute = std::hypot(std::hypot(random, step), channel.linearityTolerance / std::sqrt(3.0));
+    // A gain that voltage and current share divides out of the load.
     return std::hypot(absolute / std::abs(level),
-                      std::hypot(channel.gainTolerance, channel.probeTolerance) / std::sqrt(3.0));
+                      std::hypot(gainShared ? 0 : channel.gainTolerance, channel.probeTolerance) / std::sqrt(3.0));
 }
 
-void summariseLoad(const CaptureChannel& voltage, const CaptureChannel& current, const ChannelMeasurement& pulses,
-                   double voltageNoise, LoadMeasurement& result) {
+void summariseLoad(bool gainShared, const CaptureChannel& voltage, const CaptureChannel& current,
+                   const ChannelMeasurement& pulses, double voltageNoise, LoadMeasurement& result) {
     const auto& all = result.pulses;
     result.measuredPulses = static_cast<std::size_t>(
         std::count_if(all.begin(), all.end(), [](const auto& p) { return std::isfinite(p.load_ohm); }));
@@ -156,9 +157,9 @@ void summariseLoad(const CaptureChannel& voltage, const CaptureChannel& current,
         return statisticsOver(all, [&](const auto& p) { return std::abs(value(p)); }).mean;
     };
     const double samples = (kLineTo - kLineFrom) * pulses.width_s.mean * pulses.rate_hz;
-    const double volts =
-        relativeUncertainty(voltage, voltageNoise, samples, magnitude([](const auto& p) { return p.voltage_v; }));
-    const double amperes = relativeUncertainty(current, pulses.states.noise, samples,
+    const double volts = relativeUncertainty(voltage, gainShared, voltageNoise, samples,
+                                             magnitude([](const auto& p) { return p.voltage_v; }));
+    const double amperes = relativeUncertainty(current, gainShared, pulses.states.noise, samples,
                                                magnitude([](const auto& p) { return p.current_a; }));
     result.loadUncertainty_ohm = std::hypot(volts, amperes) * std::abs(result.load_ohm.mean);
 }
@@ -228,7 +229,7 @@ Result<LoadMeasurement> measureLoad(const Capture& capture, std::size_t voltage,
     result.voltage = volts.name;
     result.current = amperes.name;
     result.pulses = loadOfPulses(capture, voltage, current, pulses);
-    summariseLoad(volts, amperes, pulses, voltageNoise, result);
+    summariseLoad(capture.gainShared, volts, amperes, pulses, voltageNoise, result);
     warnOfLoad(pulses, result);
     warnOfFlatVoltage(capture, voltage, options, result);
     return result;

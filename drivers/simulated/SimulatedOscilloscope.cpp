@@ -19,6 +19,7 @@ ScopeFlaws drawnFlaws(const ScopeFlaws& otherwise, std::uint64_t seed) {
     out.rangeOffset = within(stated.offset);
     out.bow = within(stated.linearity);
     out.timeBase = 1 + within(stated.timeBase);
+    out.currentBow = within(stated.linearity);
     return out;
 }
 
@@ -149,6 +150,7 @@ Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, dou
     if (flaws_.stated.states) {
         capture.timeBaseTolerance = flaws_.stated.timeBase;
         capture.stampTolerance_s = 0;  // all records are of one clock
+        capture.gainShared = true;
     }
     capture.untriggered = untriggered;
     capture.simulated = true;
@@ -156,7 +158,7 @@ Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, dou
     const double end = start + static_cast<double>(settings_.samples) * step_s();
     const double bandwidth = traits_.bandwidth.value();
     const auto add = [&](const char* name, const char* unit, double range, FilteredTrace::Channel which, double gain,
-                         double offset) {
+                         double offset, double bow) {
         auto& channel = capture.channels.emplace_back();
         channel.name = name;
         channel.unit = unit;
@@ -170,16 +172,17 @@ Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, dou
             channel.probeTolerance = *unit == 'A' ? flaws_.stated.shunt : 0;
             channel.statedBy = "the simulated oscilloscope";
         }
-        digitise(channel, FilteredTrace(pulses, which, bandwidth, start, end), start, gain, offset);
+        digitise(channel, FilteredTrace(pulses, which, bandwidth, start, end), start, gain, offset, bow);
     };
-    add("voltage", "V", settings_.voltageRange.value(), FilteredTrace::Channel::Voltage, flaws_.gain, flaws_.offset);
+    add("voltage", "V", settings_.voltageRange.value(), FilteredTrace::Channel::Voltage, flaws_.gain, flaws_.offset,
+        flaws_.bow);
     add("current", "A", settings_.currentRange.value() * 1e-3, FilteredTrace::Channel::Current, flaws_.currentGain,
-        flaws_.currentOffset);
+        flaws_.currentOffset, flaws_.currentBow);
     return capture;
 }
 
 void SimulatedOscilloscope::digitise(CaptureChannel& channel, const FilteredTrace& trace, double start_s, double gain,
-                                     double offset) {
+                                     double offset, double channelBow) {
     buffer_.resize(settings_.samples);
     trace.sample(start_s, step_s(), buffer_);
     if (const double reference = channel.unit == "V" ? world_->reference() : 0; reference != 0) {
@@ -190,7 +193,7 @@ void SimulatedOscilloscope::digitise(CaptureChannel& channel, const FilteredTrac
     const double perLsb = 1 / channel.lsb;
     const double shift = offset + flaws_.rangeOffset * channel.high;
     // A cubic through the ends and the middle of the range: at most 1 of what it is multiplied with.
-    const double bow = 1.5 * std::sqrt(3.0) * flaws_.bow, perRange = 1 / channel.high;
+    const double bow = 1.5 * std::sqrt(3.0) * channelBow, perRange = 1 / channel.high;
     for (std::size_t k = 0; k < buffer_.size(); ++k) {
         const double x = buffer_[k] * perRange;
         const double bent = buffer_[k] * (1 + (x > -1 && x < 1 ? bow * (1 - x * x) : 0));

@@ -37,6 +37,7 @@ struct ScopeFlaws {
     double currentGain = 1, currentOffset = 0;  ///< offset in A
     double rangeOffset = 0;                     ///< of the range, of both channels
     double bow = 0;                             ///< of the range: the largest departure from the straight line
+    double currentBow = 0;                      ///< the same of the current channel
     /// What it states of a time since it was armed, to that time; a computer whose clock is off the other way.
     double timeBase = 1;
     ScopeStatement stated;
@@ -75,7 +76,8 @@ private:
     }
     /// A record around `middle_s`, where a trigger stood unless it is `untriggered`.
     [[nodiscard]] Capture render(const std::deque<PlayedPulse>& pulses, double middle_s, bool untriggered);
-    void digitise(CaptureChannel& channel, const FilteredTrace& trace, double start_s, double gain, double offset);
+    void digitise(CaptureChannel& channel, const FilteredTrace& trace, double start_s, double gain, double offset,
+                  double bow);
 
     const DeviceIdentity identity_;
     const std::shared_ptr<World> world_;

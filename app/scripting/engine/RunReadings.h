@@ -37,6 +37,7 @@ struct OwnReading {
     double probeTolerance = kNaN;
     double linearityTolerance = 0;
     double resolution = kNaN;
+    double fullScale = kNaN;
     double timeBaseTolerance = kNaN;
     double stampTolerance_s = kNaN;  ///< 0 where one record holds all of it
     std::string statedBy{};

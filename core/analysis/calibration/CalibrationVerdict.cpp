@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 
 #include "core/base/QuantityText.h"
 
@@ -27,6 +28,7 @@ void addInstrument(std::vector<Contribution>& rows, const InstrumentErrors& erro
     add("instrument linearity", errors.linearityTolerance, kHalfWidth, 1);
     add("instrument offset", errors.offsetTolerance, kHalfWidth, 1);
     add("resolution", errors.resolution, kResolution, 1);
+    if (errors.offsetTolerance == 0) add("resolution of the baseline", errors.resolution, kResolution, 1);
     add("time stamps", errors.stampTolerance, kTwoStamps, 1);
     add("load", errors.loadTolerance, kHalfWidth, errors.loadSensitivity * value);
 }
@@ -52,21 +54,104 @@ Result<UncertaintyBudget> levelBudget(const CalibrationLevel& level, std::size_t
     return combine(std::move(rows), options);
 }
 
-/// The line's two numbers: the instrument's gain error scales both, its offset shifts the offset alone.
+/// What the fit makes of an error of each level: the line's gain, or its offset, is the sum of weight times mean.
+struct LineWeights {
+    std::vector<double> gain, offset;
+};
+
+LineWeights lineWeights(const Calibration& found) {
+    const auto& levels = found.levels;
+    std::vector<double> trust(levels.size(), 0);
+    for (std::size_t k = 0; k < levels.size() && !found.weighted; ++k) trust[k] = static_cast<double>(levels[k].n);
+    for (const auto& reading : found.readings) {
+        if (!found.weighted || std::isnan(reading.measured)) continue;
+        const auto distance = [&](const CalibrationLevel& level) {
+            return std::abs(level.commanded - reading.commanded);
+        };
+        const auto nearest = std::ranges::min_element(levels, {}, distance) - levels.begin();
+        trust[static_cast<std::size_t>(nearest)] += 1 / (reading.uncertainty * reading.uncertainty);
+    }
+    double sum = 0, mean = 0, squares = 0;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        sum += trust[k];
+        mean += trust[k] * levels[k].commanded;
+    }
+    mean /= sum;
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        squares += trust[k] * (levels[k].commanded - mean) * (levels[k].commanded - mean);
+    LineWeights out;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        out.gain.push_back(trust[k] * (levels[k].commanded - mean) / squares);
+        out.offset.push_back(trust[k] / sum - mean * out.gain.back());
+    }
+    return out;
+}
+
+/// Standard deviation of the levels' means about the line, where it is clearly more than their scatter explains (F of
+/// 2.25, which scatter alone exceeds in 2 of 100 calibrations); else nothing.
+std::optional<Contribution> departures(const Calibration& found, double sensitivity) {
+    double squares = 0, readings = 0, levels = 0;
+    for (const auto& level : found.levels) {
+        if (level.n == 0) continue;
+        squares += level.residual * level.residual;
+        readings += static_cast<double>(level.n);
+        ++levels;
+    }
+    if (!(levels > 2) || std::isnan(found.repeatability)) return std::nullopt;
+    const double s = std::sqrt(squares / (levels - 2));
+    if (!(s > 1.5 * found.repeatability / std::sqrt(readings / levels))) return std::nullopt;
+    return Contribution{"departures of the levels from the line", Distribution::Student, s, 1, sensitivity, levels - 2};
+}
+
+/// Errors that the levels share, or have by themselves, as they come out in the line's gain or offset; `value` is that
+/// figure's, `weights` what the fit makes of the levels.
+Result<UncertaintyBudget> lineBudget(const JudgedCalibration& judged, const InstrumentErrors& errors, const char* name,
+                                     double standardError, double value, const std::vector<double>& weights,
+                                     const BudgetOptions& options) {
+    const auto& found = judged.calibration;
+    // The cubic that is 0 at 0 and at both ends and 1 at its most.
+    const double end = std::isnan(errors.fullScale) ? found.fullScale : std::max(errors.fullScale, found.fullScale);
+    double shared = 0, squares = 0, bend = 0, straight = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        const double x = found.levels[k].commanded / end;
+        shared += weights[k];
+        squares += weights[k] * weights[k];
+        straight += weights[k] * x;
+        bend += weights[k] * 1.5 * std::sqrt(3.0) * x * (1 - x * x);
+    }
+    const double single = std::sqrt(squares);
+    std::vector<Contribution> rows;
+    if (auto apart = departures(found, single)) {
+        rows.push_back(std::move(*apart));
+    } else {
+        rows.push_back({name, Distribution::Student, standardError, 1, 1, std::max(1.0, found.degreesOfFreedom)});
+        if (errors.samplingStep > 0 && found.repeatability < 0.5 * errors.samplingStep / kTwoEdges)
+            rows.push_back({"sampling", Distribution::Normal, errors.samplingStep, kTwoEdges, single, kInfinite});
+    }
+    InstrumentErrors here = errors;
+    here.resolution = here.linearityTolerance = here.offsetTolerance = here.stampTolerance = 0;
+    addInstrument(rows, here, value);
+    const auto add = [&rows](const char* what, double tolerance, double divisor, double sensitivity) {
+        if (tolerance == 0) return;
+        rows.push_back({what, Distribution::Rectangular, tolerance, divisor, sensitivity, kInfinite});
+    };
+    // The weights of the gain add up to 0 but for rounding: what all levels share is not in it.
+    const double common = std::round(shared);
+    add("instrument linearity", errors.linearityTolerance, kHalfWidth, std::max(std::abs(bend), std::abs(straight)));
+    if (common == 0) return combine(std::move(rows), options);
+    add("instrument offset", errors.offsetTolerance, kHalfWidth, common);
+    if (errors.offsetTolerance == 0) add("resolution of the baseline", errors.resolution, kResolution, common);
+    return combine(std::move(rows), options);
+}
+
 Result<void> judgeLine(JudgedCalibration& judged, const InstrumentErrors& errors, const BudgetOptions& options) {
     const auto& found = judged.calibration;
-    const auto line = [&](const char* name, double standardError, double value, double offsetTolerance) {
-        std::vector<Contribution> rows{
-            {name, Distribution::Student, standardError, 1, 1, std::max(1.0, found.degreesOfFreedom)}};
-        InstrumentErrors here = errors;
-        here.offsetTolerance = offsetTolerance;
-        here.resolution = here.linearityTolerance = here.stampTolerance = 0;  // averaged over the levels
-        addInstrument(rows, here, value);
-        return combine(std::move(rows), options);
-    };
-    auto gain = line("fit of the gain", found.gainStandardError, found.gain, 0);
+    const auto weights = lineWeights(found);
+    auto gain =
+        lineBudget(judged, errors, "fit of the gain", found.gainStandardError, found.gain, weights.gain, options);
     if (!gain) return failure(gain);
-    auto offset = line("fit of the offset", found.offsetStandardError, found.offset, errors.offsetTolerance);
+    auto offset = lineBudget(judged, errors, "fit of the offset", found.offsetStandardError, found.offset,
+                             weights.offset, options);
     if (!offset) return failure(offset);
     judged.gain = std::move(*gain);
     judged.offset = std::move(*offset);

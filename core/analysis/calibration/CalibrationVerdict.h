@@ -5,6 +5,12 @@
 // different levels need not scatter alike). Type B is what the instruments' data sheets state, in InstrumentErrors.
 // The error that is judged is that of the worse direction, so hysteresis cannot hide in the mean.
 //
+// The line's gain and offset are weighted sums of the levels' means, and so are their errors: those of single levels
+// (scatter, or the levels' own departures from the line where they are clearly more) count with the root of the squared
+// weights; the step of the converter that the one baseline hides is in all levels alike, and all of it in the offset. A
+// departure from the straight line is taken to bend as a cubic through 0 and both ends of the range, or to be another
+// straight line through 0, whichever weighs more (choice).
+//
 // Thread-safety: pure functions.
 #pragma once
 
@@ -23,9 +29,13 @@ struct InstrumentErrors {
     double probeTolerance = 0;      ///< relative, of the probe or shunt
     double linearityTolerance = 0;  ///< in the readings' unit, beside the gain
     double offsetTolerance = 0;     ///< in the readings' unit; 0 where levels are read from their own baseline
-    double resolution = kNaN;       ///< one step (LSB) in the readings' unit; 0 for times
-    double stampTolerance = 0;      ///< s, of two records against each other; 0 within one record
-    double loadTolerance = 0;       ///< relative, of the resistor
+    /// One step (LSB) in the readings' unit; 0 for times. A level that is read from its own baseline (offsetTolerance
+    /// 0) is the difference of two, each to a step.
+    double resolution = kNaN;
+    /// End of the range that the linearity holds for, in the readings' unit; NaN: the largest command.
+    double fullScale = kNaN;
+    double stampTolerance = 0;  ///< s, of two records against each other; 0 within one record
+    double loadTolerance = 0;   ///< relative, of the resistor
     /// Relative change of the reading per relative change of the load: 0 where the voltage across the load of a
     /// voltage source is read (or any time), -1 where a current is computed from the voltage across it.
     double loadSensitivity = 0;

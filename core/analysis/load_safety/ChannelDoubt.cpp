@@ -1,6 +1,7 @@
 #include "core/analysis/load_safety/ChannelDoubt.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 namespace tacto {
@@ -28,11 +29,22 @@ void ChannelDoubt::addProbe(BudgetRows& rows, double sensitivity) const {
               channel_ != nullptr ? channel_->probeTolerance : kNaN, kSqrt3, sensitivity);
 }
 
+void ChannelDoubt::addStep(BudgetRows& rows, const char* of, double sensitivity) const {
+    const double step = channel_ != nullptr && channel_->lsb > 0 ? channel_->lsb : kNaN;
+    addStated(rows, fmt::format("resolution of {}{}", name(), of), step, kSqrt12, sensitivity);
+}
+
 void ChannelDoubt::addLevel(BudgetRows& rows, double sensitivity) const {
-    const double resolution = channel_ != nullptr && channel_->lsb > 0 ? channel_->lsb : kNaN;
-    addStated(rows, "resolution of " + name(), resolution, kSqrt12 / kSqrt2, sensitivity);
+    addStep(rows, "", sensitivity);
+    addStep(rows, ", at its baseline", sensitivity);
     addStated(rows, "linearity of " + name(), channel_ != nullptr ? channel_->linearityTolerance : 0, kSqrt3,
               sensitivity);
+}
+
+void ChannelDoubt::addOpposites(BudgetRows& rows, double width_s) const {
+    addStep(rows, ", leading phase", width_s);
+    addStep(rows, ", second phase", width_s);
+    addStep(rows, ", at its baseline", 2 * width_s);
 }
 
 void addNormal(BudgetRows& rows, const char* what, double u, double sensitivity) {

@@ -30,11 +30,15 @@ public:
     /// Gain and probe or shunt; `sensitivity`: the figure's change per relative change of the channel.
     void addGain(BudgetRows& rows, double sensitivity) const;
     void addProbe(BudgetRows& rows, double sensitivity) const;
-    /// The resolution of a level above the baseline: two of them, each to a step of the converter.
+    /// A level above its baseline: two of them, each to a step of the converter; and the linearity between them.
     void addLevel(BudgetRows& rows, double sensitivity) const;
+    /// The sum of two equal and opposite levels, over `width_s` each, above one baseline, which is in both alike. What
+    /// bends one bends the other the opposite way (the cubic of CalibrationVerdict.h).
+    void addOpposites(BudgetRows& rows, double width_s) const;
 
 private:
     [[nodiscard]] std::string name() const;
+    void addStep(BudgetRows& rows, const char* of, double sensitivity) const;
     const CaptureChannel* channel_;
 };
 

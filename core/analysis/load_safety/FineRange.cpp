@@ -78,7 +78,7 @@ void addFineRange(LoadReading& out, const LoadFigures& figures, std::span<const 
         rows.push_back({"resolution of current", Distribution::Rectangular,
                         two->wide.channel->lsb > 0 ? two->wide.channel->lsb : kNaN, kSqrt12,
                         charge.wide_s / expected.pulses});
-        ChannelDoubt(two->fine.channel).addLevel(rows, out.width_s.value * kSqrt3);
+        ChannelDoubt(two->fine.channel).addOpposites(rows, out.width_s.value);
         rows.push_back({"seams of the two ranges", Distribution::Rectangular, two->fine.channel->high * two->fine.dt,
                         kSqrt12, std::sqrt(static_cast<double>(charge.seams))});
         addNormal(rows, "noise of current", two->wide.noise * std::sqrt(charge.wide_s * two->wide.dt));

@@ -89,8 +89,13 @@ Reading LoadFigures::impedanceOf(const LoadTrains& trains, const ChannelDoubt& v
     const double samples = trains.front().endSamples * static_cast<double>(trains.size());
     const double ohms = volts / amps;
     BudgetRows rows;
-    v.addGain(rows, ohms);
-    i.addGain(rows, ohms);
+    if (gainShared_) {  // it divides out
+        v.addProbe(rows, ohms);
+        i.addProbe(rows, ohms);
+    } else {
+        v.addGain(rows, ohms);
+        i.addGain(rows, ohms);
+    }
     v.addLevel(rows, 1 / amps);
     i.addLevel(rows, ohms / amps);
     addEnd(rows, trains, samples, 1 / amps);
@@ -218,12 +223,12 @@ void LoadFigures::addCurrent(LoadReading& out) const {
     out.charge_uc = times(1e6, figure(phase, std::move(charge)));
 
     // Gain is common to both phases and leaves their balance alone; what the converter's steps hide in two plateaus
-    // and in the baseline under them does not.
+    // and in the baseline under them does not, nor do four edges, each somewhere within a sample.
     const double net = largestOf(trains_, &TrainFigures::net_C);
     BudgetRows balance;
-    i_.addLevel(balance, w * kSqrt3);
+    i_.addOpposites(balance, w);
+    addNormal(balance, "sampling of the edges", phase / w * dt_ / kSqrt3);
     addNormal(balance, "noise of current", noise * std::sqrt(record_s_ * dt_));
-    addSpread(balance, trains_, &TrainFigures::net_C);
     out.imbalance = times(1 / phase, figure(net, balance));
     i_.addGain(balance, net);
     out.net_charge_uc = times(1e6, figure(net, std::move(balance)));

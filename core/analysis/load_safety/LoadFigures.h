@@ -26,7 +26,8 @@ public:
           dt_(1 / capture.rate_hz),
           record_s_(static_cast<double>(capture.samples()) * dt_),
           timeBase_(capture.timeBaseTolerance),
-          stamp_s_(capture.stampTolerance_s) {}
+          stamp_s_(capture.stampTolerance_s),
+          gainShared_(capture.gainShared) {}
 
     /// Amplitude, width and peak.
     void addVoltage(LoadReading& out) const;
@@ -54,6 +55,7 @@ private:
     const ExpectedTrain& expected_;
     const ChannelDoubt v_, i_;
     const double dt_, record_s_, timeBase_, stamp_s_;
+    const bool gainShared_;
 };
 
 }  // namespace tacto

@@ -7,8 +7,9 @@
 // Uncertainty, science.md sections 9 and 12: gain, probe or shunt of each channel and the time base, as they are
 // stated; resolution of a level above its baseline (an offset cancels there); noise over the samples that a figure is
 // averaged over; and for what is the mean of the trains their spread, with its degrees of freedom. U (95 %) is
-// combine()'s. What one instrument states is taken as fully correlated in products (energy, power) and as independent
-// in the ratio V/I: each time the assumption that gives the larger U. A figure that rests on something not stated has a
+// combine()'s. What one instrument states is taken as fully correlated in products (energy, power). In the ratio V/I a
+// gain error that both channels share divides out where the capture says that they share it (gainShared); elsewhere the
+// two are taken as independent. A figure that rests on something not stated has a
 // value and no U (H9). The voltage that a current source leaves on a capacitor still rises where a phase is read: it is
 // followed in a straight line to the phase's end, and a fifth of that way is in doubt (an exponential bends away from
 // its tangent by no more as long as it still rises by a hundredth). A peak also carries the largest step between

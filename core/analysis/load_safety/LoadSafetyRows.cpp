@@ -147,7 +147,7 @@ void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const 
              rowOf(record, "load_value",
                    metered ? "error of the load's value against the DMM" : "error of the load's value", error, "%"),
              input.tolerances.load_pct, false, "laboratory",
-             "the load's value is verified before anything is judged on it");
+             "the load's value is verified before anything is judged on it; its tolerance is a choice");
 }
 
 void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
@@ -160,7 +160,7 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
             return Reading{std::abs(e.value), e.u, e.expanded};
         };
     };
-    const char* own = "the laboratory's tolerance (science.md section 9)";
+    const char* own = "the laboratory's tolerance, a choice (science.md section 9)";
     addUpper(rows, record,
              rowOf(record, "amplitude_over", "amplitude above the command", highest(record, amplitudeError), "%"),
              input.tolerances.amplitude_pct, false, "laboratory", own);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kRuns = 1000;
 // The interval's own scatter is far below that of 1000 runs with fewer draws than a report takes.
-constexpr std::size_t kDraws = 10'000;
+constexpr std::size_t kDraws = 2000;
 
 /// In how many of the runs the interval held the truth.
 struct Covered {
@@ -31,16 +31,13 @@ Covered coverageOf(const CalibrationTwin& twin) {
             ADD_FAILURE() << found.error().message;
             return covered;
         }
-        // Judged on the three levels that are looked at: the others' budgets would cost time and tell nothing new.
-        Calibration three = *found;
-        three.levels = {found->levels[looked[0]], found->levels[looked[1]], found->levels[looked[2]]};
-        const auto judged = judgeCalibration(three, twin.instrument, 2, {seed, kDraws});
+        const auto judged = judgeCalibration(*found, twin.instrument, 2, {seed, kDraws});
         if (!judged) {
             ADD_FAILURE() << judged.error().message;
             return covered;
         }
         for (std::size_t k = 0; k < looked.size(); ++k) {
-            const auto& level = judged->levels[k];
+            const auto& level = judged->levels[looked[k]];
             const double truth = twin.truth(level.commanded) - level.commanded;
             covered.level[k] += std::abs(level.error - truth) <= level.budget.expanded ? 1 : 0;
             const auto& read = found->levels[looked[k]];
@@ -115,12 +112,12 @@ TEST(CalibrationCoverage, AnInstrumentWorseThanStatedIsNoticed) {
         const auto found = fitCalibration(twin.run(static_cast<std::uint64_t>(run) + 1));
         ASSERT_TRUE(found);
         Calibration top = *found;
-        top.levels = {found->levels.back()};
+        top.levels = {found->levels.front(), found->levels.back()};
         const InstrumentErrors stated{.gainTolerance = 0.005, .offsetTolerance = 0.05, .resolution = 0.025};
         const auto judged = judgeCalibration(top, stated, 2, {1, 2000});
         ASSERT_TRUE(judged);
         const double truth = twin.truth(twin.high) - twin.high;
-        covered += std::abs(judged->levels[0].error - truth) <= judged->levels[0].budget.expanded ? 1 : 0;
+        covered += std::abs(judged->levels[1].error - truth) <= judged->levels[1].budget.expanded ? 1 : 0;
     }
     EXPECT_LT(covered, 700);
 }

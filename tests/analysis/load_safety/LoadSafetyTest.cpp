@@ -59,7 +59,7 @@ protected:
                 LoadTruth truth;
                 truth.pulses = 3;
                 truth.train_hz = hz;
-                truth.rate_hz = 1e6;
+                truth.rate_hz = 2e6;
                 truth.ohms = record.load.kind == LoadKind::SkinEquivalent ? 10'200 : record.load.series.value();
                 truth.volts = truth.ohms < 250 ? 10 : 40;
                 each.command_v = truth.volts;

@@ -78,6 +78,7 @@ public:
             widenTo(errors.probeTolerance, worst(&OwnReading::probeTolerance));
             widenTo(errors.linearityTolerance, worst(&OwnReading::linearityTolerance));
             widenTo(errors.resolution, worst(&OwnReading::resolution));
+            errors.fullScale = readings_.front()->fullScale;
         } else {
             errors.resolution = 0;
             if (quantity_.id == kCalibratedInterval.id)

@@ -27,4 +27,21 @@ double meanOfTrains(const ChannelMeasurement& channel, double TrainMeasurement::
     return statisticsOf(readings).mean;
 }
 
+namespace {
+/// What is left of an uncertainty without a part of it. What is not known stays so.
+double without(double part, double all) noexcept {
+    const double rest = all * all - part * part;
+    return std::sqrt(rest < 0 ? 0 : rest);
+}
+}  // namespace
+
+double withoutGain(const ChannelMeasurement& measured, const CaptureChannel& channel) noexcept {
+    return without(channel.gainTolerance / std::sqrt(3.0) * measured.amplitude.mean, measured.uncertainty.amplitude);
+}
+
+double ofLevelAlone(const ChannelMeasurement& measured, const CaptureChannel& channel) noexcept {
+    const double step = channel.lsb / std::sqrt(12.0), bend = channel.linearityTolerance / std::sqrt(3.0);
+    return without(std::hypot(step, bend), withoutGain(measured, channel));
+}
+
 }  // namespace tacto::host::measure

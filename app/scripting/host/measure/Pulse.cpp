@@ -40,9 +40,11 @@ Json commandJson(const CapturedCommand& command) {
 void addLoad(Json& out, const Capture& capture, const ChannelMeasurement& voltage, const ChannelMeasurement& current) {
     const double volts = meanOfTrains(voltage, &TrainMeasurement::amplitude);
     const double amps = meanOfTrains(current, &TrainMeasurement::amplitude);
-    const auto* i = channelOf(capture, "current");
-    if (i == nullptr || !(volts > 0) || !(amps > 0)) return;
-    const double relative = std::hypot(voltage.uncertainty.amplitude / volts, current.uncertainty.amplitude / amps);
+    const auto *v = channelOf(capture, "voltage"), *i = channelOf(capture, "current");
+    if (v == nullptr || i == nullptr || !(volts > 0) || !(amps > 0)) return;
+    const bool shared = capture.gainShared;  // then it divides out
+    const double relative = std::hypot((shared ? withoutGain(voltage, *v) : voltage.uncertainty.amplitude) / volts,
+                                       (shared ? withoutGain(current, *i) : current.uncertainty.amplitude) / amps);
     out["load_ohm"] = volts / amps;
     out["load_expanded_ohm"] = numberOrNull(kCoverage * relative * volts / amps);
     if (i->lsb > 0) out["current_lsb"] = amps / i->lsb;
@@ -96,6 +98,7 @@ Result<Json> pulseReading(ScriptSession& session, const Json& handles) {
     own.probeTolerance = channel->probeTolerance;
     own.linearityTolerance = channel->linearityTolerance * scale;
     if (channel->lsb > 0) own.resolution = channel->lsb * scale;
+    if (channel->high > 0) own.fullScale = channel->high * scale;
     own.timeBaseTolerance = captures.front().timeBaseTolerance;
     own.stampTolerance_s = captures.size() > 1 ? captures.front().stampTolerance_s : 0;
     own.statedBy = channel->statedBy;
