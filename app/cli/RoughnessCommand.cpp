@@ -8,6 +8,7 @@
 #include "app/cli/TextTable.h"
 #include "core/acquisition/Recording.h"
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/QuantityText.h"
 #include "core/dsp/RoughnessAnalysis.h"
 
 namespace tacto::cli {
@@ -40,11 +41,11 @@ bool isOf(const Recording& recording, const std::filesystem::path& out) {
     });
 }
 
-/// U of the mean R, the recording taken as one slide; NaN: not known.
+/// U of R of the recording taken as one slide; NaN: not known.
 double expandedR(const RoughnessSettings& settings, const RoughnessSummary& summary) {
     const bool calibrated =
         std::ranges::find(summary.flags, nameOf(RoughnessFlag::UncalibratedR)) == summary.flags.end();
-    return calibrated && settings.uncertainty ? settings.uncertainty->expanded(summary.R.mean) : std::nan("");
+    return calibrated && settings.uncertainty ? settings.uncertainty->expanded(summary.slideR) : std::nan("");
 }
 
 int runRoughness(const QCommandLineParser& parser) {
@@ -82,6 +83,7 @@ int runRoughness(const QCommandLineParser& parser) {
                    {"h", toJson(summary.h)},
                    {"v", toJson(summary.v)},
                    {"R", toJson(summary.R)},
+                   {"R_slide", numberOrNull(summary.slideR)},
                    {"R_expanded_uncertainty", numberOrNull(uncertainty)},
                    {"pressure_pa", toJson(summary.pressure_pa)},
                    {"P", toJson(summary.P)}});
@@ -94,8 +96,10 @@ int runRoughness(const QCommandLineParser& parser) {
     addRow(table, "h", summary.h);
     addRow(table, "v", summary.v);
     addRow(table, "R", summary.R);
-    if (std::isfinite(uncertainty)) {
-        table.add({"U of R", fmt::format("{:.2g}", uncertainty), "", "", "", "", "95 %, of the mean, as one slide"});
+    if (std::isfinite(summary.slideR)) {
+        const bool known = std::isfinite(uncertainty);
+        table.add({"R of the slide", measuredText(summary.slideR, known ? uncertainty : 0, ""), "", "", "", "",
+                   known ? "95 %, of the features' means" : "of the features' means; U not known"});
     }
     addRow(table, "pressure Pa", summary.pressure_pa);
     addRow(table, "P", summary.P);

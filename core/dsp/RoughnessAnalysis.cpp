@@ -1,8 +1,11 @@
 #include "core/dsp/RoughnessAnalysis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
+
+#include "core/dsp/RoughnessIndex.h"
 
 namespace tacto {
 
@@ -31,6 +34,14 @@ void runWhole(RoughnessChain& chain, std::span<const SampleBlock> blocks, std::v
 }
 
 }  // namespace
+
+double meanFeature(std::span<const RoughnessFrame> frames, double RoughnessFrame::*feature, bool slidingOnly) {
+    std::vector<double> present;
+    for (const auto& frame : frames) {
+        if (frame.contact && (frame.sliding || !slidingOnly) && frame.*feature > 0) present.push_back(frame.*feature);
+    }
+    return statisticsOf(present).mean;
+}
 
 RoughnessSummary summarise(std::span<const RoughnessFrame> frames) {
     RoughnessSummary out;
@@ -72,6 +83,11 @@ Result<RoughnessResult> analyseRoughness(std::span<const StreamInfo> streams, st
                     "roughness: the recording holds no complete frame; at least 64 ms without a gap were expected");
     }
     result.summary = summarise(result.frames);
+    if (std::ranges::any_of(result.frames, [](const auto& frame) { return frame.contact && frame.sliding; })) {
+        const double R = RoughnessIndex::ofSlide(settings, meanFeature(result.frames, &RoughnessFrame::h, true),
+                                                 meanFeature(result.frames, &RoughnessFrame::v, false));
+        result.summary.slideR = std::isnan(R) ? R : std::clamp(R, 0.0, 1.0);
+    }
     result.summary.rate_hz = paceRate_hz(streams);
     result.summary.frameRate_hz = 1 / (*chain)->framePeriod_s();
     result.summary.flags = std::move(flags);

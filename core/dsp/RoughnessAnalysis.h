@@ -20,6 +20,9 @@ struct RoughnessSummary {
     double frameRate_hz = 0;
     std::vector<std::string> flags;
     Statistics h, v, R, pressure_pa, P;
+    /// R of the recording taken as one slide, 0..1: of the means of its features, held within 0..1 last
+    /// (RoughnessIndex::ofSlide()). What the U of R is of. NaN where nothing slid.
+    double slideR = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct RoughnessResult {
@@ -34,6 +37,10 @@ struct RoughnessResult {
                                                        const RoughnessSettings& settings,
                                                        const DeclaredIntervals& declared = {},
                                                        std::string_view serial = {});
+
+/// Mean of a feature over the frames of contact that have it, or over those of them that slide; NaN without one.
+[[nodiscard]] double meanFeature(std::span<const RoughnessFrame> frames, double RoughnessFrame::*feature,
+                                 bool slidingOnly);
 
 [[nodiscard]] RoughnessSummary summarise(std::span<const RoughnessFrame> frames);
 

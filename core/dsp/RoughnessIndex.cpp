@@ -9,23 +9,31 @@ namespace tacto {
 namespace {
 constexpr double kHold_s = 0.25;
 constexpr double kDecay_s = 0.25;
+
+double weighed(const RoughnessSettings& settings, double spectral, double taxel) noexcept {
+    double sum = 0;
+    double weights = 0;
+    if (!std::isnan(spectral)) {
+        sum += settings.spectralWeight * spectral;
+        weights += settings.spectralWeight;
+    }
+    if (!std::isnan(taxel)) {
+        sum += settings.taxelWeight * taxel;
+        weights += settings.taxelWeight;
+    }
+    return weights > 0 ? sum / weights : kNaN;
+}
 }  // namespace
 
 RoughnessIndex::RoughnessIndex(const RoughnessSettings& settings, double period_s) noexcept
     : settings_(settings), alpha_(1 - std::exp(-period_s / settings.smoothing.count())) {}
 
 double RoughnessIndex::combine(const RoughnessSettings& settings, double spectral, double taxel) noexcept {
-    double sum = 0;
-    double weights = 0;
-    if (const double g = settings.spectralScale().g(spectral); !std::isnan(g)) {
-        sum += settings.spectralWeight * g;
-        weights += settings.spectralWeight;
-    }
-    if (const double g = settings.taxelScale().g(taxel); !std::isnan(g)) {
-        sum += settings.taxelWeight * g;
-        weights += settings.taxelWeight;
-    }
-    return weights > 0 ? sum / weights : kNaN;
+    return weighed(settings, settings.spectralScale().g(spectral), settings.taxelScale().g(taxel));
+}
+
+double RoughnessIndex::ofSlide(const RoughnessSettings& settings, double spectral, double taxel) noexcept {
+    return weighed(settings, settings.spectralScale().position(spectral), settings.taxelScale().position(taxel));
 }
 
 double RoughnessIndex::next(double t_s, Motion motion, double spectral, double taxel) noexcept {

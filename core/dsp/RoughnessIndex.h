@@ -23,6 +23,11 @@ public:
     /// Σ w g / Σ w over the features present; NaN with none.
     [[nodiscard]] static double combine(const RoughnessSettings& settings, double spectral, double taxel) noexcept;
 
+    /// The same of a whole slide, from the means of its features, and not held within 0..1: a slide over a reference is
+    /// as often beyond it as not, and a mean of held values would lie inside. Who shows R of a slide, or the mean of
+    /// several, holds that within 0..1.
+    [[nodiscard]] static double ofSlide(const RoughnessSettings& settings, double spectral, double taxel) noexcept;
+
 private:
     const RoughnessSettings settings_;
     const double alpha_;

@@ -93,11 +93,13 @@ RecordFields<RoughnessSettings> buildRoughnessFields() {
 
 }  // namespace
 
-double ReferenceScale::g(double x) const noexcept {
+double ReferenceScale::position(double x) const noexcept {
     if (!(x > 0)) return std::numeric_limits<double>::quiet_NaN();
     const double from = std::log10(smooth);
-    return std::clamp((std::log10(x) - from) / (std::log10(rough) - from), 0.0, 1.0);
+    return (std::log10(x) - from) / (std::log10(rough) - from);
 }
+
+double ReferenceScale::g(double x) const noexcept { return std::clamp(position(x), 0.0, 1.0); }
 
 double pressureIndex(double pressure_pa, const RoughnessSettings& settings) noexcept {
     const double low = settings.pressureMin.value();

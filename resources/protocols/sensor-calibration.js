@@ -144,10 +144,22 @@ function readRest(results, name) {
 function checkReference(p, rest, masses) {
   const weighs = masses.length > 0 && rest.force.n > 0;
   const reading = weighs ? bench.measureWeight(Math.max(...masses), { gravity_m_s2: p.gravity_m_s2 }) : null;
-  const known = calibration.knownWeight(reading, rest, p.reference_tolerance_pct);
+  const known = calibration.knownWeight(reading, rest, p.reference_tolerance_pct, {
+    weight_tolerance_pct: p.weight_tolerance_pct,
+    gravity_tolerance_pct: p.gravity_tolerance_pct,
+  });
   if (weighs) record.measurement("known-reference check", known.check);
-  const columns = ["mass_g", "reference_n", "measured", "unit", "deviation_pct", "allowed_pct", "verdict"];
-  report.table("Known-reference check", [known.check], columns);
+  report.table("Known-reference check", [known.check], [
+    "mass_g",
+    "reference_n",
+    "measured",
+    "expanded_uncertainty",
+    "unit",
+    "deviation_pct",
+    "expanded_uncertainty_pct",
+    "allowed_pct",
+    "verdict",
+  ]);
   return known;
 }
 
@@ -195,10 +207,9 @@ function slideOver(p, surfaces, results) {
   for (const index of progress(random.blocks(surfaces.map((surface, k) => k), p.slides), "Slides")) {
     const surface = surfaces[index];
     const slide = bench.measureSlide(surface.name, rest, how);
-    const row = calibration.slideRow(slide);
     surface.slides.push(slide);
-    rows[index].push(row);
-    record.trial(surface.name, row);
+    rows[index].push(slide);
+    record.trial(surface.name, slide);
     results.slides = [].concat(...rows);
     record.partial(results);
     bench.lift();

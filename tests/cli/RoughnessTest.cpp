@@ -77,7 +77,7 @@ Analysed roughness(const std::string& recording) {
     const auto summary = jsonOf(ran);
     expectKeys(summary,
                {"frames", "contact_frames", "rate_hz", "flags", "h", "v", "R", "pressure_pa", "P", "simulated",
-                "known_limit", "R_expanded_uncertainty"},
+                "known_limit", "R_slide", "R_expanded_uncertainty"},
                recording);
     return {summary, contentOf(desk.at("frames.csv"))};
 }

@@ -14,11 +14,14 @@ using test::withRun;
 TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
     RunBench rig;
     const auto outcome = rig.run(withRun(R"(
-        const rest = { force_in_use: { mean: 0, unit: 'N' }, force: { sd: 0.01 } };
-        const read = (mean, unit) => calibration.knownWeight(
-            { mass_g: 100, reference_n: 0.98, force_in_use: { mean: mean, unit: unit } }, rest, 10);
+        const rest = { force_in_use: { mean: 0, unit: 'N', u: 0.001 }, force: { sd: 0.01 } };
+        const known = { weight_tolerance_pct: 0.1, gravity_tolerance_pct: 0.27 };
+        const read = (mean, unit, stated) => calibration.knownWeight(
+            { mass_g: 100, reference_n: 0.98, force_in_use: { mean: mean, unit: unit, u: 0.001 } }, rest, 10,
+            stated || known);
         return verdict({ verdict: null, right: read(1, 'N'), wrong: read(1.2, 'N'), counts: read(0.06, 'count'),
-            lost: read(0.04, 'count'), nothing: read(null, 'N'), none: calibration.knownWeight(null, rest, 10) });)"));
+            lost: read(0.04, 'count'), near: read(1.0766, 'N'), unstated: read(1, 'N', { weight_tolerance_pct: 0.1 }),
+            nothing: read(null, 'N'), none: calibration.knownWeight(null, rest, 10) });)"));
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     const auto& results = outcome.results;
     EXPECT_EQ(results["right"]["check"]["passed"], true);
@@ -26,7 +29,8 @@ TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
     EXPECT_NEAR(results["right"]["check"]["deviation_pct"].get<double>(), 100 * (1 / 0.98 - 1), 1e-9);
     EXPECT_EQ(results["wrong"]["check"]["passed"], false);
     EXPECT_EQ(results["wrong"]["reason"],
-              "the known-reference check failed: 1.200 N was read under 0.9800 N; nothing was calibrated");
+              "the known-reference check failed: 1.2000 ± 0.0045 N was read under 0.9800 N; 10 % are allowed, "
+              "uncertainty included; nothing was calibrated");
     EXPECT_EQ(results["counts"]["check"]["passed"], true);
     EXPECT_TRUE(results["counts"]["check"]["deviation_pct"].is_null());
     EXPECT_EQ(results["lost"]["check"]["passed"], false);
@@ -36,6 +40,12 @@ TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
     EXPECT_EQ(verdictOf("right"), "pass");
     EXPECT_EQ(verdictOf("wrong"), "fail");
     EXPECT_EQ(verdictOf("lost"), "fail");
+    // 9.857 % of 10 %: U of 0.4 % leaves it open, and without U nothing passes.
+    EXPECT_EQ(verdictOf("near"), "indeterminate");
+    EXPECT_EQ(results["near"]["check"]["passed"], false);
+    EXPECT_THAT(results["near"]["reason"].get<std::string>(), testing::HasSubstr("is indeterminate: 1.0766 ±"));
+    EXPECT_EQ(verdictOf("unstated"), "not evaluated");
+    EXPECT_THAT(results["unstated"]["reason"].get<std::string>(), testing::HasSubstr("was not stated"));
     EXPECT_EQ(verdictOf("nothing"), "not evaluated") << "what was not read did not fail";
     EXPECT_EQ(verdictOf("none"), "not evaluated");
 }

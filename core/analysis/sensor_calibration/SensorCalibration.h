@@ -43,8 +43,8 @@ struct SurfaceResult {
     double rz_um = std::numeric_limits<double>::quiet_NaN();
     std::size_t slides = 0;
     std::array<double, kSensorFeatures.size()> features{};  ///< geometric means; NaN: absent
-    Statistics R;                                           ///< of the slides' means, under the new scale
-    Statistics force_n;                                     ///< of the slides' means
+    Statistics R;        ///< of the slides, under the new scale, each beyond 0..1 where it is beyond the references
+    Statistics force_n;  ///< of the slides' means
 };
 
 struct SensorCalibration {

@@ -1,6 +1,7 @@
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 
-#include <deque>
+#include <algorithm>
+#include <cmath>
 
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
@@ -63,6 +64,7 @@ RecordFields<ForceInUse> forceFields() {
     RecordFields<ForceInUse> all;
     all.number("mean", &ForceInUse::mean);
     all.word("unit", &ForceInUse::unit, kForceUnits);
+    all.number("u", &ForceInUse::uncertainty, {.low = 0});
     all.takeNullAsMissing();
     return all;
 }
@@ -87,63 +89,21 @@ const RecordFields<WeightReading>& weightFields() {
     return fields;
 }
 
-constexpr std::size_t kMaxFrames = 1'000'000;
-
-/// The frames of a slide, one list per member. (A vector<bool> has no elements that a field could refer to.)
-struct SlideTrack {
-    double period_s = 0;
-    std::vector<double> t_s;
-    std::deque<bool> contact, sliding;
-    std::vector<double> h, v;
-};
-
-RecordFields<SlideTrack> trackFields() {
-    using T = SlideTrack;
-    RecordFields<T> all;
-    all.number("period_s", &T::period_s, {.low = 0, .openLow = true}).required = true;
-    all.list("t_s", &T::t_s, numberKind<double>({}), 0, kMaxFrames).required = true;
-    all.list("contact", &T::contact, flagKind(), 0, kMaxFrames).required = true;
-    all.list("sliding", &T::sliding, flagKind(), 0, kMaxFrames).required = true;
-    all.list("h", &T::h, readingKind(), 0, kMaxFrames).required = true;
-    all.list("v", &T::v, readingKind(), 0, kMaxFrames).required = true;
-    all.rule([](const T& track) -> Result<void> {
-        for (const auto& [key, size] : {std::pair("contact", track.contact.size()),
-                                        {"sliding", track.sliding.size()},
-                                        {"h", track.h.size()},
-                                        {"v", track.v.size()}}) {
-            if (size == track.t_s.size()) continue;
-            return fail(ErrorCode::InvalidArgument, "{} has {} values beside {} times in t_s; one for each is expected",
-                        key, size, track.t_s.size());
-        }
-        return {};
-    });
-    return all;
-}
-
-struct WrittenSlide {
-    SlideReading reading;
-    SlideTrack track;
-};
-
-RecordFields<WrittenSlide> buildSlideFields() {
+RecordFields<SlideReading> buildSlideFields() {
     using S = SlideReading;
-    RecordFields<WrittenSlide> all;
-    const auto number = [&all](std::string_view key, double S::*member) {
-        all.number(key, in(&WrittenSlide::reading, member));
-    };
-    number("h", &S::h);
-    number("h_abs", &S::hAbs);
-    number("v_static", &S::vStatic);
-    number("v_dynamic", &S::vDynamic);
-    number("force_n", &S::force_n);
-    all.number("sliding_frames", in(&WrittenSlide::reading, &S::slidingFrames));
-    all.record("track", &WrittenSlide::track, trackFields()).required = true;
+    RecordFields<S> all;
+    all.number("h", &S::h);
+    all.number("h_abs", &S::hAbs);
+    all.number("v_static", &S::vStatic);
+    all.number("v_dynamic", &S::vDynamic);
+    all.number("force_n", &S::force_n);
+    all.number("sliding_frames", &S::slidingFrames).required = true;
     all.takeNullAsMissing();
     all.passOverUnknownKeys();
     return all;
 }
 
-const RecordFields<WrittenSlide>& slideFields() {
+const RecordFields<SlideReading>& slideFields() {
     static const auto fields = buildSlideFields();
     return fields;
 }
@@ -156,13 +116,14 @@ Json toJson(const SensorCalibration& found) {
     const auto v = settings.taxel == TaxelFeature::Static ? SensorFeature::VStatic : SensorFeature::VDynamic;
     Json surfaces = Json::array();
     for (const auto& surface : found.surfaces) {
+        const double R = std::isnan(surface.R.mean) ? kNaN : std::clamp(surface.R.mean, 0.0, 1.0);
         Json row = {{"name", surface.name},
                     {"ra_um", numberOrNull(surface.ra_um)},
                     {"rz_um", numberOrNull(surface.rz_um)},
                     {"slides", surface.slides},
-                    {"R", numberOrNull(surface.R.mean)},
+                    {"R", numberOrNull(R)},
                     {"R_sd", numberOrNull(surface.R.sd)},
-                    {"R_expanded_uncertainty", expandedR(found, surface.R.mean)},
+                    {"R_expanded_uncertainty", expandedR(found, R)},
                     {"force_n", numberOrNull(surface.force_n.mean)}};
         for (const auto feature : kSensorFeatures) {
             row[std::string(keyOf(feature))] = numberOrNull(surface.features[indexOf(feature)]);
@@ -210,19 +171,7 @@ Json toJson(const SensorScale& found) {
 
 Json toJson(const SensorRest& rest) { return restFields().write(rest); }
 
-Json toJson(const SlideReading& slide) {
-    WrittenSlide out{slide, {}};
-    auto& track = out.track;
-    track.period_s = slide.framePeriod_s;
-    for (const auto& frame : slide.frames) {
-        track.t_s.push_back(frame.t_s);
-        track.contact.push_back(frame.contact);
-        track.sliding.push_back(frame.sliding);
-        track.h.push_back(frame.h);
-        track.v.push_back(frame.v);
-    }
-    return slideFields().write(out);
-}
+Json toJson(const SlideReading& slide) { return slideFields().write(slide); }
 
 Json toJson(const ForceInUse& force) { return forceFields().write(force); }
 
@@ -237,22 +186,7 @@ Result<SensorRest> sensorRestFrom(const Json& json) {
 }
 
 Result<SlideReading> slideReadingFrom(const Json& json) {
-    auto read = slideFields().read(json, {.path = "slide"}).map_error(asInvalidArgument);
-    if (!read) return failure(read);
-    auto& [slide, track] = *read;
-    slide.framePeriod_s = track.period_s;
-    slide.slidingFrames = 0;
-    for (std::size_t i = 0; i < track.t_s.size(); ++i) {
-        RoughnessFrame frame;
-        frame.t_s = track.t_s[i];
-        frame.contact = track.contact[i];
-        frame.sliding = track.sliding[i];
-        frame.h = track.h[i];
-        frame.v = track.v[i];
-        slide.slidingFrames += frame.contact && frame.sliding ? 1 : 0;
-        slide.frames.push_back(frame);
-    }
-    return std::move(slide);
+    return slideFields().read(json, {.path = "slide"}).map_error(asInvalidArgument);
 }
 
 }  // namespace tacto

@@ -24,13 +24,12 @@ namespace tacto {
 
 /// {"taxel_baseline","taxel_floor","taxel_unit","mean_square","unit"}
 [[nodiscard]] nlohmann::json toJson(const SensorRest& rest);
-/// {"h","h_abs","v_static","v_dynamic","force_n","sliding_frames","track": {"period_s","t_s","contact","sliding","h",
-/// "v"}}
+/// {"h","h_abs","v_static","v_dynamic","force_n","sliding_frames"}
 [[nodiscard]] nlohmann::json toJson(const SlideReading& slide);
-/// {"mean","unit"}
+/// {"mean","unit","u"}
 [[nodiscard]] nlohmann::json toJson(const ForceInUse& force);
 /// {"mass_g","reference_n","force","force_unit" (where there is a force sensor),"taxels","taxel_unit" (where there are
-/// taxels),"force_in_use": {"mean","unit"}|null}
+/// taxels),"force_in_use": {"mean","unit","u"}|null}
 [[nodiscard]] nlohmann::json toJson(const WeightReading& reading);
 // Read what toJson() wrote. Errors: InvalidArgument naming what is missing or has another type.
 [[nodiscard]] Result<SensorRest> sensorRestFrom(const nlohmann::json& json);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/statistics/UncertaintyBudget.h"
+#include "core/dsp/RoughnessAnalysis.h"
 #include "core/dsp/RoughnessIndex.h"
 #include "core/dsp/TaxelTrack.h"
 
@@ -25,8 +27,7 @@ std::optional<TimeInterval> stretchOf(const SensorSamples& samples) {
 }
 
 Result<std::vector<RoughnessFrame>> framesOf(const SensorSamples& samples, RoughnessSettings settings,
-                                             SpectralFeature spectral, TaxelFeature taxel, const SensorRest& rest,
-                                             double& period_s) {
+                                             SpectralFeature spectral, TaxelFeature taxel, const SensorRest& rest) {
     settings.spectral = spectral;
     settings.taxel = taxel;
     auto chain = RoughnessChain::create(samples.streams, settings, {}, samples.serial);
@@ -35,16 +36,7 @@ Result<std::vector<RoughnessFrame>> framesOf(const SensorSamples& samples, Rough
     std::vector<RoughnessFrame> frames;
     (*chain)->feed(samples.blocks, frames);
     (*chain)->finish(frames);
-    period_s = (*chain)->framePeriod_s();
     return frames;
-}
-
-double meanOver(const std::vector<RoughnessFrame>& frames, double RoughnessFrame::*member, bool slidingOnly) {
-    std::vector<double> present;
-    for (const auto& frame : frames) {
-        if (frame.contact && (frame.sliding || !slidingOnly) && frame.*member > 0) present.push_back(frame.*member);
-    }
-    return statisticsOf(present).mean;
 }
 
 }  // namespace
@@ -107,40 +99,57 @@ Result<SensorRest> readRest(const SensorSamples& samples, const RoughnessSetting
 Result<SlideReading> readSlide(const SensorSamples& samples, const RoughnessSettings& settings,
                                const SensorRest& rest) {
     SlideReading out;
-    auto relative =
-        framesOf(samples, settings, SpectralFeature::Relative, TaxelFeature::Static, rest, out.framePeriod_s);
+    auto relative = framesOf(samples, settings, SpectralFeature::Relative, TaxelFeature::Static, rest);
     if (!relative) return failure(relative);
-    auto absolute =
-        framesOf(samples, settings, SpectralFeature::Absolute, TaxelFeature::Dynamic, rest, out.framePeriod_s);
+    auto absolute = framesOf(samples, settings, SpectralFeature::Absolute, TaxelFeature::Dynamic, rest);
     if (!absolute) return failure(absolute);
-    out.h = meanOver(*relative, &RoughnessFrame::h, true);
-    out.vStatic = meanOver(*relative, &RoughnessFrame::v, false);
-    out.hAbs = meanOver(*absolute, &RoughnessFrame::h, true);
-    out.vDynamic = meanOver(*absolute, &RoughnessFrame::v, false);
+    out.h = meanFeature(*relative, &RoughnessFrame::h, true);
+    out.vStatic = meanFeature(*relative, &RoughnessFrame::v, false);
+    out.hAbs = meanFeature(*absolute, &RoughnessFrame::h, true);
+    out.vDynamic = meanFeature(*absolute, &RoughnessFrame::v, false);
     out.force_n = levelOf(samples, StreamKind::Force).mean;
-    out.frames = *relative;
-    for (std::size_t i = 0; i < out.frames.size(); ++i) {
-        auto& frame = out.frames[i];
-        if (settings.spectral == SpectralFeature::Absolute) frame.h = (*absolute)[i].h;
-        if (settings.taxel == TaxelFeature::Dynamic) frame.v = (*absolute)[i].v;
-        if (frame.contact && frame.sliding) ++out.slidingFrames;
-    }
+    for (const auto& frame : *relative) out.slidingFrames += frame.contact && frame.sliding ? 1 : 0;
     if (out.slidingFrames == 0) {
         return fail(ErrorCode::Device, "no sliding contact was felt in {} frames; a finger that slides is expected",
-                    out.frames.size());
+                    relative->size());
     }
     return out;
 }
 
 double roughnessOf(const SlideReading& slide, const RoughnessSettings& settings) {
-    RoughnessIndex index(settings, slide.framePeriod_s);
-    std::vector<double> values;
-    for (const auto& frame : slide.frames) {
-        const Motion motion = !frame.contact ? Motion::NoContact : frame.sliding ? Motion::Sliding : Motion::Resting;
-        const double r = index.next(frame.t_s, motion, frame.h, frame.v);
-        if (motion == Motion::Sliding && std::isfinite(r)) values.push_back(r);
+    return RoughnessIndex::ofSlide(settings, settings.spectral == SpectralFeature::Relative ? slide.h : slide.hAbs,
+                                   settings.taxel == TaxelFeature::Static ? slide.vStatic : slide.vDynamic);
+}
+
+double meanUncertainty(const SensorSamples& samples, StreamKind kind) {
+    for (std::size_t s = 0; s < samples.streams.size(); ++s) {
+        if (samples.streams[s].kind != kind) continue;
+        const auto& block = samples.blocks[s];
+        const std::size_t part = block.samples() / kForceParts;
+        if (part < 2) return kNaN;
+        std::vector<double> means;
+        for (std::size_t k = 0; k < kForceParts; ++k) {
+            double sum = 0;
+            for (std::size_t i = k * part; i < (k + 1) * part; ++i)
+                sum += block.values[i * samples.streams[s].channels];
+            means.push_back(sum / static_cast<double>(part));
+        }
+        return statisticsOf(means).sd / std::sqrt(static_cast<double>(kForceParts));
     }
-    return statisticsOf(values).mean;
+    return kNaN;
+}
+
+WeightError weightError(const WeightReading& reading, const ForceInUse& atRest, double weightTolerance,
+                        double gravityTolerance) {
+    if (!reading.inUse) return {};
+    constexpr double kFreedom = kForceParts - 1;
+    const double half = std::sqrt(3.0), newtons = reading.reference_n;
+    const auto budget =
+        combine({{"tolerance of the weight", Distribution::Rectangular, weightTolerance, half, newtons},
+                 {"tolerance of local gravity", Distribution::Rectangular, gravityTolerance, half, newtons},
+                 {"reading under the weight", Distribution::Student, reading.inUse->uncertainty, 1, 1, kFreedom},
+                 {"reading at rest", Distribution::Student, atRest.uncertainty, 1, 1, kFreedom}});
+    return {reading.inUse->mean - atRest.mean - newtons, budget ? budget->expanded : kNaN};
 }
 
 }  // namespace tacto

@@ -43,8 +43,6 @@ struct SlideReading {
     double vDynamic = kNaN;
     double force_n = kNaN;  ///< in the force stream's unit; NaN without one
     std::size_t slidingFrames = 0;
-    double framePeriod_s = 0;
-    std::vector<RoughnessFrame> frames;  ///< with the features that the settings choose
 };
 
 /// Errors: as RoughnessChain::create(); Device when nothing was felt sliding or in contact.
@@ -55,7 +53,14 @@ struct SlideReading {
 struct ForceInUse {
     double mean = kNaN;
     StreamUnit unit = StreamUnit::Newton;
+    double uncertainty = kNaN;  ///< standard, of the mean, with kForceParts - 1 degrees of freedom; NaN: not known
 };
+
+/// A force record is cut into that many parts; what their means scatter by tells how well the whole mean is known.
+/// Single samples would not: a finger trembles, so that neighbours are alike.
+inline constexpr std::size_t kForceParts = 8;
+/// Standard uncertainty of the mean of a stream's first channel, from its parts; NaN for fewer than two samples a part.
+[[nodiscard]] double meanUncertainty(const SensorSamples& samples, StreamKind kind);
 
 /// One weight on the resting fingertip: means over all samples, in the sensor's own units; NaN: not read.
 struct WeightReading {
@@ -68,7 +73,18 @@ struct WeightReading {
     std::optional<ForceInUse> inUse{};      ///< nothing: there is no force sensor
 };
 
-/// Mean R of the slide's sliding frames under `settings`, smoothed as the bench does; NaN with no feature present.
+/// What the sensor, as the profile scales it, says too much under a known weight: N, with its U (95 %).
+struct WeightError {
+    double value = kNaN;
+    double expanded = kNaN;  ///< NaN: a part of it is not known
+};
+/// The reading less that at rest and less what the weight should weigh. U: the tolerances of the weight and of local
+/// gravity (relative half-widths; NaN: not known), and both readings.
+[[nodiscard]] WeightError weightError(const WeightReading& reading, const ForceInUse& atRest, double weightTolerance,
+                                      double gravityTolerance);
+
+/// R of the slide under `settings`, of the means of its features, as RoughnessIndex::ofSlide(): beyond 0..1 where it is
+/// smoother or rougher than the references. NaN with no feature present.
 [[nodiscard]] double roughnessOf(const SlideReading& slide, const RoughnessSettings& settings);
 
 /// Statistics of one channel over all finite samples; n = 0 where there is no such stream.

@@ -1,16 +1,33 @@
 #include "core/analysis/sensor_calibration/SensorScale.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/analysis/statistics/UncertaintyBudget.h"
 
 namespace tacto {
 
-Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
-                                   std::optional<double> referenceTolerance, std::string_view what) {
-    if (referenceTolerance && (!(*referenceTolerance >= 0) || !(*referenceTolerance < 1))) {
+namespace {
+
+/// U of what scatters by `u` and carries the tolerances that all references share, times `scale`.
+double expandedOf(double u, double freedom, const std::vector<double>& tolerances, double scale) {
+    if (std::isnan(u)) return u;
+    std::vector<Contribution> rows{{"repeatability", Distribution::Student, u, 1, 1, std::max(1.0, freedom)}};
+    for (const double tolerance : tolerances)
+        rows.push_back({"references", Distribution::Rectangular, tolerance, std::sqrt(3.0), scale});
+    // A fingertip has many taxels; 20 000 draws know U to a third of a percent.
+    const auto budget = combine(std::move(rows), {.draws = 20'000});
+    return budget ? budget->expanded : std::nan("");
+}
+
+}  // namespace
+
+Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings, const std::vector<double>& tolerances,
+                                   std::string_view what) {
+    for (const double tolerance : tolerances) {
+        if (std::isnan(tolerance) || (tolerance >= 0 && tolerance < 1)) continue;
         return fail(ErrorCode::InvalidArgument, "{}: a tolerance of the references of {}; 0 to below 1 is expected",
-                    what, *referenceTolerance);
+                    what, tolerance);
     }
     auto fit = fitCalibration(readings);
     if (!fit) return failure(fit);
@@ -26,17 +43,7 @@ Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
     }
     out.scale = 1 / gain;
     out.offset = -fit->offset / gain;
-    const double typeA = se / std::abs(gain);
-    const double typeB = referenceTolerance ? *referenceTolerance / std::sqrt(3.0) : std::nan("");
-    const double combined = std::hypot(typeA, typeB);
-    if (!referenceTolerance) {
-        out.scaleU = std::numeric_limits<double>::quiet_NaN();
-    } else if (typeA > 0) {
-        const double effective = freedom * std::pow(combined / typeA, 4);
-        out.scaleU = studentQuantile(0.975, effective) * combined * std::abs(out.scale);
-    } else if (typeA == 0) {
-        out.scaleU = studentQuantile(0.975, std::numeric_limits<double>::infinity()) * combined * std::abs(out.scale);
-    }
+    out.scaleU = expandedOf(std::abs(out.scale) * se / std::abs(gain), freedom, tolerances, out.scale);
     // offset / gain: the two are correlated, cov = - (mean of the references) · var(gain) for an unweighted line.
     double sum = 0;
     std::size_t n = 0;
@@ -48,9 +55,7 @@ Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
     const double mean = sum / static_cast<double>(n), ratio = fit->offset / gain;
     const double variance =
         fit->offsetStandardError * fit->offsetStandardError + ratio * ratio * se * se + 2 * ratio * mean * se * se;
-    const double ownU = k * std::sqrt(std::max(0.0, variance)) / std::abs(gain);
-    out.offsetU =
-        std::hypot(ownU, studentQuantile(0.975, std::numeric_limits<double>::infinity()) * typeB * out.offset);
+    out.offsetU = expandedOf(std::sqrt(std::max(0.0, variance)) / std::abs(gain), freedom, tolerances, out.offset);
     out.fit = *std::move(fit);
     return out;
 }

@@ -3,18 +3,17 @@
 // Force against weights, and each taxel against force over contact area, are the same question. The readings are fitted
 // against the references (the references are what is known), by fitCalibration(), and the line is turned round:
 //   reference = scale · reading + offset, scale = 1 / gain, offset = -(fitted offset) / gain.
-// The uncertainties are type A from the repeatability, and the tolerance that all references share, rectangular, whose
-// half-width over √3 adds to the scale's and, times the offset, to the offset's; U is for 95 % with the degrees of
-// freedom after Welch and Satterthwaite. Several such tolerances (of the weights, of local gravity, of the contact
-// area) are one, the root of the sum of their squares. One that is not known leaves U unknown.
+// The uncertainties are type A from the repeatability, and the tolerance that all references share, rectangular: of the
+// scale, and times the offset of the offset. U is combine()'s, for 95 %. There may be several such tolerances (of the
+// weights, of local gravity, of the contact area); one that is not known leaves U unknown.
 //
 // Thread-safety: pure function.
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <span>
-#include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/analysis/calibration/Calibration.h"
 #include "core/base/Result.h"
@@ -29,11 +28,11 @@ struct SensorScale {
     Calibration fit;  ///< readings against references
 };
 
-/// `readings`: commanded is the reference, measured the sensor's reading. `referenceTolerance` is relative, half-width;
-/// nothing: not known.
+/// `readings`: commanded is the reference, measured the sensor's reading. `tolerances` of the references are relative
+/// half-widths, 0 to below 1; NaN: not known.
 /// Errors: as fitCalibration(); Device where the reading does not follow the reference: the slope's 95 % interval
 /// reaches 0. `what` names the sensor in that sentence.
 [[nodiscard]] Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
-                                                 std::optional<double> referenceTolerance, std::string_view what);
+                                                 const std::vector<double>& tolerances, std::string_view what);
 
 }  // namespace tacto

@@ -18,7 +18,7 @@ TEST(WeightReading, IsWrittenAsItWasRead) {
                    {"force_unit", "count"},
                    {"taxels", {1.5, nullptr, 3}},
                    {"taxel_unit", "Pa"},
-                   {"force_in_use", {{"mean", 1.01}, {"unit", "N"}}}};
+                   {"force_in_use", {{"mean", 1.01}, {"unit", "N"}, {"u", 0.002}}}};
     const auto reading = weightReadingFrom(row);
     ASSERT_TRUE(reading) << reading.error().message;
     EXPECT_TRUE(std::isnan(reading->force));

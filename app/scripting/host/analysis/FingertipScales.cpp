@@ -12,17 +12,11 @@ namespace tacto::host::analysis {
 
 namespace {
 
-/// What the references are known to; nothing: not known, and neither is the uncertainty of what rests on it.
+/// What the references are known to, relative; NaN: not known, and neither is the uncertainty of what rests on it.
 struct Tolerances {
-    double weights = 0;
-    std::optional<double> gravity, area;
-    [[nodiscard]] std::optional<double> ofForce() const {
-        return gravity ? std::optional(std::hypot(weights, *gravity)) : std::nullopt;
-    }
-    [[nodiscard]] std::optional<double> ofPressure() const {
-        const auto force = ofForce();
-        return force && area ? std::optional(std::hypot(*force, *area)) : std::nullopt;
-    }
+    double weights = 0, gravity = kNaN, area = kNaN;
+    [[nodiscard]] std::vector<double> ofForce() const { return {weights, gravity}; }
+    [[nodiscard]] std::vector<double> ofPressure() const { return {weights, gravity, area}; }
 };
 
 /// One weight on the fingertip, and the way it was reached.
@@ -31,8 +25,9 @@ struct Weighed {
     SweepDirection direction;
 };
 
-Json evaluate(std::span<const CalibrationReading> readings, std::optional<double> tolerance, std::string_view name) {
-    const auto found = fitSensorScale(readings, tolerance, name);
+Json evaluate(std::span<const CalibrationReading> readings, const std::vector<double>& tolerances,
+              std::string_view name) {
+    const auto found = fitSensorScale(readings, tolerances, name);
     if (found) return toJson(*found);
     Json none = {{"scale", nullptr}, {"reason", found.error().message}};
     if (found.error().code == ErrorCode::Device) none["follows"] = false;
@@ -90,16 +85,16 @@ Result<Json> sensorScale(ScriptSession&, const Arguments& arguments) {
     const auto tolerance = arguments.number("options.tolerance_pct");
     const auto readings = readingsGiven("analysis.sensorScale", rows);
     if (!readings) return failure(readings);
-    auto found = fitSensorScale(*readings, tolerance / 100, name);
+    auto found = fitSensorScale(*readings, {tolerance / 100}, name);
     if (!found) return failure(found);
     return toJson(*found);
 }
 
 Result<Json> fingertipScales(ScriptSession& session, const Arguments& arguments) {
     const Json& rows = arguments.list("weighed");
-    const auto known_pct = [&arguments](std::string_view name) -> std::optional<double> {
+    const auto known_pct = [&arguments](std::string_view name) {
         const double percent = arguments.number(name);
-        return percent > 0 ? std::optional(percent / 100) : std::nullopt;
+        return percent > 0 ? percent / 100 : kNaN;
     };
     const double area_cm2 = arguments.number("options.contact_area_cm2");
     const Tolerances known{arguments.number("options.tolerance_pct") / 100, known_pct("options.gravity_tolerance_pct"),

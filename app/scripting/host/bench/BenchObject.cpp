@@ -329,7 +329,8 @@ std::vector<HostFunction> benchFunctions() {
          .returns =
              "{ taxel_baseline, taxel_floor, taxel_unit, mean_square, unit, duration_s, force, force_in_use }: "
              "mean_square is the power of the acceleration at rest, in unit squared, and null without acceleration; "
-             "force is a statistic in the sensor's unit, force_in_use { mean, unit } as the profile scales it.",
+             "force is a statistic in the sensor's unit, force_in_use { mean, unit, u } as the profile scales it, u "
+             "the standard uncertainty of the mean.",
          .errors =
              "Throws when something touched the fingertip, when too few samples came, or when the run is stopped.",
          .needs = Role::Sensor,
@@ -339,8 +340,8 @@ std::vector<HostFunction> benchFunctions() {
          .parameters = {surface, object("rest", "from bench.measureRest()"), speed, force.otherwise(1), sliding},
          .text =
              "Disarms, slides over a surface as bench.measureReference() does, and reads every feature of the slide.",
-         .returns = "{ material, h, h_abs, v_static, v_dynamic, force_n, sliding_frames, track }: a feature that the "
-                    "rig does not have is null; track is for analysis.sensorCalibration().",
+         .returns = "{ material, h, h_abs, v_static, v_dynamic, force_n, sliding_frames }: a feature that the rig "
+                    "does not have is null.",
          .errors =
              "Throws for an unknown surface, without an answer, when too few samples came, or when the run is stopped.",
          .needs = Role::Sensor,
@@ -353,7 +354,8 @@ std::vector<HostFunction> benchFunctions() {
          .text = "Puts a weight on the resting fingertip (question weight-MASSg on a rig that cannot) and reads force "
                  "and taxels.",
          .returns = "{ mass_g, reference_n, force, force_unit, taxels, taxel_unit, force_in_use }: means, in the "
-                    "sensor's own units; force_in_use { mean, unit } as the profile scales it.",
+                    "sensor's own units; force_in_use { mean, unit, u } as the profile scales it, u the standard "
+                    "uncertainty of the mean.",
          .errors = "Throws without an answer, when too few samples came, or when the run is stopped.",
          .needs = Role::Sensor,
          .failsDisarmed = true,
@@ -386,8 +388,9 @@ std::vector<HostFunction> benchFunctions() {
              "design has, with _low_s and _high as a reading that is off by 0.05 of a difference finds them; "
              "complete_s is from the step to the train that reaches the new ones, fastest_complete_s and fewest_trains "
              "what no sequence of trains in steps of at most two differences can undercut; onsets { after_step_s, "
-             "amplitude_v, interval_s, onset_u_s, amplitude_jnd, interval_jnd } as measured, _jnd against the train "
-             "before; before_v the amplitudes before the step; captures those of the train that carries it and of the "
+             "amplitude_v, interval_s, onset_u_s, amplitude_u_v, amplitude_jnd, interval_jnd } as measured, _u_ the "
+             "standard uncertainty (of the amplitude without that of the gain), _jnd against the train before; "
+             "before_v the amplitudes before the step; captures those of the train that carries it and of the "
              "train before the step, for record.trial(). What was not measured is null.",
          .errors =
              "Throws without an oscilloscope, when it sees no two trains before the step, or when the run is stopped.",

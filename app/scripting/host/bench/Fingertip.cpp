@@ -84,7 +84,9 @@ Result<std::optional<ForceInUse>> forceInUse(ScriptSession& session, const Senso
     for (std::size_t s = 0; s < samples.streams.size(); ++s) {
         if (samples.streams[s].kind != StreamKind::Force) continue;
         const double mean = levelOf(samples, StreamKind::Force).mean;
-        return std::optional(ForceInUse{(*chain)->inUse(s, 0, mean), (*chain)->streams()[s].unit});
+        const double perUnit = (*chain)->inUse(s, 0, 1) - (*chain)->inUse(s, 0, 0);
+        return std::optional(ForceInUse{(*chain)->inUse(s, 0, mean), (*chain)->streams()[s].unit,
+                                        std::abs(perUnit) * meanUncertainty(samples, StreamKind::Force)});
     }
     return std::optional<ForceInUse>();
 }

@@ -139,12 +139,21 @@ std::vector<HostFunction> calibrationFunctions() {
         {.name = "knownWeight",
          .parameters = {any("reading", "from bench.measureWeight(); null: not evaluated"),
                         object("rest", "from bench.measureRest()"),
-                        number("tolerance", "%", "of the weight").range(0, 100)},
-         .text = "Before anything is believed: a weight must read as what it is. In counts it is not known what it "
-                 "should read; then it must stand out from rest by five standard deviations.",
-         .returns = "{ check, reason }: check { mass_g, reference_n, measured, unit, deviation_pct, allowed_pct, "
-                    "verdict, passed }: verdict \"not evaluated\" and passed false where nothing was read, passed null "
-                    "without a reading; reason \"\" where it passed and without a reading.",
+                        number("tolerance", "%", "of the weight").range(0, 100),
+                        number("options.weight_tolerance_pct", "%", "half-width of the weight; 0: not known")
+                            .range(0, 100)
+                            .otherwise(0),
+                        number("options.gravity_tolerance_pct", "%", "half-width of local gravity; 0: not known")
+                            .range(0, 100)
+                            .otherwise(0)},
+         .text =
+             "Before anything is believed: a weight must read as what it is, within the tolerance with its U, which "
+             "is that of the weight, of local gravity and of both readings. In counts it is not known what it "
+             "should read; then it must stand out from rest by five standard deviations.",
+         .returns = "{ check, reason }: check { mass_g, reference_n, measured, expanded_uncertainty, unit, "
+                    "deviation_pct, expanded_uncertainty_pct, allowed_pct, verdict, passed }: verdict \"not "
+                    "evaluated\" and passed false where nothing was read or U is not known, passed null without a "
+                    "reading; reason \"\" where it passed and without a reading.",
          .call = host::calibration::knownWeight},
         {.name = "weighings",
          .parameters = {list("masses", "g").of(ValueType::Number),
@@ -153,11 +162,6 @@ std::vector<HostFunction> calibrationFunctions() {
                  "is taken off shows as hysteresis.",
          .returns = "List of { mass_g, direction, repeat }.",
          .call = host::calibration::weighings},
-        {.name = "slideRow",
-         .parameters = {object("slide", "from bench.measureSlide()")},
-         .text = "A slide as a row of a table: without its track.",
-         .returns = "The same object, without track.",
-         .call = host::calibration::slideRow},
         {.name = "sensorVerdict",
          .parameters = {object("results",
                                "what analysis.sensorCalibration() returned, and force and taxels of "

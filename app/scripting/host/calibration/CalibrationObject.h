@@ -27,6 +27,6 @@ struct LevelRange {
 
 HostCall readKnownLoad, warmUp, beginLevels, readLevel;                               // Levels.cpp
 HostCall checkRanges, knownRanges, judge, timeBase, checkVerdict, stimulatorVerdict;  // Stimulator.cpp
-HostCall knownWeight, weighings, slideRow, sensorVerdict;                             // Fingertip.cpp
+HostCall knownWeight, weighings, sensorVerdict;                                       // Fingertip.cpp
 
 }  // namespace tacto::host::calibration

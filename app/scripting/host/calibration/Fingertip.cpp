@@ -6,6 +6,7 @@
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "core/analysis/statistics/Verdict.h"
 #include "core/base/JsonFields.h"
+#include "core/base/QuantityText.h"
 
 namespace tacto::host::calibration {
 
@@ -25,6 +26,27 @@ std::string toldApart(const Json& results) {
                        digitsOf(numberOr(distance, "high"), 3));
 }
 
+std::string whyNot(const Json& check, double measured, double expanded) {
+    const auto unit = textOr(check, "unit"), verdict = textOr(check, "verdict");
+    const double newtons = numberOr(check, "reference_n");
+    if (std::isnan(measured))
+        return fmt::format(
+            "the known-reference check was not evaluated: nothing was read under {} N; nothing was calibrated",
+            digitsOf(newtons, 4));
+    const bool inNewtons = unit == symbolOf(StreamUnit::Newton);
+    if (inNewtons && std::isnan(expanded))
+        return fmt::format(
+            "the known-reference check was not evaluated: {} N was read under {} N, and how well the "
+            "weight, local gravity or the reading is known was not stated; nothing was calibrated",
+            digitsOf(measured, 4), digitsOf(newtons, 4));
+    return fmt::format(
+        "the known-reference check {}: {} was read under {} N{}; nothing was calibrated",
+        verdict == "fail" ? "failed" : "is indeterminate",
+        inNewtons ? measuredText(measured, expanded, unit) : digitsOf(measured, 4) + " " + unit, digitsOf(newtons, 4),
+        inNewtons ? fmt::format("; {:.4g} % are allowed, uncertainty included", numberOr(check, "allowed_pct"))
+                  : std::string());
+}
+
 }  // namespace
 
 Result<Json> weighings(ScriptSession&, const Arguments& arguments) {
@@ -40,18 +62,18 @@ Result<Json> weighings(ScriptSession&, const Arguments& arguments) {
     return steps;
 }
 
-Result<Json> slideRow(ScriptSession&, const Arguments& arguments) {
-    Json row = arguments.object("slide");
-    row.erase("track");
-    return row;
-}
-
 Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
     const Json& reading = arguments.any("reading");
     const Json& rest = arguments.object("rest");
     const double tolerance_pct = arguments.number("tolerance");
-    Json check = {{"mass_g", nullptr},        {"reference_n", nullptr},       {"measured", nullptr},
-                  {"deviation_pct", nullptr}, {"allowed_pct", tolerance_pct}, {"verdict", "not evaluated"},
+    Json check = {{"mass_g", nullptr},
+                  {"reference_n", nullptr},
+                  {"measured", nullptr},
+                  {"expanded_uncertainty", nullptr},
+                  {"deviation_pct", nullptr},
+                  {"expanded_uncertainty_pct", nullptr},
+                  {"allowed_pct", tolerance_pct},
+                  {"verdict", "not evaluated"},
                   {"passed", nullptr}};
     if (reading.is_null()) return Json{{"check", check}, {"reason", ""}};
     const auto weight = weightReadingFrom(reading);
@@ -59,27 +81,33 @@ Result<Json> knownWeight(ScriptSession&, const Arguments& arguments) {
     check["mass_g"] = numberOrNull(weight->mass_g);
     check["reference_n"] = weight->reference_n;
     check["unit"] = weight->inUse ? Json(symbolOf(weight->inUse->unit)) : Json();
-    const double measured =
-        weight->inUse ? weight->inUse->mean - numberOr(valueOr(rest, "force_in_use"), "mean") : kNaN;
-    const bool read = std::isfinite(measured);
-    bool passed = false;
-    if (read) {
+    const Json& atRest = valueOr(rest, "force_in_use");
+    const double measured = weight->inUse ? weight->inUse->mean - numberOr(atRest, "mean") : kNaN;
+    double expanded = kNaN;
+    if (std::isfinite(measured)) {
         check["measured"] = measured;
         if (weight->inUse->unit == StreamUnit::Newton) {
-            const double off_pct = 100 * std::abs(measured / weight->reference_n - 1);
-            check["deviation_pct"] = off_pct;
-            passed = off_pct <= tolerance_pct;
+            const auto known = [&](const char* key) {
+                const double percent = arguments.number(key);
+                return percent > 0 ? percent / 100 : kNaN;
+            };
+            expanded = weightError(*weight, {numberOr(atRest, "mean"), StreamUnit::Newton, numberOr(atRest, "u")},
+                                   known("options.weight_tolerance_pct"), known("options.gravity_tolerance_pct"))
+                           .expanded;
+            const double percent = 100 / weight->reference_n;
+            check["deviation_pct"] = percent * (measured - weight->reference_n);
+            check["expanded_uncertainty"] = numberOrNull(expanded);
+            check["expanded_uncertainty_pct"] = numberOrNull(percent * expanded);
+            check["verdict"] =
+                guardBandedName(percent * (measured - weight->reference_n), percent * expanded, tolerance_pct);
         } else {
-            passed = std::abs(measured) > kStandsOut * rest.at("force").at("sd").get<double>();
+            const bool standsOut = std::abs(measured) > kStandsOut * rest.at("force").at("sd").get<double>();
+            check["verdict"] = nameOf(standsOut ? Verdict::Pass : Verdict::Fail);
         }
     }
+    const bool passed = check["verdict"] == "pass";
     check["passed"] = passed;
-    if (read) check["verdict"] = nameOf(passed ? Verdict::Pass : Verdict::Fail);
-    if (passed) return Json{{"check", check}, {"reason", ""}};
-    const auto found = read ? fmt::format("{} {}", digitsOf(measured, 4), symbolOf(weight->inUse->unit)) : "nothing";
-    const auto reason = fmt::format("the known-reference check {}: {} was read under {} N; nothing was calibrated",
-                                    read ? "failed" : "was not evaluated", found, digitsOf(weight->reference_n, 4));
-    return Json{{"check", check}, {"reason", reason}};
+    return Json{{"check", check}, {"reason", passed ? std::string() : whyNot(check, measured, expanded)}};
 }
 
 Result<Json> sensorVerdict(ScriptSession&, const Arguments& arguments) {

@@ -88,7 +88,7 @@ std::vector<HostFunction> reportFunctions() {
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::sensorCalibration},
         {.name = "slides",
-         .parameters = {list("rows", "of calibration.slideRow()").of(ValueType::Object)},
+         .parameters = {list("rows", "from bench.measureSlide()").of(ValueType::Object)},
          .text = "Adds slides over surfaces to the report.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::slides},
