@@ -43,6 +43,9 @@ def main():
         print("agrees: an uncertainty is unknown, nothing passes")
         return
     u = np.array([[t["amplitude_u_v"], np.hypot(t["interval_u_s"], t["time_base_u"] * t["interval_s"])] for t in trials])
+    # A gain and a time base are the same in all trials and divide out of a ratio.
+    gain = np.array([(t.get("amplitude_gain_u") or 0) * t["amplitude_v"] for t in trials])
+    own = np.array([[np.sqrt(max(0, t["amplitude_u_v"] ** 2 - g**2)), t["interval_u_s"]] for t, g in zip(trials, gain)])
     floor = np.array([root_mean_square(u[:, 0]), root_mean_square(u[:, 1])])
     agree("floor of amplitude", results["floor"]["amplitude_v"], floor[0], 1e-9)
     agree("floor of interval", results["floor"]["interval_s"], floor[1], 1e-12)
@@ -77,7 +80,7 @@ def main():
             jnd = abs(np.log(means[a, axis] / means[b, axis])) / np.log1p(WEBER[key])
             agree(pair["a"] + " and " + pair["b"] + " " + key, pair[key + "_jnd"], jnd, 1e-9)
             scatter = np.array([sd[c, axis] ** 2 / n[c] / means[c, axis] ** 2 for c in (a, b)])
-            shared = sum((root_mean_square(u[label == c, axis]) / means[c, axis]) ** 2 for c in (a, b))
+            shared = sum((root_mean_square(own[label == c, axis]) / means[c, axis]) ** 2 for c in (a, b))
             total = scatter.sum() + shared
             with np.errstate(divide="ignore"):
                 freedom = total**2 / sum(scatter[i] ** 2 / (n[c] - 1) for i, c in enumerate((a, b)))

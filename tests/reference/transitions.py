@@ -112,14 +112,20 @@ def main():
         agree(group["name"] + ", largest step of interval", group["interval_jnd"], largest[group["name"]][1], 1e-6)
         if (group["out_of_reach"] > 0) != (group["name"] in beyond) and group["name"] not in late:
             fail(group["name"] + ": what is out of reach is reported otherwise")
-    # 2 sqrt 2 s, s pooled over trains of one command.
+    # 2 sqrt 2 s, s pooled over trains of one command, and what the oscilloscope states of both amplitudes of a step.
+    stated = 0
+    for change in [c for c in steps if c["name"] == judged["groups"][0]["name"]]:
+        before = change["before_v"][-1]
+        for train in change["onsets"]:
+            stated = max(stated, train["amplitude_u_v"] * np.hypot(1 / train["amplitude_v"], 1 / before))
+            before = train["amplitude_v"]
     squares = freedom = 0
     for change in steps:
         v = np.array([x for x in change["before_v"] if x is not None])
         if len(v) > 1:
             squares += (len(v) - 1) * (v.std(ddof=1) / v.mean()) ** 2
             freedom += len(v) - 1
-    u = 2 * np.sqrt(2 * squares / freedom) / np.log(1.1)
+    u = 2 * np.sqrt(2 * squares / freedom + stated**2) / np.log(1.1)
     agree("uncertainty of a step", judged["groups"][0]["amplitude_u_jnd"], u, 1e-9)
     worst = [max(group[key] for group in judged["groups"]) for key in ("amplitude_jnd", "interval_jnd")]
     passes = worst[0] + u <= 2 and worst[1] + judged["groups"][0]["interval_u_jnd"] <= 2 and not late

@@ -188,7 +188,8 @@ TEST(TransitionsProtocol, UnmeasuredTrainsMakeChangesIndeterminate) {
     RecordProperty("hazard", "H9");
     RunBench rig(true, "sim:", 1, false, kNeeded);
     const auto outcome = rig.run(test::withRun(
-        "const train = { amplitude_v: 11, interval_s: 1, onset_u_s: 1e-6, amplitude_jnd: 1, interval_jnd: 0 };\n"
+        "const train = { amplitude_v: 11, interval_s: 1, onset_u_s: 1e-6, amplitude_u_v: 1e-3, amplitude_jnd: 1, "
+        "interval_jnd: 0 };\n"
         "const make = (name, train, more) => Object.assign({ name: name, from_v: 10, to_v: 11, from_s: 1, to_s: 1,\n"
         "  before_v: [10, 10.001], complete_s: 1, fastest_complete_s: 1, trains: 1, fewest_trains: 1,\n"
         "  onsets: [train] }, more);\n"

@@ -70,6 +70,16 @@ double intervalUncertaintyOf(const SeparabilityTrial& trial) {
                : std::hypot(trial.intervalUncertainty_s, trial.timeBase * trial.interval_s);
 }
 
+/// But for the gain and for the time base: they are the same in all trials, and divide out of the ratio of two.
+double ownAmplitudeUncertaintyOf(const SeparabilityTrial& trial) {
+    const double gain = std::isnan(trial.amplitudeGain) ? 0 : trial.amplitudeGain * trial.amplitude;
+    const double rest = trial.amplitudeUncertainty * trial.amplitudeUncertainty - gain * gain;
+    return std::sqrt(rest < 0 ? 0 : rest);  // what is not known stays so
+}
+double ownIntervalUncertaintyOf(const SeparabilityTrial& trial) {
+    return std::isnan(trial.timeBase) ? trial.timeBase : trial.intervalUncertainty_s;
+}
+
 /// Root mean square of the uncertainties of one condition, or of all: what readings are known to. 0.1 % of the mean
 /// over all trials when a trial comes without; NaN when one is unknown.
 double resolutionOf(std::span<const SeparabilityTrial> trials, double SeparabilityTrial::*value,
@@ -146,11 +156,11 @@ void comparePairs(const LinearDiscriminant& discriminant, std::span<const Separa
                   Separability& result) {
     const bool resolved = std::isfinite(result.amplitudeFloor) && std::isfinite(result.intervalFloor_s);
     const auto amplitudeOf = [&](const ConditionSummary& c) {
-        const double u = resolutionOf(trials, &SeparabilityTrial::amplitude, amplitudeUncertaintyOf, &c.name);
+        const double u = resolutionOf(trials, &SeparabilityTrial::amplitude, ownAmplitudeUncertaintyOf, &c.name);
         return MeanReading{c.amplitude.mean, c.amplitude.sd, c.n, u};
     };
     const auto intervalOf = [&](const ConditionSummary& c) {
-        const double u = resolutionOf(trials, &SeparabilityTrial::interval_s, intervalUncertaintyOf, &c.name);
+        const double u = resolutionOf(trials, &SeparabilityTrial::interval_s, ownIntervalUncertaintyOf, &c.name);
         return MeanReading{c.interval_s.mean, c.interval_s.sd, c.n, u};
     };
     for (std::size_t a = 0; a < result.conditions.size(); ++a) {

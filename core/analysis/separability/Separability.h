@@ -31,6 +31,9 @@ struct SeparabilityTrial {
     double amplitudeUncertainty = 0;
     double intervalUncertainty_s = 0;  ///< of the reading: sampling and noise
     double timeBase = 0;  ///< relative, of the oscilloscope's time base; NaN = unknown, 0 = exact or not stated
+    /// Relative: the part of amplitudeUncertainty that the channel's gain makes, the same in all trials. NaN or 0: not
+    /// known to be.
+    double amplitudeGain = 0;
 };
 
 struct SeparabilityOptions {
@@ -58,7 +61,8 @@ struct PairSummary {
                               ///< instrument's uncertainty is unknown
     double amplitudeJnd = 0;  ///< just-noticeable differences between the means
     double intervalJnd = 0;
-    Bounds amplitudeJndBounds;  ///< what is judged; the instrument's uncertainty is in them
+    Bounds amplitudeJndBounds;  ///< what is judged; the instrument's uncertainty is in them, but for the gain and the
+                                ///< time base, which divide out of a ratio
     Bounds intervalJndBounds;
 };
 

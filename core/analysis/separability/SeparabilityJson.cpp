@@ -19,6 +19,7 @@ RecordFields<SeparabilityTrial> buildTrialFields() {
     all.number("amplitude_u_v", &T::amplitudeUncertainty, {.unit = "V"});
     all.number("interval_u_s", &T::intervalUncertainty_s, {.unit = "s"});
     all.number("time_base_u", &T::timeBase);
+    all.number("amplitude_gain_u", &T::amplitudeGain);
     all.takeNullAsMissing();
     all.passOverUnknownKeys();
     return all;
@@ -32,7 +33,7 @@ const RecordFields<SeparabilityTrial>& trialFields() {
 }  // namespace
 
 Result<SeparabilityTrial> separabilityTrialFrom(const json& row) {
-    SeparabilityTrial trial{{}, kNaN, kNaN, kNaN, kNaN, kNaN};
+    SeparabilityTrial trial{{}, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
     if (auto read = trialFields().read(row, trial, {.path = "trial"}).map_error(asInvalidArgument); !read)
         return failure(read);
     return trial;

@@ -13,7 +13,8 @@ namespace tacto {
 /// A trial as measure.train() measured it, with its condition. Null and a missing key: not measured, or for an
 /// uncertainty not stated. Errors: InvalidArgument for a row without a condition and for values of another type.
 [[nodiscard]] Result<SeparabilityTrial> separabilityTrialFrom(const nlohmann::json& row);
-/// {"condition","amplitude_v","interval_s","amplitude_u_v","interval_u_s","time_base_u"}
+/// {"condition","amplitude_v","interval_s","amplitude_u_v","interval_u_s","time_base_u",
+/// "amplitude_gain_u"}
 [[nodiscard]] nlohmann::json toJson(const SeparabilityTrial& trial);
 
 /// {"conditions","pairs","confusion","accuracy","verdict","reasons", ...}

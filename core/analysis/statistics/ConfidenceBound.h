@@ -26,13 +26,13 @@ struct MeanReading {
     double mean = 0;  ///< > 0
     double sd = 0;    ///< of single readings
     std::size_t n = 0;
-    double uncertainty = 0;  ///< standard uncertainty that all readings share (the instrument's); NaN = unknown
+    double uncertainty = 0;  ///< standard uncertainty that all its readings share (the instrument's); NaN = unknown
 };
 
 /// Bounds of |ln(a.mean / b.mean)|: its standard error by the law of propagation, u² = Σ (s²/n + u_shared²)/mean², and
-/// Student's t at the Welch-Satterthwaite degrees of freedom, u_shared with infinitely many. What the two readings
-/// share (a gain) is not taken off, which errs on the safe side. `low` is at least 0. NaN for fewer than two readings
-/// of either, or where an uncertainty is unknown.
+/// Student's t at the Welch-Satterthwaite degrees of freedom, u_shared with infinitely many. What the two conditions
+/// share as well (a gain, a time base) divides out of the ratio: it is not part of `uncertainty`. `low` is at least 0.
+/// NaN for fewer than two readings of either, or where an uncertainty is unknown.
 [[nodiscard]] Bounds logRatioBounds(const MeanReading& a, const MeanReading& b) noexcept;
 
 /// The p-quantile of χ²; `degreesOfFreedom` > 0; 0 < p < 1, otherwise NaN.

@@ -42,15 +42,22 @@ void takeStep(LargestStep& axis, double jnd, double from, double to) {
 
 double largerOrUnknown(double a, double b) { return std::isnan(a) || std::isnan(b) ? kNaN : std::max(a, b); }
 
+/// Standard, relative, of the step from `before_v` to a train: of the two levels. The one before is as well known as
+/// this one, in volts.
+double statedOf(const CapturedTrain& train, double before_v) {
+    return train.amplitudeUncertainty_v * std::hypot(1 / train.amplitude_v, 1 / before_v);
+}
+
 /// Expanded, of the step from `before_s` to the interval that ends with train `k`. Two intervals share the stamp
-/// between them: u² of ln(T2/T1) is at most 2 (2 u / T)², u that of the least certain of their three stamps.
+/// between them, which makes one longer as it makes the other shorter. u: that of the least certain of their three
+/// stamps.
 double intervalUncertainty_jnd(const std::vector<CapturedTrain>& trains, std::size_t k, double before_s) {
     double stamp_s = 0;
     for (std::size_t i = k < 2 ? 0 : k - 2; i <= k; ++i)
         stamp_s = largerOrUnknown(stamp_s, trains[i].onsetUncertainty_s);
-    const double interval_s = trains[k].interval_s;
-    const double shorter_s = std::isnan(before_s) ? interval_s : std::min(interval_s, before_s);
-    return kCoverageFactor * std::sqrt(8.0) * stamp_s / shorter_s / std::log1p(kIntervalWeberFraction);
+    const double now = 1 / trains[k].interval_s, before = std::isnan(before_s) ? now : 1 / before_s;
+    const double all = std::hypot(now, before, now + before);
+    return kCoverageFactor * all * stamp_s / std::log1p(kIntervalWeberFraction);
 }
 
 void addTrains(ChangeGroup& group, const CapturedChange& change) {
@@ -64,7 +71,14 @@ void addTrains(ChangeGroup& group, const CapturedChange& change) {
         const auto& train = change.trains[k];
         ++group.captured;
         // The first trains of a movement have none before them to be compared with.
-        if (!movement || k >= 1) takeStep(group.amplitude, train.amplitude_jnd, last_v, train.amplitude_v);
+        if (!movement || k >= 1) {
+            const bool isFirst = std::isnan(group.amplitude.jnd);
+            takeStep(group.amplitude, train.amplitude_jnd, last_v, train.amplitude_v);
+            if (!std::isnan(train.amplitude_jnd)) {
+                double& widest = group.amplitude.uncertainty;
+                widest = isFirst ? statedOf(train, last_v) : largerOrUnknown(widest, statedOf(train, last_v));
+            }
+        }
         if (!movement || k >= 2) {
             const bool isFirst = std::isnan(group.interval.jnd);
             takeStep(group.interval, train.interval_jnd, last_s, train.interval_s);
@@ -184,11 +198,11 @@ ChangeJudgement judgeChanges(std::span<const CapturedChange> changes, const std:
                              const ChangeLimits& limits) {
     ChangeJudgement out{.limits = limits, .groups = groupsOf<ChangeGroup>(names)};
     for (const auto& change : changes) addChange(groupNamed(out.groups, change.name), change, limits);
-    const double scatter_jnd =
-        kCoverageFactor * std::sqrt(2.0) * scatterOf(changes) / std::log1p(kAmplitudeWeberFraction);
+    const double scatter = std::sqrt(2.0) * scatterOf(changes);
     Findings all;
     for (auto& group : out.groups) {
-        group.amplitude.uncertainty = scatter_jnd;
+        double& step = group.amplitude.uncertainty;
+        step = kCoverageFactor * std::hypot(scatter, step) / std::log1p(kAmplitudeWeberFraction);
         Findings own;
         if (group.changes == 0) {
             own.open.push_back(fmt::format("{}: no change was captured", group.name));

@@ -19,7 +19,8 @@ namespace tacto {
 struct CapturedTrain {
     double after_s = kNaN;  ///< since the change began
     double amplitude_v = kNaN, interval_s = kNaN;
-    double onsetUncertainty_s = kNaN;  ///< standard
+    double onsetUncertainty_s = kNaN;      ///< standard
+    double amplitudeUncertainty_v = kNaN;  ///< standard, but for what trains near each other share
     double amplitude_jnd = kNaN, interval_jnd = kNaN;
 };
 
@@ -89,8 +90,8 @@ struct ChangeJudgement {
     std::vector<std::string> notes = {};  ///< changes that cannot be complete in time, and why
 };
 
-/// `names` must all be there for a pass. A step's uncertainty is twice the scatter of trains of one command: a gain is
-/// common to both and cancels.
+/// `names` must all be there for a pass. A step's uncertainty is that of the scatter of trains of one command and of
+/// each amplitude by itself, k = 2: a gain is common to both and cancels.
 [[nodiscard]] ChangeJudgement judgeChanges(std::span<const CapturedChange> changes,
                                            const std::vector<std::string>& names, const ChangeLimits& limits);
 

@@ -64,6 +64,7 @@ RecordFields<CapturedTrain> trainFields() {
     all.number("amplitude_v", &T::amplitude_v, {.unit = "V"});
     all.number("interval_s", &T::interval_s, {.unit = "s"});
     all.number("onset_u_s", &T::onsetUncertainty_s, {.unit = "s"});
+    all.number("amplitude_u_v", &T::amplitudeUncertainty_v, {.unit = "V"});
     all.number("amplitude_jnd", &T::amplitude_jnd);
     all.number("interval_jnd", &T::interval_jnd);
     all.takeNullAsMissing();

@@ -141,7 +141,8 @@ TEST(Separability, RefusesValuesThatNoPulseHas) {
 
 TEST(SeparabilityTrial, IsWrittenAsItWasReadAndRefusedWithoutItsCondition) {
     const nlohmann::json row{{"condition", "rough-low"}, {"amplitude_v", 10},       {"interval_s", nullptr},
-                             {"amplitude_u_v", 0.1},     {"interval_u_s", nullptr}, {"time_base_u", 1e-5}};
+                             {"amplitude_u_v", 0.1},     {"interval_u_s", nullptr}, {"time_base_u", 1e-5},
+                             {"amplitude_gain_u", 3e-3}};
     const auto trial = separabilityTrialFrom(row);
     ASSERT_TRUE(trial) << trial.error().message;
     EXPECT_TRUE(std::isnan(trial->interval_s));

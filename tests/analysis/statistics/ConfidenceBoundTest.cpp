@@ -93,10 +93,17 @@ TEST(SeparabilityBounds, JudgeThePairAndNotItsEstimate) {
     EXPECT_EQ(found.verdict, Verdict::Indeterminate);
     EXPECT_TRUE(
         says(found, "with 95 % confidence by 0.0 and 5.0 at least; whether 5 in one of them are reached is open"));
-    // What the instrument leaves open counts as much as scatter.
+    // What the instrument leaves open of each interval counts as much as scatter; a time base that is off, or a gain,
+    // is off for both alike and divides out.
     design.interval_s = {1.1, 0.5, 1.1, 0.5};
     EXPECT_EQ(judgeSeparability(stated(design, 0.05, 1e-6, 1e-5)).value().verdict, Verdict::Pass);
-    EXPECT_EQ(judgeSeparability(stated(design, 0.05, 1e-6, 0.03)).value().verdict, Verdict::Indeterminate);
+    EXPECT_EQ(judgeSeparability(stated(design, 0.05, 0.03, 1e-5)).value().verdict, Verdict::Indeterminate);
+    EXPECT_EQ(judgeSeparability(stated(design, 0.05, 1e-6, 0.03)).value().verdict, Verdict::Pass);
+    auto trials = stated(design, 0.3, 1e-6, 1e-5);
+    const auto whole = judgeSeparability(trials).value().pairs[1].amplitudeJndBounds;
+    for (auto& trial : trials) trial.amplitudeGain = 0.8 * trial.amplitudeUncertainty / trial.amplitude;
+    const auto rest = judgeSeparability(trials).value().pairs[1].amplitudeJndBounds;
+    EXPECT_NEAR(rest.high - rest.low, 0.6 * (whole.high - whole.low), 0.05 * (whole.high - whole.low));
 }
 
 TEST(SeparabilityBounds, JudgeTheVariationAndNotItsEstimate) {

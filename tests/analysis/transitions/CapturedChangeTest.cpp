@@ -16,6 +16,7 @@ CapturedTrain trainOf(double amplitude_jnd) {
     return {.amplitude_v = 20,
             .interval_s = 0.5,
             .onsetUncertainty_s = 1e-6,
+            .amplitudeUncertainty_v = 1e-3,
             .amplitude_jnd = amplitude_jnd,
             .interval_jnd = 0};
 }

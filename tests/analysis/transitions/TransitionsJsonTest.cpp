@@ -37,6 +37,7 @@ json stepRow() {
                {"amplitude_v", 12},
                {"interval_s", 1.25},
                {"onset_u_s", nullptr},
+               {"amplitude_u_v", 0.01},
                {"amplitude_jnd", 1.9},
                {"interval_jnd", 0.1}}}},
             {"captures", {4, 3}}};

@@ -103,7 +103,8 @@ std::vector<HostFunction> analysisFunctions() {
          .parameters =
              {list("trials",
                    "objects with condition, amplitude_v, interval_s, and their uncertainties amplitude_u_v, "
-                   "interval_u_s, time_base_u, without which the verdict cannot be a pass; from record.trials()"),
+                   "interval_u_s, time_base_u, without which the verdict cannot be a pass, and amplitude_gain_u, the "
+                   "part of amplitude_u_v that all trials share; from record.trials()"),
               list("options.conditions", "names that must all be there, else the verdict cannot be a pass")
                   .of(ValueType::Text)
                   .optional()},

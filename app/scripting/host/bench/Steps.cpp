@@ -45,8 +45,8 @@ CapturedTrain trainOf(const std::vector<SeenTrain>& seen, std::size_t k, double 
     const double amplitude =
         k == 0 ? kNaN : amplitudeDistance(Volts(seen[k].amplitude_v), Volts(seen[k - 1].amplitude_v));
     const double interval = k < 2 ? kNaN : intervalDistance(Seconds(interval_s), Seconds(intervalTo(k - 1)));
-    return {seen[k].onset_s - begin_s,  seen[k].amplitude_v, interval_s,
-            seen[k].onsetUncertainty_s, amplitude,           interval};
+    return {seen[k].onset_s - begin_s,      seen[k].amplitude_v, interval_s, seen[k].onsetUncertainty_s,
+            seen[k].amplitudeUncertainty_v, amplitude,           interval};
 }
 
 StepCourse courseOf(const StepResponse& response) {

@@ -30,14 +30,16 @@ Result<void> TrainRecording::take() {
     left_ -= std::min(left_, captures->size());
     const MeasureOptions options = measure::optionsFor(bench_.profile().encoding.train);
     for (auto& capture : *captures) {
-        const double sampling_s = 1 / (capture.rate_hz * std::sqrt(6.0));
-        SeenTrain train{capture.trigger_s, std::hypot(measure::stampUncertainty_s(capture), sampling_s), kNaN, {}};
+        const double sampling_s = 1 / (capture.rate_hz * std::sqrt(12.0));  // one edge, anywhere within a sample
+        SeenTrain train{
+            capture.trigger_s, std::hypot(measure::stampUncertainty_s(capture), sampling_s), kNaN, kNaN, {}};
         auto voltage = measureTrains(std::span(&capture, 1), "voltage", options);
         if (!voltage) return failure(voltage);
         if (!voltage->trains.empty()) {
             const auto& first = voltage->trains.front();
             if (std::isfinite(first.onset_s)) train.onset_s = first.onset_s;
             train.amplitude_v = first.amplitude;
+            train.amplitudeUncertainty_v = measure::ofLevelAlone(*voltage, *channelOf(capture, "voltage"));
         }
         train.capture = std::move(capture);
         seen_.push_back(std::move(train));

@@ -16,6 +16,7 @@ struct SeenTrain {
     double onset_s = 0;
     double onsetUncertainty_s = 0;  ///< standard, against the onsets of other records; NaN = unknown
     double amplitude_v = 0;
+    double amplitudeUncertainty_v = 0;  ///< standard, but for what all trains share; NaN = unknown
     Capture capture;
 };
 

@@ -10,10 +10,11 @@ std::vector<HostFunction> measureFunctions() {
          .parameters = {list("captures", "from bench.capture(), in time order")},
          .text = "Measures what was delivered: amplitude, width, charge of each train, and the interval from onset to "
                  "onset.",
-         .returns = "{ amplitude_v, amplitude_u_v, amplitude_ma, interval_s, interval_u_s, time_base_u, width_s, "
-                    "charge_uc, imbalance, trains, pulses, warnings, captures }: means over the trains; _u_ is the "
-                    "standard uncertainty of a reading, time_base_u that of the time base, relative; what could not be "
-                    "measured is null, the interval of a single train among it.",
+         .returns = "{ amplitude_v, amplitude_u_v, amplitude_gain_u, amplitude_ma, interval_s, interval_u_s, "
+                    "time_base_u, width_s, charge_uc, imbalance, trains, pulses, warnings, captures }: means over the "
+                    "trains; _u_ is the standard uncertainty of a reading, amplitude_gain_u the part of it that the "
+                    "gain makes, relative, time_base_u that of the time base, relative; what could not be measured is "
+                    "null, the interval of a single train among it.",
          .errors = "Throws for captures that are held no longer, or without a voltage channel.",
          .call = host::measure::train},
         {.name = "pulse",

@@ -22,6 +22,18 @@ double worstTimeBase(const std::vector<Capture>& captures) {
     return worst;
 }
 
+/// Relative, of the voltage's gain, which is the same in all trials; NaN where one of them does not state it.
+double gainUncertainty(const std::vector<Capture>& captures) {
+    double worst = 0;
+    for (const auto& capture : captures) {
+        const auto* voltage = channelOf(capture, "voltage");
+        const double u = voltage != nullptr ? voltage->gainTolerance / std::sqrt(3.0) : kNaN;
+        if (!(u <= worst)) worst = u;
+        if (std::isnan(worst)) break;
+    }
+    return worst;
+}
+
 /// The time base is handed on by itself: it is the same in all trials.
 double intervalWithoutTimeBase(const ChannelMeasurement& channel, double timeBase) {
     const double base = timeBase * channel.interval_s.mean, all = channel.uncertainty.interval_s;
@@ -42,6 +54,7 @@ Result<Json> train(ScriptSession& session, const Arguments& arguments) {
     if (!voltage) return failure(voltage);
     Json out = {{"amplitude_v", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::amplitude))},
                 {"amplitude_u_v", numberOrNull(voltage->uncertainty.amplitude)},
+                {"amplitude_gain_u", numberOrNull(gainUncertainty(captures))},
                 {"interval_s", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::interval_s))},
                 {"interval_u_s", numberOrNull(intervalWithoutTimeBase(*voltage, worstTimeBase(captures)))},
                 {"time_base_u", numberOrNull(worstTimeBase(captures))},
