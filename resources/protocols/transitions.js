@@ -190,7 +190,8 @@ function openOf(changes) {
   const amplitude = worst("amplitude_u_jnd"), interval = worst("interval_u_jnd");
   if (amplitude === null || interval === null) return "What captures leave open of a step is unknown. ";
   return "Captures leave ± " + Number(amplitude.toPrecision(2)) +
-    " differences of amplitude open, twice the scatter of trains of one command, and ± " +
+    " differences of amplitude open, by the scatter of trains of one command and what the oscilloscope states, " +
+    "and ± " +
     Number(interval.toPrecision(2)) + " of interval. ";
 }
 
@@ -198,7 +199,8 @@ function openOf(changes) {
 function writeChanges(p, changes) {
   report.text(
     "Judged on captured trains: no train differs from the one before by more than 2 just-noticeable differences " +
-      "(w = 0.10 of amplitude, 0.16 of interval), and a change of state is complete within " + p.complete_s +
+      "(w = 0.10 of amplitude, a choice, and 0.16 of interval, Jones et al. 2009), and a change of state is " +
+      "complete within " + p.complete_s +
       " s. (choice) Both at once are out of reach for large changes at these intervals, whatever the encoder " +
       "does: the steps in between are trains, and trains take their intervals. " +
       (p.complete === "seconds" ? "Such a change fails here."

@@ -18,8 +18,11 @@ public:
     void drawn(std::string quantity, LogNormal PopulationModel::*member, std::string_view unit, PremiseMark mark,
                std::string_view source, double scale = 1) {
         const LogNormal& now = model_.*member;
-        add(std::move(quantity), withUnit(scale * now.median, unit), fmt::format("{:.4g}", now.spread), mark, source,
-            now.median != (shipped_.*member).median, withUnit(scale * (shipped_.*member).median, unit));
+        const LogNormal& shipped = shipped_.*member;
+        // No source gives the spread of any of them.
+        const auto spreadMark = nameOf(now.spread != shipped.spread ? PremiseMark::Set : PremiseMark::Choice);
+        add(std::move(quantity), withUnit(scale * now.median, unit), fmt::format("{:.4g} ({})", now.spread, spreadMark),
+            mark, source, now.median != shipped.median, withUnit(scale * shipped.median, unit));
     }
     void single(std::string quantity, double value, double shippedValue, std::string_view unit, PremiseMark mark,
                 std::string_view source) {
@@ -108,9 +111,11 @@ void addDiscrimination(Premises& rows) {
                "pauses between pulses.");
     rows.single("Noise of what is felt", model.noise_jnd, rows.shipped().noise_jnd, "JND", PremiseMark::Choice,
                 "One just-noticeable difference is one standard deviation.");
-    rows.single("Largest lapse rate (even from 0)", 100 * model.lapseMost, 100 * rows.shipped().lapseMost, "%",
-                PremiseMark::Source,
-                "Wichmann and Hill 2001, Percept Psychophys 63:1293: the range they allow when they fit.");
+    rows.single(
+        "Largest lapse rate (even from 0)", 100 * model.lapseMost, 100 * rows.shipped().lapseMost, "%",
+        PremiseMark::Source,
+        "Wichmann and Hill 2001, Percept Psychophys 63:1293: the range they allow when they fit; even within it is "
+        "a choice.");
 }
 
 void addLevels(Premises& rows) {

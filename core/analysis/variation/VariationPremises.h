@@ -21,7 +21,8 @@ enum class PremiseMark {
 struct Premise {
     std::string quantity;
     std::string value;   ///< median, with its unit
-    std::string spread;  ///< geometric standard deviation, always a choice; empty for one value for all
+    std::string spread;  ///< geometric standard deviation and its own mark, "1.4 (choice)": no source gives one; empty
+                         ///< for one value for all
     PremiseMark mark = PremiseMark::Choice;
     std::string source;  ///< of the shipped value; of a choice what it leans on, in a sentence
 };

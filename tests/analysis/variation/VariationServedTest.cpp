@@ -102,6 +102,7 @@ TEST(VariationServed, ALargerElectrodeLowersTheImpedanceAndTheVoltageThatIsFelt)
 TEST(VariationServed, PremisesNameTheirSourcesAndWhatWasSet) {
     auto wanted = peopleWith(AmplitudeLevels::Personal);
     wanted.population.attention_ma.median = 7.5;
+    wanted.population.intolerance_ma.spread = 1.6;
     wanted.stimulation.electrodeArea = SquareCentimetres(2);
     std::size_t choices = 0;
     bool parallel = false, capacitance = false;
@@ -115,7 +116,12 @@ TEST(VariationServed, PremisesNameTheirSourcesAndWhatWasSet) {
         }
         if (premise.quantity.starts_with("Perception")) {
             EXPECT_EQ(premise.mark, PremiseMark::Source);
+            EXPECT_EQ(premise.spread, "1.4 (choice)") << "the source gives a median, and no spread";
             EXPECT_NE(premise.source.find("10.1038/s41598-022-10708-9"), std::string::npos) << premise.source;
+        }
+        if (premise.quantity.starts_with("Intolerance")) {
+            EXPECT_EQ(premise.mark, PremiseMark::Source);
+            EXPECT_EQ(premise.spread, "1.6 (set)");
         }
         parallel =
             parallel || (premise.quantity == "Parallel resistance of the skin under 2 cm²" && premise.value == "5 kΩ");
