@@ -29,8 +29,8 @@ struct GivenCaptures {
 /// Standard uncertainty of an amplitude but for the gain of its channel, which divides out of the ratio of two.
 [[nodiscard]] double withoutGain(const ChannelMeasurement& measured, const CaptureChannel& channel) noexcept;
 
-/// Of a level by itself: what it does not share with another of the same channel. Gain, linearity (of levels that are
-/// near each other) and the baseline's own step divide out of the ratio of two.
+/// The uncertainty of a level by itself: what it does not share with another of the same channel. Gain, linearity (of
+/// levels that are near each other) and the baseline's own step divide out of the ratio of two.
 [[nodiscard]] double ofLevelAlone(const ChannelMeasurement& measured, const CaptureChannel& channel) noexcept;
 
 }  // namespace tacto::host::measure
