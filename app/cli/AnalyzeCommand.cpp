@@ -85,13 +85,13 @@ void printFigures(const Identification& found, const std::string& name) {
     say("  {}\n", precisionSentence(all.n, all.chance));
     TextTable table({"", ""});
     table.add({"by chance", fmt::format("p = {:.2g} (exact, one-sided)", all.pChance)});
-    table.add({"information", fmt::format("{:.2f} bit, {:.2f} bit of it by chance, {:.2f} bit without", all.it_bits,
-                                          all.itBias_bits, all.itCorrected_bits)});
+    table.add({"information", fmt::format("{} bit without what chance adds, 95 % interval; {:.2f} bit as counted",
+                                          bitsText(all.itCorrected_bits), all.it_bits)});
     for (const auto& [title, feature] : {std::pair{"texture", &found.texture}, {"pressure", &found.pressure}}) {
         if (!*feature) continue;
         const auto& figures = (*feature)->figures;
-        table.add({title, fmt::format("{} of {} (chance 50 %), {:.2f} bit without chance", figures.hits, figures.n,
-                                      figures.itCorrected_bits)});
+        table.add({title, fmt::format("{} of {} (chance 50 %), {} bit without what chance adds", figures.hits,
+                                      figures.n, bitsText(figures.itCorrected_bits))});
     }
     if (found.catches.n > 0) {
         table.add(
@@ -102,19 +102,28 @@ void printFigures(const Identification& found, const std::string& name) {
 }
 
 /// The labels that each person's trials name are the answers offered. Nothing is judged, and several people are not
-/// pooled (pilot.md section 7).
+/// pooled (pilot.md section 7). One of several whose trials cannot be analysed is named and left out.
 int identification(const std::string& file, bool asJson) {
     const auto read = readIdentificationTrials(file);
     if (!read) return couldNotRun(read.error());
     std::vector<PersonResult> people;
     std::vector<Identification> each;
+    std::vector<PersonLeftOut> leftOut;
     for (const auto& person : *read) {
         auto found = identifyAsMet(person.trials);
-        if (!found) return couldNotRun(Error{found.error().code, fmt::format("{}: {}", file, found.error().message)});
+        if (!found) {
+            leftOut.push_back({person.participant, found.error().message});
+            continue;
+        }
         people.push_back({.name = person.participant, .usable = true, .figures = found->all});
         each.push_back(std::move(*found));
     }
-    if (each.size() == 1) {
+    if (each.empty() && !leftOut.empty()) {
+        const auto why = leftOut.size() == 1 ? leftOut.front().reason
+                                             : fmt::format("no participant can be analysed. {}", leftOutText(leftOut));
+        return couldNotRun(Error{ErrorCode::InvalidArgument, fmt::format("{}: {}", file, why)});
+    }
+    if (read->size() == 1) {
         const auto name = people.front().name.empty() ? file : people.front().name;
         auto result = toJson(each.front());
         result["kind"] = "identification";
@@ -125,7 +134,7 @@ int identification(const std::string& file, bool asJson) {
         }
         return kDone;
     }
-    const auto together = judgeFewPeople(people);
+    const auto together = judgeFewPeople(people, std::move(leftOut));
     if (asJson) {
         auto result = toJson(together);
         result["kind"] = "identification";

@@ -7,6 +7,7 @@
 #include "app/cli/Say.h"
 #include "app/cli/TextTable.h"
 #include "app/cli/Verdicts.h"
+#include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/base/QuantityText.h"
@@ -116,11 +117,11 @@ void printConfusion(const json& results) {
 }
 
 void printTold(const json& results) {
-    TextTable table({"told apart", ">right", ">n", ">share, 95 %", ">by chance p", ">bits, corrected"});
+    TextTable table({"told apart", ">right", ">n", ">share, 95 %", ">by chance p", ">bits, corrected, 95 %"});
     const auto add = [&](const char* name, const json& one) {
         if (resultObject(one, "accuracy").empty()) return;
         table.add({name, resultNumber(one, "hits"), resultNumber(one, "n"), percentText(one["accuracy"]),
-                   chanceText(resultValue(one, "p_chance")), decimalText(resultValue(one, "it_corrected_bits"), 2)});
+                   chanceText(resultValue(one, "p_chance")), bitsText(correctedBitsFrom(one))});
     };
     add("the four", results);
     add("texture", resultObject(results, "texture"));

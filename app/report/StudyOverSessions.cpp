@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/report/StudyText.h"
+#include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/identification/OverSessions.h"
 #include "core/base/Statistics.h"
 #include "core/base/Text.h"
@@ -51,7 +52,7 @@ TableBlock valuesTable(const OverSessions& compared, const std::vector<AnalysedS
         table.columns.push_back({QString("%1 (%2)").arg(QString(level), QString(massager ? "strength" : "mA")), true});
     if (!massager) table.columns.push_back({"|Z| (Ω)", true});
     table.columns.push_back({"Right", true});
-    table.columns.push_back({"Information, corrected (bit)", true});
+    table.columns.push_back({"Information, corrected, 95 % (bit)", true});
     const int digits = massager ? 2 : 1;
     for (std::size_t i = 0; i < compared.sessions.size(); ++i) {
         const auto& each = compared.sessions[i];
@@ -64,7 +65,7 @@ TableBlock valuesTable(const OverSessions& compared, const std::vector<AnalysedS
                               tooStrongText(felt, digits), range});
         if (!massager) table.rows.back() << figureText(each.impedance.value(), 0);
         table.rows.back() << (each.n == 0 ? QString("–") : QString("%1 of %2").arg(each.hits).arg(each.n))
-                          << figureText(each.n == 0 ? kNaN : each.itCorrected_bits, 2);
+                          << qtext(bitsText(each.itCorrected_bits));
     }
     return table;
 }

@@ -72,12 +72,12 @@ void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
     FactsBlock facts;
     facts.oneColumn = true;
     const auto chance = qtext(chanceText(found.all.pChance));
-    facts.facts = {{"By chance", QString("p %1, exact and one-sided against %2 %")
-                                     .arg(chance.startsWith('<') ? chance : "= " + chance)
-                                     .arg(100 * found.all.chance, 0, 'f', 0)},
-                   {"Information", QString("%1 bit, of which chance gives %2 bit; corrected %3 bit")
-                                       .arg(figureText(found.all.it_bits, 2), figureText(found.all.itBias_bits, 2),
-                                            figureText(found.all.itCorrected_bits, 2))}};
+    facts.facts = {
+        {"By chance", QString("p %1, exact and one-sided against %2 %")
+                          .arg(chance.startsWith('<') ? chance : "= " + chance)
+                          .arg(100 * found.all.chance, 0, 'f', 0)},
+        {"Information", QString("%1 bit without what chance adds, 95 % interval; %2 bit as counted")
+                            .arg(qtext(bitsText(found.all.itCorrected_bits)), figureText(found.all.it_bits, 2))}};
     for (const auto& [name, feature] :
          {std::pair{"Texture alone", &found.texture}, {"Pressure alone", &found.pressure}}) {
         if (!*feature) continue;
@@ -86,7 +86,7 @@ void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
             {name, QString("%1 of %2, %3; corrected information %4 bit, d′ %5, criterion %6")
                        .arg(figures.hits)
                        .arg(figures.n)
-                       .arg(shareText(figures.accuracy), figureText(figures.itCorrected_bits, 2),
+                       .arg(shareText(figures.accuracy), qtext(bitsText(figures.itCorrected_bits)),
                             figureText((*feature)->dPrime, 2), figureText((*feature)->criterion, 2))});
     }
     facts.facts.push_back({"Catch trials", QString("%1 of %2 answered with a name, exact 95 % interval up to %3 %")

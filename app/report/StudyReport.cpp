@@ -39,13 +39,13 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vect
     TableBlock table;
     table.caption = captions.table("Each participant's first session with test trials, else the last");
     table.columns = {{"Participant"},          {"Usable range"},      {"Right", true},
-                     {"Accuracy, 95 %", true}, {"p by chance", true}, {"Information, corrected (bit)", true}};
+                     {"Accuracy, 95 %", true}, {"p by chance", true}, {"Information, corrected, 95 % (bit)", true}};
     for (const auto& person : together.people) {
         const auto& figures = person.figures;
         table.rows.push_back({qtext(person.name), person.usable ? "yes" : "no",
                               QString("%1 of %2").arg(figures.hits).arg(figures.n), shareText(figures.accuracy),
                               qtext(chanceText(figures.n > 0 ? figures.pChance : kNaN)),
-                              figureText(figures.itCorrected_bits, 2)});
+                              qtext(bitsText(figures.itCorrected_bits))});
     }
     blocks.emplace_back(std::move(table));
     blocks.emplace_back(ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")

@@ -1,4 +1,5 @@
 // analyze identification: answers from a CSV, against the figures of tests/reference/identification.py.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -23,7 +24,8 @@ TEST(AnalyzeIdentification, AgreesWithTheSecondComputation) {
     EXPECT_EQ(found.at("hits"), session.at("hits"));
     EXPECT_NEAR(found.at("accuracy").at("low").get<double>(), session.at("accuracy").at("low").get<double>(), 1e-9);
     EXPECT_NEAR(found.at("it_bits").get<double>(), session.at("it_bits").get<double>(), 1e-9);
-    EXPECT_NEAR(found.at("it_bias_bits").get<double>(), session.at("it_bias_bits").get<double>(), 1e-9);
+    for (const char* key : {"it_bias_bits", "it_corrected_bits", "it_corrected_low_bits", "it_corrected_high_bits"})
+        EXPECT_NEAR(found.at(key).get<double>(), session.at(key).get<double>(), 1e-9) << key;
     EXPECT_NEAR(found.at("texture").at("it_bits").get<double>(), session.at("texture").at("it_bits").get<double>(),
                 1e-9);
     EXPECT_EQ(found.at("catch").at("false_alarms"), session.at("catch").at("k"));
@@ -44,6 +46,52 @@ TEST(AnalyzeIdentification, PeopleAreNotPooled) {
     const auto said = desk.run({"analyze", "identification", file});
     EXPECT_NE(said.out.find("3 of 3 were above chance"), std::string::npos) << said.out;
     EXPECT_NE(said.out.find("at least 45 %"), std::string::npos) << said.out;
+}
+
+// pilot.md section 7: the corrected information of answers that are all right is all there is.
+TEST(AnalyzeIdentification, AllRightOf90IsTwoBitsAndTheTextSaysWhatTheJsonSays) {
+    RecordProperty("hazard", "H9");
+    std::string text = "stimulus,response\n";
+    for (int i = 0; i < 88; ++i)
+        text += std::string(1, static_cast<char>('a' + i % 4)) + ',' + static_cast<char>('a' + i % 4) + '\n';
+    const Desk desk;
+    const auto file = desk.write("answers.csv", text);
+    const auto found = jsonOf(desk.run({"analyze", "identification", file, "--json"}));
+    EXPECT_NEAR(found.at("it_corrected_bits").get<double>(), 2, 1e-9);
+    EXPECT_NEAR(found.at("it_bias_bits").get<double>(), 0, 1e-9);
+    const auto low = fmt::format("{:.2f}", found.at("it_corrected_low_bits").get<double>());
+    const auto said = desk.run({"analyze", "identification", file});
+    EXPECT_NE(said.out.find("2.00 (" + low + " to 2.00) bit without what chance adds"), std::string::npos) << said.out;
+}
+
+TEST(AnalyzeIdentification, APersonWithOneTrialIsNamedAndLeftOut) {
+    RecordProperty("hazard", "H9");
+    std::string text = "participant,stimulus,response\n";
+    for (const char* who : {"A", "C"}) {
+        for (int i = 0; i < 20; ++i) text += std::string(who) + (i % 2 == 0 ? ",x,x\n" : ",y,y\n");
+    }
+    text += "B,x,x\n";
+    for (int i = 0; i < 2; ++i) text += "D,none,x\nD,y,y\n";  // no condition can have that name
+    const Desk desk;
+    const auto file = desk.write("answers.csv", text);
+    const auto ran = desk.run({"analyze", "identification", file, "--json"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const auto found = jsonOf(ran);
+    ASSERT_EQ(found.at("people").size(), 2U);
+    EXPECT_EQ(found.at("people")[1].at("name"), "C");
+    EXPECT_EQ(found.at("people")[1].at("n"), 20);
+    EXPECT_EQ(found.at("above_chance").at("n"), 2);
+    ASSERT_EQ(found.at("left_out").size(), 2U);
+    EXPECT_EQ(found.at("left_out")[0].at("name"), "B");
+    EXPECT_NE(found.at("left_out")[0].at("reason").get<std::string>().find("at least two are needed"),
+              std::string::npos);
+    const auto said = desk.run({"analyze", "identification", file});
+    EXPECT_EQ(said.code, 0) << said.err;
+    EXPECT_NE(said.out.find("2 of 4 participants were left out: B: 1 condition(s)"), std::string::npos) << said.out;
+    EXPECT_NE(said.out.find("2 of 2 were above chance"), std::string::npos) << said.out;
+    expectRefused(desk.run({"analyze", "identification",
+                            desk.write("single.csv", "participant,stimulus,response\nA,x,x\nB,y,y\n")}),
+                  3, {"single.csv", "no participant can be analysed", "A: 1 condition(s)", "B: "});
 }
 
 TEST(AnalyzeIdentification, RefusesWhatIsNoTableOfAnswers) {

@@ -144,7 +144,9 @@ TEST(Pilot, ItsJsonHasTheKeysOfTheContract) {
                    "predicted",   "fit",      "truth",    "plan",      "trials"}),
         "");
     for (const char* feature : {"texture", "pressure"})
-        EXPECT_EQ(missingIn(results[feature], {"n", "hits", "accuracy", "p_chance", "it_corrected_bits"}), "");
+        EXPECT_EQ(missingIn(results[feature], {"n", "hits", "accuracy", "p_chance", "it_corrected_bits",
+                                               "it_corrected_low_bits", "it_corrected_high_bits"}),
+                  "");
     EXPECT_EQ(missingIn(results["catch"], {"n", "false_alarms", "rate"}), "");
     EXPECT_EQ(missingIn(results["blocks"][0], {"block", "n", "hits"}), "");
     EXPECT_EQ(missingIn(results["presented"][0], {"name", "current_ma", "interval_s"}), "");

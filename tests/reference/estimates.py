@@ -82,13 +82,6 @@ def distance(a, b):
     return {"a": a, "b": b, "pooled_sd": sd, "d": d, "low": bound(0.975), "high": bound(0.025)}
 
 
-def prevalence(k, n):
-    """The share gamma that is exceeded with 95 %: 0.05 + 0.95 gamma is Beta(k + 1, n - k + 1) between 0.05 and 1."""
-    beta = stats.beta(k + 1, n - k + 1)
-    theta = beta.ppf(beta.cdf(0.05) + 0.05 * (1 - beta.cdf(0.05)))
-    return {"k": k, "n": n, "at_least": (theta - 0.05) / 0.95}
-
-
 def above_chance_from(n, chance):
     """The fewest right answers of n whose probability by chance is at most 5 %; n + 1: not even all."""
     return {"n": n, "chance": chance, "from": next(k for k in range(n + 2) if stats.binom.sf(k - 1, n, chance) <= 0.05)}
@@ -124,7 +117,6 @@ def figures():
             "far": distance([1.1, 1.4, 0.9, 1.2, 1.3], [2.0, 2.3, 1.8, 2.2, 2.6]),
             "near": distance([1.0, 1.2, 0.8, 1.1], [1.1, 1.3, 0.9, 1.0, 1.25]),
         },
-        "prevalence": [prevalence(5, 5), prevalence(3, 3)],
         "above_chance": [above_chance_from(80, 0.25), above_chance_from(1, 0.25)],
     }
 

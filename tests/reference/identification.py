@@ -2,6 +2,8 @@
 
 Answers are listed as they were given, block by block; nothing is drawn at random.
 """
+import itertools
+
 import numpy as np
 from scipy import optimize, special, stats
 
@@ -10,6 +12,17 @@ from figures import keep
 LABELS = ["smooth-low", "smooth-high", "rough-low", "rough-high"]
 COLUMNS = LABELS + ["none", "not-sure"]
 FEATURES = {"texture": 0, "pressure": 1}
+# All right, nearly, unevenly presented, guessed, one answer only, a label that was never presented, single trials.
+TABLES = [
+    [[20, 0, 0, 0, 0, 0], [0, 20, 0, 0, 0, 0], [0, 0, 20, 0, 0, 0], [0, 0, 0, 20, 0, 0]],
+    [[22, 0, 1, 0], [0, 22, 0, 0], [0, 1, 21, 1], [0, 0, 0, 22]],
+    [[35, 0, 1, 0], [0, 27, 0, 0], [2, 0, 16, 0], [0, 0, 0, 9]],
+    [[5, 5, 6, 4], [4, 6, 5, 5], [6, 4, 4, 6], [5, 5, 5, 5]],
+    [[10, 0], [10, 0]],
+    [[12, 3, 1], [0, 0, 0], [2, 1, 9]],
+    [[1, 0, 0], [0, 2, 0], [0, 1, 1]],
+    [[3, 1], [0, 1]],
+]
 
 
 def session():
@@ -49,20 +62,73 @@ def entropy(counts):
     return stats.entropy(np.asarray(counts, dtype=float).ravel(), base=2)
 
 
+def without(row, trials):
+    """The mean entropy of a row with so many of its trials left out, over every choice of them."""
+    answers = np.repeat(np.arange(len(row)), row)
+    kept = [np.delete(answers, list(left)) for left in itertools.combinations(range(len(answers)), trials)]
+    return np.mean([entropy(np.bincount(answers, minlength=len(row))) if len(answers) else 0 for answers in kept])
+
+
+def information(counts):
+    """What answers tell of stimuli, bits. Trials are left out one by one, nothing by a closed form; the spread by
+    derivatives from differences."""
+    counts = np.asarray(counts, dtype=int)
+    counts = counts[counts.sum(1) > 0]
+    n, each = counts.sum(), counts.sum(1)
+    weight, columns = each / n, counts.shape[1]
+    shares = counts / each[:, None]
+    told = lambda p: entropy(weight @ p) - sum(w * entropy(row) for w, row in zip(weight, p))
+    value, spread = entropy(weight @ shares), 0
+    for s, (row, m) in enumerate(zip(counts, each)):
+        if m == 1:
+            value -= weight[s] * entropy(row)
+            continue
+        left, changes = [], []
+        for trial in np.repeat(np.arange(columns), row):
+            fewer = shares.copy()
+            fewer[s] = (row - np.eye(columns)[trial]) / (m - 1)
+            left.append(entropy(weight @ fewer))
+            changes.append(told(fewer))
+        value += (m - 1) * (entropy(weight @ shares) - np.mean(left))
+        spread += (m - 1) * np.var(changes)
+        whole, one = entropy(row), without(row, 1)
+        two = without(row, 2) if m > 2 else 0
+        value -= weight[s] * (m**2 * whole - 2 * (m - 1) ** 2 * one + (m - 2) ** 2 * two) / 2
+    more = (counts + 2 * weight @ shares) / (each + 2)[:, None]
+    overall = weight @ more
+    derivative, step = np.zeros_like(more), 1e-6
+    for s, r in np.argwhere(more > 0):
+        # Shares of a row stay 1 in sum; complex steps have no rounding.
+        moved = more.astype(complex)
+        moved[s] *= 1 - 1j * step
+        moved[s, r] += 1j * step
+        felt = lambda p: np.sum(p[p.real > 0] * np.log2(p[p.real > 0]))
+        bits = sum(w * felt(row) for w, row in zip(weight, moved)) - felt(weight @ moved)
+        derivative[s, r] = bits.imag / step
+    first = sum(np.sum(p * d**2) / m for p, d, m in zip(more, derivative, each))
+    likeness = np.sum(weight[:, None] * (more[:, overall > 0] ** 2 / overall[overall > 0])) - 1
+    freedom = (len(counts) - 1) * (np.sum(overall > 0) - 1) + likeness
+    reach = stats.norm.ppf(0.975) * np.sqrt(max(first, spread) + freedom / (2 * n**2 * np.log(2) ** 2))
+    most = min(entropy(weight), np.log2(columns))
+    return dict(zip(("value", "low", "high"), np.clip([value, value - reach, value + reach], 0, most)))
+
+
 def table_figures(counts):
     """Mutual information as the sum of two entropies less that of both together."""
     counts = np.asarray(counts)
-    n, hits, (r, c) = int(counts.sum()), int(np.trace(counts)), counts.shape
+    n, hits, r = int(counts.sum()), int(np.trace(counts)), len(counts)
     it = entropy(counts.sum(0)) + entropy(counts.sum(1)) - entropy(counts)
-    bias = (r - 1) * (c - 1) / (2 * n * np.log(2))
+    corrected = information(counts)
     return {
         "n": n,
         "hits": hits,
         "accuracy": wilson(hits, n),
         "p_chance": stats.binom.sf(hits - 1, n, 1 / r),
         "it_bits": it,
-        "it_bias_bits": bias,
-        "it_corrected_bits": max(0, it - bias),
+        "it_bias_bits": it - corrected["value"],
+        "it_corrected_bits": corrected["value"],
+        "it_corrected_low_bits": corrected["low"],
+        "it_corrected_high_bits": corrected["high"],
     }
 
 
@@ -185,7 +251,8 @@ def figures():
         "exact": [exact(*kn) for kn in ((0, 10), (4, 5), (5, 5), (3, 3), (1, 1), (7, 40))],
         "newcombe": [newcombe(*case) for case in ((68, 80, 56, 80), (56, 70, 48, 80), (9, 10, 3, 10), (10, 10, 0, 20))],
         "ratios": [ratio(3, 0.09, 2, 0.12), ratio(0.22, 0.05, 0.31, 0.2), ratio(4.1, 0.08, 4.1, 0.08)],
-        "prevalence": [prevalence(*kn) for kn in ((4, 5), (5, 5), (3, 3), (2, 5), (0, 3), (1, 3))],
+        "prevalence": [prevalence(*kn) for kn in ((4, 5), (5, 5), (3, 3), (2, 5), (0, 3), (1, 3), (1, 20), (19, 20))],
+        "information": [{"counts": counts, **information(counts)} for counts in TABLES],
         "logistic": [
             logistic([[0, 80, 50], [3, 80, 61], [10, 80, 70]]),
             logistic([[1, 16, 12], [2, 16, 13], [3, 16, 11], [4, 16, 12], [5, 16, 13]]),

@@ -15,7 +15,7 @@ import warnings
 
 try:
     import numpy as np
-    from scipy import stats
+    from scipy import optimize, special, stats
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -114,6 +114,30 @@ def information(table):
     return float((p[p > 0] * np.log2(p[p > 0] / independent[p > 0])).sum())
 
 
+def corrected_information(counts):
+    """By jackknives: of second order for the answers of each condition, of first order for all answers."""
+    h = lambda p: -special.xlogy(p, p) / np.log(2)
+    counts = counts[counts.sum(axis=1) > 0]
+    each = counts.sum(axis=1, keepdims=True)
+    weight, share = each / each.sum(), counts / each
+    overall = (weight * share).sum(axis=0)
+
+    def without(trials):
+        """Each count's part of the entropy of its row with so many trials left out, on average."""
+        left = np.arange(trials + 1)[:, None, None]
+        chance = stats.hypergeom.pmf(left, each, counts, trials)
+        return (chance * h(np.maximum(counts - left, 0) / (each - trials))).sum(axis=0)
+
+    rows = (each**2 * without(0) - 2 * (each - 1.0) ** 2 * without(1) + (each - 2.0) ** 2 * without(2)) / 2
+    total = h(overall).sum()
+    bits = total - (weight * rows).sum()
+    for s, r in np.argwhere(counts > 0):
+        fewer = (counts[s] - np.eye(counts.shape[1])[r]) / (each[s] - 1)
+        less = h(np.maximum(overall + weight[s] * (fewer - share[s]), 0)).sum()
+        bits += (each[s, 0] - 1) * share[s, r] * (total - less)
+    return np.clip(bits, 0, min(h(weight).sum(), np.log2(counts.shape[1])))
+
+
 def wilson(k, n):
     z = stats.norm.ppf(0.975)
     middle, half = k / n + z * z / (2 * n), z * np.sqrt(k / n * (1 - k / n) / n + z * z / (4 * n * n))
@@ -182,9 +206,12 @@ def check_pilots(check, result, accuracies):
         above = stats.binom.sf(start - 1, trials, accuracies).sum() / result["participants"]
 
         def prevalence(k):
+            """The lower end of the shortest interval that holds 95 %, where the density is as high as at the upper."""
             posterior = stats.beta(k + 1, n - k + 1)
-            theta = posterior.ppf(posterior.cdf(0.05) + 0.05 * posterior.sf(0.05))
-            return (theta - 0.05) / 0.95
+            theta = lambda q: posterior.ppf(posterior.cdf(0.05) + q * posterior.sf(0.05))
+            slope = lambda q: posterior.logpdf(theta(q)) - posterior.logpdf(theta(q + 0.95))
+            below = 0.05 if k == n else optimize.brentq(slope, 0, 0.05 - 1e-9, xtol=1e-15) if slope(0) < 0 else 0
+            return (theta(below) - 0.05) / 0.95
 
         check.that(f"pilot of {n}: above chance from", pilot["right_from"] == start)
         check.same(f"pilot of {n}", [pilot[k] for k in ("all_served", "all_above_chance", "prevalence_all", "prevalence_but_one")],
@@ -278,8 +305,9 @@ def check_result(check, result):
         n = confusion.sum()
         check.same("pooled accuracy", result["pooled_accuracy"], np.trace(confusion[:, :4]) / n)
         check.same("pooled information", result["it_bits"], information(confusion.astype(float)))
-        bias = 3 * (4 if confusion[:, 4].any() else 3) / (2 * n * np.log(2))
-        check.same("its bias", [result["it_bias_bits"], result["it_corrected_bits"]], [bias, result["it_bits"] - bias])
+        # n² times an entropy loses digits.
+        check.same("corrected", result["it_corrected_bits"], corrected_information(confusion), 1e-14 * confusion.sum(1).max() ** 2)
+        check.same("its bias", result["it_bias_bits"], result["it_bits"] - result["it_corrected_bits"])
         p = table[served]
         sd = np.sqrt(result["model"]["trials"] * (p * (1 - p)).sum(axis=0))
         far = np.abs(confusion - result["model"]["trials"] * p.sum(axis=0)) / np.maximum(sd, 1)

@@ -13,6 +13,7 @@
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/base/JsonFields.h"
 #include "core/session/ResultKind.h"
@@ -178,9 +179,9 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
     if (const double p = numberIn(results, "p_chance"); std::isfinite(p))
         more << (p < 0.001 ? tr("Guessing would reach that in fewer than 1 of 1000 sessions (p < 0.001).")
                            : tr("Guessing would reach that with p = %1.").arg(decimalText(p, 3)));
-    if (const double bits = numberIn(results, "it_corrected_bits"); std::isfinite(bits))
-        more << tr("Information: %1 of 2 bit; the %2 bit that chance gives are taken off.")
-                    .arg(decimalText(bits, 2), decimalText(numberIn(results, "it_bias_bits"), 2));
+    if (std::isfinite(numberIn(results, "it_corrected_bits")))
+        more << tr("Information: %1 of 2 bit; what chance adds is taken off.")
+                    .arg(qtext(bitsText(correctedBitsFrom(results))));
     if (const double empty = numberIn(results, "catch.n"); std::isfinite(empty) && empty > 0)
         more << tr("Empty trials with a name for an answer: %1 of %2.")
                     .arg(numberIn(results, "catch.false_alarms"))

@@ -25,19 +25,28 @@ struct PersonResult {
     ConfusionFigures figures{};  ///< n = 0 where no test trial was answered
 };
 
-struct FewPeople {
-    std::vector<PersonResult> people;
-    Statistics accuracy;              ///< over those who answered test trials
-    Statistics itCorrected_bits;      ///< the same
-    std::size_t aboveChance = 0;      ///< p < 0.05 each by themselves
-    Estimate share;                   ///< above chance of all people, Clopper and Pearson 95 %
-    Estimate prevalence;              ///< of everybody: Prevalence.h
-    double prevalenceAtLeast = kNaN;  ///< one-sided 95 %; NaN without people
+/// A person of whom nothing can be said, and why.
+struct PersonLeftOut {
+    std::string name, reason;
 };
 
-[[nodiscard]] FewPeople judgeFewPeople(std::vector<PersonResult> people);
+struct FewPeople {
+    std::vector<PersonResult> people;
+    std::vector<PersonLeftOut> leftOut;  ///< in none of the figures
+    Statistics accuracy;                 ///< over those who answered test trials
+    Statistics itCorrected_bits;         ///< the same
+    std::size_t aboveChance = 0;         ///< p < 0.05 each by themselves
+    Estimate share;                      ///< above chance of all people, Clopper and Pearson 95 %
+    Estimate prevalence;                 ///< of everybody: Prevalence.h
+};
 
-/// "4 of 5 were above chance (exact 95 % interval 28 to 99 %), which says that 38 to 98 % of such people can do it."
+[[nodiscard]] FewPeople judgeFewPeople(std::vector<PersonResult> people, std::vector<PersonLeftOut> leftOut = {});
+
+/// "B: 1 condition(s); at least two are needed to tell apart. C: …": each person left out, with the reason.
+[[nodiscard]] std::string leftOutText(std::span<const PersonLeftOut> leftOut);
+
+/// "4 of 5 were above chance (exact 95 % interval 28 to 99 %), which says that 38 to 98 % of such people can do it.";
+/// then how many were left out, who and why.
 [[nodiscard]] std::string fewPeopleSentence(const FewPeople& found);
 
 }  // namespace tacto

@@ -90,8 +90,7 @@ ConfusionFigures figuresOf(const Counts& counts, std::size_t names) {
     out.accuracy = wilsonInterval(out.hits, out.n);
     out.pChance = binomialAtLeast(out.hits, out.n, out.chance);
     out.it_bits = informationTransfer(table);
-    out.itBias_bits = informationBias(counts.size(), counts.front().size(), out.n);
-    out.itCorrected_bits = out.n > 0 ? std::max(0.0, out.it_bits - out.itBias_bits) : kNaN;
+    out.itCorrected_bits = correctedInformation(table);
     return out;
 }
 

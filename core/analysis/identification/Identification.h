@@ -22,12 +22,11 @@ namespace tacto {
 struct ConfusionFigures {
     std::size_t n = 0;
     std::size_t hits = 0;
-    double chance = kNaN;            ///< of a right answer by guessing among the names offered
-    Estimate accuracy;               ///< Wilson 95 %
-    double pChance = kNaN;           ///< P(X ≥ hits) by chance, one-sided, exact; 1 without trials
-    double it_bits = kNaN;           ///< information transfer; NaN without trials
-    double itBias_bits = kNaN;       ///< how much of it chance gives on average
-    double itCorrected_bits = kNaN;  ///< max(0, transfer - bias)
+    double chance = kNaN;       ///< of a right answer by guessing among the names offered
+    Estimate accuracy;          ///< Wilson 95 %
+    double pChance = kNaN;      ///< P(X ≥ hits) by chance, one-sided, exact; 1 without trials
+    double it_bits = kNaN;      ///< information transfer as counted; NaN without trials
+    Estimate itCorrected_bits;  ///< without what chance adds to it: correctedInformation()
 };
 
 /// One feature, the other passed over: rows are its two values, columns the two and the other answers.

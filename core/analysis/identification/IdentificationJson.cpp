@@ -64,8 +64,15 @@ json toJson(const ConfusionFigures& figures) {
             {"accuracy", toJson(figures.accuracy)},
             {"p_chance", numberOrNull(figures.pChance)},
             {"it_bits", numberOrNull(figures.it_bits)},
-            {"it_bias_bits", numberOrNull(figures.itBias_bits)},
-            {"it_corrected_bits", numberOrNull(figures.itCorrected_bits)}};
+            {"it_bias_bits", numberOrNull(figures.it_bits - figures.itCorrected_bits.value)},
+            {"it_corrected_bits", numberOrNull(figures.itCorrected_bits.value)},
+            {"it_corrected_low_bits", numberOrNull(figures.itCorrected_bits.low)},
+            {"it_corrected_high_bits", numberOrNull(figures.itCorrected_bits.high)}};
+}
+
+Estimate correctedBitsFrom(const json& figures) {
+    return {numberOr(figures, "it_corrected_bits"), numberOr(figures, "it_corrected_low_bits"),
+            numberOr(figures, "it_corrected_high_bits")};
 }
 
 json toJson(const Identification& found) {
@@ -110,7 +117,10 @@ json toJson(const FewPeople& people) {
         row["usable"] = person.usable;
         rows.push_back(std::move(row));
     }
+    json leftOut = json::array();
+    for (const auto& person : people.leftOut) leftOut.push_back({{"name", person.name}, {"reason", person.reason}});
     return {{"people", std::move(rows)},
+            {"left_out", std::move(leftOut)},
             {"accuracy", medianAndRange(people.accuracy)},
             {"it_corrected_bits", medianAndRange(people.itCorrected_bits)},
             {"above_chance",
@@ -118,7 +128,7 @@ json toJson(const FewPeople& people) {
               {"n", people.people.size()},
               {"share", toJson(people.share)},
               {"prevalence", toJson(people.prevalence)},
-              {"prevalence_at_least", numberOrNull(people.prevalenceAtLeast)}}}};
+              {"prevalence_at_least", numberOrNull(people.prevalence.low)}}}};
 }
 
 json toJson(const EncodingComparison& compared) {

@@ -67,6 +67,12 @@ std::string chanceText(double p) {
     return p < 0.001 ? "< 0.001" : decimalText(p, 3);
 }
 
+std::string bitsText(const Estimate& bits) {
+    if (!std::isfinite(bits.value)) return "–";
+    if (!std::isfinite(bits.low)) return decimalText(bits.value, 2);  // a result of an older version
+    return fmt::format("{:.2f} ({:.2f} to {:.2f})", bits.value, bits.low, bits.high);
+}
+
 std::string precisionSentence(std::size_t n, double chance) {
     const std::size_t from = aboveChanceFrom(n, chance);
     const auto clear = from > n ? fmt::format("not even {} right of {} are above chance", n, n)

@@ -35,6 +35,9 @@ struct PresentedRange {
 /// "0.012"; "< 0.001" below that, and "–" for what is not known.
 [[nodiscard]] std::string chanceText(double p);
 
+/// "1.94 (1.72 to 2.00)": corrected information and its 95 % interval, in bits; "–" for what is not known.
+[[nodiscard]] std::string bitsText(const Estimate& bits);
+
 /// "80 trials: ± 8 % at 85 %, ± 11 % at 50 %; 27 right of 80 is above chance."; `n` ≥ 1.
 [[nodiscard]] std::string precisionSentence(std::size_t n, double chance);
 

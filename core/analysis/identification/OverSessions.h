@@ -22,7 +22,7 @@ struct SessionFigures {
     double tooStrong = kNaN, high = kNaN;  ///< lowest called too strong, highest of the range; mA or intensity
     Ohms impedance{kNaN};
     std::size_t n = 0, hits = 0;
-    double itCorrected_bits = kNaN;
+    Estimate itCorrected_bits;  ///< NaN without test trials
 };
 
 /// Against the first session in which the figure was measured; NaN for that one and where it was not.

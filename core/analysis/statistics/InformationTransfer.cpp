@@ -2,35 +2,153 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "core/base/NaN.h"
 
 namespace tacto {
 
-double informationTransfer(std::span<const std::vector<double>> table) {
-    double total = 0;
-    std::vector<double> rows(table.size(), 0.0), columns;
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        columns.resize(std::max(columns.size(), table[i].size()), 0.0);
-        for (std::size_t j = 0; j < table[i].size(); ++j) {
-            rows[i] += table[i][j];
-            columns[j] += table[i][j];
-            total += table[i][j];
-        }
-    }
-    if (!(total > 0)) return std::numeric_limits<double>::quiet_NaN();
+namespace {
+
+using Table = std::vector<std::vector<double>>;
+
+/// What a share adds to an entropy, bits.
+double surprise(double share) noexcept { return share > 0 ? -share * std::log2(share) : 0; }
+
+double entropy(std::span<const double> shares) noexcept {
     double bits = 0;
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        for (std::size_t j = 0; j < table[i].size(); ++j) {
-            if (table[i][j] > 0) bits += table[i][j] / total * std::log2(table[i][j] * total / (rows[i] * columns[j]));
-        }
-    }
+    for (const double share : shares) bits += surprise(share);
     return bits;
 }
 
-double informationBias(std::size_t rows, std::size_t columns, std::size_t n) noexcept {
-    if (n == 0 || rows == 0 || columns == 0) return std::numeric_limits<double>::quiet_NaN();
-    return static_cast<double>((rows - 1) * (columns - 1)) / (2 * static_cast<double>(n) * std::numbers::ln2);
+/// What `k` of `n` trials add to an entropy by the jackknife of second order; as counted of a single trial.
+double jackknifed(double k, double n) noexcept {
+    const double all = surprise(k / n);
+    if (n < 2) return all;
+    const double oneLess = ((n - k) * surprise(k / (n - 1)) + k * surprise((k - 1) / (n - 1))) / n;
+    double bits = all + (2 * n - 3) * (all - oneLess);
+    if (n < 3) return bits;
+    const double twoLess = ((n - k) * (n - k - 1) * surprise(k / (n - 2)) +
+                            2 * k * (n - k) * surprise((k - 1) / (n - 2)) + k * (k - 1) * surprise((k - 2) / (n - 2))) /
+                           (n * (n - 1));
+    bits += (n - 2) * (n - 2) / 2 * (all - 2 * oneLess + twoLess);
+    return bits;
+}
+
+/// Stimuli that were presented, with the shares of their answers.
+struct Answers {
+    std::vector<double> n, weight;  // of each row
+    Table share;                    // of a row's answers
+    std::vector<double> overall;    // shares of all answers
+    double trials = 0;
+};
+
+Answers answersOf(std::span<const std::vector<double>> counts) {
+    Answers out;
+    for (const auto& row : counts) {
+        double n = 0;
+        for (const double k : row) n += k;
+        out.trials += n;
+        out.overall.resize(std::max(out.overall.size(), row.size()), 0.0);
+        if (!(n > 0)) continue;
+        out.n.push_back(n);
+        out.share.push_back(row);
+        for (double& share : out.share.back()) share /= n;
+    }
+    for (std::size_t s = 0; s < out.n.size(); ++s) {
+        out.weight.push_back(out.n[s] / out.trials);
+        out.share[s].resize(out.overall.size(), 0.0);
+        for (std::size_t r = 0; r < out.overall.size(); ++r) out.overall[r] += out.weight[s] * out.share[s][r];
+    }
+    return out;
+}
+
+/// Variance of the transfer where each row's answers have these shares: by its derivative, and what remains where that
+/// is 0.
+struct Variance {
+    double first = 0, second = 0;
+};
+
+Variance varianceAt(const Answers& told) {
+    Variance out;
+    double cells = 0, likeness = -1, columns = 0;
+    for (const double share : told.overall) columns += share > 0 ? 1 : 0;
+    for (std::size_t s = 0; s < told.n.size(); ++s) {
+        double mean = 0, squares = 0;
+        for (std::size_t r = 0; r < told.overall.size(); ++r) {
+            const double share = told.share[s][r];
+            if (!(share > 0)) continue;
+            const double bits = std::log2(share / told.overall[r]);
+            mean += share * bits;
+            squares += share * bits * bits;
+            likeness += told.weight[s] * share * share / told.overall[r];
+            cells += 1;
+        }
+        out.first += told.weight[s] * (squares - mean * mean) / told.trials;
+    }
+    const double rows = static_cast<double>(told.n.size()), nats = told.trials * std::numbers::ln2;
+    out.second = std::max(0.0, cells - rows - columns + 1 + likeness) / (2 * nats * nats);
+    return out;
+}
+
+/// With two more answers in each row, spread as all answers are.
+Answers smoothed(Answers told) {
+    constexpr double kMore = 2;
+    for (std::size_t s = 0; s < told.n.size(); ++s) {
+        const double weight = kMore / (told.n[s] + kMore);
+        for (std::size_t r = 0; r < told.overall.size(); ++r)
+            told.share[s][r] += weight * (told.overall[r] - told.share[s][r]);
+    }
+    std::ranges::fill(told.overall, 0.0);
+    for (std::size_t s = 0; s < told.n.size(); ++s) {
+        for (std::size_t r = 0; r < told.overall.size(); ++r) told.overall[r] += told.weight[s] * told.share[s][r];
+    }
+    return told;
+}
+
+}  // namespace
+
+double informationTransfer(std::span<const std::vector<double>> table) {
+    const Answers told = answersOf(table);
+    if (!(told.trials > 0)) return kNaN;
+    double bits = entropy(told.overall);
+    for (std::size_t s = 0; s < told.n.size(); ++s) bits -= told.weight[s] * entropy(told.share[s]);
+    return std::max(0.0, bits);
+}
+
+Estimate correctedInformation(std::span<const std::vector<double>> counts) {
+    const Answers told = answersOf(counts);
+    if (!(told.trials > 0)) return {};
+    const double all = entropy(told.overall);
+    double bits = all, jackknife = 0;
+    for (std::size_t s = 0; s < told.n.size(); ++s) {
+        const double n = told.n[s], weight = told.weight[s];
+        const auto& share = told.share[s];
+        for (const double part : share) bits -= weight * jackknifed(n * part, n);
+        if (n < 2) continue;
+        // One of the row's trials is left out, whichever answer it had; the row counts as before.
+        const double row = entropy(share);
+        double mean = 0, squares = 0;
+        for (std::size_t left = 0; left < share.size(); ++left) {
+            if (!(share[left] > 0)) continue;
+            double overall = 0, rest = 0;
+            for (std::size_t r = 0; r < share.size(); ++r) {
+                const double fewer = std::max(0.0, (n * share[r] - (r == left ? 1 : 0)) / (n - 1));
+                overall += surprise(std::max(0.0, told.overall[r] + weight * (fewer - share[r])));
+                rest += surprise(fewer);
+            }
+            const double change = overall - all - weight * (rest - row);
+            bits -= (n - 1) * share[left] * (overall - all);
+            mean += share[left] * change;
+            squares += share[left] * change * change;
+        }
+        jackknife += (n - 1) * std::max(0.0, squares - mean * mean);
+    }
+    const Variance variance = varianceAt(smoothed(told));
+    constexpr double k95 = 1.959963984540054;
+    const double reach = k95 * std::sqrt(std::max(variance.first, jackknife) + variance.second);
+    const double most = std::min(entropy(told.weight), std::log2(static_cast<double>(told.overall.size())));
+    return {std::clamp(bits, 0.0, most), std::clamp(bits - reach, 0.0, most), std::clamp(bits + reach, 0.0, most)};
 }
 
 }  // namespace tacto

@@ -13,11 +13,9 @@
 
 namespace tacto {
 
-/// Lower end of a one-sided 95 % interval of the share γ when `k` of `n` people were above chance; k ≤ n.
-[[nodiscard]] double prevalenceAtLeast(std::size_t k, std::size_t n) noexcept;
-
-/// γ at the mode of θ, (k/n - 0.05)/0.95 and at least 0, with the shortest interval that holds 95 %. n = 0 knows
-/// nothing: no value, 0 to 1.
+/// When `k` of `n` people were above chance: γ at the mode of θ, (k/n - 0.05)/0.95 and at least 0, with the shortest
+/// interval that holds 95 %. It begins at 0 where the mode is there, and ends at 1 where k = n: "at least" is its lower
+/// end. n = 0 knows nothing: no value, 0 to 1. k ≤ n.
 [[nodiscard]] Estimate prevalenceInterval(std::size_t k, std::size_t n) noexcept;
 
 /// The quantile `q` of a Beta(a, b) that is cut off below `from`; a, b ≥ 1, 0 ≤ from < 1, q in 0 to 1.

@@ -138,14 +138,9 @@ void addAnswers(Variation& out, std::span<const ParticipantPrediction> people, s
     const double n = static_cast<double>(trials);
     out.pooledAccuracy = trials > 0 ? static_cast<double>(right) / n : std::nan("");
     std::vector<std::vector<double>> table;
-    bool anyNone = false;
-    for (const auto& row : out.confusion) {
-        table.emplace_back(row.begin(), row.end());
-        anyNone = anyNone || row.back() > 0;
-    }
+    for (const auto& row : out.confusion) table.emplace_back(row.begin(), row.end());
     out.pooledInformation = informationTransfer(table);
-    // over the answers that occur at all
-    out.informationBias = informationBias(conditions, conditions + (anyNone ? 1 : 0), trials);
+    out.pooledCorrected = correctedInformation(table).value;
 }
 
 /// Each participant into one group of those who are served, refused, and so on.

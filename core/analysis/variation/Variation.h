@@ -103,7 +103,7 @@ struct Variation {
     Estimate information;                             ///< expected, bits
     double pooledAccuracy = 0;                        ///< of the sampled trials; NaN without any
     double pooledInformation = 0;                     ///< of the sampled trials, bits, not corrected
-    double informationBias = 0;                       ///< Miller and Madow, bits
+    double pooledCorrected = 0;                       ///< without what chance adds, bits
     std::vector<double> accuracies;                   ///< sorted
     std::optional<TrialsNeeded> trials;               ///< nothing without served participants
     std::vector<PilotOutlook> pilots;  ///< of 3, 4, 5 and options.wanted.participants people; empty likewise

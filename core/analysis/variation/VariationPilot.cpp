@@ -18,8 +18,8 @@ PilotOutlook outlookOf(const PilotPeople& population, std::size_t people, std::s
     const double all = static_cast<double>(population.all), n = static_cast<double>(people);
     out.allServed = std::pow(static_cast<double>(population.accuracies.size()) / all, n);
     out.allAboveChance = std::pow(above / all, n);
-    out.prevalenceAll = prevalenceAtLeast(people, people);
-    out.prevalenceButOne = prevalenceAtLeast(people - 1, people);
+    out.prevalenceAll = prevalenceInterval(people, people).low;
+    out.prevalenceButOne = prevalenceInterval(people - 1, people).low;
     out.width = intervalWidths(population.accuracies, trials);
     return out;
 }

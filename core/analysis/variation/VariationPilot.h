@@ -26,7 +26,7 @@ struct PilotOutlook {
     std::size_t rightFrom = 0;    ///< so many right answers are above chance; trials + 1 where no number is
     double allServed = 0;         ///< probability that every one is served
     double allAboveChance = 0;    ///< probability that every one is served and above chance
-    double prevalenceAll = 0;     ///< then: at least this share of such people can do it (95 % confidence)
+    double prevalenceAll = 0;     ///< then: at least this share of such people can do it (lower end of 95 %)
     double prevalenceButOne = 0;  ///< the same when one of them does not
     Estimate width;               ///< of one person's 95 % interval: median, 5 and 95 % over the served
 };

@@ -4,6 +4,7 @@
 
 #include "core/analysis/identification/Identification.h"
 #include "core/analysis/identification/IdentificationJson.h"
+#include "core/analysis/identification/IdentificationText.h"
 #include "tests/support/Figures.h"
 
 namespace tacto {
@@ -41,8 +42,9 @@ void expectFigures(const ConfusionFigures& found, const json& expected, const st
     expectEstimate(found.accuracy, expected.at("accuracy"), what);
     EXPECT_NEAR(found.pChance / expected.at("p_chance").get<double>(), 1, 1e-9) << what;
     EXPECT_NEAR(found.it_bits, expected.at("it_bits").get<double>(), 1e-12) << what;
-    EXPECT_NEAR(found.itBias_bits, expected.at("it_bias_bits").get<double>(), 1e-12) << what;
-    EXPECT_NEAR(found.itCorrected_bits, expected.at("it_corrected_bits").get<double>(), 1e-12) << what;
+    EXPECT_NEAR(found.itCorrected_bits.value, expected.at("it_corrected_bits").get<double>(), 1e-9) << what;
+    EXPECT_NEAR(found.itCorrected_bits.low, expected.at("it_corrected_low_bits").get<double>(), 1e-9) << what;
+    EXPECT_NEAR(found.itCorrected_bits.high, expected.at("it_corrected_high_bits").get<double>(), 1e-9) << what;
 }
 
 void expectFeature(const FeatureFigures& found, const json& expected, const std::string& what) {
@@ -85,14 +87,21 @@ TEST(Identification, JsonHasTheKeysOfTheContract) {
     const auto found = identify(trialsOf(session.at("trials")), kLabels);
     ASSERT_TRUE(found);
     const auto shown = toJson(*found);
-    for (const char* key : {"labels", "columns", "confusion", "n", "hits", "accuracy", "p_chance", "it_bits",
-                            "it_bias_bits", "it_corrected_bits", "texture", "pressure", "catch", "no_answer", "blocks"})
+    for (const char* key : {"labels", "columns", "confusion", "texture", "pressure", "catch", "no_answer", "blocks"})
         EXPECT_TRUE(shown.contains(key)) << key;
-    for (const char* key : {"n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits", "it_corrected_bits"})
+    for (const char* key : {"n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits", "it_corrected_bits",
+                            "it_corrected_low_bits", "it_corrected_high_bits"}) {
+        EXPECT_TRUE(shown.contains(key)) << key;
         EXPECT_TRUE(shown.at("texture").contains(key)) << key;
+    }
     EXPECT_EQ(shown.at("catch").at("false_alarms"), 2);
     EXPECT_NEAR(shown.at("catch").at("rate").at("value").get<double>(), 0.2, 1e-12);
-    EXPECT_NEAR(shown.at("it_bias_bits").get<double>(), 0.135, 0.0005);
+    EXPECT_NEAR(shown.at("it_bias_bits").get<double>(),
+                shown.at("it_bits").get<double>() - shown.at("it_corrected_bits").get<double>(), 1e-12);
+    EXPECT_EQ(bitsText(correctedBitsFrom(shown)), bitsText(found->all.itCorrected_bits));
+    EXPECT_EQ(bitsText(found->all.itCorrected_bits), "0.96 (0.68 to 1.24)");
+    EXPECT_EQ(bitsText(correctedBitsFrom({{"it_corrected_bits", 1.1}})), "1.10") << "of a version before the interval";
+    EXPECT_EQ(bitsText(correctedBitsFrom(json::object())), "–");
 }
 
 TEST(Identification, OnlyAnsweredTestTrialsCount) {
@@ -138,6 +147,8 @@ TEST(Identification, AllRightIsTwoBitsAndStaysFinite) {
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(found->labels, kLabels);
     EXPECT_NEAR(found->all.it_bits, 2, 1e-12);
+    EXPECT_NEAR(found->all.itCorrected_bits.value, 2, 1e-12);
+    EXPECT_LT(found->all.itCorrected_bits.low, 1.75);
     EXPECT_NEAR(found->texture->figures.it_bits, 1, 1e-12);
     EXPECT_NEAR(found->texture->dPrime, 2 * 2.2508, 1e-3);  // z(40.5/41) to each side
     EXPECT_NEAR(found->texture->criterion, 0, 1e-12);
@@ -153,7 +164,6 @@ TEST(Identification, WhatIsMetIsWhatWasOffered) {
     EXPECT_EQ(found->columns, (std::vector<std::string>{"a", "b", "none"}));
     EXPECT_EQ(found->confusion, (std::vector<std::vector<std::size_t>>{{0, 1, 1}, {0, 1, 0}}));
     EXPECT_EQ(found->all.chance, 0.5);
-    EXPECT_NEAR(found->all.itBias_bits, 2 / (2 * 3 * std::log(2.0)), 1e-12);
     const auto wider = identifyAsMet(std::vector{trialOf(1, "a", "b"), trialOf(2, "b", "b"), trialOf(3, "a", "c")});
     EXPECT_EQ(wider->labels.size(), 2U);
     EXPECT_NEAR(wider->all.chance, 1.0 / 3, 1e-15);  // c could be guessed too

@@ -24,7 +24,8 @@ nlohmann::json someResults() {
             {"headline", kHeadline},
             {"p_chance", 1e-12},
             {"it_corrected_bits", 1.1},
-            {"it_bias_bits", 0.135},
+            {"it_corrected_low_bits", 0.8},
+            {"it_corrected_high_bits", 1.4},
             {"catch", {{"n", 10}, {"false_alarms", 0}}},
             {"blocks", {{{"block", 1}, {"n", 16}, {"hits", 13}}, {{"block", 2}, {"n", 16}, {"hits", 14}}}},
             {"range", {{"min_ma", 4.0}, {"max_ma", 6.5}, {"min_v", 13.6}, {"max_v", 22.1}, {"impedance_ohm", 3400}}}};
