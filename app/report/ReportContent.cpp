@@ -188,8 +188,9 @@ void addComputed(const ReportModel& model, Captions& captions, std::vector<Repor
     if (!anyJudged) return;  // a session without a stimulator
     blocks.emplace_back(captions.heading("Computed from approved trains"));
     blocks.emplace_back(ParagraphBlock{
-        "What the safety check computed for the trains that it approved, worst case over the permitted loads. None of "
-        "it was measured; captured values are among the results.",
+        "What the safety check computed for the trains that it approved, worst case over the permitted loads. Over 1 s "
+        "and 5 s these are upper bounds: a train counts whole in every window that it may touch. None of it was "
+        "measured; captured values are among the results.",
         true});
     const Figure figure{ExposureFigure{model.exposure}, {}};
     blocks.emplace_back(FigureBlock{

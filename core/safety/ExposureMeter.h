@@ -1,7 +1,8 @@
 // ExposureMeter.h - the exposure of the last seconds: every approved train, summed over sliding windows.
 //
 // A train is booked when it is approved. It may be delivered at any moment until its approval expires, so it
-// counts from the one moment to the other, whole, in every window that it could touch: sums are never too small.
+// counts from the one moment to the other, whole, in every window that it could touch: sums are upper bounds, never too
+// small.
 // A fixed ring; when it is full, canBook() is false and the gate refuses.
 //
 // Thread-safety: none; one caller (the gate's).

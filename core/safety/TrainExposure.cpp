@@ -22,6 +22,30 @@ using exposure::worstRun;
 /// How many whole periods any window touches at most; a billionth keeps 5 s / 0.5 s at 10.
 double periodsIn(double window_s, double period_s) noexcept { return std::ceil(window_s / period_s - 1e-9); }
 
+/// How much of a pulse's power into a resistor a stretch of time holds at most: the larger phase first, then the other
+/// as if there were no gap.
+double shareOfPulse(const PulseSegments& pulse, double seconds) noexcept {
+    const DriveSegment *more = &pulse.items[0], *less = &pulse.items[pulse.count - 1];
+    if (std::abs(less->start) > std::abs(more->start)) std::swap(more, less);
+    const double first = more->start * more->start, second = pulse.count > 1 ? less->start * less->start : 0;
+    const double all = first * more->duration_s + second * less->duration_s;
+    if (!(all > 0)) return 1;
+    const double after = std::clamp(seconds - more->duration_s, 0.0, less->duration_s);
+    return (first * std::min(seconds, more->duration_s) + second * after) / all;
+}
+
+/// How many pulses' worth any stretch of a train holds at most: `power` of what is a sum of squares, and of what is
+/// left over `charge`. A pulse that it cuts counts whole, but into a resistor by what may lie within.
+struct PulsesIn {
+    double power = 0, charge = 0;
+    PulsesIn(const PulseSegments& pulse, double seconds, double period, bool resistor) noexcept
+        : power(periodsIn(seconds, period)), charge(power) {
+        if (!resistor) return;
+        const double periods = std::floor(seconds / period);
+        power = periods + shareOfPulse(pulse, std::max(0.0, seconds - periods * period));
+    }
+};
+
 /// What any `intervals` intervals hold.
 TrainSums trainsOf(const Run& run, double intervals) noexcept {
     return {intervals * run.whole.currentSquared_A2s + run.cutTrain.squares,
@@ -29,15 +53,15 @@ TrainSums trainsOf(const Run& run, double intervals) noexcept {
             intervals * run.whole.dissipated_J + run.cutTrain.dissipated, run.whole.stored_J};
 }
 
-/// What any `periods` periods within a train hold.
-TrainSums pulsesOf(const Run& run, double periods) noexcept {
-    return {periods * run.pulse.squares + run.cut.squares, periods * run.pulse.volts + run.cut.volts,
-            periods * run.netCharge, periods * run.pulse.dissipated + run.cut.dissipated, run.whole.stored_J};
+/// What so many pulses within a train hold.
+TrainSums pulsesOf(const Run& run, const PulsesIn& count) noexcept {
+    return {count.power * run.pulse.squares + run.cut.squares, count.power * run.pulse.volts + run.cut.volts,
+            count.charge * run.netCharge, count.power * run.pulse.dissipated + run.cut.dissipated, run.whole.stored_J};
 }
 
 /// The same of trains that may find the load differently.
-TrainSums pulsesOfTrains(const Run& run, double periods) noexcept {
-    TrainSums sums = pulsesOf(run, periods);
+TrainSums pulsesOfTrains(const Run& run, const PulsesIn& count) noexcept {
+    TrainSums sums = pulsesOf(run, count);
     sums += {run.cutTrain.squares, run.cutTrain.volts, 0, run.cutTrain.dissipated, 0};
     return sums;
 }
@@ -151,15 +175,28 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
     Run run = worstRun(plan, carried.voltage_V);
 
     const double compliance = source.compliance.value();
-    if (current && compliance > 0 && run.peakVoltage > compliance) run = clipped(plan, run, compliance, train, carried);
+    const bool clips = current && compliance > 0 && run.peakVoltage > compliance;
+    if (clips) run = clipped(plan, run, compliance, train, carried);
 
+    const auto pulsesIn = [&, resistor = !plan.circuit.hasCapacitor() && !clips](double seconds) {
+        return PulsesIn(plan.pulse, seconds, period, resistor);
+    };
+    // So many intervals as fit hold a train each, wherever they begin; what is left of a window holds no more than a
+    // train, and no more than the pulses of so long a stretch: those of two trains are farther apart than of one.
+    const auto inWindow = [&](double window_s) {
+        const double trains = std::floor(window_s / T);
+        TrainSums sums =
+            smallerSums(trainsOf(run, 1), pulsesOfTrains(run, pulsesIn(std::max(0.0, window_s - trains * T))));
+        if (trains > 0) sums += trainsOf(run, trains);
+        return smallerSums(sums,
+                           smallerSums(trainsOf(run, periodsIn(window_s, T)), pulsesOfTrains(run, pulsesIn(window_s))));
+    };
     TrainExposure exposure;
     // A train longer than a window cannot put all of itself into it.
-    exposure.in1s = smallerSums(run.whole, pulsesOf(run, periodsIn(1, period)));
-    exposure.in5s = smallerSums(run.whole, pulsesOf(run, periodsIn(5, period)));
+    exposure.in1s = smallerSums(run.whole, pulsesOf(run, pulsesIn(1)));
+    exposure.in5s = smallerSums(run.whole, pulsesOf(run, pulsesIn(5)));
     exposure.residual_V = std::abs(run.endOfTrain);
-    const TrainSums second = smallerSums(trainsOf(run, periodsIn(1, T)), pulsesOfTrains(run, periodsIn(1, period)));
-    const TrainSums five = smallerSums(trainsOf(run, periodsIn(5, T)), pulsesOfTrains(run, periodsIn(5, period)));
+    const TrainSums second = inWindow(1), five = inWindow(5);
 
     const auto set = [&exposure](Quantity q, double value) { exposure.values[indexOf(q)] = value; };
     set(Quantity::CommandVoltage, commandVoltage(train, load, source));

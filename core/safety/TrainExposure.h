@@ -51,7 +51,9 @@ struct Carried {
     double voltage_V = 0;
 };
 
-/// One train per `interval` into `load`. `train` must be valid (validate()) and interval ≥ its duration; otherwise
+/// One train per `interval` into `load`, windows at their worst position: exact into a resistor, but that a pulse which
+/// the window's edge parts counts as if its phases followed each other; into a load with a capacitor an upper bound, in
+/// which such a pulse counts whole. `train` must be valid (validate()) and interval ≥ its duration; otherwise
 /// the figures are NaN, which no limit lets pass. `area` in cm², NaN when unknown. CommandVoltage is taken at this
 /// load.
 [[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,

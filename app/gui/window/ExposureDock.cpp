@@ -48,8 +48,8 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
       enterArea_(new QPushButton(tr("Enter the area…"))) {
     auto* body = new QWidget;
     body->setToolTip(
-        tr("Worst case over the permitted load range, exposure of the last 5 s included. Hatched: not "
-           "evaluated, and never a pass."));
+        tr("Worst case over the permitted load range, exposure of the last 5 s included: upper bounds, for a train "
+           "counts whole in every window that it may touch. Hatched: not evaluated, and never a pass."));
     column_ = new QVBoxLayout(body);
     column_->setContentsMargins(0, 0, scaledPx(12), 0);
     column_->setSpacing(kBetweenBars);

@@ -61,7 +61,8 @@ struct LoadReading {
     Reading imbalance;      ///< net_charge_uc / charge_uc, 0..
     Reading energy_mj;      ///< ∫v·i dt of a pulse
     Reading rms_train_ma;   ///< over n / the measured rate; of a single pulse over 1 / the programmed rate
-    /// Over longer windows the trains seen are repeated at the measured interval.
+    /// Over longer windows the trains seen are repeated at the measured interval: upper bounds, for one that the window
+    /// touches counts whole.
     Reading rms_1s_ma;         ///< worst second
     Reading rms_5s_ma;         ///< worst 5 s
     Reading rms_5s_v;          ///< worst 5 s, V

@@ -293,7 +293,8 @@ void addLimits(std::vector<SafetyRow>& rows, const LoadRecord& record, const Loa
             row.source = limit.source;
             row.verdict = judgeUpper(row.value, row.expanded, limit.max, limit.strict);
             if (isOverAWindow(limit.quantity) && most.measured())
-                row.note = fmt::format("from {} captured trains, repeated", strongestOf(record).trains);
+                row.note = fmt::format("from {} captured trains, repeated{}", strongestOf(record).trains,
+                                       input.train.pulses > 1 ? "; a train that a window touches counts whole" : "");
             const bool breaks = row.verdict == RowVerdict::Fail || row.verdict == RowVerdict::Indeterminate;
             if (breaks && limit.action != LimitAction::Refuse) row.verdict = RowVerdict::Attention;
             explain(row, needsArea(limit.quantity) && !input.area_cm2 ? "the electrode's area is not known"
