@@ -7,6 +7,7 @@
 #include "app/cli/ProfileOption.h"
 #include "app/cli/TextTable.h"
 #include "core/acquisition/Recording.h"
+#include "core/acquisition/RecordingDraft.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
 #include "core/dsp/RoughnessAnalysis.h"
@@ -48,6 +49,19 @@ double expandedR(const RoughnessSettings& settings, const RoughnessSummary& summ
     return calibrated && settings.uncertainty ? settings.uncertainty->expanded(summary.slideR) : std::nan("");
 }
 
+/// A recording.json that fits the table, alone on stdout; beside it what is left to fill in.
+int describeTable(const std::filesystem::path& table) {
+    const auto draft = draftRecording(table);
+    if (!draft) return couldNotRun(draft.error());
+    say("{}", lines(draft->json));
+    say(stderr, "{} has no recording.json that names it; this one fits it.\n", table.string());
+    for (const auto& taken : draft->taken) say(stderr, "  {}\n", taken);
+    for (const auto& open : draft->open) say(stderr, "  to fill in: {}\n", open);
+    say(stderr, "  {}saved as recording.json in its folder, it opens with \"tactoscope-cli roughness {}\"\n",
+        draft->open.empty() ? "" : "filled in and ", table.string());
+    return kDone;
+}
+
 int runRoughness(const QCommandLineParser& parser) {
     if (parser.isSet("template")) {
         say("{}", lines(recordingTemplate()));
@@ -55,6 +69,10 @@ int runRoughness(const QCommandLineParser& parser) {
     }
     const auto path = onlyArgument(parser, "RECORDING");
     if (!path) return usage(fmt::format("roughness: {}", path.error().message));
+    std::error_code absent;
+    if (std::filesystem::is_regular_file(*path, absent) && std::filesystem::path(*path).extension() != ".json" &&
+        descriptionBeside(*path).empty())
+        return describeTable(*path);
     const auto profile = profileOption(parser);
     if (!profile) return couldNotRun(profile.error());
     const auto recording = Recording::open(*path);
@@ -114,7 +132,8 @@ int runRoughness(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kRoughness{"roughness", "{RECORDING [--profile F] [--out frames.csv] [--json] | --template}",
-                         "Roughness R and pressure P of a fingertip recording", declareRoughness, runRoughness};
+const Command kRoughness{"roughness", "{RECORDING [--profile F] [--out frames.csv] [--json] | TABLE | --template}",
+                         "Roughness R and pressure P of a fingertip recording; a recording.json for a table",
+                         declareRoughness, runRoughness};
 
 }  // namespace tacto::cli

@@ -1,7 +1,7 @@
 #include "core/acquisition/Recording.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 #include <system_error>
 
@@ -28,6 +28,7 @@ struct DescribedStream {
     std::optional<double> rate_hz;
     std::size_t skipRows = 0;
     std::optional<char> decimal;
+    double factor = 1;
     std::vector<ColumnChoice> columns;
     std::string unit;
 };
@@ -58,6 +59,7 @@ RecordFields<DescribedStream> streamFields() {
     all.number("rate_hz", &S::rate_hz, {.low = 0, .high = 1e6, .openLow = true, .unit = "Hz"});
     all.number("skip_rows", &S::skipRows);
     all.word("decimal", &S::decimal, kDecimals);
+    all.number("factor", &S::factor);
     all.list("columns", &S::columns, columnKind(), 1, 1024).required = true;
     all.text("unit", &S::unit).required = true;
     all.passOverUnknownKeys();
@@ -86,6 +88,32 @@ RecordFields<DescribedRecording> buildRecordingFields() {
     all.list("streams", &R::described, streamFields().kind(), 1, kMaxEntries).required = true;
     all.passOverUnknownKeys();  // a recording may carry more keys; none of them can loosen a limit
     return all;
+}
+
+/// No count is too large for a fingertip by itself. One that stands alone, a thousand times as far from the median as
+/// 98 % of its channel reach, is none: it becomes infinite, which no reading is.
+void markFarCounts(SampleBlock& samples, std::size_t channels) {
+    constexpr std::size_t kFewest = 100;  // of which 98 % say something
+    constexpr std::size_t kAlone = 3;     // in a row
+    constexpr double kFar = 1000;
+    for (std::size_t c = 0; c < channels && samples.samples() >= kFewest; ++c) {
+        const auto at = [&](std::size_t i) -> double& { return samples.values[i * channels + c]; };
+        std::vector<double> sorted;
+        for (std::size_t i = 0; i < samples.samples(); ++i) {
+            if (std::isfinite(at(i))) sorted.push_back(at(i));
+        }
+        if (sorted.size() < kFewest) continue;
+        std::ranges::sort(sorted);
+        const double median = sorted[sorted.size() / 2];
+        const double reach =
+            std::max(sorted[sorted.size() - 1 - sorted.size() / 100] - sorted[sorted.size() / 100], 1.0);
+        const auto isFar = [&](std::size_t i) { return std::abs(at(i) - median) > kFar * reach; };
+        for (std::size_t i = 0; i < samples.samples(); ++i) {
+            const auto from = i;
+            while (i < samples.samples() && isFar(i)) ++i;
+            for (auto j = from; j < i && i - from <= kAlone; ++j) at(j) = std::numeric_limits<double>::infinity();
+        }
+    }
 }
 
 /// Reads the streams that one JSON file describes; every message begins with its name.
@@ -203,6 +231,8 @@ private:
         const auto perSecond = perSecondOf(described, index);
         if (!perSecond) return failure(perSecond);
         if (auto fits = checkColumns(described, index); !fits) return failure(fits);
+        if (described.factor == 0)
+            return refuse("streams[{}]: \"factor\" is 0; a number that turns no value into 0 was expected", index);
         const auto path = fileOf(described.file, index);
         if (!path) return failure(path);
         const auto content = readTextFile(*path);
@@ -220,10 +250,12 @@ private:
         RecordedStream stream{
             {described.kind, unit->unit, described.columns.size(), 0, path->filename().string()}, {}, {}, *path};
         stream.samples = std::move(*samples);
+        for (auto& value : stream.samples.values) value *= described.factor;
         return examined(std::move(stream));
     }
 
     Result<RecordedStream> examined(RecordedStream stream) const {
+        if (stream.info.unit == StreamUnit::Count) markFarCounts(stream.samples, stream.info.channels);
         const bool coarse = stampsAreCoarse(stream.samples.t_s);
         if (coarse) spreadCoarseStamps(stream.samples.t_s);
         const double rough = roughRate_hz(stream.samples.t_s);
@@ -253,8 +285,16 @@ Result<Recording> Recording::open(const std::filesystem::path& path) {
         if (!fs::exists(file, error)) {
             return fail(ErrorCode::NotFound,
                         "{} has no recording.json, which says what its files hold; \"tactoscope-cli roughness "
-                        "--template\" prints one to fill in",
+                        "--template\" prints one to fill in, and \"tactoscope-cli roughness FILE.csv\" one that fits "
+                        "that file",
                         path.string());
+        }
+    } else if (fs::is_regular_file(path, error) && path.extension() != ".json") {
+        file = descriptionBeside(path);
+        if (file.empty()) {
+            return fail(ErrorCode::NotFound,
+                        "{} has no recording.json beside it that names it; \"tactoscope-cli roughness {}\" prints one",
+                        path.string(), path.string());
         }
     }
     const auto content = readTextFile(file);
@@ -290,6 +330,20 @@ std::vector<SampleBlock> Recording::blocks() const {
     std::vector<SampleBlock> out;
     for (const auto& stream : streams) out.push_back(stream.samples);
     return out;
+}
+
+std::filesystem::path descriptionBeside(const std::filesystem::path& table) {
+    for (auto beside : {fs::path(table).replace_extension(".json"), table.parent_path() / "recording.json"}) {
+        const auto content = readTextFile(beside);
+        const auto root = content ? parseJson(*content, beside.string()) : Result<Json>(Json());
+        if (!root || !root->is_object()) continue;
+        const auto streams = root->find("streams");
+        if (streams == root->end() || !streams->is_array()) continue;
+        for (const auto& stream : *streams) {
+            if (stream.is_object() && stream.value("file", Json()) == table.filename().string()) return beside;
+        }
+    }
+    return {};
 }
 
 std::string recordingTemplate() {

@@ -2,7 +2,7 @@
 //
 // Units are converted on reading (g to m/s2, kPa to Pa); time stamps become seconds and keep their zero.
 // Whatever is wrong is refused with one sentence that names file, line and what was expected; what is merely
-// irregular (gaps, repeats, clock steps, cells that say nan) is read and reported in each stream's health.
+// irregular (gaps, repeats, clock steps, cells that are empty or say nan) is read and reported in each stream's health.
 //
 // Keys that are not known are taken as notes and passed over.
 //
@@ -21,8 +21,10 @@
 namespace tacto {
 
 struct RecordedStream {
-    StreamInfo info;      ///< rate_hz is measured; name is the file's
-    SampleBlock samples;  ///< as recorded: stamps may step back, values may be NaN
+    StreamInfo info;  ///< rate_hz is measured; name is the file's
+    /// As recorded: stamps may step back, values may be NaN. Counts that stand alone, far from all others, are
+    /// infinite.
+    SampleBlock samples;
     HealthReport health;
     std::filesystem::path file;
 };
@@ -37,8 +39,8 @@ struct Recording {
     DeclaredIntervals declared;
     std::vector<RecordedStream> streams;  ///< at most one of each kind
 
-    /// `path` is a folder with recording.json, or such a JSON file.
-    /// Errors: NotFound (a folder without recording.json: the message holds a template to fill in); ParseError;
+    /// `path` is a folder with recording.json, such a JSON file, or a table that one beside it names.
+    /// Errors: NotFound (no recording.json: the message says how to get one to fill in); ParseError;
     /// InvalidArgument (an unknown kind or unit, a `file` that is absolute or climbs out); Io.
     [[nodiscard]] static Result<Recording> open(const std::filesystem::path& path);
 
@@ -50,6 +52,10 @@ struct Recording {
     [[nodiscard]] std::vector<StreamInfo> infos() const;
     [[nodiscard]] std::vector<SampleBlock> blocks() const;
 };
+
+/// The description beside `table` that names it as a stream's file: FILE.json for FILE.csv, or recording.json. Empty:
+/// there is none that can be read.
+[[nodiscard]] std::filesystem::path descriptionBeside(const std::filesystem::path& table);
 
 /// A recording.json to fill in, for a folder that has none.
 [[nodiscard]] std::string recordingTemplate();

@@ -30,7 +30,7 @@ constexpr std::array<FlagWords, kRoughnessFlags> kFlags{
      {"no frame in contact",
       "No frame is in contact: what the force or the recording gives as contact lies where there is no frame, or where "
       "the force is stale."},
-     {"force below contact", "The force never reaches 0.1, where contact begins"},
+     {"force below contact", "The force never reaches 0.1"},
      {"force at other times", "No force belongs to the frames, whose times it does not overlap"},
      {"taxels at other times", "No taxel sample belongs to the frames, whose times the taxels do not overlap"},
      {"force stale", "The force was stale"},
@@ -58,9 +58,10 @@ std::string belowContactSentence(std::string_view range) {
     const auto high = takeNumber(range);
     if (!high) return {};
     const bool reversed = *high <= 0 || *low <= -0.1;
-    return fmt::format(
-        "{}{}: it lies between {} and {}{}; {}", kFlags[kBelowContact].sentence, range, *low, *high, range,
-        reversed ? "is the sign of the normal force reversed?" : "nothing was touched, or its unit is another one.");
+    return fmt::format("{}{}, where contact begins: it lies between {} and {}{}; {}", kFlags[kBelowContact].sentence,
+                       range, *low, *high, range,
+                       reversed ? "is the sign of the normal force reversed? (\"factor\": -1 turns it in a recording.)"
+                                : "nothing was touched, or its unit is another one.");
 }
 
 }  // namespace

@@ -298,6 +298,9 @@ TEST(RecordingForms, ARateStandsInPlaceOfTimesAndNotBesideThem) {
     ASSERT_TRUE(recording) << recording.error().message;
     EXPECT_THAT(recording->streams.at(0).samples.t_s, testing::ElementsAre(0, 0.005, 0.01, 0.015));
     EXPECT_NEAR(recording->streams.at(0).info.rate_hz, 200, 1e-9);
+    const auto turned = opened("1\n-2\n3\n", forceStream({{"rate_hz", 200}, {"factor", -0.5}, {"unit", "mN"}}));
+    ASSERT_TRUE(turned) << turned.error().message;
+    EXPECT_THAT(turned->streams.at(0).samples.values, testing::ElementsAre(-0.0005, 0.001, -0.0015));
     const auto why = [](const std::string& text, const Json& stream) {
         const auto read = opened(text, stream);
         EXPECT_FALSE(read) << stream.dump();
@@ -307,6 +310,7 @@ TEST(RecordingForms, ARateStandsInPlaceOfTimesAndNotBesideThem) {
     EXPECT_THAT(why("1\n2\n", forceStream({{"rate_hz", 200}, {"time_column", 1}, {"time_unit", "s"}})),
                 HasSubstr("both \"time_column\" and \"rate_hz\""));
     EXPECT_THAT(why("1\n2\n", forceStream({{"rate_hz", 0}})), HasSubstr("\"rate_hz\" is 0"));
+    EXPECT_THAT(why("1\n2\n", forceStream({{"rate_hz", 200}, {"factor", 0}})), HasSubstr("\"factor\" is 0"));
     EXPECT_THAT(why("1\n2\n", forceStream({{"time_column", 1}})), HasSubstr("\"time_unit\" is missing"));
     EXPECT_THAT(why("1\n2\n", forceStream({{"rate_hz", 200}, {"columns", {0}}})), HasSubstr("its number from 1"));
     EXPECT_THAT(why("1\n2\n", forceStream({{"rate_hz", 200}, {"columns", {2}}})), HasSubstr("no column 2"));

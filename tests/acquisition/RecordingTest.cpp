@@ -90,6 +90,21 @@ TEST(Recording, TakesOnlyTheColumnsItWasToldOf) {
                 testing::ElementsAre(2 * 9.80665, 9.80665, 4 * 9.80665, 3 * 9.80665));
 }
 
+TEST(Recording, ACountThatStandsAloneFarFromAllOthersIsNoReadingAndAContactIs) {
+    const ScratchDir folder;
+    std::string csv = "time,X,Y\n";
+    for (int i = 0; i < 1000; ++i) {
+        const bool spike = i == 317 || i == 318, contact = i >= 600 && i < 640;
+        csv += fmt::format("{:.3f},{},{}\n", i * 0.001, spike ? 505831 : i % 7, contact ? 60000 : 2000 + i % 5);
+    }
+    const auto recording = opened(folder, csv, R"({"kind": "acceleration", "file": "a.csv", "time_column": "time",
+                                                   "time_unit": "s", "columns": ["X", "Y"], "unit": "count"})");
+    const auto& stream = recording.streams.at(0);
+    EXPECT_EQ(stream.health.invalidSamples, 2U);
+    EXPECT_TRUE(std::isinf(stream.samples.values[2 * 317]));
+    EXPECT_EQ(stream.samples.values[2 * 600 + 1], 60000);
+}
+
 TEST(Recording, ReportsTimeThatGoesBackwards) {
     RecordProperty("hazard", "H7");
     const ScratchDir folder;

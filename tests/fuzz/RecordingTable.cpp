@@ -1,4 +1,4 @@
-// Any text as a recording's CSV: read or refused with a message, never a crash.
+// Any text as a recording's table: read or refused with a message, never a crash; and described by JSON, or refused.
 #include "core/acquisition/RecordingTable.h"
 
 #include <cstddef>
@@ -6,7 +6,10 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/acquisition/RecordingDraft.h"
+#include "core/base/JsonText.h"
 #include "tests/fuzz/FuzzTarget.h"
+#include "tests/fuzz/InputFile.h"
 
 namespace tacto::fuzz::RecordingTable {
 
@@ -21,6 +24,9 @@ TACTO_FUZZ(RecordingTable, const std::uint8_t* data, std::size_t size) {
         if (!table && table.error().message.find("fuzz.csv:") != 0) std::abort();
         if (table && table->values.size() != 2 * table->samples()) std::abort();
     }
+    const auto draft = tacto::draftRecording(inputFile("fuzz.csv", {data, size}));
+    if (draft ? draft->json.empty() : draft.error().message.empty()) std::abort();
+    if (draft && !tacto::parseJson(draft->json, "draft")) std::abort();
     return 0;
 }
 
