@@ -133,10 +133,48 @@ TEST(Roughness, AnAccelerometerAt100HertzHasNoFeatureSoNoR) {
     }
 }
 
-TEST(Roughness, TheShippedExampleIsAnalysed) {
-    const auto [summary, frames] = roughness((sourceDir() / "resources/examples/linen-slide").string());
+TEST(Roughness, TheShippedExamplesAreAnalysed) {
+    const auto [linen, ofLinen] = roughness((sourceDir() / "resources/examples/linen-slide").string());
+    expectSummaryOf(ofLinen, linen);
+    EXPECT_GT(linen["R"]["n"].get<int>(), 0);
+    const auto touches = (sourceDir() / "resources/examples/four-touches").string();
+    const auto [summary, frames] = roughness(touches);
     expectSummaryOf(frames, summary);
-    EXPECT_GT(summary["R"]["n"].get<int>(), 0);
+    EXPECT_EQ(summary["simulated"], true);
+    EXPECT_EQ(summary["flags"], Json::array({"uncalibrated R"}));
+    for (const auto& name : kStatistics) {
+        const auto& one = summary[name];
+        EXPECT_GT(one["n"].get<int>(), 100) << name;
+        EXPECT_GT(one["max"].get<double>() - one["min"].get<double>(), 0.5 * one["max"].get<double>()) << name;
+    }
+    EXPECT_THAT(Desk().run({"roughness", touches}).out, testing::StartsWith("SIMULATED: "));
+}
+
+TEST(Roughness, OfATableAloneADescriptionIsPrintedThatOpensOnceItIsSaved) {
+    const Desk desk;
+    std::string csv = "Sensor 3\ntime;Fz\n(ms);(mN)\n";
+    for (int i = 0; i < 400; ++i) csv += fmt::format("{},0;{},5\n", 5 * i, i < 200 ? 0 : 1000);
+    const auto table = desk.write("rec/press.csv", csv);
+    const auto described = desk.run({"roughness", table});
+    EXPECT_EQ(described.code, 0) << described.err;
+    EXPECT_THAT(described.err, testing::HasSubstr("saved as recording.json"));
+    EXPECT_THAT(described.err, testing::Not(testing::HasSubstr("to fill in")));
+    EXPECT_TRUE(Json::accept(described.out)) << described.out;
+    desk.write("rec/recording.json", described.out);
+    for (const auto& path : {table, desk.at("rec")}) {
+        const auto summary = roughness(path).summary;
+        EXPECT_NEAR(summary["pressure_pa"]["mean"].get<double>(), 10'005, 1e-6);
+    }
+    // What a table does not say is asked for.
+    const auto bare = desk.write("bare.csv", "0.5\n0.25\n0.125\n");
+    const auto asked = desk.run({"roughness", bare});
+    EXPECT_EQ(asked.code, 0);
+    for (const auto* key : {"kind", "rate_hz", "unit"})
+        EXPECT_THAT(asked.err, testing::HasSubstr(fmt::format("to fill in: streams[0]: \"{}\"", key)));
+    desk.write("recording.json", asked.out);
+    expectRefused(desk.run({"roughness", desk.path().string()}), 3, {"streams[0]", "\"kind\""});
+    expectRefused(desk.run({"roughness", desk.write("words.txt", "Dear all,\n")}), 3,
+                  {"words.txt", "no row of numbers"});
 }
 
 /// A second of rest, then contact at 1 N, in a recording of one force stream.
@@ -178,6 +216,21 @@ TEST_F(ForceRecording, PressureIsForceOverTheContactAreaAndTheRestIsAbsent) {
     EXPECT_EQ(rows[1][1], "0");
     EXPECT_EQ(rows.back()[1], "1");
     EXPECT_EQ(rows.back()[5], "");
+}
+
+TEST_F(ForceRecording, ZeroInContactSaysWhyInTextAndJsonAndInALiveRun) {
+    RecordProperty("hazard", "H7");
+    std::string text = "time,F\n";
+    for (int i = 0; i < 400; ++i) text += fmt::format("{:.3f},{}\n", i * 0.005, -1.0 - 0.1 * (i % 3));
+    const auto path = recording(text);
+    const auto summary = roughness(path).summary;
+    EXPECT_EQ(summary["contact_frames"], 0);
+    EXPECT_THAT(summary["flags"].dump(), testing::HasSubstr("force below contact: -1.2 to -1 N"));
+    const std::string sentence = "between -1.2 and -1 N; is the sign of the normal force reversed?";
+    EXPECT_THAT(desk.run({"roughness", path}).out, testing::HasSubstr(sentence));
+    EXPECT_THAT(
+        desk.run({"run", "live", "--device", "recording:" + path, "--device", "sim:", "--out", desk.at("out")}).out,
+        testing::HasSubstr(sentence));
 }
 
 TEST_F(ForceRecording, ColumnNamesAreTrimmed) {

@@ -298,6 +298,33 @@ TEST(RunLive, TheShippedExampleRuns) {
     EXPECT_GT(jsonOf(ran)["results"]["trains_delivered"].get<int>(), 2);
 }
 
+TEST(RunLive, TheFirstExampleMovesAmplitudeAndInterval) {
+    const Desk desk;
+    const auto script = desk.protocol("extremes.js", R"js(
+protocol({ title: "Extremes", purpose: "How far an example drives the trains.", needs: ["sensor", "stimulator"] });
+function run(p) {
+  bench.drive("sensor");
+  bench.arm({ load: 1000 });
+  const states = bench.watch(30).filter((s) => s.contact);
+  bench.disarm();
+  const volts = states.map((s) => s.amplitude_v).filter(Number.isFinite);
+  const seconds = states.map((s) => s.interval_s).filter(Number.isFinite);
+  return verdict({ verdict: null, least_v: Math.min(...volts), most_v: Math.max(...volts),
+                   least_s: Math.min(...seconds), most_s: Math.max(...seconds),
+                   delivered: bench.live().trains_delivered });
+})js");
+    const auto touches = (sourceDir() / "resources/examples/four-touches").string();
+    const auto ran = desk.run(
+        {"run", script, "--device", "recording:" + touches, "--device", "sim:", "--out", desk.at("out"), "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto results = jsonOf(ran)["results"];
+    EXPECT_LT(results["least_v"].get<double>(), 17) << results.dump();
+    EXPECT_GT(results["most_v"].get<double>(), 20) << results.dump() << ": 1.2 times from train to train";
+    EXPECT_LT(results["least_s"].get<double>(), 0.8) << results.dump();
+    EXPECT_GT(results["most_s"].get<double>(), 1.5) << results.dump();
+    EXPECT_GT(results["delivered"].get<int>(), 3) << results.dump();
+}
+
 TEST(RunLive, TheVirtualClockIsFasterThanTheRealOneAndRealtimeIsNot) {
     const Desk desk;
     const auto seconds = [&](const Words& more) {

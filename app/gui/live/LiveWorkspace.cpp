@@ -112,7 +112,7 @@ QWidget* LiveWorkspace::buildEmpty() {
     recording->setAutoDefault(false);
     column->addWidget(recording, 0, Qt::AlignCenter);
     auto* example = new QPushButton(tr("Replay the &example"), empty);
-    example->setToolTip(tr("A real fingertip sliding over linen at 20 mm/s, from a public data set."));
+    example->setToolTip(tr("A simulated fingertip on smooth and on rough, each lightly and firmly."));
     connect(example, &QPushButton::clicked, this, &LiveWorkspace::replayExample);
     column->addWidget(example, 0, Qt::AlignCenter);
     column->addStretch();
@@ -407,7 +407,7 @@ void LiveWorkspace::replayExample() {
         emit refusedRecording(QString::fromStdString(folder.error().message));
         return;
     }
-    openRecording(QString::fromStdString((*folder / "examples" / "linen-slide").string()));
+    openRecording(QString::fromStdString((*folder / "examples" / "four-touches").string()));
 }
 
 void LiveWorkspace::replayAgain() {

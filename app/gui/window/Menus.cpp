@@ -37,7 +37,7 @@ void Menus::addFiles() {
     file->addAction(tr("Open &recording folder…"), &window_, &MainWindow::chooseRecording);
     file->addAction(tr("Open the &example recording"), &window_, [this] {
         if (const auto resources = resourcesFolder())
-            window_.openFile(QString::fromStdString((*resources / "examples" / "linen-slide").string()));
+            window_.openFile(QString::fromStdString((*resources / "examples" / "four-touches").string()));
     });
     recent_ = file->addMenu(tr("Re&cent"));
     connect(recent_, &QMenu::aboutToShow, this, &Menus::fillRecent);

@@ -236,10 +236,20 @@ TEST_F(LiveBench, ThePlaneFollowsTheSurface) {
     EXPECT_IN_TIME(comesTrue([&] { return !plane->point(); })) << "nothing is felt, nothing is shown";
 }
 
-TEST_F(LiveBench, TheExampleReplaysAtFiveTimesAndEnds) {
+TEST_F(LiveBench, TheExampleHasEveryStreamAndMovesRoughnessAndPressure) {
     auto* example = find<QPushButton>(live, "Replay the example");
     ASSERT_NE(example, nullptr);
     click(*example);
+    ASSERT_IN_TIME(opens());
+    for (const auto kind : {StreamKind::Acceleration, StreamKind::Force, StreamKind::Taxels})
+        EXPECT_TRUE(live.plots().has(kind)) << nameOf(kind);
+    ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().roughness > 0.75; }, 60'000));
+    ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().pressure > 0.5; }, 60'000));
+}
+
+TEST_F(LiveBench, ARecordingReplaysAtFiveTimesAndEnds) {
+    const auto linen = sourceDir() / "resources" / "examples" / "linen-slide";
+    ASSERT_TRUE(live.openRecording(QString::fromStdString(linen.string())));
     ASSERT_IN_TIME(opens());
     EXPECT_FALSE(live.plots().has(StreamKind::Acceleration));
     EXPECT_TRUE(live.plots().has(StreamKind::Taxels));
