@@ -160,6 +160,19 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
             head.point = ',';
             row = withComma;
         }
+        // Whole numbers are the same with either; what follows them may not be.
+        constexpr std::size_t kLooked = 200;
+        std::size_t commas = 0;
+        std::size_t points = 0;
+        for (std::size_t i = row.value_or(lines.size()); i < std::min(lines.size(), row.value_or(0) + kLooked); ++i) {
+            for (const auto& field : lineAt(i).fields) {
+                const bool hasComma = fieldNumber(field, ',').has_value();
+                const bool hasPoint = fieldNumber(field, '.').has_value();
+                commas += hasComma && !hasPoint ? 1U : 0U;
+                points += hasPoint && !hasComma ? 1U : 0U;
+            }
+        }
+        if (commas > points) head.point = ',';
     }
     if (!row && head.separator != ',' && !lines.empty()) {
         const auto like = lineAt(lines.size() > 1 ? lines.size() - 2 : 0);

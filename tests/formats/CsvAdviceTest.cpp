@@ -50,6 +50,8 @@ TEST(CsvAdvice, NamesTheOptionWithItsValueForThisFile) {
         {"b,a\n5,0\n5,1\n7,2\n", "; --time-column 2 reads it, its numbers as seconds"},
         {"a,b\n7,1\n9,2\n2,1\n", rate},
         {"3\n1\n2\n", rate},
+        {"CH1,CH2\n1,2\n1,3\n2,4\n", rate},
+        {"x,y\n0,1\n0.1,3\n0.2,4\n", seconds},
         {"CH1,CH2,Start,Increment,\n1,2,\n3,4,\n2,2,\n", rate},
         {"time_s,force (lbf)\n0,1\n1,2\n", "; --unit 2=V reads it, its numbers as volts"},
         {"time_s,a,a\n0,1,2\n1,2,3\n", "; --columns 2,3 reads it"},

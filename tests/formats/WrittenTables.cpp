@@ -53,10 +53,14 @@ constexpr std::array<Spelling, 10> kSignals{{{"V", "V", 1},
 struct Hand {
     char separator;
     char point;
+    bool shortens = false;  ///< no zeros at the end, as spreadsheets write
 };
 Hand someHand(Random& random) {
-    constexpr std::array<Hand, 5> kHands{{{',', '.'}, {';', '.'}, {';', ','}, {'\t', '.'}, {'\t', ','}}};
-    return oneOf(kHands, random);
+    constexpr std::array<Hand, 5> kHands{
+        {{',', '.', false}, {';', '.', false}, {';', ',', false}, {'\t', '.', false}, {'\t', ',', false}}};
+    auto hand = oneOf(kHands, random);
+    hand.shortens = chance(random, 0.4);
+    return hand;
 }
 
 /// A number as it is written, and the number that this is.
@@ -65,6 +69,10 @@ public:
     Number(double value, int digits, Hand hand, bool scientific = false)
         : text_(scientific ? fmt::format("{:.{}e}", value, digits) : fmt::format("{:.{}f}", value, digits)),
           value_(std::strtod(text_.c_str(), nullptr)) {
+        if (hand.shortens && !scientific) {
+            while (text_.ends_with('0') && text_.find('.') != std::string::npos) text_.pop_back();
+            if (text_.ends_with('.')) text_.pop_back();
+        }
         if (hand.point == ',') text_ = replaceAll(text_, ".", ",");
     }
     [[nodiscard]] const std::string& text() const { return text_; }
@@ -226,7 +234,7 @@ WrittenTable plainTable(Random& random) {
 
 WrittenTable tektronixBesideKeys(Random& random) {
     WrittenTable table;
-    const Hand hand{',', '.'};
+    const Hand hand{',', '.', false};
     constexpr std::array<std::string_view, 5> kSources{"CH1", "CH2", "CH4", "MATH", "REFA"};
     constexpr std::array<Spelling, 4> kUnits{{{"V", "V", 1}, {"mV", "V", 1e-3}, {"A", "A", 1}, {"Volts", "V", 1}}};
     const auto& unit = oneOf(kUnits, random);
@@ -296,7 +304,7 @@ WrittenTable gwInstekWithoutMode(Random& random) {
 
 WrittenTable rigolWithoutIndex(Random& random) {
     WrittenTable table;
-    const Hand hand{',', '.'};
+    const Hand hand{',', '.', false};
     const auto rows = someRows(random);
     table.format = "csv-rigol";
     table.rate_hz = 100e3;
@@ -321,7 +329,7 @@ WrittenTable rigolWithoutIndex(Random& random) {
 
 WrittenTable dsViewOscilloscope(Random& random) {
     WrittenTable table;
-    const Hand hand{',', '.'};
+    const Hand hand{',', '.', false};
     const auto rows = someRows(random);
     struct Rate {
         std::string_view text;
@@ -399,7 +407,7 @@ WrittenTable picoScopeOfSomeLanguage(Random& random) {
 
 WrittenTable rohdeSchwarz(Random& random) {
     WrittenTable table;
-    const Hand hand{',', '.'};
+    const Hand hand{',', '.', false};
     const auto rows = someRows(random);
     table.format = "csv";
     table.rate_hz = 1e6;

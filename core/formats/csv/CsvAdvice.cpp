@@ -23,7 +23,7 @@ bool risesEvenly(const std::vector<double>& values) {
     const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
     if (!(step > 0)) return false;
     for (std::size_t i = 1; i < values.size(); ++i) {
-        if (!(std::abs(values[i] - values[i - 1] - step) <= 0.5 * step)) return false;
+        if (!(std::abs(values[i] - values[i - 1] - step) <= 0.3 * step)) return false;
     }
     return true;
 }
@@ -156,11 +156,12 @@ private:
         return 0;
     }
 
-    /// Numbers of rows, not times.
+    /// Numbers of rows or a channel, not times.
     [[nodiscard]] bool isIndex(std::size_t column, CsvDialect dialect) const {
         const auto named = [&](const CsvLine& line) {
-            return column <= line.fields.size() &&
-                   (isIndexColumn(columnNamed(line.fields[column - 1])) || folded(line.fields[column - 1]) == "x");
+            if (column > line.fields.size()) return false;
+            const auto& name = line.fields[column - 1];
+            return isIndexColumn(columnNamed(name)) || folded(name).starts_with("ch");
         };
         if (std::ranges::any_of(head_.header, named)) return true;
         const auto isNext = [&](const CsvLine& row, const CsvLine& next) {
