@@ -64,6 +64,15 @@ TEST(CsvChanges, EveryEdgeIsAtItsOwnTime) {
     }
 }
 
+TEST(CsvChanges, ChannelsThatAreLetteredAreNoCurrents) {
+    const auto read = parseCapture("Time [s],CH_A,CH_B\n1.0,0,0\n2.0,1,0\n3.0,0,0\n4.0,1,0\n6.0,0,0\n", "digital.csv");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->capture.channels[0].name, "CH_A");
+    const auto found = crossings(read->capture, 0);
+    ASSERT_EQ(found.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(found[i], i == 3 ? 6 : static_cast<double>(i + 2), 1e-9);
+}
+
 TEST(CsvChanges, AnEvenClockIsNoRecordOfSamples) {
     std::string text = "Time [s],Channel 0\n";
     for (int i = 0; i < 10'000; ++i) text += fmt::format("{:.9f},{}\n", i * 1e-3, i % 2);
