@@ -93,16 +93,16 @@ RecordFields<DescribedRecording> buildRecordingFields() {
 /// No count is too large for a fingertip by itself. One that stands alone, a thousand times as far from the median as
 /// 98 % of its channel reach, is none: it becomes infinite, which no reading is.
 void markFarCounts(SampleBlock& samples, std::size_t channels) {
-    constexpr std::size_t kFewest = 100;  // of which 98 % say something
-    constexpr std::size_t kAlone = 3;     // in a row
+    constexpr std::size_t kMinSamples = 100;  // of which 98 % say something
+    constexpr std::size_t kAlone = 3;         // in a row
     constexpr double kFar = 1000;
-    for (std::size_t c = 0; c < channels && samples.samples() >= kFewest; ++c) {
+    for (std::size_t c = 0; c < channels && samples.samples() >= kMinSamples; ++c) {
         const auto at = [&](std::size_t i) -> double& { return samples.values[i * channels + c]; };
         std::vector<double> sorted;
         for (std::size_t i = 0; i < samples.samples(); ++i) {
             if (std::isfinite(at(i))) sorted.push_back(at(i));
         }
-        if (sorted.size() < kFewest) continue;
+        if (sorted.size() < kMinSamples) continue;
         std::ranges::sort(sorted);
         const double median = sorted[sorted.size() / 2];
         const double reach =

@@ -166,10 +166,10 @@ private:
     }
 
     std::vector<double> readColumn(std::size_t index) const {
-        constexpr std::size_t kMostRows = 5000;
+        constexpr std::size_t kMaxRows = 5000;
         std::vector<double> values;
         CsvReader reader(text_, head_.firstRow->number - 1, head_.separator);
-        while (values.size() < kMostRows && reader.next()) {
+        while (values.size() < kMaxRows && reader.next()) {
             if (index >= reader.fields().size()) continue;
             if (const auto value = fieldNumber(reader.fields()[index], head_.point)) values.push_back(*value);
         }

@@ -348,7 +348,7 @@ private:
                       cell.empty() ? std::string("an empty cell") : "\"" + excerpt(cell) + "\"");
     }
 
-    /// Of the rows without a value, those stay that fill a gap in the others at their rate.
+    /// Rows without a value stay where they fill a gap in the others at their rate.
     void dropRowsOfOthers() {
         if (std::ranges::find(empty_, true) == empty_.end()) return;
         const std::size_t channels = layout_.columns.size();

@@ -86,7 +86,7 @@ private:
     void queueWindows() noexcept;
     void makeRoom(std::size_t count) noexcept;
     [[nodiscard]] std::size_t oldestNeeded() const noexcept;
-    /// False also for what is no number.
+    /// False also for NaN.
     [[nodiscard]] bool plausible(const double* sample) const noexcept;
 
     // Constant after construction

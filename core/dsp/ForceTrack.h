@@ -23,10 +23,10 @@ public:
     static constexpr double kSmallestDivisor_n = 0.1;
     static constexpr double kLongestBridge_s = 1.0;
 
-    /// A force beyond `most` either way is no reading.
+    /// A force beyond `most` either way is not a reading.
     explicit ForceTrack(double rate_hz, double most = std::numeric_limits<double>::max());
 
-    /// A sample that is no number, beyond `most` or does not move time forward is counted and not used.
+    /// A sample that is not a number, is beyond `most` or does not move time forward is counted and not used.
     void push(double t_s, double force_n) noexcept;
     void clear() noexcept;
 
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] std::size_t staleStretches(double end_s) const noexcept;
     [[nodiscard]] std::size_t invalidSamples() const noexcept { return invalid_; }
     [[nodiscard]] std::size_t samplesBeyond() const noexcept { return beyond_; }
-    /// Of what was used; infinite before the first.
+    /// The range of what was used; infinite before the first.
     [[nodiscard]] double least() const noexcept { return least_; }
     [[nodiscard]] double most() const noexcept { return most_; }
     [[nodiscard]] std::size_t outOfOrder() const noexcept { return outOfOrder_; }

@@ -1,5 +1,5 @@
 // Plausible.h - readings that no fingertip gives: beyond them a value is a fault of its record, however it came there,
-// and is left out as one that is no number is. Impacts stay: they are far below.
+// and is left out as NaN is. Impacts stay: they are far below.
 //
 // Thread-safety: pure functions.
 #pragma once

@@ -104,7 +104,7 @@ TEST(RecordingDraft, AsksForWhatTheTableDoesNotSayAndOpensOnceItIsFilledIn) {
                 testing::UnorderedElementsAre(HasSubstr("\"kind\""), HasSubstr("\"rate_hz\""), HasSubstr("\"unit\"")));
     folder.write("recording.json", draft.json);
     const auto open = Recording::open(folder.path());
-    ASSERT_FALSE(open) << "filled in by nobody";
+    ASSERT_FALSE(open) << "not filled in yet";
     EXPECT_THAT(open.error().message, HasSubstr("streams[0]"));
     auto filled = Json::parse(draft.json);
     filled["streams"][0].update({{"kind", "acceleration"}, {"rate_hz", 1000}, {"unit", "g"}});

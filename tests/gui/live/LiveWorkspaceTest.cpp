@@ -20,6 +20,7 @@
 #include "tests/gui/Looks.h"
 #include "tests/gui/live/LiveBench.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
