@@ -180,7 +180,7 @@ private:
         // Many lines in front of the table may be cut otherwise.
         if (const auto line = text_.find('\n', text_.size() / 2); line != std::string_view::npos)
             separator_ = readCsvHead(text_.substr(line + 1, kLookedAt), 0).separator;
-        if (separator_ == ',') {
+        if (separator_ == ',' && last == 0) {  // where a second column is asked for, the comma separates
             if (auto settled = settleCommas(); !settled) return settled;
         }
         CsvReader reader(text_, layout_.skipRows, separator_);
