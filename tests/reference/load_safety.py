@@ -89,9 +89,9 @@ def check_trial(name, measured, paths):
     # U of the amplitude, from what the header states and the trains show.
     plateau = mean("amplitude_v")
     s = float(np.std([train["amplitude_v"] for train in trains], ddof=1))
-    half = volts["lsb"] / 2  # of the level, and of its baseline
+    step = volts["lsb"] / np.sqrt(12) * np.sqrt(2)  # of two levels, as a rectangle of the same s
     computed = half_interval([volts["gain_tolerance"] * plateau, volts["linearity_tolerance"],
-                              volts["probe_tolerance"] * plateau, half, half],
+                              volts["probe_tolerance"] * plateau, step * np.sqrt(3)],
                              [trains[0]["noise_v"] / np.sqrt(trains[0]["late"])], s, len(trains))
     agree(name + ", U of the amplitude", measured["amplitude_v_expanded"], computed, 0.03 * computed)
 

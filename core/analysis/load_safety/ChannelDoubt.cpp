@@ -35,8 +35,8 @@ void ChannelDoubt::addStep(BudgetRows& rows, const char* of, double sensitivity)
 }
 
 void ChannelDoubt::addLevel(BudgetRows& rows, double sensitivity) const {
-    addStep(rows, "", sensitivity);
-    addStep(rows, ", at its baseline", sensitivity);
+    const double step = channel_ != nullptr && channel_->lsb > 0 ? channel_->lsb : kNaN;
+    addStated(rows, "resolution of " + name(), step, kSqrt12 / kSqrt2, sensitivity);
     addStated(rows, "linearity of " + name(), channel_ != nullptr ? channel_->linearityTolerance : 0, kSqrt3,
               sensitivity);
 }
