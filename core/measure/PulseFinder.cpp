@@ -27,10 +27,11 @@ constexpr double kSecondReliable = 6;  // times the noise: that it follows a lea
 constexpr std::size_t kJudgedPulses = 1000;
 constexpr double kOtherSide = 0.15;  // of the state: a phase on the other side
 constexpr double kOtherSideInNoise = 4;
+constexpr double kNoNoise = 4.5;        // standard deviations of a mean
 constexpr double kUnseenInSteps = 0.2;  // of the converter
 constexpr double kUnseen = 2e-4;        // of the largest state
 constexpr double kDithers = 0.5;
-constexpr double kMostBeside = 0.1;   // of the largest state
+constexpr double kMostBeside = 0.07;  // of the largest state
 constexpr double kMostUnrest = 0.05;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
 constexpr double kMostlyEdges = 0.6;  // of the width: half a sine has 0.67
 
@@ -157,15 +158,24 @@ public:
             mean = enough;
             back = true;
         }
-        plain.beside = levelBeside(base, plain);
-        return plain;
+        return judged(base, std::move(plain));
     }
 
 private:
     [[nodiscard]] Attempt complete(const SampleView& view, Attempt found) const {
-        auto whole = withSecondSide(view, std::move(found));
+        return judged(view, withSecondSide(view, std::move(found)));
+    }
+
+    /// What is not whole is flagged, and what does not stand on its baseline refused.
+    [[nodiscard]] Attempt judged(const SampleView& view, Attempt whole) const {
+        if (!whole.hasStates()) return whole;
         markCutPulses(view, whole);
         whole.beside = levelBeside(view, whole);
+        const double height = heightOf(whole.levels);
+        // So little is no second phase, but the baseline itself.
+        if (std::abs(whole.levelAfter) < kMostUnrest * height) {
+            whole.beside = std::max(whole.beside, std::abs(whole.levelAfter));
+        }
         double nearest = std::numeric_limits<double>::infinity();
         for (const double state : {whole.levels.low, whole.levels.high}) {
             if (state != whole.levels.baseline) nearest = std::min(nearest, distanceOf(state, whole.levels.baseline));
@@ -177,7 +187,7 @@ private:
         };
         if (whole.unrest > kMostUnrest * nearest) {
             refuse(fmt::format("its baseline moves by {:.2g} (s.d.), too much beside its pulses", whole.unrest));
-        } else if (whole.beside > kMostBeside * heightOf(whole.levels)) {
+        } else if (whole.beside > kMostBeside * height) {
             refuse(fmt::format("just beside what may be pulses it lies {:.2g} from its baseline", whole.beside));
         }
         return whole;
@@ -409,7 +419,7 @@ private:
             const bool hidden = found.levelAfter != 0;  // is known already
             for (const auto& one : {before(view, found, place), hidden ? Silence{} : after(view, found, place)}) {
                 const double level = one.n > 0 ? std::abs(one.mean()) : 0;
-                if (level > 3 * found.levels.noise / std::sqrt(one.n)) largest = std::max(largest, level);
+                if (level > kNoNoise * found.levels.noise / std::sqrt(one.n)) largest = std::max(largest, level);
             }
             squares += largest * largest;
             n += 1;
