@@ -2,7 +2,8 @@
 //
 // Found for pulses that fill a hundred-thousandth of the record as well as for a square wave. Three states with the
 // baseline between them are biphasic pulses, told from ringing by the charge on either side: a biphasic pulse returns
-// at least a fifth of what it gave. Noise, a ramp or a sine never rests, and so has no two states.
+// at least a fifth of what it gave. Neighbouring codes of the converter are one state, and states are at least two and
+// a half of its steps apart. Noise, a ramp or a sine never rests, and so has no two states.
 //
 // Thread-safety: pure function.
 #pragma once
