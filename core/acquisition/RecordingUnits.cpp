@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/CsvHead.h"
 #include "core/base/Text.h"
 
 namespace tacto {
@@ -75,13 +76,6 @@ std::optional<RecordedTimeUnit> recordedTimeUnit(std::string_view text) {
     const auto typed = plainlyTyped(text);
     const auto found = std::ranges::find_if(kRecordedTimes, [&](const auto& unit) { return unit.spelled == typed; });
     return found == kRecordedTimes.end() ? std::nullopt : std::optional(*found);
-}
-
-std::string_view withoutBrackets(std::string_view text) noexcept {
-    text = trimmed(text);
-    const bool round = text.starts_with('(') && text.ends_with(')'),
-               square = text.starts_with('[') && text.ends_with(']');
-    return round || square ? trimmed(text.substr(1, text.size() - 2)) : text;
 }
 
 HeaderName headerName(std::string_view text) {

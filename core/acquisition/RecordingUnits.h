@@ -37,7 +37,5 @@ struct HeaderName {
     std::string_view unit;  ///< as written; empty where the header states none that is known
 };
 [[nodiscard]] HeaderName headerName(std::string_view text);
-/// A unit by itself, perhaps in brackets, without them.
-[[nodiscard]] std::string_view withoutBrackets(std::string_view text) noexcept;
 
 }  // namespace tacto

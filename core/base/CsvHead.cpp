@@ -99,6 +99,13 @@ std::optional<double> fieldNumber(std::string_view field, char point) {
     return takeNumber(field.data(), end, point, value) == end ? std::optional(value) : std::nullopt;
 }
 
+std::string_view withoutBrackets(std::string_view field) noexcept {
+    field = trimmed(field);
+    const bool round = field.starts_with('(') && field.ends_with(')'),
+               square = field.starts_with('[') && field.ends_with(']');
+    return round || square ? trimmed(field.substr(1, field.size() - 2)) : field;
+}
+
 CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
     struct Seen {
         std::size_t number;

@@ -40,6 +40,9 @@ struct CsvHead {
 /// A number as tables have them: also nan, inf, ∞ (what PicoScope writes beyond the range; read as inf).
 [[nodiscard]] std::optional<double> fieldNumber(std::string_view field, char point);
 
+/// A field without the brackets about all of it: "(mV)", "[s]".
+[[nodiscard]] std::string_view withoutBrackets(std::string_view field) noexcept;
+
 /// Looks at `text`, the file's beginning in whole lines (a last one that is cut off counts), after `skipRows` lines.
 [[nodiscard]] CsvHead readCsvHead(std::string_view text, std::size_t skipRows);
 

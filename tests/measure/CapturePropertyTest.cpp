@@ -44,7 +44,7 @@ TEST_P(CaptureProperty, EachFigureIsRightOrItIsSaidThatItWasNotMeasured) {
     RecordProperty("hazard", "H9");
     const auto kind = GetParam();
     if (const char* seed = std::getenv("TACTO_DRAW")) return show(kind, std::strtoull(seed, nullptr, 10));
-    const int draws = trials<int>({.local = 600, .ci = 1200, .campaign = 7200});
+    const int draws = trials<int>({.local = 600, .ci = 600, .campaign = 7200});
     int easy = 0, withPulses = 0, refused = 0, failed = 0, noisy = 0, failedInNoise = 0;
     std::array<Share, kFigures> shares;
     for (int seed = 1; seed <= draws; ++seed) {

@@ -145,19 +145,15 @@ bool isIndexColumn(const CsvColumn& column) {
            (name == "index" || name == "sample" || name == "samples" || name == "sequence" || name == "nr");
 }
 
-std::string_view withoutBrackets(std::string_view field) {
-    const bool bracketed = field.size() >= 2 && ((field.front() == '(' && field.back() == ')') ||
-                                                 (field.front() == '[' && field.back() == ']'));
-    return trimmed(withoutWord(bracketed ? field.substr(1, field.size() - 2) : field));
-}
+std::string_view unitTextOf(std::string_view field) { return trimmed(withoutWord(withoutBrackets(field))); }
 
-std::optional<SpelledUnit> unitField(std::string_view field) { return spelledUnit(withoutBrackets(field)); }
+std::optional<SpelledUnit> unitField(std::string_view field) { return spelledUnit(unitTextOf(field)); }
 
 bool isLineOfUnits(const CsvLine& line) {
     bool any = false;
     for (const std::string_view field : line.fields) {
         const auto unit = unitField(field);
-        if (!unit && withoutBrackets(field).size() == field.size() && !isOtherUnit(field)) return false;
+        if (!unit && unitTextOf(field).size() == field.size() && !isOtherUnit(field)) return false;
         // "a" and "s" name channels as well as units: a line of units has the one of time in it.
         any = any || (unit && unit->unit == "s");
     }

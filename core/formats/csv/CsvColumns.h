@@ -25,8 +25,8 @@ struct CsvColumn {
 /// Whether every field is in brackets or a unit, and one of them is of time: the second of two header lines.
 [[nodiscard]] bool isLineOfUnits(const CsvLine& line);
 
-/// A field of such a line without the brackets about it.
-[[nodiscard]] std::string_view withoutBrackets(std::string_view field);
+/// A field of such a line without the brackets about it, and without a word before the unit ("Unit: mV").
+[[nodiscard]] std::string_view unitTextOf(std::string_view field);
 /// The unit in it.
 [[nodiscard]] std::optional<SpelledUnit> unitField(std::string_view field);
 

@@ -91,7 +91,7 @@ void CsvDraft::addChannel(std::string name, std::string_view spelled) {
     const auto unit = unitField(spelled);
     layout.names.push_back(name);
     columns.push_back({std::move(name), layout.names.size(), unit ? std::string(unit->unit) : "",
-                       unit ? unit->factor : 1, unit ? "" : std::string(withoutBrackets(spelled))});
+                       unit ? unit->factor : 1, unit ? "" : std::string(unitTextOf(spelled))});
 }
 
 void CsvDraft::countRows(std::optional<double> interval_s, double start_s, std::string_view stated,
@@ -184,7 +184,7 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
             const auto unit = unitField(units->fields[c]);
             column.unit = unit ? unit->unit : "";
             column.factor = unit ? unit->factor : 1;
-            column.unknownUnit = unit ? "" : std::string(withoutBrackets(units->fields[c]));
+            column.unknownUnit = unit ? "" : std::string(unitTextOf(units->fields[c]));
         }
         const bool chosen = !options.timeColumn.empty() && columnCalled(names, options.timeColumn) == c;
         if (draft.layout.times == RowTimes::Counted && isTimeColumn(column) && (options.timeColumn.empty() || chosen)) {
