@@ -483,6 +483,10 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
     const double standsOut = strongOf(found.levels);
     found.quality.snr_db = 20 * std::log10(standsOut);
     found.quality.doubtful = standsOut < kReliable || (biphasic && attempt.secondStandsOut < kSecondReliable);
+    // Where a second phase may be missed, a pulse without one is not known to lack it.
+    for (auto& pulse : found.pulses) {
+        if (found.quality.doubtful && !pulse.second) pulse.imbalance = kNotMeasured;
+    }
     found.quality.unrest = attempt.unrest;
     if (attempt.beside > std::max(kUnseenInSteps * lsb, kUnseen * heightOf(found.levels))) {
         found.quality.unrest = std::max(attempt.unrest, attempt.beside);
