@@ -31,7 +31,7 @@ constexpr double kNoNoise = 4.5;        // standard deviations of a mean
 constexpr double kUnseenInSteps = 0.2;  // of the converter
 constexpr double kUnseen = 2e-4;        // of the largest state
 constexpr double kDithers = 0.5;
-constexpr double kMostBeside = 0.07;  // of the largest state
+constexpr double kMaxBeside = 0.07;   // of the largest state
 constexpr double kMostUnrest = 0.05;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
 constexpr double kMostlyEdges = 0.6;  // of the width: half a sine has 0.67
 
@@ -172,7 +172,7 @@ private:
         markCutPulses(view, whole);
         whole.beside = levelBeside(view, whole);
         const double height = heightOf(whole.levels);
-        // So little is no second phase, but the baseline itself.
+        // So little belongs to the baseline itself.
         if (std::abs(whole.levelAfter) < kMostUnrest * height) {
             whole.beside = std::max(whole.beside, std::abs(whole.levelAfter));
         }
@@ -187,13 +187,13 @@ private:
         };
         if (whole.unrest > kMostUnrest * nearest) {
             refuse(fmt::format("its baseline moves by {:.2g} (s.d.), too much beside its pulses", whole.unrest));
-        } else if (whole.beside > kMostBeside * height) {
+        } else if (whole.beside > kMaxBeside * height) {
             refuse(fmt::format("just beside what may be pulses it lies {:.2g} from its baseline", whole.beside));
         }
         return whole;
     }
 
-    /// Of two states, one side is known only. Where the record begins or ends on the other, a phase is cut there that
+    /// Two states show one side only. Where the record begins or ends on the other, a phase is cut there that
     /// may belong to the pulse beside it.
     void markCutPulses(const SampleView& view, Attempt& found) const {
         if (found.levels.count != StateCount::Two || found.pulses.empty()) return;
@@ -314,7 +314,7 @@ private:
         }
     };
 
-    /// Of the samples between two positions, from the baseline.
+    /// The samples between two positions, from the baseline.
     [[nodiscard]] static Silence silence(const SampleView& view, const Attempt& found, double from, double to) {
         Silence result;
         const auto last = static_cast<double>(view.samples.size());
@@ -377,7 +377,7 @@ private:
     };
 
     /// The level after pulses, as far as a second phase may begin, against that just before them, where the difference
-    /// goes against the pulses and is no noise: five standard deviations of the means.
+    /// goes against the pulses and stands out of the noise: five standard deviations of the means.
     [[nodiscard]] std::optional<AfterPulses> levelAfter(const SampleView& view, const Attempt& found) const {
         constexpr std::size_t kWindows = 8;
         Silence ahead;
@@ -409,8 +409,8 @@ private:
         return most;
     }
 
-    /// How far the signal lies from the baseline just beside its pulses, where that is no noise: RMS over pulses of the
-    /// larger side.
+    /// How far the signal lies from the baseline just beside its pulses, where that stands out of the noise: RMS over
+    /// pulses of the larger side.
     [[nodiscard]] static double levelBeside(const SampleView& view, const Attempt& found) {
         double squares = 0, n = 0;
         lookAtPulses(found, [&](std::size_t k) {
