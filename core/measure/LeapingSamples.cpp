@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeapInNoise = 8;
 constexpr double kLeapInSteps = 2.5;
-constexpr double kLeapInSpan = 0.005;  // of the record: smaller leaps move no figure
+constexpr double kLeapInSpan = 0.005;  // of the record: smaller ones do not count
 constexpr float kAgree = 0.1F;         // of the leap; half of the least
 constexpr std::size_t kOneIn = 100;
 

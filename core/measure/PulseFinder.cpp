@@ -31,9 +31,9 @@ constexpr double kNoNoise = 4.5;        // standard deviations of a mean
 constexpr double kUnseenInSteps = 0.2;  // of the converter
 constexpr double kUnseen = 2e-4;        // of the largest state
 constexpr double kDithers = 0.5;
-constexpr double kMaxBeside = 0.07;   // of the largest state
-constexpr double kMostUnrest = 0.05;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
-constexpr double kMostlyEdges = 0.6;  // of the width: half a sine has 0.67
+constexpr double kMaxBeside = 0.07;  // of the largest state
+constexpr double kMaxUnrest = 0.05;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
+constexpr double kMaxEdges = 0.6;    // of the width: half a sine has 0.67
 
 double distanceOf(double state, double baseline) { return std::isfinite(state) ? std::abs(state - baseline) : 0; }
 
@@ -88,7 +88,7 @@ bool restsOnPlateaus(const std::vector<PulseMeasurement>& pulses) {
         const double share = (m.rise_s + m.fall_s) / m.width_s;
         if (std::isfinite(share)) edgeShares.push_back(share);
     }
-    return edgeShares.empty() || statisticsOf(edgeShares).median <= kMostlyEdges;
+    return edgeShares.empty() || statisticsOf(edgeShares).median <= kMaxEdges;
 }
 
 /// One way to look at the channel and what it shows.
@@ -172,8 +172,8 @@ private:
         markCutPulses(view, whole);
         whole.beside = levelBeside(view, whole);
         const double height = heightOf(whole.levels);
-        // So little belongs to the baseline itself.
-        if (std::abs(whole.levelAfter) < kMostUnrest * height) {
+        // A second phase is larger than that: the baseline itself has moved.
+        if (std::abs(whole.levelAfter) < kMaxUnrest * height) {
             whole.beside = std::max(whole.beside, std::abs(whole.levelAfter));
         }
         double nearest = std::numeric_limits<double>::infinity();
@@ -185,7 +185,7 @@ private:
             whole.levels.why = std::move(why);
             whole.pulses.clear();
         };
-        if (whole.unrest > kMostUnrest * nearest) {
+        if (whole.unrest > kMaxUnrest * nearest) {
             refuse(fmt::format("its baseline moves by {:.2g} (s.d.), too much beside its pulses", whole.unrest));
         } else if (whole.beside > kMaxBeside * height) {
             refuse(fmt::format("just beside what may be pulses it lies {:.2g} from its baseline", whole.beside));
@@ -193,7 +193,7 @@ private:
         return whole;
     }
 
-    /// Two states show one side only. Where the record begins or ends on the other, a phase is cut there that
+    /// With two states only one side is known. Where the record begins or ends on the other, a phase is cut there that
     /// may belong to the pulse beside it.
     void markCutPulses(const SampleView& view, Attempt& found) const {
         if (found.levels.count != StateCount::Two || found.pulses.empty()) return;
@@ -377,7 +377,7 @@ private:
     };
 
     /// The level after pulses, as far as a second phase may begin, against that just before them, where the difference
-    /// goes against the pulses and stands out of the noise: five standard deviations of the means.
+    /// goes against the pulses and exceeds the noise: five standard deviations of the means.
     [[nodiscard]] std::optional<AfterPulses> levelAfter(const SampleView& view, const Attempt& found) const {
         constexpr std::size_t kWindows = 8;
         Silence ahead;
@@ -409,8 +409,8 @@ private:
         return most;
     }
 
-    /// How far the signal lies from the baseline just beside its pulses, where that stands out of the noise: RMS over
-    /// pulses of the larger side.
+    /// How far the signal lies from the baseline just beside its pulses, beyond the noise: RMS over pulses of the
+    /// larger side.
     [[nodiscard]] static double levelBeside(const SampleView& view, const Attempt& found) {
         double squares = 0, n = 0;
         lookAtPulses(found, [&](std::size_t k) {

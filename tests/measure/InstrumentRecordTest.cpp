@@ -43,7 +43,7 @@ TEST(ConverterStep, IsNotMadeUpWhereSamplesShowNone) {
     for (int i = 0; i < 2000; ++i) logic.push_back(i % 40 < 10 ? 3.3F : 0.0F);
     EXPECT_EQ(converterStep(logic), 0);
     const auto edges = recordOf(biphasic(1e-3), {});
-    EXPECT_EQ(converterStep(edges.channels[0].samples), 0) << "the samples of edges are not steps";
+    EXPECT_EQ(converterStep(edges.channels[0].samples), 0) << "a few samples on an edge do not make a grid";
     const auto fine = recordOf(biphasic(1e-3), {.noise = 0.1});
     EXPECT_EQ(converterStep(fine.channels[0].samples), 0) << "floating-point noise lies on no grid";
     EXPECT_EQ(converterStep({}), 0);
@@ -115,7 +115,7 @@ TEST(InstrumentRecords, SingleSamplesThatLeapAreLeftOutAndCounted) {
         Random random(seed, "leaping samples");
         auto capture = recordOf(biphasic(1e-3), {.rate_hz = 1e6, .samples = 5000, .noise = 0.1, .lsb = 0.05});
         auto& samples = capture.channels[0].samples;
-        // On the plateaus and in the silence; on an edge a leap looks like the edge.
+        // On the plateaus and in the silence; a leap on an edge cannot be told from the edge.
         for (const std::size_t at : {300U, 1030U, 1100U, 1400U, 3000U}) {
             const double leap = (2 + 90 * random.uniform()) * (random.below(2) == 0 ? 1 : -1);
             samples[at + random.below(60)] += static_cast<float>(leap);
