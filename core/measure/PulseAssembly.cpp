@@ -34,11 +34,11 @@ bool flickersBefore(const FoundPhase& phase, const FoundPhase& after) {
            after.from_s() - phase.to_s() <= kFlickersFor * (after.to_s() - after.from_s());
 }
 
-/// Whether a whole edge and two samples of silence do not fit between it and an end of the record.
+/// Whether a whole edge and a step of silence do not fit between it and an end of the record.
 bool reachesEnd(const FoundPhase& phase) {
     const double rate = 1.25 * phase.view->rate_hz;  // an edge is 1.25 times as long as its middle eight tenths
     const double last = static_cast<double>(phase.view->samples.size()) - 1;
-    return phase.onset < 2 + phase.measured.rise_s * rate || phase.end50 > last - 2 - phase.measured.fall_s * rate;
+    return phase.onset < 1 + phase.measured.rise_s * rate || phase.end50 > last - 1 - phase.measured.fall_s * rate;
 }
 
 /// By samples where the edges could not be placed.

@@ -1,9 +1,9 @@
 #include "tests/formats/WrittenTables.h"
 
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/chrono.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -67,8 +67,8 @@ Hand someHand(Random& random) {
 class Number {
 public:
     Number(double value, int digits, Hand hand, bool scientific = false)
-        : text_(scientific ? fmt::format("{:.{}e}", value, digits) : fmt::format("{:.{}f}", value, digits)),
-          value_(std::strtod(text_.c_str(), nullptr)) {
+        : text_(scientific ? fmt::format("{:.{}e}", value, digits) : fmt::format("{:.{}f}", value, digits)), value_(0) {
+        std::from_chars(text_.data(), text_.data() + text_.size(), value_);
         if (hand.shortens && !scientific) {
             while (text_.ends_with('0') && text_.find('.') != std::string::npos) text_.pop_back();
             if (text_.ends_with('.')) text_.pop_back();

@@ -211,7 +211,7 @@ TEST_P(DeviceLoss, AtEveryStepKeepsPartialRowsAndLeavesOutputsOff) {
         loadsSeen = measured;
         for (const auto& item : rig.reportItems()) {
             const auto caption = item.value("caption", "");
-            partial += caption.starts_with("What was measured into each load") &&
+            partial += caption.starts_with("Each load, and what was measured into it") &&
                                caption.ends_with("(partial: the run ended early)")
                            ? 1
                            : 0;

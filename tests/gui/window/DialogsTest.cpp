@@ -111,7 +111,7 @@ TEST_F(Asking, AFileThatIsNotThereIsSaidInPlace) {
 
 TEST_F(Asking, AFileWhoseNameIsNotUtf8IsSaidInPlace) {
     static_cast<void>(folder.write("caf\xE9.json", "{}"));
-    const auto shown = QDir(QString::fromStdString(folder.path().string())).entryList(QDir::Files);
+    const auto shown = QDir(QString::fromStdString(folder.path().string())).entryList(QDir::Files | QDir::System);
     ASSERT_EQ(shown.size(), 1);
     ask(gui::FileQuestion::Wants::ExistingFile);
     answer(shown.front());
