@@ -109,12 +109,11 @@ TEST_F(Asking, AFileThatIsNotThereIsSaidInPlace) {
     EXPECT_THAT(trouble().toStdString(), HasSubstr("missing.json is not there"));
 }
 
+// Qt lists no such name: it comes from elsewhere, with a mark in place of the byte that is no character.
 TEST_F(Asking, AFileWhoseNameIsNotUtf8IsSaidInPlace) {
     static_cast<void>(folder.write("caf\xE9.json", "{}"));
-    const auto shown = QDir(QString::fromStdString(folder.path().string())).entryList(QDir::Files | QDir::System);
-    ASSERT_EQ(shown.size(), 1);
     ask(gui::FileQuestion::Wants::ExistingFile);
-    answer(shown.front());
+    answer(QString("caf") + QChar(QChar::ReplacementCharacter) + ".json");
     EXPECT_TRUE(chosen.isEmpty());
     EXPECT_THAT(trouble().toStdString(), HasSubstr("is not UTF-8"));
 }
