@@ -26,13 +26,13 @@ namespace tacto {
 using ColumnChoice = std::variant<std::string, std::size_t>;
 
 struct TableLayout {
-    std::optional<ColumnChoice> timeColumn;  ///< nothing: row after row at `rate_hz`, the first at 0 s
-    double timeDivisor = 1;                  ///< file's time / divisor = seconds
-    std::vector<ColumnChoice> columns;
-    double valueFactor = 1;       ///< file's value * factor = SI
-    double rate_hz = 0;           ///< above 0 without a time column
-    std::size_t skipRows = 0;     ///< lines of the file that do not belong to the table
-    std::optional<char> decimal;  ///< '.' or ','; nothing: as the table shows
+    std::optional<ColumnChoice> timeColumn{};  ///< nothing: row after row at `rate_hz`, the first at 0 s
+    double timeDivisor = 1;                    ///< file's time / divisor = seconds
+    std::vector<ColumnChoice> columns{};
+    double valueFactor = 1;         ///< file's value * factor = SI
+    double rate_hz = 0;             ///< above 0 without a time column
+    std::size_t skipRows = 0;       ///< lines of the file that do not belong to the table
+    std::optional<char> decimal{};  ///< '.' or ','; nothing: as the table shows
 };
 
 /// `text` is the file's content, `name` what messages call it. Column names are trimmed, trailing separators and blank
