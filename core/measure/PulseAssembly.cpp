@@ -14,16 +14,23 @@ constexpr std::size_t kMinPhaseSamples = 10;
 constexpr std::size_t kAmplePhaseSamples = 40;
 constexpr double kRinging = 0.05;        // of the area of the phase before: more is a phase of its own
 constexpr double kLower = 0.6;           // than the phase before: as high is a pulse of its own, however short
+constexpr double kFragment = 0.5;        // of the area of a neighbour: what is less and under-sampled is a piece of it
 constexpr double kRingsFor = 0.5;        // of the phase before, from its end
 constexpr double kFlickersFor = 0.1;     // of the phase after, before it: noise on a slow leading edge
 constexpr double kRings = 0.05;          // overshoot from which on the tail belongs to the charge
 constexpr double kOvershootInNoise = 6;  // times the noise: less overshoot may be noise
 
+/// Where samples of the plateau are missing: the mean of the others.
+double heightOfPhase(const FoundPhase& phase) {
+    const double plateau = std::abs(phase.measured.plateau);
+    return std::isfinite(plateau) ? plateau : phase.area / (phase.to_s() - phase.from_s());
+}
+
 /// A small phase next to one of twenty times its area, shorter and lower than it: the ringing after an edge, or noise
 /// on a slow leading edge.
 bool isSmallBeside(const FoundPhase& small, const FoundPhase& large) {
-    return std::abs(small.measured.plateau) < kLower * std::abs(large.measured.plateau) &&
-           small.area < kRinging * large.area && small.to_s() - small.from_s() < 0.5 * (large.to_s() - large.from_s());
+    return heightOfPhase(small) < kLower * heightOfPhase(large) && small.area < kRinging * large.area &&
+           small.to_s() - small.from_s() < 0.5 * (large.to_s() - large.from_s());
 }
 bool ringsAfter(const FoundPhase& phase, const FoundPhase& before) {
     return isSmallBeside(phase, before) &&
@@ -117,19 +124,32 @@ void PulseAssembly::integrate(std::size_t k) {
     m.charge = phase.sign * integralOf(phase, levels_.baseline, from, to) / view.rate_hz;
 }
 
-/// Between a phase and the next where they can be one pulse; else NaN.
-double PulseAssembly::gapAfter(std::size_t k) const {
-    if (levels_.count != StateCount::Three || k + 1 >= kept_ || at(k).sign == at(k + 1).sign) return kNotMeasured;
-    const double gap = gapBetween(at(k), at(k + 1));
+/// Between a phase and another where they can be one pulse; else NaN.
+double PulseAssembly::gapTo(std::size_t k, std::size_t second) const {
+    if (levels_.count != StateCount::Three || second >= kept_ || at(k).sign == at(second).sign) return kNotMeasured;
+    const double gap = gapBetween(at(k), at(second));
     return gap <= gapMax_s_ ? gap : kNotMeasured;
+}
+
+/// Whether what lies between a phase and the second one of its pulse is a piece of either: a spike in the gap, or the
+/// ringing after a clipped phase.
+bool PulseAssembly::isSplit(std::size_t k) const {
+    if (k + 2 >= kept_ || at(k + 1).measured.samples >= kMinPhaseSamples) return false;
+    const auto& whole = at(k + 1).sign == at(k).sign ? at(k) : at(k + 2);
+    return at(k + 1).area < kFragment * whole.area && std::isfinite(gapTo(k, k + 2));
 }
 
 /// Where a phase could belong to either neighbour, the clearly shorter gap wins: a record may begin between the phases
 /// of a pulse.
 void PulseAssembly::pairNext() {
     const std::size_t k = paired_;
-    const double gap = gapAfter(k);
-    const double next = gapAfter(k + 1);
+    if (isSplit(k)) {
+        addPulse({&at(k), &at(k + 1), &at(k + 2)}, false);
+        paired_ += 3;
+        return;
+    }
+    const double gap = gapTo(k, k + 1);
+    const double next = gapTo(k + 1, k + 2);
     const double step = 1.0 / capture_.rate_hz;
     const bool pairs = std::isfinite(gap) && !(std::isfinite(next) && gap > 2 * next + step && k == 0);
     // From a phase that the record cut on, phases follow so closely that each may belong to either neighbour.
@@ -137,7 +157,7 @@ void PulseAssembly::pairNext() {
     const bool chained = chainedToCut_;
     chainedToCut_ = chainedToCut_ && std::isfinite(pairs ? next : gap);
     if (pairs) {
-        addPulse(at(k), &at(k + 1), false);
+        addPulse({&at(k), &at(k + 1)}, false);
         paired_ += 2;
         return;
     }
@@ -145,18 +165,20 @@ void PulseAssembly::pairNext() {
     const double end_s = capture_.start_s + static_cast<double>(capture_.samples()) / capture_.rate_hz;
     const bool cutBefore = k == 0 && at(k).from_s() - capture_.start_s <= gapMax_s_;
     const bool cutAfter = k + 1 == kept_ && end_s - at(k).to_s() <= gapMax_s_;
-    addPulse(at(k), nullptr, levels_.count == StateCount::Three && (cutBefore || cutAfter || chained));
+    addPulse({&at(k)}, levels_.count == StateCount::Three && (cutBefore || cutAfter || chained));
     paired_ += 1;
 }
 
+/// `phases`: the leading one, the second if there is one, a piece between them; what has a piece is under-sampled.
 /// `cut`: its second phase may lie beyond the record.
-void PulseAssembly::addPulse(const FoundPhase& leading, const FoundPhase* second, bool cut) {
+void PulseAssembly::addPulse(std::initializer_list<const FoundPhase*> phases, bool cut) {
+    const FoundPhase& leading = **phases.begin();
+    const FoundPhase* second = phases.size() > 1 ? *(phases.end() - 1) : nullptr;
     auto& pulse = pulses_.emplace_back();
     pulse.seenFrom_s = leading.from_s();
     pulse.seenTo_s = (second == nullptr ? leading : *second).to_s();
     pulse.flags.truncated = cut;
-    flagPhase(leading, pulse.flags);
-    if (second != nullptr) flagPhase(*second, pulse.flags);
+    for (const FoundPhase* phase : phases) flagPhase(*phase, pulse.flags);
     pulse.leading.samples = leading.measured.samples;
     if (!pulse.flags.measured()) return;
 

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 #include "core/measure/Capture.h"
@@ -35,8 +36,9 @@ private:
     void settleNewest(bool last);
     void integrate(std::size_t k);
     void pairNext();
-    [[nodiscard]] double gapAfter(std::size_t k) const;
-    void addPulse(const FoundPhase& leading, const FoundPhase* second, bool cut);
+    [[nodiscard]] double gapTo(std::size_t k, std::size_t second) const;
+    [[nodiscard]] bool isSplit(std::size_t k) const;
+    void addPulse(std::initializer_list<const FoundPhase*> phases, bool cut);
 
     /// Phases are numbered as they are kept. The newest, of which it is not known yet whether it is, has number kept_.
     [[nodiscard]] FoundPhase& at(std::size_t k) noexcept { return window_[k % window_.size()]; }
