@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <limits>
 
 #include "core/measure/PulseMeasurement.h"
 #include "core/measure/SampleView.h"
@@ -22,6 +23,11 @@ struct PhaseSpan {
     bool incomplete = false;
     bool clipped = false;
     bool flatTop = false;  ///< see Clipping.h
+    /// How far away a stretch of missing samples is in which a phase may lie, before the next phase on that side, in
+    /// samples of the view; infinite if there is none. 0: the phase itself may begin or end in it.
+    float hiddenBefore = std::numeric_limits<float>::infinity();
+    float hiddenAfter = std::numeric_limits<float>::infinity();
+    float hiddenFor = 0;  ///< the length of the one before
 
     [[nodiscard]] double from_s() const noexcept { return view->timeOf(static_cast<double>(begin)); }
     [[nodiscard]] double to_s() const noexcept { return view->timeOf(static_cast<double>(end)); }

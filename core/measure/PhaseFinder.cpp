@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "core/measure/Clipping.h"
 
@@ -19,6 +20,8 @@ constexpr double kThreshold = 0.15;
 constexpr double kThresholdInNoise = 6;
 constexpr double kRelease = 0.6;         // of the threshold: hysteresis
 constexpr double kReleaseInNoise = 4.5;  // below the threshold at least, so that noise on a slow edge stays one phase
+
+constexpr std::size_t kHides = 3;  // missing samples in a row: a phase of fewer is a glitch
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -121,6 +124,35 @@ void follow(const SampleView& view, std::size_t begin, const Thresholds& thresho
     phase.incomplete = phase.incomplete || (begin > 0 && std::isnan(samples[begin - 1]));
 }
 
+/// Where a phase may lie in samples that are missing between two others; `from`: the end of the one before, as far as
+/// it is seen. Either may be null.
+void markHidden(std::span<const float> samples, PhaseSpan* before, std::size_t from, PhaseSpan* after) {
+    const std::size_t end = after == nullptr ? samples.size() : after->begin;
+    for (std::size_t i = from; i < end; ++i) {
+        const std::size_t first = i;
+        while (i < end && std::isnan(samples[i])) ++i;
+        if (i - first < kHides) continue;
+        if (before != nullptr && !std::isfinite(before->hiddenAfter)) {
+            before->hiddenAfter = static_cast<float>(first - from);
+        }
+        if (after == nullptr) return;
+        after->hiddenBefore = static_cast<float>(end - i);
+        after->hiddenFor = static_cast<float>(i - first);
+    }
+}
+
+void markHidden(PhaseSpans& phases, std::span<const float> samples) {
+    PhaseSpan* before = nullptr;
+    std::size_t from = 0;
+    for (auto& phase : phases) {
+        markHidden(samples, before, from, &phase);
+        before = &phase;
+        from = phase.end;
+        while (from > phase.begin && std::isnan(samples[from - 1])) --from;
+    }
+    if (before != nullptr) markHidden(samples, before, from, nullptr);
+}
+
 }  // namespace
 
 PhaseSpans findPhases(const SampleView& view, const SampleBlocks& blocks, const StateLevels& levels, Sides sides) {
@@ -135,6 +167,7 @@ PhaseSpans findPhases(const SampleView& view, const SampleBlocks& blocks, const 
     dropGlitches(phases);
     dropNoise(phases, levels, view.rate_hz);
     markClipped(phases, view, blocks);
+    if (!blocks.complete()) markHidden(phases, view.samples);
     return phases;
 }
 

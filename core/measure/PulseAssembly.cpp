@@ -12,11 +12,13 @@ namespace {
 
 constexpr std::size_t kMinPhaseSamples = 10;
 constexpr std::size_t kAmplePhaseSamples = 40;
-constexpr double kRinging = 0.05;        // of the area of the phase before: more is a phase of its own
-constexpr double kLower = 0.6;           // than the phase before: as high is a pulse of its own, however short
-constexpr double kFragment = 0.5;        // of the area of a neighbour: what is less and under-sampled is a piece of it
-constexpr double kRingsFor = 0.5;        // of the phase before, from its end
-constexpr double kFlickersFor = 0.1;     // of the phase after, before it: noise on a slow leading edge
+constexpr double kRinging = 0.05;     // of the area of the phase before: more is a phase of its own
+constexpr double kLower = 0.6;        // than the phase before: as high is a pulse of its own, however short
+constexpr double kFragment = 0.5;     // of the area of a neighbour: what is less and under-sampled is a piece of it
+constexpr double kRingsFor = 0.5;     // of the phase before, from its end
+constexpr double kFlickersFor = 0.1;  // of the phase after, before it: noise on a slow leading edge
+constexpr double kAcross = 0.15;      // of the state: a phase on the side that has none
+constexpr double kAcrossInNoise = 4;
 constexpr double kRings = 0.05;          // overshoot from which on the tail belongs to the charge
 constexpr double kOvershootInNoise = 6;  // times the noise: less overshoot may be noise
 
@@ -56,7 +58,8 @@ double onsetOf(const FoundPhase& phase) { return std::isfinite(phase.onset) ? ph
 double gapBetween(const FoundPhase& a, const FoundPhase& b) {
     const double gap = b.measured.onset_s - a.measured.end_s;
     if (std::isfinite(gap)) return gap;
-    return b.from_s() - a.to_s();
+    const double unseen = b.hiddenBefore > 0 ? 0 : static_cast<double>(b.hiddenFor) / b.view->rate_hz;
+    return b.from_s() - unseen - a.to_s();
 }
 
 void flagPhase(const FoundPhase& phase, PulseFlags& flags) {
@@ -139,25 +142,48 @@ bool PulseAssembly::isSplit(std::size_t k) const {
     return at(k + 1).area < kFragment * whole.area && std::isfinite(gapTo(k, k + 2));
 }
 
+/// Whether the phase that leads may lie in missing samples before this one.
+bool PulseAssembly::mayLackLeading(std::size_t k) const {
+    const auto& phase = at(k);
+    if (!(static_cast<double>(phase.hiddenBefore) <= gapMax_s_ * phase.view->rate_hz)) return false;
+    if (levels_.count == StateCount::Three) return phase.sign > 0 ? !upLeads_ || downLeads_ : !downLeads_ || upLeads_;
+    // Only one side is known. It is the second where the samples go missing or come back on the other.
+    const double height = std::abs((phase.sign > 0 ? levels_.high : levels_.low) - levels_.baseline);
+    const double least = std::max(kAcross * height, kAcrossInNoise * levels_.noise);
+    const auto liesThere = [&](std::size_t i) {
+        return (levels_.baseline - static_cast<double>(phase.view->samples[i])) * phase.sign > least;
+    };
+    const std::size_t end = phase.begin - static_cast<std::size_t>(phase.hiddenBefore);
+    const std::size_t first = end - static_cast<std::size_t>(phase.hiddenFor);
+    return (first > 0 && liesThere(first - 1)) || liesThere(end);
+}
+
 /// Where a phase could belong to either neighbour, the clearly shorter gap wins: a record may begin between the phases
 /// of a pulse.
 void PulseAssembly::pairNext() {
     const std::size_t k = paired_;
     if (isSplit(k)) {
-        addPulse({&at(k), &at(k + 1), &at(k + 2)}, false);
+        addPulse({&at(k), &at(k + 1), &at(k + 2)}, {});
         paired_ += 3;
         return;
     }
     const double gap = gapTo(k, k + 1);
     const double next = gapTo(k + 1, k + 2);
     const double step = 1.0 / capture_.rate_hz;
-    const bool pairs = std::isfinite(gap) && !(std::isfinite(next) && gap > 2 * next + step && k == 0);
+    PulseFlags flags;
+    const bool lacksLeading = mayLackLeading(k);
+    const bool alone = lacksLeading && upLeads_ != downLeads_;
+    const bool pairs = std::isfinite(gap) && !alone && !(std::isfinite(next) && gap > 2 * next + step && k == 0);
+    // Where it is not known which side leads, the same holds for what follows missing samples.
+    chainedToHidden_ = chainedToHidden_ || (lacksLeading && !alone && (!pairs || std::isfinite(next)));
+    flags.incomplete = alone || chainedToHidden_;
+    chainedToHidden_ = chainedToHidden_ && std::isfinite(pairs ? next : gap);
     // From a phase that the record cut on, phases follow so closely that each may belong to either neighbour.
     if (k == 0) chainedToCut_ = at(k).truncated;
     const bool chained = chainedToCut_;
     chainedToCut_ = chainedToCut_ && std::isfinite(pairs ? next : gap);
     if (pairs) {
-        addPulse({&at(k), &at(k + 1)}, false);
+        addPulse({&at(k), &at(k + 1)}, flags);
         paired_ += 2;
         return;
     }
@@ -165,25 +191,30 @@ void PulseAssembly::pairNext() {
     const double end_s = capture_.start_s + static_cast<double>(capture_.samples()) / capture_.rate_hz;
     const bool cutBefore = k == 0 && at(k).from_s() - capture_.start_s <= gapMax_s_;
     const bool cutAfter = k + 1 == kept_ && end_s - at(k).to_s() <= gapMax_s_;
-    addPulse({&at(k)}, levels_.count == StateCount::Three && (cutBefore || cutAfter || chained));
+    const bool three = levels_.count == StateCount::Three;
+    flags.truncated = three && (cutBefore || cutAfter || chained);
+    flags.incomplete =
+        flags.incomplete || (three && static_cast<double>(at(k).hiddenAfter) <= gapMax_s_ * at(k).view->rate_hz);
+    addPulse({&at(k)}, flags);
     paired_ += 1;
 }
 
 /// `phases`: the leading one, the second if there is one, a piece between them; what has a piece is under-sampled.
-/// `cut`: its second phase may lie beyond the record.
-void PulseAssembly::addPulse(std::initializer_list<const FoundPhase*> phases, bool cut) {
+/// `flags`: for what is not seen of it.
+void PulseAssembly::addPulse(std::initializer_list<const FoundPhase*> phases, const PulseFlags& flags) {
     const FoundPhase& leading = **phases.begin();
     const FoundPhase* second = phases.size() > 1 ? *(phases.end() - 1) : nullptr;
     auto& pulse = pulses_.emplace_back();
     pulse.seenFrom_s = leading.from_s();
     pulse.seenTo_s = (second == nullptr ? leading : *second).to_s();
-    pulse.flags.truncated = cut;
+    pulse.flags = flags;
     for (const FoundPhase* phase : phases) flagPhase(*phase, pulse.flags);
     pulse.leading.samples = leading.measured.samples;
     if (!pulse.flags.measured()) return;
 
     pulse.leading = leading.measured;
     if (second != nullptr) {
+        (leading.sign > 0 ? upLeads_ : downLeads_) = true;
         pulse.second = second->measured;
         pulse.gap_s = second->measured.onset_s - leading.measured.end_s;
     }

@@ -38,7 +38,8 @@ private:
     void pairNext();
     [[nodiscard]] double gapTo(std::size_t k, std::size_t second) const;
     [[nodiscard]] bool isSplit(std::size_t k) const;
-    void addPulse(std::initializer_list<const FoundPhase*> phases, bool cut);
+    [[nodiscard]] bool mayLackLeading(std::size_t k) const;
+    void addPulse(std::initializer_list<const FoundPhase*> phases, const PulseFlags& flags);
 
     /// Phases are numbered as they are kept. The newest, of which it is not known yet whether it is, has number kept_.
     [[nodiscard]] FoundPhase& at(std::size_t k) noexcept { return window_[k % window_.size()]; }
@@ -52,6 +53,9 @@ private:
     std::size_t kept_ = 0;       ///< phases that are not ringing
     std::size_t paired_ = 0;     ///< of these, in pulses already
     bool chainedToCut_ = false;  ///< the next to be paired
+    bool chainedToHidden_ = false;
+    bool upLeads_ = false;  ///< of the pulses with two phases so far
+    bool downLeads_ = false;
     double widest_s_ = 0;
     std::vector<PulseMeasurement> pulses_;
 };
