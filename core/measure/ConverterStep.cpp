@@ -29,27 +29,37 @@ struct Seen {
     std::size_t samples = 0;
 };
 
+/// The changes from each value to the next: in `samples`, every so many.
+void lookAtChanges(std::span<const float> samples, std::size_t stride, Seen& seen) {
+    double before = 0;
+    std::size_t changed = 0, held = 0;
+    for (std::size_t k = 1; k * stride < samples.size(); ++k) {
+        const float now = samples[k * stride], last = samples[(k - 1) * stride];
+        if (now == last) continue;
+        const double jump = static_cast<double>(now) - static_cast<double>(last);
+        if (stride == 1 && before * jump < 0 && k - changed <= kReturnsWithin) {
+            seen.returns.push_back(std::max(std::abs(before), std::abs(jump)));
+        }
+        if (held >= kHeld && k - changed >= kHeld) seen.stairs.push_back(std::abs(before));
+        held = k - changed;
+        before = jump;
+        changed = k;
+    }
+}
+
 Seen lookAt(std::span<const float> samples) {
     Seen seen;
-    const std::size_t stride = std::max(kRun, samples.size() / kRuns);
+    const std::size_t stride = samples.size() / kRuns;
+    const std::size_t run = std::max(kRun, samples.size() <= kRun * kRuns ? samples.size() : 0);
     seen.values.reserve(kRun * (kRuns + 1));
-    for (std::size_t first = 0; first < samples.size(); first += stride) {
-        const auto run = samples.subspan(first, std::min(kRun, samples.size() - first));
-        std::copy_if(run.begin(), run.end(), std::back_inserter(seen.values), [](float x) { return std::isfinite(x); });
-        double before = 0;
-        std::size_t changed = 0, held = 0;
-        for (std::size_t i = 1; i < run.size(); ++i) {
-            if (run[i] == run[i - 1]) continue;
-            const double jump = static_cast<double>(run[i]) - static_cast<double>(run[i - 1]);
-            if (before * jump < 0 && i - changed <= kReturnsWithin) {
-                seen.returns.push_back(std::max(std::abs(before), std::abs(jump)));
-            }
-            if (held >= kHeld && i - changed >= kHeld) seen.stairs.push_back(std::abs(before));
-            held = i - changed;
-            before = jump;
-            changed = i;
-        }
+    for (std::size_t first = 0; first < samples.size(); first += std::max(run, stride)) {
+        const auto neighbours = samples.subspan(first, std::min(run, samples.size() - first));
+        std::copy_if(neighbours.begin(), neighbours.end(), std::back_inserter(seen.values),
+                     [](float x) { return std::isfinite(x); });
+        lookAtChanges(neighbours, 1, seen);
     }
+    // A slow baseline stays at each of its stairs for longer than a run.
+    if (stride > kRun) lookAtChanges(samples, samples.size() / (kRun * kRuns), seen);
     seen.samples = seen.values.size();
     std::sort(seen.values.begin(), seen.values.end());
     seen.values.erase(std::unique(seen.values.begin(), seen.values.end()), seen.values.end());
