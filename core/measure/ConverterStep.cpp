@@ -21,6 +21,10 @@ constexpr std::size_t kHeld = 3;           // samples: a stair and no edge
 constexpr std::size_t kFewCodes = 4;       // steps beside each other, climbed one by one
 constexpr double kStairs = 0.8;            // of the stairs
 constexpr double kReturns = 0.005;         // of the samples
+constexpr std::size_t kFewValues = 64;     // that can be told one by one
+constexpr std::size_t kLeastOnGrid = 2;    // of them, besides the two that are one step apart
+constexpr double kOffWholeGrid = 0.02;     // of a step: two values by chance in six hundred
+constexpr double kLeastSpan = 16;          // steps: what an ideal record's few levels need not have
 
 struct Seen {
     std::vector<float> values;    ///< all different, ascending
@@ -66,6 +70,24 @@ Seen lookAt(std::span<const float> samples) {
     return seen;
 }
 
+/// Whether few values all lie on one grid of about `step`, which each distance tells more sharply.
+bool fillOneGrid(const std::vector<float>& values, double step) {
+    if (values.size() > kFewValues || values.size() < 2 + kLeastOnGrid) return false;
+    const auto first = std::adjacent_find(values.begin(), values.end(), [&](float a, float b) {
+        return static_cast<double>(b) - static_cast<double>(a) < 1.5 * step;
+    });
+    std::vector<double> distances;
+    for (const float value : values)
+        distances.push_back(std::abs(static_cast<double>(value) - static_cast<double>(*first)));
+    std::sort(distances.begin(), distances.end());
+    for (const double distance : distances) {
+        const double steps = std::round(distance / step);
+        if (std::abs(distance / step - steps) > kOffWholeGrid) return false;
+        if (steps > 0) step = distance / steps;
+    }
+    return static_cast<double>(values.back()) - static_cast<double>(values.front()) > (kLeastSpan - 0.5) * step;
+}
+
 }  // namespace
 
 double converterStep(std::span<const float> samples) {
@@ -101,7 +123,8 @@ double converterStep(std::span<const float> samples) {
         ones >= kFewCodes && stairs >= kMinReturns && stairs >= kStairs * static_cast<double>(seen.stairs.size());
     // Without either, most of what occurs must lie on the grid.
     const bool fills = ones >= kManyCodes && 2 * near >= gaps.size();
-    return flickers || climbs || fills ? step : 0;
+    const bool fewOnGrid = stairs >= 1 && 2 * stairs >= static_cast<double>(seen.stairs.size());
+    return flickers || climbs || fills || (fewOnGrid && fillOneGrid(seen.values, step)) ? step : 0;
 }
 
 }  // namespace tacto
