@@ -21,6 +21,7 @@ constexpr double kSpanInNoise = 8;          // Gaussian noise alone reaches 7 to
 constexpr double kSmallestBaseline = 0.05;  // of the samples, between two other states
 constexpr double kWideWindow = 0.06;        // of the way to the next state
 constexpr double kSmallestReturn = 0.2;     // of the leading phase's charge, to be a second phase and not ringing
+constexpr double kWanders = 0.15;           // of the way to the larger state: no pulses are found within it
 constexpr double kStepsApart = 2.5;         // of the converter, from the baseline to a state
 constexpr double kRestingSpread = 0.2;  // of the way to the next state; a sine has 0.24, a square wave's ringing less
 
@@ -212,15 +213,20 @@ StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic) 
     const AmplitudeHistogram histogram(blocks, noise, lsb);
     const auto modes = histogram.modes();
     StateLevels levels;
-    if (!threeStates(histogram, modes, blocks.finite(), levels) && !twoStates(histogram, modes, levels)) {
-        return none("it rests at fewer than two levels");
-    }
+    const bool three = threeStates(histogram, modes, blocks.finite(), levels);
+    if (!three && !twoStates(histogram, modes, levels)) return none("it rests at fewer than two levels");
     for (const double state : {levels.low, levels.high}) {
         if (state == levels.baseline || std::abs(state - levels.baseline) >= kStepsApart * lsb) continue;
         return none("its levels lie fewer than three steps of the converter apart");
     }
-    if (!refineBaseline(blocks.samples(), noise, levels)) return none("it moves all the time and rests at no level");
-    return levels;
+    if (refineBaseline(blocks.samples(), noise, levels)) return levels;
+    // A baseline that moves may linger so near by that this is no state of the signal, which has two then.
+    const double up = levels.high - levels.baseline, down = levels.baseline - levels.low;
+    if (three && std::min(up, down) < kWanders * std::max(up, down) && twoStates(histogram, modes, levels) &&
+        refineBaseline(blocks.samples(), noise, levels)) {
+        return levels;
+    }
+    return none("it moves all the time and rests at no level");
 }
 
 }  // namespace tacto
