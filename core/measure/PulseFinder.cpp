@@ -102,7 +102,8 @@ struct Attempt {
     double unrest = 0;           // see SignalQuality
     double levelAfter = 0;       // the same
     double levelBefore = 0;
-    double beside = 0;  ///< of the signal just beside its pulses, from the baseline
+    double beside = 0;      ///< of the signal just beside its pulses, from the baseline
+    double mostBeside = 0;  ///< of all pulses that were looked at
 
     [[nodiscard]] bool hasStates() const noexcept { return levels.count != StateCount::None; }
     [[nodiscard]] bool mostlyMeasured() const {
@@ -170,7 +171,7 @@ private:
     [[nodiscard]] Attempt judged(const SampleView& view, Attempt whole) const {
         if (!whole.hasStates()) return whole;
         markCutPulses(view, whole);
-        whole.beside = levelBeside(view, whole);
+        lookBeside(view, whole);
         const double height = heightOf(whole.levels);
         // A second phase is larger than that: the baseline itself has moved.
         if (std::abs(whole.levelAfter) < kMaxUnrest * height) {
@@ -409,9 +410,11 @@ private:
         return most;
     }
 
-    /// How far the signal lies from the baseline just beside its pulses, beyond the noise: RMS over pulses of the
-    /// larger side.
-    [[nodiscard]] static double levelBeside(const SampleView& view, const Attempt& found) {
+    /// How far the signal lies from the baseline just beside its pulses, beyond the noise: of the larger side, the RMS
+    /// over pulses and the most.
+    void lookBeside(const SampleView& view, Attempt& found) const {
+        // A baseline that moves slowly is no noise to the mean of a few samples.
+        const double noise = std::min(found.levels.noise, kWhite * neighbourNoise(view.samples, lsbOf(view)));
         double squares = 0, n = 0;
         lookAtPulses(found, [&](std::size_t k) {
             const Place place(view, found, k);
@@ -419,12 +422,13 @@ private:
             const bool hidden = found.levelAfter != 0;  // is known already
             for (const auto& one : {before(view, found, place), hidden ? Silence{} : after(view, found, place)}) {
                 const double level = one.n > 0 ? std::abs(one.mean()) : 0;
-                if (level > kNoNoise * found.levels.noise / std::sqrt(one.n)) largest = std::max(largest, level);
+                if (level > kNoNoise * noise / std::sqrt(one.n)) largest = std::max(largest, level);
             }
+            found.mostBeside = std::max(found.mostBeside, largest);
             squares += largest * largest;
             n += 1;
         });
-        return n > 0 ? std::sqrt(squares / n) : 0;
+        found.beside = n > 0 ? std::sqrt(squares / n) : 0;
     }
 
     const Capture& capture_;
@@ -488,8 +492,10 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
         if (found.quality.doubtful && !pulse.second) pulse.imbalance = kNotMeasured;
     }
     found.quality.unrest = attempt.unrest;
-    if (attempt.beside > std::max(kUnseenInSteps * lsb, kUnseen * heightOf(found.levels))) {
-        found.quality.unrest = std::max(attempt.unrest, attempt.beside);
+    // As a standard deviation that holds for each pulse: the most is no more than two.
+    const double beside = std::max(attempt.beside, 0.5 * attempt.mostBeside);
+    if (beside > std::max(kUnseenInSteps * lsb, kUnseen * heightOf(found.levels))) {
+        found.quality.unrest = std::max(attempt.unrest, beside);
     }
     found.quality.levelAfter = attempt.levelAfter;
     return found;
