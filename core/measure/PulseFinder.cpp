@@ -34,6 +34,12 @@ constexpr double kDithers = 0.5;
 constexpr double kMaxBeside = 0.07;  // of the largest state
 constexpr double kMaxUnrest = 0.05;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
 constexpr double kMaxEdges = 0.6;    // of the width: half a sine has 0.67
+// What may be a pulse and is the baseline's own slow wave:
+constexpr double kTall = 0.5;       // of the largest state: surely a pulse
+constexpr double kLow = 0.4;        // of the largest state
+constexpr double kLong = 3;         // times the widest that surely is one
+constexpr double kSlowEdges = 0.4;  // of its width
+constexpr double kPeak = 2;         // overshoot: it begins as a pulse and stays beyond the threshold
 
 double distanceOf(double state, double baseline) { return std::isfinite(state) ? std::abs(state - baseline) : 0; }
 
@@ -190,6 +196,9 @@ private:
             refuse(fmt::format("its baseline moves by {:.2g} (s.d.), too much beside its pulses", whole.unrest));
         } else if (whole.beside > kMaxBeside * height) {
             refuse(fmt::format("just beside what may be pulses it lies {:.2g} from its baseline", whole.beside));
+        } else if (const auto* wave = slowWave(whole)) {
+            refuse(fmt::format("its baseline moves by {:.2g} within {:.2g} s, as far as a pulse",
+                               std::abs(wave->plateau), wave->width_s));
         }
         return whole;
     }
@@ -370,6 +379,23 @@ private:
         for (std::size_t k = 0; k < found.pulses.size(); k += stride) {
             if (found.pulses[k].flags.measured()) look(k);
         }
+    }
+
+    /// A wave of the baseline that is measured as a pulse: low and long beside the others, and without a plateau.
+    [[nodiscard]] static const PhaseMeasurement* slowWave(const Attempt& found) {
+        const double height = heightOf(found.levels);
+        double widest_s = 0;
+        lookAtPulses(found, [&](std::size_t k) {
+            const auto& m = found.pulses[k].leading;
+            if (std::abs(m.plateau) > kTall * height) widest_s = std::max(widest_s, m.width_s);
+        });
+        if (!(widest_s > 0) || !(found.widest_s > kLong * widest_s)) return nullptr;
+        const auto wave = std::ranges::find_if(found.pulses, [&](const PulseMeasurement& pulse) {
+            const auto& m = pulse.leading;
+            return std::abs(m.plateau) < kLow * height && m.width_s > kLong * widest_s &&
+                   (m.rise_s + m.fall_s > kSlowEdges * m.width_s || m.overshoot > kPeak);
+        });
+        return wave == found.pulses.end() ? nullptr : &wave->leading;
     }
 
     struct AfterPulses {
