@@ -244,13 +244,18 @@ ScriptError Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList
     // on.
     static const QRegularExpression frame(QStringLiteral(R"(^(.*?):(-?\d+):(-?\d+):(.*)$)"));
     const QString url = urlOf(file);
+    // Where the stack ran out, Qt 6.8 gives the innermost frame any number.
+    const auto lineIn = [lines = std::ranges::count(source.text, '\n') + 1](const QString& text) {
+        const int line = text.toInt();
+        return line >= 1 && line <= lines ? line : 0;
+    };
     for (const QString& entry : trace) {
         const auto match = frame.match(entry);
         if (!match.hasMatch() || match.captured(4) != url) continue;
-        error.line = match.captured(2).toInt();
-        break;
+        error.line = lineIn(match.captured(2));
+        if (error.line != 0) break;
     }
-    if (error.line == 0) error.line = thrown.property(QStringLiteral("lineNumber")).toInt();
+    if (error.line == 0) error.line = lineIn(thrown.property(QStringLiteral("lineNumber")).toString());
 
     // Its code and sentence are the program's own, even if the script changed the object.
     if (auto failed = bridge->failureOf(thrown)) {
