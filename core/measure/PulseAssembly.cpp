@@ -131,7 +131,10 @@ void PulseAssembly::integrate(std::size_t k) {
 double PulseAssembly::gapTo(std::size_t k, std::size_t second) const {
     if (levels_.count != StateCount::Three || second >= kept_ || at(k).sign == at(second).sign) return kNotMeasured;
     const double gap = gapBetween(at(k), at(second));
-    return gap <= gapMax_s_ ? gap : kNotMeasured;
+    // A mean of samples places an edge no better than to its own length.
+    const std::size_t mean = std::max(at(k).view->mean, at(second).view->mean);
+    const double blur = mean > 1 ? static_cast<double>(mean) / capture_.rate_hz : 0;
+    return gap <= gapMax_s_ + blur ? gap : kNotMeasured;
 }
 
 /// Whether what lies between a phase and the second one of its pulse is a piece of either: a spike in the gap, or the
