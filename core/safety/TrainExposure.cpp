@@ -184,10 +184,10 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
     // So many intervals as fit hold a train each, wherever they begin; what is left of a window holds no more than a
     // train, and no more than the pulses of so long a stretch: those of two trains are farther apart than of one.
     const auto inWindow = [&](double window_s) {
-        const double trains = std::floor(window_s / T);
+        const double wholeTrains = std::floor(window_s / T);
         TrainSums sums =
-            smallerSums(trainsOf(run, 1), pulsesOfTrains(run, pulsesIn(std::max(0.0, window_s - trains * T))));
-        if (trains > 0) sums += trainsOf(run, trains);
+            smallerSums(trainsOf(run, 1), pulsesOfTrains(run, pulsesIn(std::max(0.0, window_s - wholeTrains * T))));
+        if (wholeTrains > 0) sums += trainsOf(run, wholeTrains);
         return smallerSums(sums,
                            smallerSums(trainsOf(run, periodsIn(window_s, T)), pulsesOfTrains(run, pulsesIn(window_s))));
     };

@@ -109,7 +109,7 @@ TEST_F(Asking, AFileThatIsNotThereIsSaidInPlace) {
     EXPECT_THAT(trouble().toStdString(), HasSubstr("missing.json is not there"));
 }
 
-// Qt lists no such name: it comes from elsewhere, with a mark in place of the byte that is no character.
+// Qt lists no such name: it comes from elsewhere, with a mark in place of the byte that UTF-8 does not have.
 TEST_F(Asking, AFileWhoseNameIsNotUtf8IsSaidInPlace) {
     static_cast<void>(folder.write("caf\xE9.json", "{}"));
     ask(gui::FileQuestion::Wants::ExistingFile);
