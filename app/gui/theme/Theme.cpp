@@ -38,6 +38,9 @@ void applyTheme(Theme wanted) {
     qApp->setStyleSheet({});  // else it is laid on every widget with each of the three
     QApplication::setStyle(new MnemonicStyle);
     QApplication::setPalette(paletteOf(colours()));
+    // Qt 6.8 lets a label keep the colour that the sheet of the other theme gave it.
+    for (auto* widget : QApplication::allWidgets())
+        if (widget->property("tone").isValid()) widget->setPalette(QPalette());
     applySheet();
 }
 

@@ -71,10 +71,12 @@ TEST(Prevalence, EveryCountUpToTwentyHas95PercentInNoMoreThanItNeeds) {
             before = found.low;
             // As wide, and a little to either side, holds less.
             constexpr double kAside = 1e-3;
-            if (found.low >= kAside)
+            if (found.low >= kAside) {
                 EXPECT_LE(truth.between(found.low - kAside, found.high - kAside), 0.95) << k << " of " << n;
-            if (found.high <= 1 - kAside)
+            }
+            if (found.high <= 1 - kAside) {
                 EXPECT_LE(truth.between(found.low + kAside, found.high + kAside), 0.95) << k << " of " << n;
+            }
         }
         EXPECT_EQ(prevalenceInterval(0, n).low, 0) << "none of " << n << " above chance";
     }
