@@ -143,8 +143,12 @@ TEST(Edges, AWindowWithoutADisplayEndsWithASentence) {
         EXPECT_THAT(said, StartsWith("tactoscope: no display: ")) << named;
         EXPECT_THAT(said, EndsWith("; tactoscope-cli needs none\n")) << named;
         EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
-        if (named.starts_with("DISPLAY")) EXPECT_THAT(said, HasSubstr("DISPLAY is \":77\""));
-        if (named.starts_with("WAYLAND")) EXPECT_THAT(said, HasSubstr("WAYLAND_DISPLAY is \"wayland-0\""));
+        if (named.starts_with("DISPLAY")) {
+            EXPECT_THAT(said, HasSubstr("DISPLAY is \":77\""));
+        }
+        if (named.starts_with("WAYLAND")) {
+            EXPECT_THAT(said, HasSubstr("WAYLAND_DISPLAY is \"wayland-0\""));
+        }
     }
 }
 

@@ -141,7 +141,9 @@ TEST(Absence, ValuesOutOfAllProportionAreCountedAndLeftOutAndImpactsAreNot) {
         EXPECT_EQ(found.pressure_pa.mean, expected.pressure_pa.mean);
         EXPECT_EQ(found.pressure_pa.max, expected.pressure_pa.max);
         EXPECT_EQ(found.h.mean, expected.h.mean);
-        if (spikes > 0) EXPECT_THAT(found.flags, Contains(fmt::format("out of all proportion in force: {}", spikes)));
+        if (spikes > 0) {
+            EXPECT_THAT(found.flags, Contains(fmt::format("out of all proportion in force: {}", spikes)));
+        }
         EXPECT_THAT(expected.flags, testing::Not(Contains(StartsWith("out of all proportion"))));
     }
     auto impact = noise(0, 2, 200, 1, 1, 0.2, 1);

@@ -185,8 +185,9 @@ TEST_F(Certificate, WhatNobodySaidIsALineToWriteOn) {
         if (detail.key == "function" || detail.key == "authorised_by") continue;  // of the signature
         if (detail.key == "model" || detail.key == "serial")                      // the device says them
             EXPECT_THAT(page, Not(HasSubstr(title + " ____"))) << title;
-        else
+        else {
             EXPECT_THAT(page, HasSubstr(title + "____")) << title;
+        }
     }
     EXPECT_THAT(page, HasSubstr("Conditions during it____"));
     EXPECT_THAT(page, Not(HasSubstr("not recorded Function")));

@@ -448,8 +448,9 @@ TEST(TrainExposure, IntoAResistorTheWorstPositionOfAWindowIsExact) {
             ASSERT_LE(worst.amps, squares * (1 + 1e-9)) << k << ' ' << window;
             ASSERT_LE(squares, worst.amps * (1 + 1e-9) + 0.5 * single.amps * (1 + 1e-9)) << k << ' ' << window;
             ++(squares <= worst.amps * (1 + 1e-6) ? exact : parted);
-            if (some.each.train.interPhaseGap == Micros(0))
+            if (some.each.train.interPhaseGap == Micros(0)) {
                 ASSERT_LE(squares, worst.amps * (1 + 1e-6)) << k << ' ' << window;
+            }
         }
         const double volts = shown.at(Quantity::RmsVoltage5s);
         ASSERT_LE(truth.worst(5, 1).volts, volts * volts * 5 * (1 + 1e-9)) << k;

@@ -92,9 +92,12 @@ TEST(SessionFailure, APathThatCannotBeOpenedIsRefusedWithTheReason) {
         const auto path = folder / name(bytes - folder.native().size() - 1);
         const auto said = refusal(path);
         EXPECT_EQ(said == "made", bytes <= 504) << said;
-        if (bytes > 504)
+        if (bytes > 504) {
             EXPECT_NE(said.find(fmt::format("its path has {} bytes; at most 504", bytes)), said.npos) << said;
-        if (said == "made") EXPECT_TRUE(SessionReader::open(path));
+        }
+        if (said == "made") {
+            EXPECT_TRUE(SessionReader::open(path));
+        }
     }
 }
 
