@@ -22,7 +22,7 @@ constexpr std::size_t kFewCodes = 4;       // steps beside each other, climbed o
 constexpr double kStairs = 0.8;            // of the stairs
 constexpr double kReturns = 0.005;         // of the samples
 constexpr std::size_t kFewValues = 64;     // that can be told one by one
-constexpr std::size_t kLeastOnGrid = 2;    // of them, besides the two that are one step apart
+constexpr std::size_t kMinOnGrid = 2;      // of them, besides the two that are one step apart
 constexpr double kOffWholeGrid = 0.02;     // of a step: two values by chance in six hundred
 constexpr double kLeastSpan = 16;          // steps: what an ideal record's few levels need not have
 
@@ -72,7 +72,7 @@ Seen lookAt(std::span<const float> samples) {
 
 /// Whether few values all lie on one grid of about `step`, which each distance tells more sharply.
 bool fillOneGrid(const std::vector<float>& values, double step) {
-    if (values.size() > kFewValues || values.size() < 2 + kLeastOnGrid) return false;
+    if (values.size() > kFewValues || values.size() < 2 + kMinOnGrid) return false;
     const auto first = std::adjacent_find(values.begin(), values.end(), [&](float a, float b) {
         return static_cast<double>(b) - static_cast<double>(a) < 1.5 * step;
     });

@@ -183,9 +183,9 @@ TEST_F(Certificate, WhatNobodySaidIsALineToWriteOn) {
     for (const auto& detail : kCertificateDetails) {
         const auto title = std::string(detail.title);
         if (detail.key == "function" || detail.key == "authorised_by") continue;  // of the signature
-        if (detail.key == "model" || detail.key == "serial")                      // the device says them
+        if (detail.key == "model" || detail.key == "serial") {                    // the device says them
             EXPECT_THAT(page, Not(HasSubstr(title + " ____"))) << title;
-        else {
+        } else {
             EXPECT_THAT(page, HasSubstr(title + "____")) << title;
         }
     }
