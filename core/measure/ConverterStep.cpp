@@ -24,7 +24,7 @@ constexpr double kReturns = 0.005;         // of the samples
 constexpr std::size_t kFewValues = 64;     // that can be told one by one
 constexpr std::size_t kMinOnGrid = 2;      // of them, besides the two that are one step apart
 constexpr double kOffWholeGrid = 0.02;     // of a step: two values by chance in six hundred
-constexpr double kLeastSpan = 16;          // steps: what an ideal record's few levels need not have
+constexpr double kMinSpan = 16;            // steps: what an ideal record's few levels need not have
 
 struct Seen {
     std::vector<float> values;    ///< all different, ascending
@@ -85,7 +85,7 @@ bool fillOneGrid(const std::vector<float>& values, double step) {
         if (std::abs(distance / step - steps) > kOffWholeGrid) return false;
         if (steps > 0) step = distance / steps;
     }
-    return static_cast<double>(values.back()) - static_cast<double>(values.front()) > (kLeastSpan - 0.5) * step;
+    return static_cast<double>(values.back()) - static_cast<double>(values.front()) > (kMinSpan - 0.5) * step;
 }
 
 }  // namespace
