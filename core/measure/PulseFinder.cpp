@@ -439,7 +439,7 @@ private:
     /// How far the signal lies from the baseline just beside its pulses, beyond the noise: of the larger side, the RMS
     /// over pulses and the most.
     void lookBeside(const SampleView& view, Attempt& found) const {
-        // A baseline that moves slowly stands out of the noise to the mean of a few samples.
+        // The mean of a few samples has a slowly moving baseline in it whole: noise is what neighbours differ by.
         const double noise = std::min(found.levels.noise, kWhite * neighbourNoise(view.samples, lsbOf(view)));
         double squares = 0, n = 0;
         lookAtPulses(found, [&](std::size_t k) {
