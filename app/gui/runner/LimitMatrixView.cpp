@@ -317,10 +317,10 @@ void LimitMatrixView::fitRows() {
     const int inSight = std::clamp(room / least, 1, std::max(1, rowCount()));
     const bool scrolls = inSight < rowCount();
     const int most = fillsHeight_ || scrolls ? scaledPx(kHighRow) : least;
-    verticalHeader()->setDefaultSectionSize(std::clamp(room / inSight, least, most));
+    const int each = std::clamp(room / inSight, least, most);
+    verticalHeader()->setDefaultSectionSize(each);
     const int left = scrolls && room > least ? room % inSight : 0;
-    for (int row = 0; row < rowCount(); ++row)
-        if (row % inSight < left) setRowHeight(row, verticalHeader()->defaultSectionSize() + 1);
+    for (int row = 0; row < rowCount(); ++row) setRowHeight(row, each + (row % inSight < left ? 1 : 0));
 }
 
 void LimitMatrixView::fitColumns() {
