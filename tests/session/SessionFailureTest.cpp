@@ -86,7 +86,7 @@ TEST(SessionFailure, APathThatCannotBeOpenedIsRefusedWithTheReason) {
         refusal(dir.path() / "none" / "s.tacto"),
         fmt::format("session {} cannot be made: No such file or directory", (dir.path() / "none/s.tacto").string()));
     auto folder = dir.path();
-    while (folder.native().size() < 470) folder /= std::string(20, 'd');
+    while (folder.native().size() < 430) folder /= std::string(20, 'd');
     std::filesystem::create_directories(folder);
     for (std::size_t bytes = 490; bytes < 530; ++bytes) {
         const auto path = folder / name(bytes - folder.native().size() - 1);

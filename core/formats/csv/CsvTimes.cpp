@@ -211,7 +211,9 @@ Result<void> CsvTimes::setTimes(CaptureReading& reading, const std::string& file
         return {};
     }
     // An index counts samples, a column of times seconds.
-    const double unit_s = layout_.times == RowTimes::Index ? *layout_.interval_s : 1;
+    const double unit_s = layout_.times != RowTimes::Index ? 1
+                          : layout_.interval_s             ? *layout_.interval_s
+                                                           : 1 / layout_.givenRate_hz.value_or(1);
     if (layout_.givenRate_hz) {
         capture.rate_hz = *layout_.givenRate_hz;
         capture.start_s = layout_.start_s + (std::isfinite(stamps_.front()) ? stamps_.front() * unit_s : 0);
