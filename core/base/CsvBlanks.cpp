@@ -61,6 +61,8 @@ bool areApartByTabs(std::span<const std::string_view> lines) {
             wordsHaveTabs = wordsHaveTabs || trimmed(line).find('\t') != std::string_view::npos;
             continue;
         }
+        // Blanks beside a tab: the tab is one of them.
+        if (line.find(" \t") != std::string_view::npos || line.find("\t ") != std::string_view::npos) return false;
         cutLine(line, '\t', fields);
         const auto its = fields.size();
         while (fields.size() > 1 && fields.back().empty()) fields.pop_back();
