@@ -150,7 +150,6 @@ void LiveWorkspace::fillSide() {
     QWidget* side = new LeastColumn([this] { fit(); }, side_);
     auto* layout = new QVBoxLayout(side);
     layout->setContentsMargins(8, 0, 8, 0);
-    layout->setSpacing(3);
     where_ = new QLabel(side);
     where_->setObjectName("whereTitle");
     setTextSize(*where_, TextSize::Small, true);

@@ -244,8 +244,8 @@ ScriptError Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList
     // on.
     static const QRegularExpression frame(QStringLiteral(R"(^(.*?):(-?\d+):(-?\d+):(.*)$)"));
     const QString url = urlOf(file);
-    // Where the stack ran out, Qt 6.8 gives the innermost frame any number.
-    const auto lineIn = [lines = std::ranges::count(source.text, '\n') + 1](const QString& text) {
+    // Where the stack ran out, Qt 6.8 gives the innermost frame any number. What ends too early ends behind the text.
+    const auto lineIn = [lines = std::ranges::count(source.text, '\n') + 3](const QString& text) {
         const int line = text.toInt();
         return line >= 1 && line <= lines ? line : 0;
     };
