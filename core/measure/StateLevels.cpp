@@ -220,7 +220,7 @@ StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic) 
         return none("its levels lie fewer than three steps of the converter apart");
     }
     if (refineBaseline(blocks.samples(), noise, levels)) return levels;
-    // A baseline that moves may linger so near by that this is no state of the signal, which has two then.
+    // A baseline that moves may linger so near by that this holds no state of the signal, which has two then.
     const double up = levels.high - levels.baseline, down = levels.baseline - levels.low;
     if (three && std::min(up, down) < kWanders * std::max(up, down) && twoStates(histogram, modes, levels) &&
         refineBaseline(blocks.samples(), noise, levels)) {
