@@ -8,6 +8,7 @@
 #include "core/acquisition/RecordingTable.h"
 #include "core/acquisition/RecordingUnits.h"
 #include "core/acquisition/StreamHealth.h"
+#include "core/base/Ascii.h"
 #include "core/base/Csv.h"
 #include "core/base/CsvHead.h"
 #include "core/base/GivenOnce.h"
@@ -20,12 +21,6 @@ namespace tacto {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string inSmallLetters(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return out;
-}
 
 /// A name and digits: "c12".
 bool isNumbered(std::string_view name, std::string_view stem) {
@@ -91,7 +86,7 @@ public:
             for (const auto& kind : kStreamKinds) {
                 if (!column.kind && recordedUnit(kind.value, column.unit)) column.kind = kind.value;
             }
-            if (!column.kind) column.kind = kindByName(inSmallLetters(column.name));
+            if (!column.kind) column.kind = kindByName(lowered(column.name));
         }
         chooseStreams();
         std::string streams;
@@ -182,7 +177,7 @@ private:
             if (time_ == nullptr && recordedTimeUnit(column.unit)) time_ = &column;
         }
         for (auto& column : columns_) {
-            if (time_ == nullptr && column.unit.empty() && isTimeName(inSmallLetters(column.name))) time_ = &column;
+            if (time_ == nullptr && column.unit.empty() && isTimeName(lowered(column.name))) time_ = &column;
         }
         if (time_ == nullptr && columns_.size() > 1 && columns_.front().name.empty()) {
             const auto values = readColumn(0);
@@ -214,7 +209,7 @@ private:
         std::vector<std::string> lines = head_.remarks;
         for (const auto& line : head_.header) lines.push_back(fmt::format("{}", fmt::join(line.fields, " ")));
         for (const auto& line : lines) {
-            const auto words = inSmallLetters(line);
+            const auto words = lowered(line);
             const bool speaks = words.find("rate") != std::string::npos || words.find("freq") != std::string::npos ||
                                 words.starts_with("fs");
             const auto digit = words.find_first_of("0123456789");
