@@ -122,7 +122,7 @@ QWidget* LiveWorkspace::buildEmpty() {
 QWidget* LiveWorkspace::buildBench() {
     auto* bench = new QWidget(stack_);
     auto* layout = new QVBoxLayout(bench);
-    layout->setContentsMargins(8, 8, 8, 8);
+    layout->setContentsMargins(8, 4, 8, 4);
     staleLine_ = new ElidedLabel(bench);
     staleLine_->setObjectName("staleLine");
     setTone(*staleLine_, Tone::Warning);

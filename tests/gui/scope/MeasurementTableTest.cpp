@@ -273,6 +273,7 @@ TEST(ChosenReadings, TheListStaysOpenUntilItsLastRowClosesIt) {
     gui::ChosenReadings chosen;
     QWidget window;
     window.show();
+    QTest::mouseMove(&window, {0, 0});  // a pointer that was nowhere has not moved to a row, says Qt 6.8
     auto* menu = makeReadingsMenu(chosen, &window);
     menu->popup(window.mapToGlobal(QPoint(0, 0)));
     const auto place = [&](QAction* action) { return menu->actionGeometry(action).center(); };
