@@ -7,10 +7,10 @@
 //
 // Noise: with every state at least 21.6 dB (12 standard deviations) out of it, no pulse is missed and none invented. A
 // noisier record is measured on means of as many samples as that takes, if 10 of these fit a phase; where they do not,
-// the result is doubtful and a warning says so. A baseline that drifts or hums is followed where pulses leave it seven
-// tenths of the record; where it moves and cannot be followed, a warning says by how much, or that too much for pulses
-// to be measured. What these promises hold for
-// is in tests/measure/MeasurementGridTest.cpp, the errors in the table that measurement_table prints.
+// the result is doubtful, a warning says so, and an interval over 1.5 times the shortest is not reported. A baseline
+// that drifts or hums is followed where pulses leave it seven tenths of the record; where it moves and cannot be
+// followed, a warning says by how much, or that too much for pulses to be measured. What these promises hold for is in
+// tests/measure/MeasurementGridTest.cpp, the errors in the table that measurement_table prints.
 //
 // Values are bare doubles: their unit is the channel's (V, A, or logic levels), which is data; charge is unit times
 // second, coulombs on a current channel. Times are seconds on the session's time base.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 #include "core/base/QuantityText.h"
 #include "core/measure/Readings.h"
@@ -11,6 +12,8 @@
 namespace tacto {
 
 namespace {
+
+constexpr double kLongInterval = 1.5;  // times the shortest: where noise may hide a pulse, one may be missing in it
 
 /// What the pulses are reported by. All in one walk: two hundred thousand pulses do not fit the cache, and a walk for
 /// each figure would fetch them ten times.
@@ -175,6 +178,21 @@ void warnOfQuality(ChannelMeasurement& result) {
     }
 }
 
+/// Forgets the intervals in which a pulse may have drowned in the noise. Returns how many.
+std::size_t leaveOutLongIntervals(std::vector<TrainMeasurement>& trains) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const auto& train : trains) {
+        if (train.interval_s < shortest) shortest = train.interval_s;
+    }
+    std::size_t left = 0;
+    for (auto& train : trains) {
+        if (!(train.interval_s > kLongInterval * shortest)) continue;
+        train.interval_s = kNotMeasured;
+        ++left;
+    }
+    return left;
+}
+
 void warnOfPulses(const PulseCounts& counts, ChannelMeasurement& result) {
     const auto warn = [&](std::size_t n, std::string_view what) {
         if (n == 0) return;
@@ -213,11 +231,18 @@ void summarise(std::vector<PulseMeasurement> pulses, std::span<const std::size_t
     result.trains = trains.finish();
     result.measuredPulses = counts.measured;
     figures.fill(result);
+    const auto doubled = result.quality.doubtful ? leaveOutLongIntervals(result.trains) : 0;
     Readings intervals(result.trains.size());
     for (const auto& train : result.trains) intervals.add(train.interval_s);
     result.interval_s = intervals.statistics();
     result.uncertainty = uncertaintyOf(result, channel, seconds, time);
     warnOfQuality(result);
+    if (doubled > 0) {
+        result.warnings.push_back(
+            fmt::format("channel '{}': {} {} not measured: longer than {:g} times the shortest, so that a pulse may be "
+                        "missing in it",
+                        result.name, doubled, doubled == 1 ? "interval" : "intervals", kLongInterval));
+    }
     warnOfPulses(counts, result);
 }
 

@@ -64,6 +64,7 @@ struct TruePhase {
     double charge = 0;
     double rise = 0;    ///< samples in which an edge passes from 0 to 1 at the slope that it has at half height
     double uneven = 0;  ///< largest less smallest value over the plateau
+    double again = 0;   ///< between two places at one end where it passes half of its plateau: ringing
 };
 
 enum class Presence {

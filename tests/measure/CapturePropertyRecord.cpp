@@ -65,7 +65,7 @@ public:
         return value;
     }
     [[nodiscard]] double at(double t) const { return std::clamp(before(t), pulse_.lowest, pulse_.highest); }
-    /// Where |wave| passes `level` between the times; it does so once.
+    /// Where |wave| passes `level` between the times: one of the places, where it does so more than once.
     [[nodiscard]] double passes(double level, int sign, double from, double to) const {
         const bool rising = sign * at(from) < level;
         for (int k = 0; k < 60; ++k) {
@@ -73,6 +73,13 @@ public:
             ((sign * at(middle) < level) == rising ? from : to) = middle;
         }
         return 0.5 * (from + to);
+    }
+    /// Where it first lies below `level` on the way to `to`, by a thousandth of that way.
+    [[nodiscard]] double firstBelow(double level, int sign, double from, double to) const {
+        const double step = (to - from) / 1000;
+        double t = from;
+        for (int k = 0; k < 1000 && sign * at(t) >= level; ++k) t += step;
+        return t;
     }
     [[nodiscard]] double integral(double from, double to, double step) const {
         const int n = std::clamp(static_cast<int>((to - from) / step), 100, 40'000);
@@ -111,6 +118,8 @@ TruePhase truthOf(const UnitPulse& pulse, std::size_t k) {
         truth.onset_s = wave.passes(0.5 * truth.plateau, sign, from, middle);
         truth.end_s = wave.passes(0.5 * truth.plateau, sign, middle, to);
     }
+    truth.again = std::max(std::abs(truth.onset_s - wave.firstBelow(0.5 * truth.plateau, sign, middle, from)),
+                           std::abs(truth.end_s - wave.firstBelow(0.5 * truth.plateau, sign, middle, to)));
     const auto riseAt = [&](double t) {
         const double h = 0.02 * std::max(1.0, phase.edge_s);
         return 2 * h * truth.plateau / std::max(std::abs(wave.at(t + h) - wave.at(t - h)), 1e-12);
@@ -658,9 +667,13 @@ void drawStatement(Dice& dice, const Plan& plan, CaptureDraw& draw) {
 TruePhase inRecord(const TruePhase& unit, const Plan& plan, std::size_t k) {
     const double height = plan.amplitude * plan.scales[k];
     const auto timeOf = [&](double t) { return plan.start_s + (plan.onsets[k] + t) / plan.rate_hz; };
-    return {
-        unit.plateau * height, timeOf(unit.onset_s), timeOf(unit.end_s), unit.charge * height / plan.rate_hz, unit.rise,
-        unit.uneven * height};
+    return {unit.plateau * height,
+            timeOf(unit.onset_s),
+            timeOf(unit.end_s),
+            unit.charge * height / plan.rate_hz,
+            unit.rise,
+            unit.uneven * height,
+            unit.again / plan.rate_hz};
 }
 
 /// Whether anything stands in the way of measuring pulse k, and by how much a spike may move its figures.
@@ -681,6 +694,7 @@ void markPulse(const Plan& plan, std::size_t k, const std::vector<TruePhase>& un
         }
     }
     for (const auto& phase : unit) {
+        if (phase.again > 0.5) pulse.moreTime_s = std::max(pulse.moreTime_s, phase.again / plan.rate_hz);
         const double width = phase.end_s - phase.onset_s;
         if (width < 11.5) worsen(Presence::Doubtful);
         if (width < 8.9) worsen(Presence::Broken);
@@ -729,8 +743,8 @@ void markPulse(const Plan& plan, std::size_t k, const std::vector<TruePhase>& un
         pulse.moreCharge += std::abs(height) / plan.rate_hz;
         for (const auto& phase : unit) {
             const double from = plan.onsets[k] + phase.onset_s, to = plan.onsets[k] + phase.end_s;
-            if (at > from - 1 && at < to + 1) pulse.moreAmplitude += 1.2 * std::abs(height) / (0.6 * (to - from));
-            const double near = phase.rise + 2;
+            const double near = phase.rise + 2;  // so near an edge it makes the phase a longer one
+            if (at > from - near && at < to + near) pulse.moreAmplitude += 1.2 * std::abs(height) / (0.6 * (to - from));
             if (std::abs(at - from) < near || std::abs(at - to) < near) pulse.moreTime_s += near / plan.rate_hz;
         }
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/measure/CaptureProperty.h"
@@ -84,6 +85,18 @@ TEST_P(CaptureProperty, EachFigureIsRightOrItIsSaidThatItWasNotMeasured) {
         EXPECT_GE(inside, 0.92 * given - 3 * std::sqrt(0.92 * 0.08 * given)) << kFigureNames[k] << " of " << given;
     }
     fmt::print("{}\n", line);
+}
+
+TEST(NoisyRecord, APulseThatDrownedMakesNoIntervalOfTwice) {
+    RecordProperty("hazard", "H9");
+    const auto draw = drawCapture(CaptureKind::Unequal, 6771);  // the fourth of seven has a quarter of the height
+    const auto m = measureChannel(draw.capture, 0, draw.options);
+    ASSERT_EQ(draw.pulses.size(), 7U);
+    ASSERT_EQ(m.measuredPulses, 6U);
+    const double interval_s = draw.pulses[1].leading.onset_s - draw.pulses[0].leading.onset_s;
+    EXPECT_NEAR(m.interval_s.max, interval_s, 0.01 * interval_s);
+    EXPECT_THAT(m.warnings,
+                ::testing::Contains(::testing::HasSubstr("1 interval not measured: longer than 1.5 times")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Records, CaptureProperty, ::testing::ValuesIn(kCaptureKinds),
