@@ -18,7 +18,7 @@ namespace {
 constexpr int kStripIcon = 16;
 constexpr int kStripGap = 8;
 
-constexpr int kFewLines = 88;  ///< of a dock that gives way to those above it: its header and a button
+constexpr int kFewLines = 70;  ///< of a dock that gives way to those above it: its header and a line or two
 
 QString settingOf(int workspace) { return QString("docks/collapsed%1").arg(workspace); }
 
