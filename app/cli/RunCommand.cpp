@@ -371,10 +371,6 @@ int runRun(const QCommandLineParser& parser) {
         printJson(value);
     else
         printSummary(outcome, value);
-    if (outcome.abandoned) {
-        std::fflush(nullptr);
-        std::_Exit(exitCode);
-    }
     return exitCode;
 }
 

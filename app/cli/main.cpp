@@ -49,10 +49,7 @@ int runNamed(const Command& command, int argc, char** argv) {
     const QCoreApplication application(argc, argv);
     auto words = QCoreApplication::arguments();
     words.removeAt(1);  // the command's name
-    const int code = runCommand(command, words);
-    if (ScriptRun::abandonedRunning() == 0) return code;
-    std::fflush(nullptr);
-    std::_Exit(code);  // a script that does not end would run on among what is taken down
+    return runCommand(command, words);
 }
 
 }  // namespace

@@ -228,7 +228,7 @@ bool isQuiet(const std::string& kind) {
     return std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
 }
 
-/// A run with such an event and no verdict did not come to its end.
+/// A run with such an event and no verdict did not come to its end. The last but one was of earlier versions.
 bool endsARun(const std::string& kind) {
     return kind == "stop" || kind == "stopped" || kind == "fault" || kind == "script abandoned" ||
            kind == "script ended by an error";

@@ -1,8 +1,6 @@
 // OpenedBench.h - a bench with its devices, its clock and its session file, opened in the one way that there is: for a
 // protocol, and for looking and driving by hand.
 //
-// Shared, because the script that runs on it may be abandoned: its thread then holds the bench until it ends, if ever.
-//
 // Thread-safety: openBench() any thread; the rest as its parts.
 #pragma once
 

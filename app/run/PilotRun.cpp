@@ -262,12 +262,10 @@ Result<void> PilotRun::start(RunRequest hooks) {
 /// Once no row with a marker is written any more.
 std::optional<MarkerTally> PilotRun::endMarkers() {
     if (!markers_) return std::nullopt;
-    const bool ended = run_->script() == nullptr || !run_->script()->wait().abandoned;
+    if (run_->script() != nullptr) static_cast<void>(run_->script()->wait());
     const auto tally = markers_->end();
-    if (ended) {
-        const auto& opened = run_->opened();  // a row that cannot be written is found when the session is closed
-        static_cast<void>(opened.session->event(opened.clock->now(), "markers", toJson(tally)));
-    }
+    const auto& opened = run_->opened();  // a row that cannot be written is found when the session is closed
+    static_cast<void>(opened.session->event(opened.clock->now(), "markers", toJson(tally)));
     return tally;
 }
 
@@ -277,7 +275,7 @@ RunResult PilotRun::finish() {
     auto result = run_->finish();
     result.markers = markers;
     const auto ended = session_->stage().ended();
-    if (result.outcome.abandoned || ended == PilotEnd::Unfinished) return result;
+    if (ended == PilotEnd::Unfinished) return result;
     std::string head;
     if (const auto reader = SessionReader::open(begun_->path, begun_->seal)) head = reader->chainHead();
     const auto state = ended == PilotEnd::Complete ? StudySessionState::Complete : StudySessionState::Stopped;

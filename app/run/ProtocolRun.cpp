@@ -92,7 +92,6 @@ Result<void> ProtocolRun::start(RunRequest hooks) {
     hooks.seed = order_.seed;
     hooks.bench = opened_->bench.get();
     hooks.session = opened_->session.get();
-    hooks.owner = opened_;
     hooks.asked = order_.asked;
     hooks.captureFolder = opened_->files.captures;
     auto begun = beginCheck();
@@ -154,29 +153,23 @@ RunResult ProtocolRun::finish() {
         if (notStarted_->code == ErrorCode::Stopped) result.outcome.verdict = ScriptVerdict::Stopped;
         static_cast<void>(session.event(opened_->clock->now(), "script not started", {{"why", notStarted_->message}}));
     }
-    const bool abandoned = result.outcome.abandoned;
     result.stoppedBySafety = endedBySafety(result.outcome, bench());
-    if (!abandoned) {                                                // else its thread may still look at it
-        if (check_) check_->area = bench().profile().electrodeArea;  // as the run had it
-        opened_->bench.reset();
-    }
+    if (check_) check_->area = bench().profile().electrodeArea;  // as the run had it
+    opened_->bench.reset();
     if (auto closed = session.close(result.outcome.error ? "ended by an error" : "finished"); !closed)
         result.troubles.push_back(closed.error());
-    if (!abandoned) {
-        opened_->session.reset();
-        // What is not on disk was not shown (hazard H8).
-        const auto kept = verifySession(result.session);
-        if (!kept)
-            result.troubles.push_back(kept.error());
-        else if (kept->status != SessionStatus::Intact)
-            result.troubles.push_back(
-                {ErrorCode::Io, fmt::format("the session {} is {}: {}", result.session.string(), nameOf(kept->status),
-                                            kept->problems.empty() ? "" : kept->problems.front())});
-    }
+    opened_->session.reset();
+    // What is not on disk was not shown (hazard H8).
+    const auto kept = verifySession(result.session);
+    if (!kept)
+        result.troubles.push_back(kept.error());
+    else if (kept->status != SessionStatus::Intact)
+        result.troubles.push_back(
+            {ErrorCode::Io, fmt::format("the session {} is {}: {}", result.session.string(), nameOf(kept->status),
+                                        kept->problems.empty() ? "" : kept->problems.front())});
     endCheck(result);
     result.weighTroubles();
-    // Read from disk, as everything else (hazard H8). A script that was given up still holds its bench; the marks of
-    // that bench are then missing.
+    // Read from disk, as everything else (hazard H8).
     const auto reader = SessionReader::open(result.session, opened_->seal);
     auto marks = reader ? sessionMarks(*reader) : failure(reader);
     result.marks = marks ? std::move(*marks) : originMarks(about, {});

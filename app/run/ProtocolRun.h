@@ -66,8 +66,7 @@ public:
     /// and operator are the caller's, and starts the script. What is known to fail, as a profile that the stimulator
     /// cannot reach, is said through `onLog` before. Errors: as ScriptRun::start(); finish() reports them too.
     [[nodiscard]] Result<void> start(RunRequest hooks);
-    /// Blocks until the script has ended, then closes bench and session. An abandoned script keeps its bench, with
-    /// outputs off, until its thread ends, if ever.
+    /// Blocks until the script has ended, then closes bench and session.
     [[nodiscard]] RunResult finish();
 
     [[nodiscard]] Bench& bench() noexcept { return *opened_->bench; }

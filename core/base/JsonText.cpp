@@ -17,7 +17,7 @@ using nlohmann::json;
 /// Builds the value as the parser reports its parts; false from any function ends the parsing.
 class Builder {
 public:
-    explicit Builder(int depth) : depth_(depth) {}
+    Builder(const JsonLimits& limits, bool finite) : depth_(limits.depth), values_(limits.values), finite_(finite) {}
 
     [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
     /// Whether the problem is one of the text's form, at the byte wrongAt() (from 1).
@@ -30,7 +30,7 @@ public:
     bool number_integer(json::number_integer_t value) { return add(value); }
     bool number_unsigned(json::number_unsigned_t value) { return add(value); }
     bool number_float(json::number_float_t value, const std::string& text) {
-        if (std::isfinite(value)) return add(value);
+        if (std::isfinite(value) || !finite_) return add(value);
         return refuse(fmt::format("the number {} is out of range", text));
     }
     bool string(std::string& value) { return add(std::move(value)); }
@@ -58,6 +58,7 @@ private:
     }
     template <class Value>
     bool add(Value&& value) {
+        if (!counts()) return false;
         put(json(std::forward<Value>(value)));
         return true;
     }
@@ -68,7 +69,9 @@ private:
         parent.push_back(std::move(value));
         return parent.back();
     }
+    bool counts() { return values_-- > 0 || refuse("it holds more values than are accepted"); }
     bool open(json empty) {
+        if (!counts()) return false;
         if (within_.size() >= static_cast<std::size_t>(depth_)) {
             return refuse(fmt::format("it nests deeper than {} levels", depth_));
         }
@@ -81,6 +84,8 @@ private:
     }
 
     const int depth_;
+    std::size_t values_;  // that may still come
+    const bool finite_;   // nothing else is a number
     json root_;
     std::vector<json*> within_;  // the innermost last; a child moves only when its parent has none open
     std::string key_;
@@ -98,13 +103,24 @@ Result<json> parseJson(std::string_view text, std::string_view source, const Jso
     // The library takes a null byte for the end, whatever follows.
     if (text.find('\0') != std::string_view::npos)
         return fail(ErrorCode::ParseError, "{}: a null byte is not JSON", source);
-    Builder builder(limits.depth);
+    Builder builder(limits, true);
     if (json::sax_parse(text.begin(), text.end(), &builder)) return builder.take();
     if (!builder.isSyntax()) return fail(ErrorCode::ParseError, "{}: {}", source, builder.problem());
     const auto upTo = text.substr(0, std::min(builder.wrongAt(), text.size()));
     return fail(ErrorCode::ParseError, "{}: line {}{}", source, 1 + std::count(upTo.begin(), upTo.end(), '\n'),
                 builder.problem());
 }
+
+Result<json> parseCbor(std::string_view bytes, std::string_view source, const JsonLimits& limits) {
+    if (bytes.size() > limits.bytes)
+        return fail(ErrorCode::ParseError, "{}: {} bytes; at most {} are accepted", source, bytes.size(), limits.bytes);
+    Builder builder(limits, false);
+    if (json::sax_parse(bytes.begin(), bytes.end(), &builder, json::input_format_t::cbor)) return builder.take();
+    return fail(ErrorCode::ParseError, "{}: {}", source,
+                builder.isSyntax() ? "it is not CBOR" : builder.problem());
+}
+
+void appendCbor(const json& value, std::string& to) { json::to_cbor(value, to); }
 
 Result<std::vector<std::filesystem::path>> documentsIn(const std::filesystem::path& folder) {
     std::error_code error;

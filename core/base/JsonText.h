@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -25,6 +26,7 @@ namespace tacto {
 struct JsonLimits {
     std::size_t bytes = 1'000'000;
     int depth = 32;  ///< objects and lists within each other
+    std::size_t values = std::numeric_limits<std::size_t>::max();
 };
 
 /// `source` begins every message: the file, and the line in it where that is known.
@@ -32,6 +34,13 @@ struct JsonLimits {
 /// a null byte, a key twice in one object, or a number beyond the range of double.
 [[nodiscard]] Result<nlohmann::json> parseJson(std::string_view text, std::string_view source,
                                                const JsonLimits& limits = {});
+
+/// The same for values in binary, as another process of the program sends them (CBOR, RFC 8949): NaN and infinities are
+/// values there. Errors: ParseError for bytes that are too many, nest too deep, hold more than `limits.values` values,
+/// are not CBOR or go on after its end, and for a key twice in one object.
+[[nodiscard]] Result<nlohmann::json> parseCbor(std::string_view bytes, std::string_view source,
+                                               const JsonLimits& limits);
+void appendCbor(const nlohmann::json& value, std::string& to);
 
 /// The *.json of a folder, by file name. Errors: NotFound for a folder that cannot be read.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> documentsIn(const std::filesystem::path& folder);

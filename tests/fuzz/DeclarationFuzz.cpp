@@ -1,23 +1,26 @@
-// Whatever tactoscope-declare answers, be it taken over by the script: a declaration or a sentence, and every default
-// of a declaration that was read is one that its parameter accepts (hazard H10).
+// Whatever the process of a script says, be it taken over by the script: a value or a sentence. What is handed to
+// protocol() makes a declaration or a sentence, and every default of a declaration is one that its parameter accepts
+// (hazard H10).
 #include <cstdint>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "app/scripting/engine/DeclarationReader.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
+#include "core/base/JsonText.h"
 #include "tests/fuzz/FuzzTarget.h"
 
 namespace tacto::fuzz::DeclarationFuzz {
 
 TACTO_FUZZ(DeclarationFuzz, const std::uint8_t* data, std::size_t size) {
-    const auto answer = tacto::readAnswer({reinterpret_cast<const char*>(data), size}, "fuzz.js");
-    if (!answer) {
-        if (answer.error().message.empty()) std::abort();
+    const auto given =
+        tacto::parseCbor({reinterpret_cast<const char*>(data), size}, "a message", {.depth = 32, .values = 100'000});
+    if (!given) {
+        if (given.error().message.empty()) std::abort();
         return 0;
     }
-    const auto declared = tacto::parseDeclaration((*answer)[0], (*answer)[1], (*answer)[2]);
+    if (!given->is_array() || given->size() != 3) return 0;
+    const auto declared = tacto::parseDeclaration((*given)[0], (*given)[1], (*given)[2]);
     if (!declared) {
         if (declared.error().message.empty()) std::abort();
         return 0;

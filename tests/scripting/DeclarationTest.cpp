@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "app/scripting/engine/DeclarationReader.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 #include "core/analysis/variation/PopulationField.h"
 #include "tests/scripting/RunBench.h"
@@ -256,20 +255,6 @@ TEST(ProtocolDeclaration, ATopLevelThatMakesTheEngineCrashEndsNoProgramButTheRea
         EXPECT_TRUE(read.error().code == ErrorCode::ParseError || read.error().code == ErrorCode::Timeout);
     }
     EXPECT_GE(refused, 1) << "nothing here makes this engine crash: find what does";
-}
-
-TEST(ProtocolDeclaration, AnAnswerOfTheReaderIsReadAsStrictlyAsAFile) {
-    RecordProperty("hazard", "H10");
-    const nlohmann::json lists{{{"title", "x"}}, nlohmann::json::array(), nlohmann::json::array()};
-    EXPECT_EQ(readAnswer(answerOf(lists).dump(), "a.js").value(), lists);
-    const Result<nlohmann::json> error = fail(ErrorCode::Timeout, "a.js:1: too long");
-    EXPECT_EQ(readAnswer(answerOf(error).dump(), "a.js").error().message, "a.js:1: too long");
-    EXPECT_EQ(readAnswer(answerOf(error).dump(), "a.js").error().code, ErrorCode::Timeout);
-    for (const char* answer :
-         {"", "[]", "5", "{}", "{\"declared\":[1,2]}", "{\"declared\":5}", "{\"code\":99,\"text\":\"\"}",
-          "{\"code\":1.5,\"text\":\"a\"}", "{\"code\":\"x\",\"text\":5}", "{\"declared\":[1,2,3]} x"}) {
-        EXPECT_FALSE(readAnswer(answer, "a.js")) << answer;
-    }
 }
 
 TEST(ProtocolSettings, AreTypedAndChecked) {

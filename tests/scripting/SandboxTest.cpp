@@ -1,7 +1,7 @@
 // Hazard H10: a script reaches the world through the host objects alone, and cannot take those away.
 #include <gtest/gtest.h>
 
-#include "app/scripting/engine/Sandbox.h"
+#include "app/scripting/engine/ScriptProcess.h"
 #include "tests/scripting/RunBench.h"
 
 namespace tacto {
@@ -26,9 +26,9 @@ public:
 /// What ended the script, or "" when run() returned.
 std::string outcomeOf(const std::string& script, EchoPort* port = nullptr) {
     EchoPort own;
-    Sandbox sandbox(port != nullptr ? *port : own, test::probe(script));
-    if (auto error = sandbox.load()) return error->text();
-    if (auto error = sandbox.run(nlohmann::json::object())) return error->text();
+    const auto process = ScriptProcess::start(std::size_t{1} << 30).value();
+    if (auto error = process->load(port != nullptr ? *port : own, test::probe(script))) return error->text();
+    if (auto error = process->run(nlohmann::json::object())) return error->text();
     return {};
 }
 

@@ -70,7 +70,7 @@ void expectEnded(const Ended& ended, const std::string& message) {
     EXPECT_NE(ended.outcome.verdict, ScriptVerdict::Pass);
     EXPECT_TRUE(ended.off);
     EXPECT_TRUE(ended.closed);
-    EXPECT_THAT(ended.events, testing::AnyOf(HasSubstr("script ended by an error"), HasSubstr("script abandoned")));
+    EXPECT_THAT(ended.events, HasSubstr("script ended by an error"));
 }
 
 class ScriptMemory : public testing::TestWithParam<std::pair<const char*, const char*>> {

@@ -19,12 +19,8 @@ using test::withRun;
 const std::string kArmed =
     "bench.arm({ load: 1000 }); bench.drive('manual', { roughness: 1, pressure: 1 }); bench.wait(0.6); log('here');\n";
 
-/// From stop() to the report that a script was abandoned. Sanitizers and a busy machine slow the report, not the stop.
-#ifdef TACTOSCOPE_SANITIZED
-constexpr milliseconds kReported{4000};
-#else
-constexpr milliseconds kReported{1000};
-#endif
+/// From stop() to the report, whatever the script does: its process is ended at once.
+constexpr milliseconds kReported{700};
 
 /// Waits for an operator who never answers.
 class EmptyDesk final : public Operator {
@@ -118,8 +114,7 @@ TEST(ScriptStop, EndsAnEndlessLoop) {
     RunBench rig;
     const Stopping stopping(rig, "for (;;) {}");
     expectStopped(stopping, 2);
-    EXPECT_FALSE(stopping.outcome.abandoned);
-    EXPECT_IN_TIME(stopping.took < milliseconds(700));
+    EXPECT_IN_TIME(stopping.took < kReported);
 }
 
 TEST(ScriptStop, EndsALoopThatCatchesEverything) {
@@ -128,7 +123,6 @@ TEST(ScriptStop, EndsALoopThatCatchesEverything) {
     const Stopping stopping(rig,
                             "for (;;) {\n try { for (;;) bench.wait(0.001); }\n catch (e) { continue; } finally { } }");
     EXPECT_EQ(stopping.outcome.verdict, ScriptVerdict::Stopped);
-    EXPECT_FALSE(stopping.outcome.abandoned);
     EXPECT_TRUE(stopping.offAtOnce);
     EXPECT_TRUE(stopping.offAfter);
 }
@@ -140,7 +134,6 @@ TEST(ScriptStop, EndsALoopInCompiledFunctions) {
                             "const f = (n) => { let s = 0; while (n-- !== 0) s += n; return s; };\n"
                             "for (let i = 0; i < 1000; ++i) f(10);\nf(-1);");
     EXPECT_EQ(stopping.outcome.verdict, ScriptVerdict::Stopped);
-    EXPECT_FALSE(stopping.outcome.abandoned);
 }
 
 TEST(ScriptStop, WakesABlockedHostCall) {
@@ -148,8 +141,7 @@ TEST(ScriptStop, WakesABlockedHostCall) {
     RunBench rig(false);
     const Stopping stopping(rig, "\nbench.wait(3600);");
     expectStopped(stopping, 4);
-    EXPECT_FALSE(stopping.outcome.abandoned);
-    EXPECT_IN_TIME(stopping.took < milliseconds(700));
+    EXPECT_IN_TIME(stopping.took < kReported);
 }
 
 TEST(ScriptStop, WakesAQuestionThatTheOperatorDoesNotAnswer) {
@@ -163,20 +155,16 @@ TEST(ScriptStop, WakesAQuestionThatTheOperatorDoesNotAnswer) {
     run->stop("the test");
     const auto outcome = run->wait();
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
-    EXPECT_FALSE(outcome.abandoned);
     EXPECT_EQ(outcome.line, 2);
 }
 
-TEST(ScriptStop, AbandonsALongNativeCallWithinASecondWithOutputsOff) {
+TEST(ScriptStop, EndsALongNativeCallAtOnce) {
     RecordProperty("hazard", "H10");
     RunBench rig;
     auto request = rig.request(withRun("const a = []; for (let i = 0; i < 1e6; ++i) a[i] = i * 7919 % 1000003;\n" +
                                        kArmed + "a.sort();\nbench.arm({ load: 1000 }); log('alive');"));
     std::promise<void> reached;
     request.onLog = [&](const std::string&) { reached.set_value(); };
-    auto owner = std::make_shared<bool>();
-    const std::weak_ptr<bool> held = owner;
-    request.owner = std::move(owner);
     auto run = ScriptRun::start(std::move(request)).value();
     ASSERT_IN_TIME(isSaid(reached.get_future(), *run));
     EXPECT_FALSE(run->waitFor(milliseconds(150)));
@@ -185,38 +173,22 @@ TEST(ScriptStop, AbandonsALongNativeCallWithinASecondWithOutputsOff) {
     EXPECT_TRUE(rig.outputOff());
     const auto outcome = run->wait();
     const auto took = steady_clock::now() - begin;
-    EXPECT_TRUE(outcome.abandoned);
     EXPECT_IN_TIME(took < kReported);
-    EXPECT_EQ(ScriptRun::abandonedRunning(), 1);
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
     EXPECT_TRUE(outcome.error->message.starts_with("/lab/probe.js:3: stopped by the test")) << outcome.error->message;
     EXPECT_EQ(outcome.error->message.rfind("probe.js"), outcome.error->message.find("probe.js")) << "its path once";
-    EXPECT_NE(outcome.error->message.find("abandoned with the output off"), std::string::npos);
     EXPECT_TRUE(rig.outputOff());
-    run.reset();
-    EXPECT_FALSE(held.expired()) << "its thread still runs";
 }
 
-TEST(ScriptStop, AScriptThatEndedLetsGoOfItsBench) {
-    RunBench rig;
-    auto request = rig.request(withRun("log('done');"));
-    auto owner = std::make_shared<bool>();
-    const std::weak_ptr<bool> held = owner;
-    request.owner = std::move(owner);
-    EXPECT_FALSE(runProtocol(std::move(request)).value().abandoned);
-    EXPECT_TRUE(held.expired());
-}
-
-TEST(ScriptStop, AbandonsRecursiveTryFinally) {
+TEST(ScriptStop, EndsRecursiveTryFinally) {
     RecordProperty("hazard", "H10");
     RunBench rig;
     const Stopping stopping(rig, "function f() { try { f(); } finally { f(); } }\nf();");
     expectStopped(stopping, 2);
-    EXPECT_TRUE(stopping.outcome.abandoned);
     EXPECT_IN_TIME(stopping.took < kReported);
 }
 
-TEST(ScriptStop, AnAbandonedScriptReachesTheBenchNoMore) {
+TEST(ScriptStop, AStoppedScriptReachesTheBenchNoMore) {
     RecordProperty("hazard", "H10");
     auto rig = std::make_unique<RunBench>();
     std::atomic<int> logged{0};
@@ -229,11 +201,10 @@ TEST(ScriptStop, AnAbandonedScriptReachesTheBenchNoMore) {
     run->stop("the test");
     const auto outcome = run->wait();
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
-    EXPECT_TRUE(outcome.abandoned);
     const int before = logged;
     EXPECT_TRUE(rig->outputOff());
     run.reset();
-    rig.reset();  // the bench is gone; the script may go on calling it
+    rig.reset();  // the bench is gone
     const auto until = steady_clock::now() + milliseconds(200);
     while (steady_clock::now() < until) std::this_thread::yield();
     EXPECT_EQ(logged, before);
@@ -298,7 +269,6 @@ TEST(ScriptStop, EndsAPausedScript) {
     run->stop("the test");
     const auto outcome = run->wait();
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
-    EXPECT_FALSE(outcome.abandoned);
 }
 
 TEST(ScriptStop, BeforeTheStartIsNotForgotten) {

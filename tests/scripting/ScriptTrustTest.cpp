@@ -70,6 +70,25 @@ TEST_F(ScriptTrust, TheElectrodeShrinksAndNeverGrows) {
     EXPECT_THAT(run("bench.setElectrodeArea(p.area);", 3, {{"area", "4"}}), HasSubstr("4 cm² is larger"));
 }
 
+TEST_F(ScriptTrust, ReferencesAreFeltInTheRunAndNotMadeUp) {
+    RecordProperty("hazard", "H7");
+    const std::string felt = "const s = bench.measureReference('plastic'), r = bench.measureReference('P120');\n";
+    EXPECT_EQ(run(felt + "bench.setReferences(s, r);", {}), "");
+    EXPECT_TRUE(rig_->bench().profile().roughness.calibrated);
+    // A number, a name or a field of its own, a half that was not felt, or nothing felt at all: none of them counts.
+    for (const char* forged :
+         {"bench.setReferences({ h: 0.001, v: 0.001 }, { h: 0.002, v: 0.002 });",
+          "s.h *= 0.99; bench.setReferences(s, r);", "r.material = 'glass'; bench.setReferences(s, r);",
+          "bench.setReferences(Object.assign({}, s, { more: 1 }), r);",
+          "bench.setReferences(s, { h: s.h, v: s.v });"}) {
+        EXPECT_THAT(run(felt + forged, {}),
+                    HasSubstr("what bench.measureReference() returned in this run, unchanged, is "
+                              "expected"))
+            << forged;
+        EXPECT_FALSE(rig_->bench().profile().roughness.calibrated) << forged;
+    }
+}
+
 TEST_F(ScriptTrust, WithoutAnAreaInTheProfileTheOperatorsWordIsNeeded) {
     RecordProperty("hazard", "H1");
     EXPECT_THAT(run("bench.setElectrodeArea(1000);", {}), HasSubstr("the operator did not give 1000 cm²"));

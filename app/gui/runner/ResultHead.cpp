@@ -102,11 +102,6 @@ void ResultHead::show(const FinishedRun& run) {
         if (!outcome.error || reason != outcome.error->message) why << withOhmSigns(qtext(reason));
     }
     for (const auto& trouble : run.result.troubles) why << withOhmSigns(qtext(trouble.message));
-    if (outcome.abandoned) {
-        why << tr(
-            "The script did not end when it was asked to and was abandoned: it cannot reach the bench any more. "
-            "Output is off. Restart the program when you can.");
-    }
     if (why.isEmpty()) why << tr("The protocol ran to its end; it judges nothing.");
     why_->setText(withSigns(keptTogether(titled(why.takeFirst()))));
     QStringList marks;

@@ -1,9 +1,8 @@
 // ProtocolDeclaration.h - what a protocol script says about itself before it runs: title, purpose, the devices it
 // needs, its parameters with units and ranges, and the questions it may put to an operator.
 //
-// The declaration is read by running the script's top level in an engine without a bench and, unless the script comes
-// with the program, in a process of its own: nothing can be delivered, a top level that does not end is interrupted,
-// and one that makes the engine crash ends that process alone.
+// The declaration is read by running the script's top level in a process of its own (ScriptProcess.h) and without a
+// bench: nothing can be delivered, and one that does not end or makes the engine crash ends that process alone.
 //
 // Thread-safety: values; the functions are pure but for the thread that they run the script on.
 #pragma once
@@ -63,7 +62,7 @@ struct ProtocolSettings {
 /// Runs the script's top level and reads what it declares.
 /// Errors: ParseError "file:line: reason" for a script error, a missing protocol(), a missing run(), an unknown key,
 /// type or role, a range upside down or a default outside it, a crash of the engine; Timeout when the top level does
-/// not end in `limit`; NotFound where the program tactoscope-declare is missing.
+/// not end in `limit`; NotFound where the program tactoscope-script is missing.
 [[nodiscard]] Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source,
                                                           std::chrono::milliseconds limit = std::chrono::seconds(1));
 

@@ -1,6 +1,5 @@
 #include "app/scripting/engine/ScriptRun.h"
 
-#include <QCoreApplication>
 #include <atomic>
 #include <condition_variable>
 #include <cstdlib>
@@ -11,16 +10,15 @@
 #include <unistd.h>
 
 #include "app/scripting/engine/Arguments.h"
-#include "app/scripting/engine/MemoryGuard.h"
+#include "app/scripting/engine/ScriptProcess.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/engine/ScriptThread.h"
+#include "app/scripting/wire/MemoryGuard.h"
 #include "core/pilot/PilotSession.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
 
 namespace {
-/// A host call wakes within milliseconds of a stop. One that does not leaves the bench in two hands.
 constexpr std::chrono::seconds kHostCallLimit{5};
 
 /// Without the C library's streams: the thread that stands still may hold them, and stderr may take nothing.
@@ -33,39 +31,41 @@ constexpr std::chrono::seconds kHostCallLimit{5};
 
 }  // namespace
 
-/// Shared with the script's thread, which may outlive the ScriptRun when it was abandoned.
+/// What of it is not guarded belongs to the script's thread until that has ended, then to wait()'s caller.
 struct ScriptRun::State final : HostPort {
-    explicit State(RunRequest given) : request(std::move(given)), session(request) {}
+    State(RunRequest given, std::unique_ptr<ScriptProcess> started)
+        : request(std::move(given)), session(request), process(std::move(started)) {}
 
     RunRequest request;
-    ScriptSession session;             // guarded by access
-    std::timed_mutex access;           // held during a host call, so that giving up never cuts into one
-    bool abandoned = false;            // guarded by access
-    nlohmann::json declared;           // guarded by access
-    std::optional<ScriptError> error;  // guarded by access
-    bool ended = false;                // guarded by access
-    bool stoppedInTime = false;        // guarded by access: the stop came before the script's end
-    bool running = false;              // the script's thread only
-    std::atomic<int> line{0};          // of the last host call
+    ScriptSession session;
+    nlohmann::json declared;
+    std::optional<ScriptError> error;
+    bool stoppedInTime = false;  // the stop came before the script's end
+    bool running = false;
+    int line = 0;  // of the last host call
 
     std::mutex control;  // held for moments only
     std::condition_variable woken;
     bool paused = false;    // guarded by control
     bool stopping = false;  // guarded by control
+    bool ended = false;     // guarded by control: the script's thread has let go of everything
     bool over = false;      // guarded by control: the bench may be gone
     std::string stoppedBy;  // guarded by control
+    std::optional<std::chrono::steady_clock::time_point> stoppedAt;  // guarded by control
 
-    std::unique_ptr<ScriptThread> thread;  // set once, before stop() can be called
-    std::unique_ptr<MemoryGuard> memory;   // ends before the thread does
+    const std::unique_ptr<ScriptProcess> process;
+    std::thread thread;                    // serves the process
+    std::unique_ptr<MemoryGuard> memory;   // of what the script makes the program keep
     std::optional<ScriptOutcome> outcome;  // wait()'s caller only
 
     Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int from) override;
     [[nodiscard]] Result<nlohmann::json> callChecked(const HostFunction& function, const nlohmann::json& arguments);
     void stop(const char* by) noexcept;
-    void execute(Sandbox& sandbox);
+    void execute();
+    [[nodiscard]] bool waitForEnd(std::optional<std::chrono::milliseconds> limit);
     [[nodiscard]] std::optional<ScriptError> checkDeclared();
     void writeAbout();
-    void conclude(ScriptThread::End end);
+    void conclude();
     std::uint64_t faultsBefore = 0;  // of the bench, at the start
     void writeVerdict();
     void writeEvent(std::string_view kind, const nlohmann::json& details);
@@ -83,8 +83,6 @@ Result<nlohmann::json> ScriptRun::State::call(const HostFunction& function, cons
         woken.wait(lock, [this] { return !paused || stopping; });
         if (stopping) return fail(ErrorCode::Stopped, "stopped by {}", stoppedBy);
     }
-    const std::lock_guard lock(access);
-    if (abandoned) return fail(ErrorCode::Stopped, "this script was abandoned");
     if (declares) {
         // As the program read it: the first one counts, and none inside run(p).
         if (running || !declared.is_null()) return fail(ErrorCode::InvalidArgument, "protocol() was called twice");
@@ -119,41 +117,55 @@ void ScriptRun::State::stop(const char* by) noexcept {
         if (request.pilot != nullptr) request.pilot->endRun();  // a flag: no test takes this stop for its own
         request.bench->stop(by);                                // the output first
         if (!stopping) stoppedBy = by;
+        if (!stopping) stoppedAt = std::chrono::steady_clock::now();
         stopping = true;
     }
     woken.notify_all();
     if (request.operatorDesk != nullptr) request.operatorDesk->cancel();
     if (request.pilot != nullptr) request.pilot->cancel();
-    thread->interrupt();
+    process->end();
 }
 
-void ScriptRun::State::execute(Sandbox& sandbox) {
-    line = sandbox.runLine();
-    auto failed = sandbox.load();
-    if (!failed) failed = checkDeclared();
-    if (!failed) {
+void ScriptRun::State::execute() {
+    error = process->load(*this, request.script);
+    line = std::max(line, process->runLine());
+    if (!error) error = checkDeclared();
+    if (!error) {
         running = true;
         writeAbout();
-        failed = sandbox.run(request.parameters);
+        error = process->run(request.parameters);
     }
-    bool stopped = false;
-    {
-        const std::lock_guard lock(control);
-        stopped = stopping;
-    }
-    const std::lock_guard lock(access);
-    if (abandoned) return;
-    request.bench->disarm();
-    error = std::move(failed);
-    stoppedInTime = stopped;  // also where the script swallowed it
+    request.bench->disarm();  // however it ended: returned, threw, crashed or was ended
+    const std::lock_guard lock(control);
+    stoppedInTime = stopping;  // also where the script swallowed it
     ended = true;
+    woken.notify_all();
+}
+
+/// Whether it has ended. After a stop its process is gone at once, and a host call wakes within milliseconds; one that
+/// does not leaves the bench in two hands.
+bool ScriptRun::State::waitForEnd(std::optional<std::chrono::milliseconds> limit) {
+    std::unique_lock lock(control);
+    const auto until = std::chrono::steady_clock::now() + limit.value_or(std::chrono::milliseconds(0));
+    while (!ended) {
+        const auto now = std::chrono::steady_clock::now();
+        if (stoppedAt && now > *stoppedAt + kHostCallLimit) {
+            lock.unlock();
+            request.bench->stop("a host call that does not end");
+            endProgram(
+                fmt::format("a call of script {} into the bench did not end after a stop; ending with outputs off\n",
+                            request.script.name));
+        }
+        if (limit && now >= until) return false;
+        constexpr std::chrono::milliseconds kLook{200};
+        woken.wait_until(lock, limit ? std::min(until, now + kLook) : now + kLook);
+    }
+    return true;
 }
 
 /// The title and the settings of a report are those that the operator saw, not what a script declares by the clock
 /// (hazard H9).
 std::optional<ScriptError> ScriptRun::State::checkDeclared() {
-    const std::lock_guard lock(access);
-    if (abandoned) return std::nullopt;
     std::optional<ProtocolDeclaration> now;
     if (declared.is_array()) {
         if (auto read = parseDeclaration(declared[0], declared[1], declared[2])) now = std::move(*read);
@@ -172,9 +184,8 @@ std::optional<ScriptError> ScriptRun::State::checkDeclared() {
 }
 
 void ScriptRun::State::writeAbout() {
-    const std::lock_guard lock(access);
     const auto& declaration = request.declaration;
-    if (abandoned || request.session == nullptr || !declaration) return;
+    if (request.session == nullptr || !declaration) return;
     nlohmann::json parameters = nlohmann::json::array();
     for (const auto& parameter : declaration->parameters) {
         parameters.push_back({{"name", parameter.name},
@@ -201,67 +212,46 @@ std::string ScriptRun::State::stopText(int at) {
     return fmt::format("{}:{}: stopped by {}, at this line or after it", fileOf(request.script), at, by);
 }
 
-void ScriptRun::State::conclude(ScriptThread::End end) {
+void ScriptRun::State::conclude() {
+    if (thread.joinable()) thread.join();
     memory.reset();
     {
         const std::lock_guard lock(control);
         over = true;  // from here on stop() leaves the bench alone
     }
-    std::unique_lock lock(access, std::defer_lock);
-    if (!lock.try_lock_for(kHostCallLimit)) {
-        request.bench->stop("a host call that does not end");
-        endProgram(fmt::format("a call of script {} into the bench did not end after a stop; ending with outputs off\n",
-                               request.script.name));
-    }
     session.recordExposure();
     ScriptOutcome result;
     result.file = fileOf(request.script);
-    if (end == ScriptThread::End::Abandoned && !ended) {
-        abandoned = true;  // no host call of it does anything from here on
-        request.bench->disarm();
-        result.log = session.takeLog();
-        result.abandoned = true;
+    session.finish(result);
+    if (stoppedInTime) {
         result.verdict = ScriptVerdict::Stopped;
         result.line = line;
-        result.error =
-            Error{ErrorCode::Stopped,
-                  stopText(line) + "; it did not end within a second, so it was abandoned with the output off"};
-        request.onProgress = nullptr;
-        request.onLog = nullptr;
-    } else {
-        session.finish(result);
-        if (stoppedInTime) {
-            result.verdict = ScriptVerdict::Stopped;
-            result.line = line;
-            result.error = Error{ErrorCode::Stopped, stopText(line)};
-        } else if (error) {
-            result.verdict = error->code == ErrorCode::Stopped ? ScriptVerdict::Stopped : ScriptVerdict::None;
-            result.line = error->line;
-            result.error = Error{error->code, error->text()};
-        }
-        // What the script swallowed is still the end of the run: no verdict stands on what came after it.
-        if (!result.error && session.endedWith()) {
-            result.verdict =
-                session.endedWith()->code == ErrorCode::Stopped ? ScriptVerdict::Stopped : ScriptVerdict::None;
-            result.line = line;
-            result.error = session.endedWith();
-        }
-        if (!result.error && request.bench != nullptr &&
-            request.bench->faults() > faultsBefore + session.expectedFaults()) {
-            result.verdict = ScriptVerdict::Stopped;
-            result.error = Error{request.bench->faultCode(), fmt::format("fault during the run: {}. Output is off.",
-                                                                         request.bench->telemetry().reason.view())};
-        }
-        if (!result.error && request.bench->recordsLost() > 0) {
-            result.verdict = ScriptVerdict::None;
-            result.error = Error{ErrorCode::Io, fmt::format("{} records of this run were lost: the disk was too slow. "
-                                                            "There is no verdict on what is not on record.",
-                                                            request.bench->recordsLost())};
-        }
-        if (result.error) {
-            result.results = result.abandoned ? nlohmann::json() : session.takePartial();
-            result.reasons = {result.error->message};
-        }
+        result.error = Error{ErrorCode::Stopped, stopText(line)};
+    } else if (error) {
+        result.verdict = error->code == ErrorCode::Stopped ? ScriptVerdict::Stopped : ScriptVerdict::None;
+        result.line = error->line;
+        result.error = Error{error->code, error->text()};
+    }
+    // What the script swallowed is still the end of the run: no verdict stands on what came after it.
+    if (!result.error && session.endedWith()) {
+        result.verdict = session.endedWith()->code == ErrorCode::Stopped ? ScriptVerdict::Stopped : ScriptVerdict::None;
+        result.line = line;
+        result.error = session.endedWith();
+    }
+    if (!result.error && request.bench->faults() > faultsBefore + session.expectedFaults()) {
+        result.verdict = ScriptVerdict::Stopped;
+        result.error = Error{request.bench->faultCode(), fmt::format("fault during the run: {}. Output is off.",
+                                                                     request.bench->telemetry().reason.view())};
+    }
+    if (!result.error && request.bench->recordsLost() > 0) {
+        result.verdict = ScriptVerdict::None;
+        result.error = Error{ErrorCode::Io, fmt::format("{} records of this run were lost: the disk was too slow. "
+                                                        "There is no verdict on what is not on record.",
+                                                        request.bench->recordsLost())};
+    }
+    if (result.error) {
+        result.results = session.takePartial();
+        result.reasons = {result.error->message};
     }
     outcome = std::move(result);
     writeVerdict();
@@ -275,8 +265,7 @@ void ScriptRun::State::writeEvent(std::string_view kind, const nlohmann::json& d
 void ScriptRun::State::writeVerdict() {
     if (request.session == nullptr) return;
     if (outcome->error) {
-        writeEvent(outcome->abandoned ? "script abandoned" : "script ended by an error",
-                   {{"message", outcome->error->message}});
+        writeEvent("script ended by an error", {{"message", outcome->error->message}});
     }
     // A protocol that judges nothing may say what it found all the same: that stands where the verdict would.
     const bool judged = outcome->verdict != ScriptVerdict::None;
@@ -289,31 +278,28 @@ void ScriptRun::State::writeVerdict() {
     outcome->error = written.error();
 }
 
-ScriptRun::ScriptRun(std::shared_ptr<State> state) : state_(std::move(state)) {}
+ScriptRun::ScriptRun(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     if (request.bench == nullptr) return fail(ErrorCode::InvalidArgument, "a script cannot run without a bench");
-    if (QCoreApplication::instance() == nullptr) {
-        return fail(ErrorCode::InvalidArgument, "a script cannot run without a QCoreApplication");
-    }
     if (auto begun = request.bench->begin(request.asked); !begun) {
         return fail(ErrorCode::Stopped, "stopped by operator before the script began: nothing was delivered");
     }
+    const auto memory = request.memoryLimit.value_or(MemoryGuard::usualLimit());
+    auto process = ScriptProcess::start(memory, request.program);
+    if (!process) return failure(process);
     request.bench->resume();  // a pause from before this run is over
-    auto state = std::make_shared<State>(std::move(request));
-    state->faultsBefore = state->request.bench->faults();
-    State* raw = state.get();  // the thread keeps the port, which is the state, alive
+    std::unique_ptr<ScriptRun> run(new ScriptRun(std::make_unique<State>(std::move(request), std::move(*process))));
+    State& state = *run->state_;
+    state.faultsBefore = state.request.bench->faults();
     try {
-        state->thread = std::make_unique<ScriptThread>(state, state->request.script,
-                                                       [raw](Sandbox& sandbox) { raw->execute(sandbox); });
-        // If the guard gets no thread, `run` stops the script as it goes. The guard stops the script through its
-        // thread.
-        std::unique_ptr<ScriptRun> run(new ScriptRun(state));
-        state->memory =
-            std::make_unique<MemoryGuard>([raw] { raw->stop("the program: the script takes too much memory"); },
-                                          state->request.memoryLimit.value_or(MemoryGuard::usualLimit()));
+        state.memory = std::make_unique<MemoryGuard>(
+            [&state] { state.stop("the program: the script makes it take too much memory"); }, memory);
+        state.thread = std::thread([&state] { state.execute(); });
         return run;
     } catch (const std::system_error& refused) {
+        const std::lock_guard lock(state.control);
+        state.ended = true;
         return fail(ErrorCode::Io, "the script cannot run: the system gives this program no thread ({})",
                     refused.what());
     }
@@ -322,7 +308,6 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
 ScriptRun::~ScriptRun() {
     stop("the program");
     (void)wait();
-    state_->thread.reset();
 }
 
 void ScriptRun::stop(const char* by) noexcept { state_->stop(by); }
@@ -349,20 +334,17 @@ bool ScriptRun::paused() const noexcept {
     return state_->paused && !state_->over && !state_->stopping;
 }
 
+int ScriptRun::processId() const noexcept { return state_->process->id(); }
+
 ScriptOutcome ScriptRun::wait() {
-    if (!state_->outcome) state_->conclude(state_->thread->wait());
+    if (!state_->outcome && state_->waitForEnd({})) state_->conclude();
     return *state_->outcome;
 }
 
 std::optional<ScriptOutcome> ScriptRun::waitFor(std::chrono::milliseconds time) {
-    if (state_->outcome) return state_->outcome;
-    const auto end = state_->thread->wait(time);
-    if (end == ScriptThread::End::Running) return std::nullopt;
-    state_->conclude(end);
+    if (!state_->outcome && state_->waitForEnd(time)) state_->conclude();
     return state_->outcome;
 }
-
-int ScriptRun::abandonedRunning() noexcept { return ScriptThread::abandonedRunning(); }
 
 Result<ScriptOutcome> runProtocol(RunRequest request) {
     auto run = ScriptRun::start(std::move(request));

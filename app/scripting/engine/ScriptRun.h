@@ -1,14 +1,12 @@
 // ScriptRun.h - one run of a protocol script against a bench, on a thread of its own.
 //
-// Promise (hazard H10): a script reaches the world through the host objects alone. stop() reaches the bench's
-// outputs without the script's help; calls that wait come back with an error; the script ends at its next
-// statement, and one still running a second later is reported and abandoned: its thread and engine live on until it
-// ends, if ever, it can never touch the bench or the session again, and the outputs are off. Leaving run() by any door
-// disarms.
+// Promise (hazard H10): a script reaches the world through the host objects alone, from a process of its own
+// (ScriptProcess.h). stop() reaches the bench's outputs without the script's help; calls that wait come back with an
+// error, and the script's process is ended whatever it does. A process that ends by itself, a crash of the engine, is
+// an end of the run like an exception. Leaving run() by any door disarms.
 //
 // Thread-safety: stop(), pause(), resume() and paused() from any thread, as often as wanted; wait functions have one
 // caller.
-// Needs a QCoreApplication, but no event loop.
 #pragma once
 
 #include <chrono>
@@ -51,18 +49,17 @@ struct RunRequest {
     std::optional<ProtocolDeclaration> declaration = {};
     nlohmann::json parameters = nlohmann::json::object();  ///< from applySettings()
     std::set<std::string> operatorGave;                    ///< names of the parameters that the operator set on purpose
-    /// Bytes by which the program may grow while the script runs; the usual limit of MemoryGuard where nothing is said.
+    /// Bytes by which the script's process may grow, and the program while it runs; the usual limit of MemoryGuard
+    /// where nothing is said.
     std::optional<std::size_t> memoryLimit;
     std::uint64_t seed = 1;
-    Bench* bench = nullptr;            ///< not used elsewhere until the run is over, stop() apart
-    StopMark asked = {};               ///< of the bench's stops(): when the operator asked for the run
-    SessionWriter* session = nullptr;  ///< null records nothing
-    PilotSession* pilot = nullptr;     ///< what the object `pilot` works on; null: there is none
-    /// What owns the two, held for as long as the script's thread runs: an abandoned one may never end. Null: they
-    /// outlive the thread anyhow.
-    std::shared_ptr<void> owner = nullptr;
-    Operator* operatorDesk = nullptr;                       ///< not owned; null: every question fails with its name
-    std::filesystem::path captureFolder;                    ///< each capture as a CSV file there; empty writes none
+    Bench* bench = nullptr;               ///< not used elsewhere until the run is over, stop() apart
+    std::filesystem::path program;        ///< in place of tactoscope-script, where it is not empty
+    StopMark asked = {};                  ///< of the bench's stops(): when the operator asked for the run
+    SessionWriter* session = nullptr;     ///< null records nothing
+    PilotSession* pilot = nullptr;        ///< what the object `pilot` works on; null: there is none
+    Operator* operatorDesk = nullptr;     ///< not owned; null: every question fails with its name
+    std::filesystem::path captureFolder;  ///< each capture as a CSV file there; empty writes none
     std::function<void(const ScriptProgress&)> onProgress;  ///< on the script's thread; may be empty
     std::function<void(const std::string&)> onLog;          ///< on the script's thread; may be empty
     /// A trial as record.trial() was given it, with `condition` and `trial`. On the script's thread; may be empty.
@@ -90,14 +87,13 @@ struct ScriptOutcome {
     std::string file;            ///< of the error
     int line = 0;
     std::uint64_t expectedFaults = 0;  ///< of the bench: provoked on purpose, found and reset by the script's trips
-    bool abandoned = false;            ///< still running when it was given up: end the process without unwinding
     std::vector<std::string> log;      ///< what log() said
 };
 
 class ScriptRun {
 public:
-    /// Starts the thread. Errors: Stopped when a stop of the bench has come since `request.asked`; InvalidArgument
-    /// without a bench.
+    /// Starts the script. Errors: Stopped when a stop of the bench has come since `request.asked`; InvalidArgument
+    /// without a bench; as ScriptProcess::start().
     [[nodiscard]] static Result<std::unique_ptr<ScriptRun>> start(RunRequest request);
     /// Stops, waits as wait() does.
     ~ScriptRun();
@@ -110,22 +106,20 @@ public:
     /// Bench paused; the script waits at its next host call.
     void pause() noexcept;
     void resume() noexcept;
+    /// The number of the script's process, to look at it or to end it.
+    [[nodiscard]] int processId() const noexcept;
     /// Whether it waits, or will at its next host call.
     [[nodiscard]] bool paused() const noexcept;
 
-    /// Blocks until the script has ended or was abandoned. On return the bench is disarmed.
+    /// Blocks until the script has ended. On return the bench is disarmed.
     [[nodiscard]] ScriptOutcome wait();
     /// The same, giving up after `time`: nothing then, and the script goes on.
     [[nodiscard]] std::optional<ScriptOutcome> waitFor(std::chrono::milliseconds time);
 
-    /// Abandoned scripts of this process whose thread still runs. A program that ends while this is not 0 should
-    /// leave by std::_Exit, after it has closed its files.
-    [[nodiscard]] static int abandonedRunning() noexcept;
-
 private:
     struct State;
-    explicit ScriptRun(std::shared_ptr<State> state);
-    std::shared_ptr<State> state_;
+    explicit ScriptRun(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
 };
 
 /// start() and wait() in one.

@@ -110,7 +110,7 @@ std::vector<HostFunction> benchFunctions() {
         {.name = "setReferences",
          .parameters = {object("smooth", "from bench.measureReference()"), object("rough", "the same")},
          .text = "Scales roughness to the two reference surfaces, for the rest of the run.",
-         .errors = "Throws for equal references.",
+         .errors = "Throws for what was not measured in this run, and for equal references.",
          .call = host::bench::setReferences},
         {.name = "conditions",
          .kind = HostKind::Property,

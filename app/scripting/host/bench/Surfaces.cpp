@@ -105,12 +105,19 @@ Result<Json> measureReference(ScriptSession& session, const Arguments& arguments
                     duration);
     }
     const auto mean = [](const std::vector<double>& x) { return x.empty() ? Json() : Json(statisticsOf(x).mean); };
-    return Json{{"material", material}, {"h", mean(h)}, {"v", mean(v)}, {"frames", std::max(h.size(), v.size())}};
+    Json out{{"material", material}, {"h", mean(h)}, {"v", mean(v)}, {"frames", std::max(h.size(), v.size())}};
+    session.own().note(out);
+    return out;
 }
 
 Result<Json> setReferences(ScriptSession& session, const Arguments& arguments) {
     const Json& smooth = arguments.object("smooth");
     const Json& rough = arguments.object("rough");
+    // What gives R its scale, and so trains their amplitude, is felt on this rig and not made up (hazard H7).
+    for (const auto& [name, said] : {std::pair("smooth", &smooth), std::pair("rough", &rough)}) {
+        if (!session.own().noted(*said))
+            return arguments.wrong(name, *said, "what bench.measureReference() returned in this run, unchanged,");
+    }
     Profile profile = session.bench().profile();
     RoughnessSettings& settings = profile.roughness;
     ReferenceScale& spectral = settings.spectral == SpectralFeature::Relative ? settings.h : settings.hAbs;

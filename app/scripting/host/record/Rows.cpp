@@ -46,7 +46,7 @@ Result<Json> measurement(ScriptSession& session, const Arguments& arguments) {
 Result<Json> event(ScriptSession& session, const Arguments& arguments) {
     const auto kind = arguments.text("kind");
     if (session.writer() == nullptr) return Json();
-    // No event of the program begins like this: "script abandoned" is one of its own (hazard H9).
+    // No event of the program begins like this: "script not started" is one of its own (hazard H9).
     return done(session.writer()->event(session.now(), "script: " + kind, arguments.any("details")));
 }
 

@@ -1,8 +1,9 @@
-#include "app/scripting/engine/MemoryGuard.h"
+#include "app/scripting/wire/MemoryGuard.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <fcntl.h>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -20,13 +21,11 @@ namespace {
 constexpr std::chrono::milliseconds kPollInterval{20};
 constexpr std::size_t kMaxGuardedBytes = std::size_t{2} << 30;
 
-/// Resident memory of this program in bytes; 0 where the system does not tell.
-std::size_t resident() noexcept {
-    std::FILE* file = std::fopen("/proc/self/statm", "re");
-    if (file == nullptr) return 0;
+/// Resident memory of this process in bytes, by its /proc/self/statm; 0 where the system does not tell.
+std::size_t resident(int statm) noexcept {
     char line[128];
-    std::string_view pages = std::fgets(line, sizeof line, file) != nullptr ? line : "";
-    static_cast<void>(std::fclose(file));
+    const ssize_t read = ::pread(statm, line, sizeof line, 0);
+    std::string_view pages(line, read > 0 ? static_cast<std::size_t>(read) : 0);
     pages.remove_prefix(std::min(pages.find(' ') + 1, pages.size()));  // the first number is of addresses
     const auto inMemory = parseWhole<std::size_t>(pages.substr(0, pages.find(' ')));
     return inMemory.value_or(0) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
@@ -93,8 +92,11 @@ std::size_t MemoryGuard::usualLimit() {
                      leftByLimit(RLIMIT_DATA, kData) / 2});
 }
 
-MemoryGuard::MemoryGuard(std::function<void()> onExceeded, std::size_t most)
-    : onExceeded_(std::move(onExceeded)), thread_([this, most] { watch(most); }) {}
+MemoryGuard::MemoryGuard(std::function<void()> onExceeded, std::size_t most, std::function<void()> eachTime)
+    : onExceeded_(std::move(onExceeded)),
+      eachTime_(std::move(eachTime)),
+      statm_(::open("/proc/self/statm", O_RDONLY | O_CLOEXEC)),
+      thread_([this, most] { watch(most); }) {}
 
 MemoryGuard::~MemoryGuard() {
     {
@@ -103,13 +105,15 @@ MemoryGuard::~MemoryGuard() {
     }
     ending_.notify_all();
     thread_.join();
+    if (statm_ >= 0) ::close(statm_);
 }
 
 void MemoryGuard::watch(std::size_t most) {
-    const std::size_t before = resident();
+    const std::size_t before = resident(statm_);
     std::unique_lock lock(mutex_);
     while (!ending_.wait_for(lock, kPollInterval, [this] { return ended_; })) {
-        const std::size_t now = resident();
+        if (eachTime_) eachTime_();
+        const std::size_t now = resident(statm_);
         if (now <= before || now - before <= most) continue;
         lock.unlock();
         onExceeded_();

@@ -1,11 +1,15 @@
-#include "app/scripting/engine/Sandbox.h"
+#include "app/scripting/child/Sandbox.h"
 
 #include <QRegularExpression>
+#include <QSet>
 #include <QUrl>
+#include <algorithm>
+#include <fmt/format.h>
 #include <new>
+#include <utility>
 
-#include "app/scripting/engine/HostBridge.h"
-#include "app/scripting/engine/JsValue.h"
+#include "app/scripting/child/HostBridge.h"
+#include "app/scripting/child/JsValue.h"
 #include "core/base/JsonText.h"
 
 namespace tacto {
@@ -45,25 +49,6 @@ const QString kInstall = QStringLiteral(R"js(
 })
 )js");
 
-QString qtText(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
-
-QStringList hostNames() {
-    QStringList names;
-    for (const auto& function : hostFunctions()) {
-        const QString name = qtText(function.object.empty() ? function.name : function.object);
-        if (!names.contains(name)) names.push_back(name);
-    }
-    return names;
-}
-
-int findRunLine(const std::string& text) {
-    static const QRegularExpression run(QStringLiteral(R"(\bfunction\s*\*?\s*run\s*\(|\b(?:const|let|var)\s+run\s*=)"));
-    const QString code = QString::fromStdString(text);
-    const auto match = run.match(code);
-    if (!match.hasMatch()) return 1;
-    return static_cast<int>(code.left(match.capturedStart()).count(QLatin1Char('\n'))) + 1;
-}
-
 /// The engine turns a path into a file URL, which is what its stack traces name.
 QString urlOf(const std::string& file) {
     const QString name = QString::fromStdString(file);
@@ -72,32 +57,32 @@ QString urlOf(const std::string& file) {
 
 }  // namespace
 
-std::string ScriptError::text() const {
-    return line > 0 ? fmt::format("{}:{}: {}", file, line, reason) : fmt::format("{}: {}", file, reason);
-}
-
 struct Sandbox::Engine {
-    Engine(HostPort& port, const ProtocolSource& from)
-        : source(from), file(fileOf(from)), bridge(std::make_unique<HostBridge>(js, port, urlOf(file))) {
+    Engine(HostCalls& calls, const std::vector<SeenFunction>& functions, std::string from, std::string given)
+        : text(std::move(given)), file(std::move(from)), bridge(std::make_unique<HostBridge>(js, calls, urlOf(file))) {
         removeForeignGlobals();
-        installHost();
+        installHost(functions);
+        for (const auto& function : functions) {
+            const auto name = QString::fromStdString(function.object.empty() ? function.name : function.object);
+            if (!hostNames.contains(name)) hostNames.push_back(name);
+        }
     }
 
     void removeForeignGlobals();
-    void installHost();
-    [[nodiscard]] std::optional<ScriptError> evaluate(const QString& code, const QString& from,
-                                                      QJSValue* result = nullptr);
-    [[nodiscard]] ScriptError errorFrom(const QJSValue& thrown, const QStringList& trace) const;
+    void installHost(const std::vector<SeenFunction>& functions);
+    [[nodiscard]] std::optional<Thrown> evaluate(const QString& code, const QString& from, QJSValue* result = nullptr);
+    [[nodiscard]] Thrown errorFrom(const QJSValue& thrown, const QStringList& trace) const;
 
     QJSEngine js;
-    const ProtocolSource source;
-    const std::string file;  // as errors name it
+    const std::string text;
+    const std::string file;
+    QStringList hostNames;  // of the host's globals
     std::unique_ptr<HostBridge> bridge;
     bool ranOutOfMemory = false;
 };
 
-Sandbox::Sandbox(HostPort& port, const ProtocolSource& source)
-    : engine_(std::make_unique<Engine>(port, source)), runLine_(findRunLine(source.text)) {}
+Sandbox::Sandbox(HostCalls& calls, const std::vector<SeenFunction>& functions, std::string file, std::string text)
+    : engine_(std::make_unique<Engine>(calls, functions, std::move(file), std::move(text))) {}
 
 Sandbox::~Sandbox() {
     // The engine is in an undefined state, so it is not destroyed.
@@ -163,18 +148,17 @@ void Sandbox::Engine::removeForeignGlobals() {
     }
 }
 
-void Sandbox::Engine::installHost() {
-    const auto& functions = hostFunctions();
+void Sandbox::Engine::installHost(const std::vector<SeenFunction>& functions) {
     QJSValue table = js.newArray(static_cast<uint>(functions.size()));
     QJSValue makers = js.newArray(static_cast<uint>(functions.size()));
     for (std::size_t i = 0; i < functions.size(); ++i) {
         QJSValue entry = js.newObject();
-        entry.setProperty(QStringLiteral("object"), qtText(functions[i].object));
-        entry.setProperty(QStringLiteral("name"), qtText(functions[i].name));
-        entry.setProperty(QStringLiteral("property"), functions[i].kind == HostKind::Property);
+        entry.setProperty(QStringLiteral("object"), QString::fromStdString(functions[i].object));
+        entry.setProperty(QStringLiteral("name"), QString::fromStdString(functions[i].name));
+        entry.setProperty(QStringLiteral("property"), functions[i].property);
         table.setProperty(static_cast<quint32>(i), entry);
         if (functions[i].javascript.empty()) continue;
-        const QString code = qtText(functions[i].javascript);
+        const QString code = QString::fromStdString(functions[i].javascript);
         const QJSValue maker = js.evaluate(
             QStringLiteral("(function (native) { \"use strict\"; return (") + code + QStringLiteral("); })"),
             kHostFile);
@@ -188,10 +172,10 @@ void Sandbox::Engine::installHost() {
     if (done.isError()) qFatal("host objects could not be installed: %s", qPrintable(done.toString()));
 }
 
-std::optional<ScriptError> Sandbox::load() {
+std::optional<Thrown> Sandbox::load() {
     // A script's `let` and `const` are seen by its own text only, so the question what it defines is put at its end.
-    const QStringList names = hostNames();
-    const QString text = QStringLiteral("\"use strict\"; ") + QString::fromStdString(engine_->source.text) +
+    const QStringList& names = engine_->hostNames;
+    const QString text = QStringLiteral("\"use strict\"; ") + QString::fromStdString(engine_->text) +
                          QStringLiteral("\n;({ run: typeof run === 'function' ? run : null, held: [") +
                          names.join(QLatin1Char(',')) + QStringLiteral("] })");
     QJSValue end;
@@ -201,52 +185,48 @@ std::optional<ScriptError> Sandbox::load() {
     for (qsizetype i = 0; held.isArray() && i < names.size(); ++i) {
         if (held.property(static_cast<quint32>(i)).strictlyEquals(engine_->js.globalObject().property(names[i])))
             continue;
-        return ScriptError{ErrorCode::ParseError,
-                           fmt::format("the script defines {0}, but {0} belongs to the program; choose another name",
-                                       names[i].toStdString()),
-                           engine_->file, 1};
+        return Thrown{.reason = fmt::format("the script defines {0}, but {0} belongs to the program; choose another "
+                                            "name",
+                                            names[i].toStdString()),
+                      .line = 1};
     }
     const QJSValue entry = end.property(QStringLiteral("run"));
     if (!entry.isCallable()) {
-        return ScriptError{ErrorCode::ParseError, "the script has no function run(p)", engine_->file, 1};
+        return Thrown{.reason = "the script has no function run(p)", .line = 1};
     }
     engine_->js.globalObject().setProperty(QStringLiteral("run"), entry);
     return std::nullopt;
 }
 
-std::optional<ScriptError> Sandbox::run(const nlohmann::json& parameters) {
+std::optional<Thrown> Sandbox::run(const nlohmann::json& parameters) {
     const std::string given = dumpJson(parameters, -1, true);  // ASCII: a JavaScript literal whatever it holds
     return engine_->evaluate(QStringLiteral("run(") + QString::fromStdString(given) + QLatin1Char(')'), kStartFile);
 }
 
-void Sandbox::interrupt() noexcept { engine_->js.setInterrupted(true); }
-
-std::optional<ScriptError> Sandbox::Engine::evaluate(const QString& code, const QString& from, QJSValue* result) {
+std::optional<Thrown> Sandbox::Engine::evaluate(const QString& code, const QString& from, QJSValue* result) {
     QStringList trace;
     QJSValue value;
     try {
         value = js.evaluate(code, from, 1, &trace);
     } catch (const std::bad_alloc&) {
         ranOutOfMemory = true;
-        return ScriptError{ErrorCode::Stopped, "the script asked for more memory than there is; output is off", file,
-                           0};
+        return Thrown{.reason = "the script asked for more memory than there is; output is off", .outOfMemory = true};
     }
     if (result != nullptr) *result = value;
-    if (js.isInterrupted()) return ScriptError{ErrorCode::Stopped, "interrupted", file, 0};
     if (trace.isEmpty() && !value.isError()) return std::nullopt;
     if (trace.isEmpty() && from == kStartFile) return std::nullopt;  // run() returned an Error, it threw none
     return errorFrom(value, trace);
 }
 
-ScriptError Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& trace) const {
-    ScriptError error{ErrorCode::ParseError, {}, file, 0};
+Thrown Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& trace) const {
+    Thrown error;
     // "function:line:column:file", innermost first; the innermost line of the script itself is what its author can act
     // on.
     static const QRegularExpression frame(QStringLiteral(R"(^(.*?):(-?\d+):(-?\d+):(.*)$)"));
     const QString url = urlOf(file);
     // Where the stack ran out, Qt 6.8 gives the innermost frame any number. What ends too early ends behind the text.
-    const auto lineIn = [lines = std::ranges::count(source.text, '\n') + 3](const QString& text) {
-        const int line = text.toInt();
+    const auto lineIn = [lines = std::ranges::count(text, '\n') + 3](const QString& number) {
+        const int line = number.toInt();
         return line >= 1 && line <= lines ? line : 0;
     };
     for (const QString& entry : trace) {
@@ -257,12 +237,8 @@ ScriptError Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList
     }
     if (error.line == 0) error.line = lineIn(thrown.property(QStringLiteral("lineNumber")).toString());
 
-    // Its code and sentence are the program's own, even if the script changed the object.
-    if (auto failed = bridge->failureOf(thrown)) {
-        error.code = failed->code;
-        error.reason = std::move(failed->message);
-        return error;
-    }
+    error.failure = bridge->failureOf(thrown);
+    if (error.failure) return error;  // the program knows its code and sentence
     if (!thrown.isError()) {
         error.reason = thrown.toString().toStdString();
         if (thrown.isObject() && !thrown.isCallable()) {

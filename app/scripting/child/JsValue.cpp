@@ -1,14 +1,13 @@
-#include "app/scripting/engine/JsValue.h"
+#include "app/scripting/child/JsValue.h"
 
 #include <QJSValueIterator>
 #include <cmath>
 
+#include "app/scripting/wire/ScriptMessage.h"
+
 namespace tacto {
 
 namespace {
-
-constexpr int kMaxDepth = 32;
-constexpr std::size_t kMaxElements = 10'000'000;
 
 class Reader {
 public:
@@ -17,9 +16,9 @@ public:
         if (value.isBool()) return nlohmann::json(value.toBool());
         if (value.isNumber()) return number(value.toNumber());
         if (value.isString()) return nlohmann::json(value.toString().toStdString());
-        if (depth >= kMaxDepth) {
+        if (depth >= kMaxScriptDepth) {
             return fail(ErrorCode::InvalidArgument, "a value is nested deeper than {} levels, or contains itself",
-                        kMaxDepth);
+                        kMaxScriptDepth);
         }
         if (value.isCallable() || !value.isObject()) {
             return fail(ErrorCode::InvalidArgument, "a function or symbol was given where plain data are expected");
@@ -36,8 +35,8 @@ private:
 
     Result<void> count(std::size_t more) {
         elements_ += more;
-        if (elements_ <= kMaxElements) return {};
-        return fail(ErrorCode::InvalidArgument, "a value has more than {} elements", kMaxElements);
+        if (elements_ <= kMaxValues) return {};
+        return fail(ErrorCode::InvalidArgument, "a value has more than {} elements", kMaxValues);
     }
 
     Result<nlohmann::json> array(const QJSValue& value, int depth) {

@@ -1,0 +1,287 @@
+#include "app/scripting/engine/ScriptProcess.h"
+
+#include <QRegularExpression>
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <functional>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "app/scripting/wire/ScriptMessage.h"
+#include "core/base/ProgramPath.h"
+
+extern char** environ;
+
+namespace tacto {
+
+namespace {
+
+using nlohmann::json;
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+/// For a process that does not even compute: it was stopped from outside, or the machine stands still.
+constexpr std::chrono::minutes kMaxSilence{10};
+constexpr int kTimesOnABusyMachine = 10;  // what takes a second of the processor may take this often as long
+
+int findRunLine(const std::string& text) {
+    static const QRegularExpression run(QStringLiteral(R"(\bfunction\s*\*?\s*run\s*\(|\b(?:const|let|var)\s+run\s*=)"));
+    const QString code = QString::fromStdString(text);
+    const auto match = run.match(code);
+    if (!match.hasMatch()) return 1;
+    return static_cast<int>(code.left(match.capturedStart()).count(QLatin1Char('\n'))) + 1;
+}
+
+/// The table of functions that there are: with it the script's process knows what can be called.
+json tableOfFunctions() {
+    json table = json::array();
+    for (const auto& function : hostFunctions()) {
+        table.push_back({{"object", function.object},
+                         {"name", function.name},
+                         {"property", function.kind == HostKind::Property},
+                         {"javascript", function.javascript}});
+    }
+    return table;
+}
+
+/// Processor time that a process has used; nothing once it is gone.
+std::optional<std::chrono::nanoseconds> timeUsedBy(pid_t pid) {
+    clockid_t clock{};
+    timespec used{};
+    if (::clock_getcpuclockid(pid, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return std::nullopt;
+    return std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec);
+}
+
+/// A script that neither calls nor ends.
+class Patience {
+public:
+    Patience(pid_t pid, std::optional<std::chrono::milliseconds> limit) : pid_(pid), limit_(limit) { begin(); }
+    void begin() {
+        used_ = timeUsedBy(pid_);
+        since_ = std::chrono::steady_clock::now();
+    }
+    [[nodiscard]] Result<void> look() const {
+        const auto now = timeUsedBy(pid_);
+        if (limit_ && now && used_ && *now - *used_ > *limit_) return fail(ErrorCode::Timeout, "no answer in time");
+        if (now && used_ && *now - *used_ > ScriptProcess::kMaxThought) {
+            return fail(ErrorCode::Timeout, "the script computed for {} s without a call, which is more than it may",
+                        ScriptProcess::kMaxThought.count());
+        }
+        if (std::chrono::steady_clock::now() - since_ > kMaxSilence)
+            return fail(ErrorCode::Timeout, "the script's process stood still for {} min", kMaxSilence.count());
+        return {};
+    }
+
+private:
+    pid_t pid_;
+    std::optional<std::chrono::milliseconds> limit_;
+    std::optional<std::chrono::nanoseconds> used_;
+    SteadyTime since_;
+};
+
+/// A number where one stands, whatever stands there.
+std::int64_t wholeIn(const json& message, const char* key, std::int64_t otherwise) {
+    const auto at = message.find(key);
+    return at != message.end() && at->is_number_integer() ? at->get<std::int64_t>() : otherwise;
+}
+
+std::string textIn(const json& message, const char* key) {
+    const auto at = message.find(key);
+    return at != message.end() && at->is_string() ? shortened(at->get_ref<const std::string&>(), kMaxReason + 3)
+                                                  : std::string();
+}
+
+}  // namespace
+
+std::string ScriptError::text() const {
+    return line > 0 ? fmt::format("{}:{}: {}", file, line, reason) : fmt::format("{}: {}", file, reason);
+}
+
+Result<std::unique_ptr<ScriptProcess>> ScriptProcess::start(std::size_t memory, std::filesystem::path program) {
+    if (program.empty()) program = programBeside("tactoscope-script");
+    const auto refused = [&](int why) {
+        return fail(why == ENOENT ? ErrorCode::NotFound : ErrorCode::Io, "scripts cannot run: {} does not start ({}){}",
+                    program.string(), std::strerror(why), why == ENOENT ? "; install Tactoscope again" : "");
+    };
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return refused(errno);
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&files);
+    posix_spawnattr_init(&attributes);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
+    posix_spawn_file_actions_adddup2(&files, ends[1], kScriptSocket);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+    const std::string path = program.string();
+    char* const arguments[] = {const_cast<char*>(path.c_str()), nullptr};
+    pid_t pid = 0;
+    const int failed = ::posix_spawn(&pid, path.c_str(), &files, &attributes, arguments, environ);
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    ::close(ends[1]);
+    if (failed != 0) {
+        ::close(ends[0]);
+        return refused(failed);
+    }
+    std::unique_ptr<ScriptProcess> process(new ScriptProcess(pid, ends[0]));
+    if (auto introduced = process->introduce(memory); !introduced) return failure(introduced);
+    return process;
+}
+
+Result<void> ScriptProcess::introduce(std::size_t memory) {
+    return sendMessage(socket_,
+                       {{"start", {{"functions", tableOfFunctions()}, {"memory", memory}, {"parent", ::getpid()}}}});
+}
+
+ScriptProcess::~ScriptProcess() {
+    end();
+    reap();
+    ::close(socket_);
+}
+
+void ScriptProcess::end() noexcept {
+    ending_ = true;
+    const std::lock_guard lock(life_);
+    if (!reaped_) static_cast<void>(::kill(pid_, SIGKILL));
+}
+
+/// Waits for its end.
+void ScriptProcess::reap() noexcept {
+    if (reaped_) return;
+    siginfo_t how{};
+    while (::waitid(P_PID, static_cast<id_t>(pid_), &how, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
+    const std::lock_guard lock(life_);
+    while (::waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
+    }
+    reaped_ = true;
+}
+
+ScriptError ScriptProcess::error(ErrorCode code, std::string reason, int line) const {
+    return {code, std::move(reason), file_, line};
+}
+
+std::optional<ScriptError> ScriptProcess::load(HostPort& port, const ProtocolSource& source,
+                                               std::optional<std::chrono::milliseconds> limit) {
+    port_ = &port;
+    file_ = fileOf(source);
+    lines_ = static_cast<int>(std::ranges::count(source.text, '\n')) + 3;
+    runLine_ = findRunLine(source.text);
+    lastLine_ = 0;
+    return serve({{"load", {{"file", file_}, {"text", source.text}}}}, limit);
+}
+
+std::optional<ScriptError> ScriptProcess::run(const nlohmann::json& parameters) {
+    return serve({{"run", parameters}}, std::nullopt);
+}
+
+/// Hands the message over and answers calls until the script says that it has ended.
+std::optional<ScriptError> ScriptProcess::serve(const json& message, std::optional<std::chrono::milliseconds> limit) {
+    if (reaped_) return error(ErrorCode::Io, "the script's process is gone");
+    Patience patience(pid_, limit);
+    const auto receive = [&](std::optional<SteadyTime> until) {
+        return receiveMessage(socket_, until, [&] { return patience.look(); });
+    };
+    if (!ready_) {
+        if (const auto begun = receive({}); !begun) return lost(begun.error());
+        ready_ = true;
+        patience.begin();
+    }
+    std::optional<SteadyTime> deadline;
+    if (limit) deadline = std::chrono::steady_clock::now() + kTimesOnABusyMachine * *limit;
+    if (auto sent = sendMessage(socket_, message); !sent) return lost(sent.error());
+    for (;;) {
+        auto said = receive(deadline);
+        if (!said) return lost(said.error());
+        if (said->is_object() && said->contains("ended")) return endedBy((*said)["ended"]);
+        const auto answered = answer(*said);
+        if (!answered) return lost({ErrorCode::ParseError, "said what no script can say"});
+        if (!*answered) return lost(answered->error());
+        patience.begin();
+    }
+}
+
+/// Empty for a message that calls nothing.
+std::optional<Result<void>> ScriptProcess::answer(const json& message) {
+    const auto& functions = hostFunctions();
+    if (!message.is_object()) return std::nullopt;
+    const bool refused = message.contains("refused");
+    const auto index = wholeIn(message, refused ? "refused" : "call", -1);
+    if (index < 0 || index >= static_cast<std::int64_t>(functions.size())) return std::nullopt;
+    const HostFunction& function = functions[static_cast<std::size_t>(index)];
+    if (refused) {  // its arguments cannot be handed over
+        return sendMessage(socket_, remember({ErrorCode::InvalidArgument,
+                                              fmt::format("{}: {}", function.fullName(), textIn(message, "why"))}));
+    }
+    const auto given = message.find("with");
+    if (given == message.end() || !given->is_array()) return std::nullopt;
+    const auto line = std::clamp<std::int64_t>(wholeIn(message, "line", 0), 0, lines_);
+    if (line > 0) lastLine_ = static_cast<int>(line);
+    auto value = port_->call(function, *given, static_cast<int>(line));
+    if (value) {
+        auto sent = sendMessage(socket_, {{"value", std::move(*value)}});
+        if (sent || sent.error().code != ErrorCode::InvalidArgument) return sent;
+        value = failure(sent);  // too much to be handed over
+    }
+    return sendMessage(socket_, remember(value.error()));
+}
+
+json ScriptProcess::remember(const Error& error) {
+    if (failures_.size() == kFailures) failures_.pop_front();
+    failures_.emplace_back(nextFailure_, error);
+    return {{"failure", nextFailure_++},
+            {"code", static_cast<int>(error.code)},
+            {"limit", error.code == ErrorCode::LimitExceeded},
+            {"text", error.message}};
+}
+
+std::optional<ScriptError> ScriptProcess::endedBy(const json& ended) const {
+    if (ended.is_null()) return std::nullopt;
+    if (!ended.is_object()) return error(ErrorCode::ParseError, "ended in a way that no script can");
+    const auto line = static_cast<int>(std::clamp<std::int64_t>(wholeIn(ended, "line", 0), 0, lines_));
+    // The code and the sentence of a failed call are the program's own, whatever the script made of it.
+    const auto number = wholeIn(ended, "failure", 0);
+    for (const auto& [known, failed] : failures_)
+        if (known == number) return error(failed.code, failed.message, line);
+    const auto memory = ended.find("memory");
+    if (memory != ended.end() && *memory == true) return error(ErrorCode::Stopped, textIn(ended, "reason"), line);
+    return error(ErrorCode::ParseError, textIn(ended, "reason"), line);
+}
+
+/// Nothing more can come of it.
+ScriptError ScriptProcess::lost(const Error& why) {
+    const bool asked = ending_;
+    const bool byItself = why.code == ErrorCode::Io;
+    if (!byItself) end();
+    reap();
+    if (asked) return error(ErrorCode::Stopped, "interrupted", lastLine_);
+    if (!byItself) return error(why.code, why.message, lastLine_);
+    if (WIFEXITED(status_) && WEXITSTATUS(status_) == kTooMuchMemory) {
+        return error(ErrorCode::Stopped,
+                     "stopped by the program: the script takes too much memory, at this line or after "
+                     "it",
+                     lastLine_);
+    }
+    if (WIFSIGNALED(status_) && WTERMSIG(status_) == SIGKILL) {
+        return error(ErrorCode::Stopped,
+                     "the script's process was ended from outside, as when memory is short, at this "
+                     "line or after it",
+                     lastLine_);
+    }
+    return error(ErrorCode::Io,
+                 fmt::format("the script made the script engine crash ({} {}), at this line or after it",
+                             WIFSIGNALED(status_) ? "signal" : "exit code",
+                             WIFSIGNALED(status_) ? WTERMSIG(status_) : WEXITSTATUS(status_)),
+                 lastLine_);
+}
+
+}  // namespace tacto

@@ -1,0 +1,104 @@
+// ScriptProcess.h - a script in a process of its own, tactoscope-script: it holds the engine and nothing else, so that
+// what makes the engine crash, hang or take all memory ends that process and not the gate's (hazard H10).
+//
+// What comes from it is bounded and read as what a stranger says: a call names a function of the table and hands over
+// plain data; the code and the sentence of a failure are the program's own, whatever the script does with it.
+//
+// Thread-safety: one thread makes, loads and runs; end() from any.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <sys/types.h>
+#include <utility>
+
+#include "app/scripting/engine/HostFunction.h"
+#include "app/scripting/engine/ProtocolDeclaration.h"
+#include "core/base/Result.h"
+
+namespace tacto {
+
+/// Receives what scripts call.
+class HostPort {
+public:
+    virtual ~HostPort() = default;
+    /// `line`: where in the script the call stands; 0 when unknown. An error is thrown in the script.
+    virtual Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int line) = 0;
+};
+
+/// Why a script ended: what was thrown, and from where.
+struct ScriptError {
+    ErrorCode code = ErrorCode::InvalidArgument;  ///< of the host call that failed, ParseError for the script's own
+    std::string reason;
+    std::string file;
+    int line = 0;
+    [[nodiscard]] std::string text() const;  ///< "file:line: reason"
+};
+
+class ScriptProcess {
+public:
+    /// How long a script may compute between two calls: a moment of the processor's time more ends it.
+    static constexpr std::chrono::seconds kMaxThought{60};
+
+    /// Starts `program`; where that is empty tactoscope-script, which is beside this one. `memory`: bytes by which it
+    /// may grow. Errors: NotFound where it is missing; Io where the system starts nothing.
+    [[nodiscard]] static Result<std::unique_ptr<ScriptProcess>> start(std::size_t memory,
+                                                                      std::filesystem::path program = {});
+    /// Ends the process.
+    ~ScriptProcess();
+    ScriptProcess(const ScriptProcess&) = delete;
+    ScriptProcess& operator=(const ScriptProcess&) = delete;
+
+    /// Runs the script's top level. The error, or nothing when it went well. After `limit` of the processor's time,
+    /// where there is one, the process is ended: Timeout. `port` outlives this.
+    [[nodiscard]] std::optional<ScriptError> load(HostPort& port, const ProtocolSource& source,
+                                                  std::optional<std::chrono::milliseconds> limit = {});
+    /// Calls run(parameters) of the script that was loaded.
+    [[nodiscard]] std::optional<ScriptError> run(const nlohmann::json& parameters);
+
+    /// Ends the process now. load() and run() return, once a call that is under way has ended.
+    void end() noexcept;
+    /// Whether it has ended, by itself or not: it loads and runs nothing any more.
+    [[nodiscard]] bool ended() const noexcept { return reaped_; }
+    [[nodiscard]] pid_t id() const noexcept { return pid_; }
+    /// Line of `function run` in the loaded script, or 1.
+    [[nodiscard]] int runLine() const noexcept { return runLine_; }
+
+private:
+    ScriptProcess(pid_t pid, int socket) : pid_(pid), socket_(socket) {}
+    [[nodiscard]] Result<void> introduce(std::size_t memory);
+    [[nodiscard]] std::optional<ScriptError> serve(const nlohmann::json& message,
+                                                   std::optional<std::chrono::milliseconds> limit);
+    [[nodiscard]] std::optional<Result<void>> answer(const nlohmann::json& message);
+    [[nodiscard]] ScriptError error(ErrorCode code, std::string reason, int line = 0) const;
+    [[nodiscard]] std::optional<ScriptError> endedBy(const nlohmann::json& ended) const;
+    [[nodiscard]] ScriptError lost(const Error& why);
+    [[nodiscard]] nlohmann::json remember(const Error& error);
+    void reap() noexcept;
+
+    static constexpr std::size_t kFailures = 256;
+    bool ready_ = false;  // it has said so
+    const pid_t pid_;
+    const int socket_;
+    std::atomic<bool> ending_{false};  // asked to
+    std::mutex life_;                  // so that no other process with its number is ended
+    std::atomic<bool> reaped_{false};  // changed under it
+    int status_ = 0;                   // once reaped
+    HostPort* port_ = nullptr;
+    std::string file_;
+    int lines_ = 0;  // of the script
+    int runLine_ = 1;
+    int lastLine_ = 0;                                     // of the last call
+    std::deque<std::pair<std::int64_t, Error>> failures_;  // what calls failed with, by number
+    std::int64_t nextFailure_ = 1;
+};
+
+}  // namespace tacto
