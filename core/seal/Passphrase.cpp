@@ -5,6 +5,7 @@
 #include <sodium.h>
 #include <unistd.h>
 
+#include "core/seal/OwnFile.h"
 #include "core/seal/SealedText.h"
 
 namespace tacto {
@@ -31,6 +32,10 @@ Result<Passphrase> Passphrase::fromFile(const std::filesystem::path& file) {
     // Read without a stream: its buffer would keep the passphrase.
     const int in = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (in < 0) return fail(ErrorCode::NotFound, "the passphrase file {} cannot be read", file.string());
+    if (auto own = isOwnFile(in, file, "the passphrase file"); !own) {
+        ::close(in);
+        return failure(own);
+    }
     Secret held(kLongest);
     auto* at = reinterpret_cast<char*>(held.bytes().data());
     std::size_t size = 0;

@@ -38,7 +38,8 @@ public:
     /// Errors: InvalidArgument for an empty one.
     [[nodiscard]] static Result<Passphrase> from(std::string_view text);
     [[nodiscard]] static Result<Passphrase> from(const Secret& text);
-    /// The first line of a file, without its end. Errors: NotFound for a file that is not there or holds nothing.
+    /// The first line of a file, without its end. Errors: NotFound for a file that is not there, holds nothing
+    /// or is not its owner's alone (OwnFile.h).
     [[nodiscard]] static Result<Passphrase> fromFile(const std::filesystem::path& file);
 
     /// 32 bytes. Errors: Io without the memory.

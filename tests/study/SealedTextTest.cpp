@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "core/seal/Passphrase.h"
 #include "core/seal/SealedText.h"
@@ -71,6 +73,35 @@ TEST(Passphrase, IsTheFirstLineOfItsFile) {
     EXPECT_EQ(keyOf(fromFile), keyOf(Passphrase::from("two words")));
     EXPECT_EQ(Passphrase::fromFile(dir.write("empty", "\n")).error().code, ErrorCode::NotFound);
     EXPECT_EQ(Passphrase::fromFile(dir.path() / "absent").error().code, ErrorCode::NotFound);
+}
+
+TEST(Passphrase, AFileThatOthersMayReadIsRefused) {
+    RecordProperty("hazard", "H11");
+    const test::ScratchDir dir;
+    const auto file = dir.write("p", "two words");
+    for (unsigned others = 0; others <= 077; ++others) {
+        SCOPED_TRACE(others);
+        ASSERT_EQ(::chmod(file.c_str(), 0600 | others), 0);
+        const auto read = Passphrase::fromFile(file);
+        ASSERT_EQ(read.has_value(), others == 0);
+        if (read) continue;
+        EXPECT_EQ(read.error().code, ErrorCode::NotFound);
+        EXPECT_NE(
+            read.error().message.find(fmt::format("(mode {:04o}); mode 0600 is expected: chmod 600 ", 0600 | others)),
+            std::string::npos)
+            << read.error().message;
+    }
+    ASSERT_EQ(::chmod(file.c_str(), 0400), 0);
+    EXPECT_TRUE(Passphrase::fromFile(file));
+    const auto link = dir.path() / "link";
+    std::filesystem::create_symlink(file, link);
+    ASSERT_EQ(::chmod(file.c_str(), 0644), 0);
+    EXPECT_FALSE(Passphrase::fromFile(link)) << "what a link names counts";
+    if (::geteuid() != 0) return;
+    constexpr ::uid_t kOther = 65'534;
+    ASSERT_EQ(::chmod(file.c_str(), 0600), 0);
+    ASSERT_EQ(::chown(file.c_str(), kOther, kOther), 0);
+    EXPECT_FALSE(Passphrase::fromFile(file)) << "its owner may read it";
 }
 
 TEST(Secret, SwitchesCoreDumpsOff) {

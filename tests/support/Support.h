@@ -26,7 +26,7 @@ public:
     ScratchDir(const ScratchDir&) = delete;
     ScratchDir& operator=(const ScratchDir&) = delete;
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    /// Writes a file below the folder and returns its path.
+    /// Writes a file below the folder, its owner's alone, and returns its path.
     std::filesystem::path write(std::string_view name, std::string_view content) const;
 
 private:
