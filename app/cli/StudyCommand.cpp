@@ -154,6 +154,23 @@ int withdraw(Study& study, const QCommandLineParser& parser, const QStringList& 
     return changed(done, study, code, parser);
 }
 
+/// The first of two steps says what is lost and with which word it is confirmed.
+int goBack(Study& study, const QCommandLineParser& parser, const QStringList&) {
+    const auto loss = study.lossOfGoingBack();
+    if (!loss) return failWith(loss.error());
+    if (!parser.isSet("confirm")) {
+        return usage(fmt::format("study go-back: {}. Nothing was changed; --confirm {} goes on with this ledger",
+                                 loss->sentence(), loss->word()));
+    }
+    if (const auto done = study.goBack(given(parser, "confirm")); !done) return failWith(done.error());
+    const auto& back = study.goingsBack().back();
+    if (parser.isSet("json"))
+        printJson({{"lost", back.lost}, {"rows", back.rows}, {"files", back.files}});
+    else
+        say("{}\n", goingBackText(back));
+    return kDone;
+}
+
 /// Errors: NotFound for a number that there is no session of.
 Result<StudySession> sessionOf(const Study& study, const Participant& participant, const QCommandLineParser& parser) {
     std::optional<StudySession> found;
@@ -238,6 +255,7 @@ const std::vector<StudyWord>& studyWords() {
          [](Study& study, const QCommandLineParser& parser, const QStringList&) { return show(study, parser); }},
         {"trials", 3, 3, "STUDY and CODE", {"session", "passphrase-file", "json"}, false, trials},
         {"leave", 3, 3, "STUDY and CODE", {"passphrase-file", "json"}, true, leave},
+        {"go-back", 2, 2, "STUDY", {"confirm", "passphrase-file", "json"}, true, goBack},
         {"withdraw", 3, 3, "STUDY and CODE", {"confirm", "passphrase-file", "json"}, true, withdraw},
         {"adverse-event",
          3,
@@ -296,6 +314,7 @@ const Command kStudy{
     "enrol STUDY [CODE] [--virtual SEED] [--group GROUP] [--age YEARS] [--sex SEX] [--handedness HAND] | "
     "consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | "
     "trials STUDY CODE [--session N] | leave STUDY CODE | withdraw STUDY CODE --confirm CODE | "
+    "go-back STUDY [--confirm WORD] | "
     "adverse-event STUDY SESSION --what TEXT --severity 1..4 --relation 1..5 [--serious] [--action T] [--outcome T] "
     "[--reported] | next-day STUDY SESSION --erythema 0..4 --oedema 0..4 [--side-effect ITEM:SEVERITY:RELATION]...} "
     "[--passphrase-file F] [--json]",

@@ -55,7 +55,10 @@ void declareStudyOptions(QCommandLineParser& parser) {
     parser.addOption({"version", "Version of the consent form that was signed.", "V"});
     parser.addOption({"date", "Day on which it was signed.", "DATE"});
     parser.addOption({"by", "The investigator's initials.", "INITIALS"});
-    parser.addOption({"confirm", "The code once more: the participant's records are lost for good.", "CODE"});
+    parser.addOption({"confirm",
+                      "The code once more: the participant's records are lost for good. Of go-back the word that it "
+                      "names: newer rows of the ledger are.",
+                      "WORD"});
     parser.addOption({"session", "Number of the participant's session; the last where left out.", "N"});
     parser.addOption({"what", "What happened; never a name.", "TEXT"});
     parser.addOption(

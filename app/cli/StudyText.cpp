@@ -36,8 +36,8 @@ Json procedureJson(const StudySettings& settings) {
             {"comparison", procedure.comparison}};
 }
 
-std::string dayOf(const StudyAmendment& amendment) {
-    return dateText(std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(amendment.at)));
+std::string dayOf(std::chrono::sys_seconds at) {
+    return dateText(std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(at)));
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ Json participantJson(const Participant& participant) {
 }
 
 Json amendmentJson(const StudyAmendment& amendment) {
-    return {{"reference", amendment.reference}, {"date", dayOf(amendment)}, {"changed", amendment.changed}};
+    return {{"reference", amendment.reference}, {"date", dayOf(amendment.at)}, {"changed", amendment.changed}};
 }
 
 std::string changesText(const StudyAmendment& amendment, Modality modality) {
@@ -75,6 +75,10 @@ Json studyJson(const Study& study) {
     for (const auto& session : study.sessions()) sessions.push_back(sessionJson(session));
     auto amendments = Json::array();
     for (const auto& amendment : study.amendments()) amendments.push_back(amendmentJson(amendment));
+    auto wentBack = Json::array();
+    for (const auto& back : study.goingsBack()) {
+        wentBack.push_back({{"date", dayOf(back.at)}, {"lost", back.lost}, {"rows", back.rows}, {"files", back.files}});
+    }
     return {{"title", settings.title},
             {"rehearsal", study.isRehearsal()},
             {"modality", nameOf(settings.modality)},
@@ -85,6 +89,7 @@ Json studyJson(const Study& study) {
               {"valid", approvalGate(settings, study.today()).has_value()}}},
             {"procedure", procedureJson(settings)},
             {"amendments", std::move(amendments)},
+            {"went_back", std::move(wentBack)},
             {"consent_version", settings.consentVersion},
             {"participants", std::move(participants)},
             {"withdrawn", withdrawn},
@@ -101,8 +106,9 @@ void sayStudy(const Study& study) {
         settings.consentVersion);
     for (const auto& fact : approvedProcedure(settings)) say("    {}: {}\n", fact.what, fact.words);
     for (const auto& amendment : study.amendments())
-        say("  amendment {} of {}: changed {}\n", amendment.reference, dayOf(amendment),
+        say("  amendment {} of {}: changed {}\n", amendment.reference, dayOf(amendment.at),
             changesText(amendment, settings.modality));
+    for (const auto& back : study.goingsBack()) say("  {}\n", goingBackText(back));
     int withdrawn = 0;
     for (const auto& participant : study.participants()) {
         if (participant.state == ParticipantState::Withdrawn) {

@@ -25,6 +25,7 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
     if (study.settings.modality == Modality::Massager)
         content.blocks.emplace_back(ParagraphBlock{
             "Modality: massager. What was felt was the vibration of a motor; levels are its strength, from 0 to 1."});
+    for (const auto& back : study.goingsBack) content.blocks.emplace_back(ParagraphBlock{qtext(goingBackText(back))});
     if (content.simulated) {
         content.blocks.emplace_back(ParagraphBlock{
             "SIMULATED: the participants are a model of people. These numbers say what the program does, "

@@ -10,6 +10,7 @@
 #include "core/base/JsonFields.h"
 #include "core/base/SystemTime.h"
 #include "core/session/SessionReader.h"
+#include "core/study/LedgerEnd.h"
 
 namespace tacto {
 
@@ -146,6 +147,9 @@ Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock&
     begun_ = std::move(*begun);
     auto writer = SessionWriter::create(begun_->path, about, clock, begun_->seal);
     if (!writer) return failure(writer);
+    auto noted =
+        (*writer)->event(clock.now(), kLedgerEvent, {{"row", begun_->ledgerRow}, {"head", begun_->ledgerHead}});
+    if (!noted) return failure(noted);
     RunSession made;
     made.files.session = begun_->path;
     made.writer = std::move(*writer);

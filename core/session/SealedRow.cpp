@@ -53,6 +53,7 @@ constexpr ShownOfEvent kShownOfEvents[] = {
     {"device report", {}},
     {"keep-alive", {}},
     {"settings", {}},
+    {"ledger", {}, true},
     {"plan", {}},
     {"gate", {}},
     {"stop-test", {}},

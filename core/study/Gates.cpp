@@ -21,19 +21,19 @@ constexpr ExclusionItem kExclusionItems[] = {
 
 constexpr auto kClockTolerance = std::chrono::minutes(5);
 
-std::string utcText(std::chrono::sys_seconds at) {
-    const auto day = std::chrono::floor<std::chrono::days>(at);
-    const std::chrono::hh_mm_ss time(at - day);
-    return fmt::format("{} {:02}:{:02} UTC", dateText(std::chrono::year_month_day(day)), time.hours().count(),
-                       time.minutes().count());
-}
-
 /// How a sentence names a participant: by code where it is known.
 std::string shownName(const Participant& participant) {
     return participant.code.empty() ? fmt::format("participant {}", participant.id) : participant.code;
 }
 
 }  // namespace
+
+std::string utcText(std::chrono::sys_seconds at) {
+    const auto day = std::chrono::floor<std::chrono::days>(at);
+    const std::chrono::hh_mm_ss time(at - day);
+    return fmt::format("{} {:02}:{:02} UTC", dateText(std::chrono::year_month_day(day)), time.hours().count(),
+                       time.minutes().count());
+}
 
 std::span<const ExclusionItem> exclusionItems() noexcept { return kExclusionItems; }
 
@@ -150,37 +150,46 @@ Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::s
                 settings.gapMin_h);
 }
 
-Result<void> consentGate(const StudySettings& settings, const Participant& participant, CalibrationDate today) {
+Result<void> consentGate(const StudySettings& settings, const Participant& participant, CalibrationDate since,
+                         CalibrationDate today) {
     const auto name = shownName(participant);
     if (participant.consents.empty()) {
         return fail(kGateRefused, "{} has given no consent; a dated consent to version {} is needed", name,
                     settings.consentVersion);
     }
-    const auto current = std::ranges::find(participant.consents, settings.consentVersion, &Consent::version);
-    if (current == participant.consents.end()) {
+    const Consent* newest = nullptr;
+    for (const auto& each : participant.consents) {
+        if (each.version != settings.consentVersion) continue;
+        newest = &each;
+        if (!each.by.empty() && each.date.ok() && since <= each.date && each.date <= today) return {};
+    }
+    if (newest == nullptr) {
         return fail(kGateRefused, "{} has consented to version {}, and version {} is in force; consent to it is needed",
                     name, participant.consents.back().version, settings.consentVersion);
     }
-    if (current->by.empty() || !current->date.ok() || !(current->date <= today)) {
-        return fail(kGateRefused,
-                    "the consent of {} is dated {} and taken by \"{}\"; a day no later than {} and initials are needed",
-                    name, dateText(current->date), current->by, dateText(today));
-    }
-    return {};
+    return fail(
+        kGateRefused,
+        "the consent of {} is dated {} and taken by \"{}\"; initials and a day from {}, from which version {} of "
+        "the form is approved, to {} are needed",
+        name, dateText(newest->date), newest->by, dateText(since), settings.consentVersion, dateText(today));
+}
+
+Result<void> wentBackGate(const StudySettings& settings, std::span<const StudyGoingBack> all,
+                          std::chrono::sys_seconds now) {
+    if (settings.kind == StudyKind::Rehearsal || all.empty()) return {};
+    const auto at = all.back().at;
+    const double hours = std::chrono::duration<double, std::ratio<3600>>(now - at).count();
+    using std::chrono::days;
+    if (hours >= settings.gapMin_h && std::chrono::floor<days>(at) < std::chrono::floor<days>(now)) return {};
+    return fail(kGateRefused,
+                "the ledger went back {:.1f} h ago, and what it lost may be a session of today; the next begins on a "
+                "later day, at least {:g} h after it",
+                hours, settings.gapMin_h);
 }
 
 Result<void> clockGate(std::chrono::sys_seconds last, std::chrono::sys_seconds now, std::string_view of) {
     if (now + kClockTolerance >= last) return {};
     return fail(kGateRefused, "the clock says {}, and {} is of {}; set the clock", utcText(now), of, utcText(last));
-}
-
-Result<void> zoneGate(std::chrono::seconds aheadOfUtc) {
-    if (aheadOfUtc >= -std::chrono::hours(12) && aheadOfUtc <= std::chrono::hours(14)) return {};
-    return fail(
-        kGateRefused,
-        "the time zone of this computer is {:.1f} h ahead of UTC, so what day it is cannot be told; -12 to 14 h "
-        "are accepted",
-        std::chrono::duration<double, std::ratio<3600>>(aheadOfUtc).count());
 }
 
 Result<void> simulationGate(const StudySettings& settings, const Participant& participant, bool devicesSimulated) {

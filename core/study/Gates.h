@@ -9,6 +9,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,12 +24,26 @@ namespace tacto {
 
 inline constexpr ErrorCode kGateRefused = ErrorCode::Stopped;
 
+/// "2026-11-23 12:00 UTC".
+[[nodiscard]] std::string utcText(std::chrono::sys_seconds at);
+
 /// One question of the exclusion checklist. `key` is what `--set exclusions=KEY` and rows say.
 struct ExclusionItem {
     std::string_view key;
     std::string_view question;
 };
 [[nodiscard]] std::span<const ExclusionItem> exclusionItems() noexcept;
+
+/// A ledger that is older than one that this computer knows was gone on with (StudyBook::goBack()).
+struct StudyGoingBack {
+    std::chrono::sys_seconds at{};
+    std::int64_t lost = 0;           ///< rows; 0: how many is not known
+    std::vector<std::string> rows;   ///< their names, as far as they are known
+    std::vector<std::string> files;  ///< of sessions that it does not know: given up
+};
+
+/// What reports and readers of an export are told of it.
+[[nodiscard]] std::string goingBackText(const StudyGoingBack& back);
 
 /// An answer that the participant gave today.
 struct ExclusionAnswer {
@@ -53,14 +68,17 @@ struct ExclusionAnswer {
 /// The last session lies far enough back; a rehearsal does not ask.
 [[nodiscard]] Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::sys_seconds> lastSession,
                                    std::chrono::sys_seconds now);
-/// Consent to the version in force, dated no later than today, with the initials of who took it.
+/// A consent to the version in force, dated no later than today and no earlier than `since`, the first day on which the
+/// form's version was approved, with the initials of who took it.
 [[nodiscard]] Result<void> consentGate(const StudySettings& settings, const Participant& participant,
-                                       CalibrationDate today);
+                                       CalibrationDate since, CalibrationDate today);
+/// What a ledger that went back has lost is not known, a session a moment ago among it: as long as two sessions lie
+/// apart none begins, nor on the same day. A rehearsal does not ask.
+[[nodiscard]] Result<void> wentBackGate(const StudySettings& settings, std::span<const StudyGoingBack> all,
+                                        std::chrono::sys_seconds now);
 /// The clock is not more than 5 min behind the last of what was noted, which is `of`.
 [[nodiscard]] Result<void> clockGate(std::chrono::sys_seconds last, std::chrono::sys_seconds now,
                                      std::string_view of = "the ledger's last row");
-/// Days are counted in a time zone that exists, whatever TZ says: at most 12 h behind UTC and 14 h ahead.
-[[nodiscard]] Result<void> zoneGate(std::chrono::seconds aheadOfUtc);
 /// A virtual participant, and a rehearsal with electrodes, on simulated devices only; a person on a simulated one in a
 /// rehearsal only.
 [[nodiscard]] Result<void> simulationGate(const StudySettings& settings, const Participant& participant,

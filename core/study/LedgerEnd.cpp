@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/Csv.h"
+#include "core/base/Hex.h"
 #include "core/base/JsonFields.h"
 #include "core/base/WholeFile.h"
 #include "core/session/Durable.h"
@@ -13,27 +14,52 @@ namespace tacto {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::optional<LedgerEnd> endIn(const nlohmann::json& json) {
+    constexpr std::size_t kHashDigits = 64;
+    LedgerEnd end;
+    end.row = static_cast<std::int64_t>(countOr(json, "row"));
+    end.head = textOr(json, "head");
+    end.at = std::chrono::sys_seconds(std::chrono::seconds(static_cast<std::int64_t>(countOr(json, "at"))));
+    for (const auto& name : valueOr(json, "rows"))
+        if (name.is_string()) end.rows.push_back(name.get<std::string>());
+    if (end.row < 1 || !isHex(end.head, kHashDigits)) return std::nullopt;
+    return end;
+}
+
+}  // namespace
+
 void noteLedgerEnd(const fs::path& file, const LedgerEnd& end) {
-    static_cast<void>(writeWholeFile(file, dumpJson({{"row", end.row}, {"head", end.head}}) + '\n'));
+    const nlohmann::json said{
+        {"row", end.row}, {"head", end.head}, {"at", end.at.time_since_epoch().count()}, {"rows", end.rows}};
+    static_cast<void>(writeWholeFile(file, dumpJson(said) + '\n'));
+    std::error_code ignored;
+    fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, ignored);
     syncFolderOf(file);
 }
 
-Result<void> reachesEnd(const SessionReader& ledger, const fs::path& file) {
+Result<std::optional<LedgerEnd>> notedLedgerEnd(const fs::path& file) {
     std::error_code error;
-    if (fs::symlink_status(file, error).type() == fs::file_type::not_found) return {};
+    if (fs::symlink_status(file, error).type() == fs::file_type::not_found) return std::nullopt;
     const auto text = readTextFile(file);
     const auto json = text ? parseJson(*text, file.string()) : failure(text);
-    const auto row = json ? static_cast<std::int64_t>(countOr(*json, "row")) : 0;
-    const auto head = json ? textOr(*json, "head") : std::string();
-    if (row < 1 || head.empty()) {
-        return fail(kGateRefused, "{} does not say how far the study's ledger goes; put it back from your copy",
-                    file.string());
-    }
-    if (const auto hash = ledger.hashOf(row); hash && *hash == head) return {};
-    return fail(kGateRefused,
-                "row {} of the study's ledger is not the one that was written on this computer: the ledger was cut "
-                "short or recomputed, or is an older copy; put back the newest",
-                row);
+    if (auto end = json ? endIn(*json) : std::nullopt) return end;
+    return fail(kGateRefused, "{} does not say how far the study's ledger goes", file.string());
+}
+
+std::optional<LedgerEnd> ledgerEndOf(const fs::path& session) {
+    const auto reader = SessionReader::open(session);
+    const auto events = reader ? reader->events() : Result<std::vector<SessionRow>>(failure(reader));
+    if (!events) return std::nullopt;  // what cannot be read is found elsewhere
+    for (const auto& row : *events)
+        if (row.name == kLedgerEvent) return endIn(row.body);
+    return std::nullopt;
+}
+
+bool reaches(const SessionReader& ledger, const LedgerEnd& end) {
+    const auto hash = ledger.hashOf(end.row);
+    return hash && *hash == end.head;
 }
 
 }  // namespace tacto

@@ -81,6 +81,7 @@ public:
 
     [[nodiscard]] Result<void> take(const SessionRow& row) {
         state.last = std::max(state.last, std::chrono::sys_seconds(wholeSeconds(row.at)));
+        state.rows.push_back(row.name);
         if (row.name == ledger::kStudy || row.name == ledger::kAmendment) {
             settings(row);
             return {};
@@ -88,6 +89,7 @@ public:
         if (row.name == ledger::kEnrolled) return enrolled(row);
         if (row.name == ledger::kAdverseEvent) return adverseEvent(row);
         if (row.name == ledger::kExported) return exported(row);
+        if (row.name == ledger::kWentBack) return wentBack(row);
         auto* participant = state.participant(textOr(row.body, "participant"));
         if (participant == nullptr) return unfit(row, "an unknown participant");
         if (row.name == ledger::kConsent) return consent(row, *participant);
@@ -144,6 +146,7 @@ private:
     void settings(const SessionRow& row) {
         state.settingsSha256 = textOr(row.body, "sha256");
         auto now = valueOr(row.body, "settings");
+        formInForce(row, now);
         state.references.push_back(textOr(valueOr(now, "approval"), "reference"));
         if (row.name == ledger::kAmendment) {
             state.amendments.push_back({textOr(row.body, "reference"), std::chrono::sys_seconds(wholeSeconds(row.at)),
@@ -152,6 +155,40 @@ private:
             state.firstPlaces = static_cast<int>(countOr(now, "participants_max"));
         }
         state.settings = std::move(now);
+    }
+
+    /// A consent to a version of the form counts from the first day on which that version was in force: the first one's
+    /// from the approval's, a later one's from that of the amendment, or of the approval where that changed with it.
+    void formInForce(const SessionRow& row, const nlohmann::json& now) {
+        const auto fromOf = [](const nlohmann::json& settings) {
+            return textOr(valueOr(settings, "approval"), "from");
+        };
+        const auto from = parseDate(fromOf(now));
+        if (!from) return;
+        const auto version = textOr(now, "consent_version");
+        const bool isFirst = row.name == ledger::kStudy;
+        const bool moved = isFirst || fromOf(now) != fromOf(state.settings);
+        const CalibrationDate written =
+            std::chrono::floor<std::chrono::days>(std::chrono::sys_seconds(wholeSeconds(row.at)));
+        const auto known = state.formSince.find(version);
+        if (known == state.formSince.end())
+            state.formSince[version] = moved ? *from : written;
+        else if (moved && *from < known->second && textOr(state.settings, "consent_version") == version)
+            known->second = *from;
+    }
+
+    [[nodiscard]] Result<void> wentBack(const SessionRow& row) {
+        StudyGoingBack back;
+        back.at = std::chrono::sys_seconds(wholeSeconds(row.at));
+        back.lost = static_cast<std::int64_t>(countOr(row.body, "lost"));
+        for (const auto& [key, into] : {std::pair{"rows", &back.rows}, std::pair{"files", &back.files}}) {
+            for (const auto& each : valueOr(row.body, key)) {
+                if (!each.is_string()) return unfit(row, "a list of something else than names");
+                into->push_back(each.get<std::string>());
+            }
+        }
+        state.wentBack.push_back(std::move(back));
+        return {};
     }
 
     [[nodiscard]] Result<void> enrolled(const SessionRow& row) {

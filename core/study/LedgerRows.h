@@ -8,6 +8,7 @@
 //   session-ended         {session, participant, state, file, head}, "opened": false where its bench could not be
 //   excluded              {participant, sealed}              of that day
 //   next-day              {participant, session, sealed}
+//   went-back             {row, head, at, lost, rows, files}   of what was given up; `rows` is empty where not known
 //   adverse-event, exported   {session, sealed under the study's key}
 //
 // Thread-safety: values.
@@ -40,6 +41,7 @@ inline constexpr const char* kSessionEnded = "session-ended";
 inline constexpr const char* kNextDay = "next-day";
 inline constexpr const char* kAdverseEvent = "adverse-event";
 inline constexpr const char* kExported = "exported";
+inline constexpr const char* kWentBack = "went-back";
 }  // namespace ledger
 
 struct LedgerState {
@@ -55,9 +57,12 @@ struct LedgerState {
     std::vector<StudySession> sessions;                               ///< without `answered`
     std::map<std::string, std::string> heads;                         ///< of ended files: file to chain head
     std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< with the key only
-    std::map<std::string, NextDay> nextDays;  ///< session to what was said last; with the key only
-    std::vector<StudyExport> exports;         ///< with the key only
-    std::chrono::sys_seconds last{};          ///< of the newest row
+    std::map<std::string, NextDay> nextDays;           ///< session to what was said last; with the key only
+    std::vector<StudyExport> exports;                  ///< with the key only
+    std::map<std::string, CalibrationDate> formSince;  ///< version of the consent form to the first day that it counts
+    std::vector<StudyGoingBack> wentBack;              ///< in order
+    std::vector<std::string> rows;                     ///< the name of each
+    std::chrono::sys_seconds last{};                   ///< of the newest row
     std::string head;
 
     [[nodiscard]] Participant* participant(std::string_view id) noexcept;

@@ -82,7 +82,7 @@ Result<Study> Study::create(const fs::path& folder, StudySettings settings, cons
 
 Result<Study> Study::createRehearsal(const fs::path& folder, StudySettings settings, const Surroundings& around) {
     const StudyFiles files{withoutEnd(folder)};
-    settings = asRehearsal(std::move(settings), localDay(around.time->wall()));
+    settings = asRehearsal(std::move(settings), utcDay(around.time->wall()));
     settings.id = randomHex(kIdDigits);
     settings.approval.protocolSha256 = protocolHash(settings);
     if (auto sound = studyFields().check(settings, RecordPlace{}); !sound) return failure(sound);
@@ -182,6 +182,13 @@ Result<void> Study::consent(std::string_view code, const Consent& consent) {
         return fail(ErrorCode::InvalidArgument, "the consent is dated {}; a day no later than today, {}, is expected",
                     dateText(consent.date), dateText(today()));
     }
+    if (const auto since = state_->formSince(consent.version); !(since <= consent.date)) {
+        return fail(
+            ErrorCode::InvalidArgument,
+            "the consent is dated {}, and version {} of the form is approved from {}; that day or a later one is "
+            "expected",
+            dateText(consent.date), consent.version, dateText(since));
+    }
     if (auto fits = checkForLedger(consent); !fits) return fits;
     if (participant->state != ParticipantState::Active)
         return fail(kGateRefused, "{} has left the study; only an active participant consents", participant->code);
@@ -225,6 +232,10 @@ Result<void> Study::amend(StudySettings settings, std::string_view reference) {
 }
 
 const std::vector<StudyAmendment>& Study::amendments() const noexcept { return state_->known.amendments; }
+Result<void> Study::consented(const Participant& participant) const { return state_->consented(participant); }
+Result<LedgerLoss> Study::lossOfGoingBack() const { return state_->lossOfGoingBack(); }
+Result<void> Study::goBack(std::string_view word) { return state_->goBack(word); }
+const std::vector<StudyGoingBack>& Study::goingsBack() const noexcept { return state_->known.wentBack; }
 
 Result<void> Study::noteExclusions(const SessionRequest& request) {
     auto items = nlohmann::json::array();

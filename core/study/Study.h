@@ -4,7 +4,8 @@
 // those are sealed under keys that lie elsewhere, in the user's key folder. A withdrawn participant's key is destroyed;
 // the ledger and the chains stay whole.
 //
-// One program at a time changes a study; others may read it.
+// One program at a time changes a study; others may read it. A ledger that is not the newest that this computer knows
+// (an older copy, one that was cut short or recomputed; LedgerEnd.h) takes no change at all but goBack().
 //
 // Errors of all calls: NotFound (code), kGateRefused (a gate, Gates.h), Unsupported (a newer Tactoscope made it, or it
 // was opened without its key or for reading), ParseError (damaged), Io. Each is one sentence and changes nothing.
@@ -65,6 +66,26 @@ struct StudySession {
     int answered = 0;              ///< rows "answer" in its files
 };
 
+/// What going on with a ledger that is not the newest known gives up.
+struct LedgerLoss {
+    std::int64_t row = 0;             ///< this ledger's last ...
+    std::chrono::sys_seconds ends{};  ///< ... and when it was written
+    std::int64_t newest = 0;          ///< the last that is known; 0: how far it went is not known
+    std::string newestHead;
+    std::chrono::sys_seconds newestAt{};  ///< 1970 where that is not known
+    std::vector<std::string> rows;        ///< names of those that are lost, as far as they are known
+    std::vector<std::string> enrolled;    ///< codes that the key file has and this ledger does not
+    int keysGone = 0;                     ///< participants of this ledger whose key is not in the key file
+    std::vector<std::string> files;       ///< of sessions that this ledger does not know
+
+    /// Rows that are lost; 0: how many is not known.
+    [[nodiscard]] std::int64_t lost() const noexcept;
+    /// What goBack() is confirmed with: "lose-4-rows".
+    [[nodiscard]] std::string word() const;
+    /// All of it in words, for people.
+    [[nodiscard]] std::string sentence() const;
+};
+
 /// What a session is begun with.
 struct SessionRequest {
     std::string code;  ///< or "virtual:SEED" of a participant who is enrolled
@@ -82,6 +103,8 @@ struct BegunSession {
     StudySession session;  ///< with the new part as its last
     std::filesystem::path path;
     std::shared_ptr<const RowSeal> seal;
+    std::int64_t ledgerRow = 0;  ///< where the ledger ends now: the file's first event says it (LedgerEnd.h)
+    std::string ledgerHead;
 };
 
 /// A change of the settings under a committee's amendment.
@@ -154,7 +177,7 @@ public:
     [[nodiscard]] bool hasKey() const noexcept;
     /// 64 hexadecimal digits.
     [[nodiscard]] std::string ledgerHead() const;
-    /// Today where the computer stands.
+    /// Today in UTC, by the clock of the ledger's rows.
     [[nodiscard]] CalibrationDate today() const;
     /// The record and approval gates, now: before each block, and for what the window shows.
     [[nodiscard]] Result<void> stillApproved() const;
@@ -185,6 +208,16 @@ public:
     [[nodiscard]] Result<void> amend(StudySettings settings, std::string_view reference);
     /// In their order; also without the key.
     [[nodiscard]] const std::vector<StudyAmendment>& amendments() const noexcept;
+    /// The consent gate, today. Errors: kGateRefused.
+    [[nodiscard]] Result<void> consented(const Participant& participant) const;
+
+    /// What goBack() would give up. Errors: kGateRefused where the ledger is the newest known.
+    [[nodiscard]] Result<LedgerLoss> lossOfGoingBack() const;
+    /// Goes on with this ledger and gives up the newer one, which takes no change any more; that is a row of it for
+    /// ever. Errors: InvalidArgument for another word than that of the loss; as lossOfGoingBack().
+    [[nodiscard]] Result<void> goBack(std::string_view word);
+    /// In their order; also without the key.
+    [[nodiscard]] const std::vector<StudyGoingBack>& goingsBack() const noexcept;
 
     /// What was answered with yes, sealed for the participant; with it their day is over, whatever is answered later.
     /// Nothing where every answer is no, and for a virtual participant.

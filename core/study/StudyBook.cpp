@@ -1,7 +1,6 @@
 #include "core/study/StudyBook.h"
 
 #include <algorithm>
-#include <ctime>
 
 #include "core/base/Csv.h"
 #include "core/base/JsonFields.h"
@@ -11,27 +10,57 @@
 #include "core/study/LedgerEnd.h"
 #include "core/study/NewStudy.h"
 #include "core/study/SessionSeal.h"
+#include "core/study/StudyGates.h"
 
 namespace tacto {
 
 namespace {
 
-std::tm localTime(std::chrono::sys_seconds at) {
-    const std::time_t now = at.time_since_epoch().count();
-    std::tm here{};
-    ::localtime_r(&now, &here);
-    return here;
+constexpr const char* kWayBack =
+    "nothing is written to it. Put the newest back from your copy; where it is lost for good, tactoscope-cli study "
+    "go-back says what that gives up";
+
+/// The newest that is known, and what is wrong with the ledger where it is not that one.
+struct Newest {
+    LedgerEnd end;
+    std::string missing;  ///< a sentence; empty where nothing is
+};
+
+void weigh(Newest& newest, const SessionReader& ledger, const LedgerEnd& end, std::string_view source) {
+    if (end.row > newest.end.row) {
+        auto rows = end.rows.empty() ? std::move(newest.end.rows) : end.rows;
+        newest.end = end;
+        newest.end.rows = std::move(rows);
+    }
+    if (reaches(ledger, end) || !newest.missing.empty()) return;
+    newest.missing = fmt::format(
+        "row {} of the study's ledger is not the one that {}: the ledger was cut short or recomputed, or is an older "
+        "copy",
+        end.row, source);
+}
+
+Result<Newest> newestKnown(const StudyBook& book) {
+    Newest newest;
+    if (book.settings.kind == StudyKind::Rehearsal) return newest;  // its keys lie beside it and go back with it
+    const auto ledger = SessionReader::open(book.files.ledger());
+    if (!ledger) return failure(ledger);
+    const auto noted = notedLedgerEnd(book.endFile());
+    if (!noted) newest.missing = noted.error().message;
+    if (noted && *noted) weigh(newest, *ledger, **noted, "was written on this computer");
+    if (book.keys && book.keys->ledgerEnd().row > 0)
+        weigh(newest, *ledger, book.keys->ledgerEnd(), "the key file notes");
+    for (const auto& session : book.known.sessions) {
+        for (const auto& part : session.parts) {
+            if (const auto end = ledgerEndOf(book.files.session(part.file)))
+                weigh(newest, *ledger, *end, fmt::format("session {} was begun with", part.file));
+        }
+    }
+    return newest;
 }
 
 }  // namespace
 
-CalibrationDate localDay(std::chrono::sys_seconds at) {
-    const auto here = localTime(at);
-    return {std::chrono::year(here.tm_year + 1900), std::chrono::month(static_cast<unsigned>(here.tm_mon + 1)),
-            std::chrono::day(static_cast<unsigned>(here.tm_mday))};
-}
-
-std::chrono::seconds zoneAt(std::chrono::sys_seconds at) { return std::chrono::seconds(localTime(at).tm_gmtoff); }
+CalibrationDate utcDay(std::chrono::sys_seconds at) { return std::chrono::floor<std::chrono::days>(at); }
 
 std::string headOf(const std::filesystem::path& file) {
     const auto reader = SessionReader::open(file);
@@ -50,8 +79,9 @@ Result<StudyBook> StudyBook::open(const std::filesystem::path& folder, const Pas
     // Its version comes before everything else: what a newer program wrote is not judged.
     const auto first = parseStudy(*text, files.settings().string());
     if (!first) return failure(first);
+    book.settings = *first;
     if (access == Study::Access::Change) {
-        auto taken = StudyLock::take(files);
+        auto taken = StudyLock::take(files, book.keysLock());
         if (!taken) return failure(taken);
         book.lock.emplace(std::move(*taken));
     }
@@ -61,7 +91,6 @@ Result<StudyBook> StudyBook::open(const std::filesystem::path& folder, const Pas
         return fail(ErrorCode::ParseError, "the ledger of the study in {} is damaged: {}", folder.string(),
                     verified->problems.empty() ? "it is not a ledger" : verified->problems.front());
     }
-    book.settings = *first;
     if (auto unlocked = book.unlock(passphrase); !unlocked) return failure(unlocked);
     if (auto replayed = book.read(); !replayed) return failure(replayed);
     const auto current = readStudy(files, book.known.settingsSha256);
@@ -70,14 +99,16 @@ Result<StudyBook> StudyBook::open(const std::filesystem::path& folder, const Pas
     if (!inForce) return failure(inForce);
     book.settings = std::move(*inForce);
     if (access == Study::Access::Read) return book;
-    if (*current != *text) {
-        if (auto published = publishStudy(files); !published) return failure(published);
-    }
     auto opened = Ledger::open(files.ledger());
     if (!opened) return failure(opened);
     book.ledger.emplace(std::move(*opened));
+    if (!book.isNewest()) return book;  // each change is refused, with the reason
+    if (*current != *text) {
+        if (auto published = publishStudy(files); !published) return failure(published);
+    }
     if (book.keys) {
         if (auto finished = book.finishWithdrawals(); !finished) return failure(finished);
+        book.noteEnd();
     }
     return book;
 }
@@ -95,7 +126,7 @@ Result<void> StudyBook::unlock(const Passphrase* passphrase) {
     return {};
 }
 
-CalibrationDate StudyBook::today() const { return localDay(now()); }
+CalibrationDate StudyBook::today() const { return utcDay(std::max(now(), known.last)); }
 
 Result<void> StudyBook::read() {
     const auto ledgerFile = SessionReader::open(files.ledger());
@@ -115,16 +146,94 @@ Result<void> StudyBook::changeable() const {
         return fail(ErrorCode::Unsupported, "the study in {} is opened without its passphrase; it is needed here",
                     files.folder.string());
     }
-    return {};
+    return isNewest();
+}
+
+Result<void> StudyBook::isNewest() const {
+    const auto newest = newestKnown(*this);
+    if (!newest) return failure(newest);
+    if (!newest->missing.empty()) return fail(kGateRefused, "{}; {}", newest->missing, kWayBack);
+    const auto strangers = strangersIn(files, known);
+    if (!strangers) return fail(kGateRefused, "{}", strangers.error().message);
+    if (strangers->empty()) return {};
+    return fail(kGateRefused,
+                "sessions/{} is not in the ledger: the ledger is an older one, or the file is another study's and "
+                "belongs elsewhere; {}",
+                strangers->front(), kWayBack);
+}
+
+Result<LedgerLoss> StudyBook::lossOfGoingBack() const {
+    if (!ledger || !keys) return failure(changeable());
+    if (isNewest()) {
+        return fail(kGateRefused,
+                    "the ledger of the study in {} is the newest that this computer knows; there is nothing to go back "
+                    "from",
+                    files.folder.string());
+    }
+    const auto newest = newestKnown(*this);
+    const auto strangers = strangersIn(files, known);
+    if (!newest || !strangers) return newest ? failure(strangers) : failure(newest);
+    LedgerLoss loss;
+    loss.ends = known.last;
+    loss.row = ledger->next() - 1;
+    loss.newest = newest->end.row;
+    loss.newestHead = newest->end.head;
+    loss.newestAt = newest->end.at;
+    // The rows of both up to where they part; after it, what is lost.
+    const auto [ours, theirs] = std::ranges::mismatch(known.rows, newest->end.rows);
+    loss.rows.assign(theirs, newest->end.rows.end());
+    loss.files = *strangers;
+    for (const auto& entry : keys->entries())
+        if (std::ranges::find(known.participants, entry.id, &Participant::id) == known.participants.end())
+            loss.enrolled.push_back(entry.code);
+    loss.keysGone = static_cast<int>(std::ranges::count_if(known.participants, [](const Participant& each) {
+        return each.state != ParticipantState::Withdrawn && !each.readable;
+    }));
+    return loss;
+}
+
+Result<void> StudyBook::goBack(std::string_view word) {
+    const auto loss = lossOfGoingBack();
+    if (!loss) return failure(loss);
+    if (word != loss->word()) {
+        return fail(ErrorCode::InvalidArgument, "\"{}\" confirms nothing; {} is expected: {}", word, loss->word(),
+                    loss->sentence());
+    }
+    if (auto done = write(ledger::kWentBack, {{"row", loss->newest},
+                                              {"head", loss->newestHead},
+                                              {"at", loss->newestAt.time_since_epoch().count()},
+                                              {"lost", loss->lost()},
+                                              {"rows", loss->rows},
+                                              {"files", loss->files}});
+        !done)
+        return done;
+    return finishWithdrawals();
 }
 
 Result<void> StudyBook::append(const char* name, nlohmann::json body, const Secret* key,
                                const nlohmann::json& content) {
+    if (auto may = changeable(); !may) return may;
+    return write(name, std::move(body), key, content);
+}
+
+Result<void> StudyBook::write(const char* name, nlohmann::json body, const Secret* key, const nlohmann::json& content) {
     if (key != nullptr) body["sealed"] = sealedInLedger(settings.id, *key, ledger->next(), name, content);
     auto row = ledger->append(now(), name, body);
     if (!row) return failure(row);
-    if (const auto end = endFile(); !end.empty()) noteLedgerEnd(end, {*row, ledger->head()});
-    return read();
+    if (auto replayed = read(); !replayed) return replayed;
+    noteEnd();
+    return {};
+}
+
+LedgerEnd StudyBook::end() const { return {ledger->next() - 1, ledger->head(), known.last, known.rows}; }
+
+/// Where one of the two cannot be written the other says it, and where neither can, what they said before stays.
+void StudyBook::noteEnd() {
+    if (settings.kind == StudyKind::Rehearsal) return;
+    const auto now = end();
+    if (keys && keys->ledgerEnd().head != now.head) static_cast<void>(keys->noteEnd(now));
+    const auto noted = notedLedgerEnd(endFile());
+    if (!noted || !*noted || (*noted)->head != now.head || (*noted)->rows != now.rows) noteLedgerEnd(endFile(), now);
 }
 
 Result<const StudyKeys::Entry*> StudyBook::keyOf(std::string_view participant) const {
@@ -210,7 +319,7 @@ Result<void> StudyBook::nextDay(std::string_view session, const NextDay& said) {
     if (auto fits = checkNextDay(said); !fits) return fits;
     const Participant participant = *known.participant(about->participant);  // a row replaces what is known
     if (const auto key = keyOf(participant.id); !key) return failure(key);
-    const auto begun = localDay(about->parts.back().begun);
+    const auto begun = utcDay(about->parts.back().begun);
     if (!(begun < today())) {
         return fail(kGateRefused,
                     "the session was begun on {}, and today is {}; what is noted of the day after is noted on a later "
@@ -241,9 +350,26 @@ Result<std::uint64_t> StudyBook::labelSeed() const {
     return seed;
 }
 
+CalibrationDate StudyBook::formSince(std::string_view version) const {
+    const auto found = known.formSince.find(std::string(version));
+    if (found != known.formSince.end()) return found->second;
+    auto first = settings.approval.from;
+    for (const auto& [form, since] : known.formSince) first = std::min(first, since);
+    return first;
+}
+
+Result<void> StudyBook::consented(const Participant& participant) const {
+    return consentGate(settings, participant, formSince(settings.consentVersion), today());
+}
+
 std::filesystem::path StudyBook::endFile() const {
     if (settings.kind == StudyKind::Rehearsal) return {};
     return around.keyFolder / (settings.id + ".end");
+}
+
+std::filesystem::path StudyBook::keysLock() const {
+    if (settings.kind == StudyKind::Rehearsal) return {};
+    return around.keyFolder / (settings.id + ".lock");
 }
 
 Result<std::shared_ptr<const RowSeal>> StudyBook::sealFor(const StudySession& session, std::string_view file) const {
@@ -286,7 +412,8 @@ Result<BegunSession> StudyBook::begun(std::string_view id) {
     const auto file = session->parts.back().file;
     auto seal = sealFor(*session, file);
     if (!seal) return failure(seal);
-    return BegunSession{*session, files.session(file), std::move(*seal)};
+    auto reached = end();
+    return BegunSession{*session, files.session(file), std::move(*seal), reached.row, std::move(reached.head)};
 }
 
 Result<void> StudyBook::finishWithdrawals() {

@@ -12,6 +12,7 @@
 
 #include "core/base/Result.h"
 #include "core/session/Ledger.h"
+#include "core/study/LedgerEnd.h"
 #include "core/study/LedgerRows.h"
 #include "core/study/Study.h"
 #include "core/study/StudyFiles.h"
@@ -34,19 +35,29 @@ struct StudyBook {
                                                 Study::Access access, const Study::Surroundings& around);
 
     [[nodiscard]] std::chrono::sys_seconds now() const { return around.time->wall(); }
+    /// In UTC; never before that of the ledger's last row.
     [[nodiscard]] CalibrationDate today() const;
 
     /// Takes the keys: a rehearsal's without a passphrase; none for a study without one. Errors: as StudyKeys::open().
     [[nodiscard]] Result<void> unlock(const Passphrase* passphrase);
     /// Takes over what the ledger says. Errors: as replay().
     [[nodiscard]] Result<void> read();
-    /// Errors: Unsupported without the key or when opened for reading.
+    /// Errors: Unsupported without the key or when opened for reading; as isNewest().
     [[nodiscard]] Result<void> changeable() const;
+    /// The ledger is the newest that this computer knows of: it goes as far as is noted beside the keys, in the key
+    /// file and in each session, and knows every session's file. Errors: kGateRefused, naming the way back.
+    [[nodiscard]] Result<void> isNewest() const;
+    /// What is given up where it is not. Errors: as isNewest() where it is; Unsupported as changeable().
+    [[nodiscard]] Result<LedgerLoss> lossOfGoingBack() const;
+    [[nodiscard]] Result<void> goBack(std::string_view word);
 
-    /// Appends `body`, with `content` sealed under `key` where there is one.
+    /// Appends `body`, with `content` sealed under `key` where there is one. Errors: as changeable().
     [[nodiscard]] Result<void> append(const char* name, nlohmann::json body, const Secret* key = nullptr,
                                       const nlohmann::json& content = {});
-    /// The same under a participant's key.
+    /// The same, whatever the ledger's end is.
+    [[nodiscard]] Result<void> write(const char* name, nlohmann::json body, const Secret* key = nullptr,
+                                     const nlohmann::json& content = {});
+    /// As append(), under a participant's key.
     [[nodiscard]] Result<void> appendOf(const Participant& participant, const char* name, nlohmann::json body,
                                         const nlohmann::json& content);
     /// Errors: Unsupported once the key is destroyed, or without the passphrase.
@@ -60,8 +71,16 @@ struct StudyBook {
     [[nodiscard]] Result<void> nextDay(std::string_view session, const NextDay& said);
     [[nodiscard]] Result<std::uint64_t> labelSeed() const;
 
-    /// Where this account notes how far the ledger goes (LedgerEnd.h); empty for a rehearsal.
+    /// The first day that a consent to this version of the form counts from: of one that was never in force, the first
+    /// approval's.
+    [[nodiscard]] CalibrationDate formSince(std::string_view version) const;
+    /// The consent gate, today.
+    [[nodiscard]] Result<void> consented(const Participant& participant) const;
+    /// Where this account notes how far the ledger goes (LedgerEnd.h), and what copies of the study hold while they are
+    /// changed; both empty for a rehearsal.
     [[nodiscard]] std::filesystem::path endFile() const;
+    [[nodiscard]] std::filesystem::path keysLock() const;
+    [[nodiscard]] LedgerEnd end() const;
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealFor(const StudySession& session,
                                                                  std::string_view file) const;
     // As those of Study.
@@ -69,14 +88,14 @@ struct StudyBook {
     [[nodiscard]] Result<std::optional<SessionReader>> part(std::string_view file) const;
     /// The session as it stands in the ledger now, with the seal of its last part.
     [[nodiscard]] Result<BegunSession> begun(std::string_view id);
+    /// Notes beside the keys and in them how far the ledger goes.
+    void noteEnd();
     /// A program was killed between the note of a withdrawal and the end of the key.
     [[nodiscard]] Result<void> finishWithdrawals();
 };
 
-/// The day of `at` where the computer stands.
-[[nodiscard]] CalibrationDate localDay(std::chrono::sys_seconds at);
-/// How far the clock of the computer is ahead of UTC then.
-[[nodiscard]] std::chrono::seconds zoneAt(std::chrono::sys_seconds at);
+/// The day of `at` in UTC: what days of a study are, whatever zone the computer is set to.
+[[nodiscard]] CalibrationDate utcDay(std::chrono::sys_seconds at);
 /// The chain head of a session's file; empty for one that was never made, cannot be read or was changed.
 [[nodiscard]] std::string headOf(const std::filesystem::path& file);
 }  // namespace tacto

@@ -4,7 +4,6 @@
 
 #include "core/session/SessionReader.h"
 #include "core/study/Gates.h"
-#include "core/study/LedgerEnd.h"
 
 namespace tacto {
 
@@ -36,10 +35,15 @@ std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files, co
 Result<std::vector<std::string>> strangersIn(const StudyFiles& files, const LedgerState& known) {
     std::error_code error;
     std::vector<std::string> strangers;
+    const auto isGivenUp = [&](const std::string& name) {
+        return std::ranges::any_of(known.wentBack, [&](const StudyGoingBack& each) {
+            return std::ranges::find(each.files, name) != each.files.end();
+        });
+    };
     for (const auto& entry : std::filesystem::directory_iterator(files.sessions(), error)) {
         if (entry.path().extension() != ".tacto") continue;
-        if (known.sessionOfFile(entry.path().stem().string()) == nullptr)
-            strangers.push_back(entry.path().filename().string());
+        const auto name = entry.path().filename().string();
+        if (known.sessionOfFile(entry.path().stem().string()) == nullptr && !isGivenUp(name)) strangers.push_back(name);
     }
     if (error) return fail(ErrorCode::Io, "{} cannot be read: {}", files.sessions().string(), error.message());
     std::ranges::sort(strangers);
@@ -47,19 +51,7 @@ Result<std::vector<std::string>> strangersIn(const StudyFiles& files, const Ledg
 }
 
 Result<void> StudyGates::record() const {
-    if (const auto end = book_.endFile(); !end.empty()) {
-        const auto ledgerFile = SessionReader::open(book_.files.ledger());
-        if (!ledgerFile) return failure(ledgerFile);
-        if (auto whole = reachesEnd(*ledgerFile, end); !whole) return whole;
-    }
-    const auto strangers = strangersIn(book_.files, book_.known);
-    if (!strangers) return fail(kGateRefused, "{}", strangers.error().message);
-    if (!strangers->empty()) {
-        return fail(kGateRefused,
-                    "sessions/{} is not in the ledger: the ledger is an older one, or the file is another study's; put "
-                    "the ledger back from your copy, or the file where it belongs",
-                    strangers->front());
-    }
+    if (auto newest = book_.isNewest(); !newest) return newest;
     for (const auto& [file, head] : book_.known.heads) {
         if (head.empty() || headOf(book_.files.session(file)) == head) continue;
         return fail(kGateRefused,
@@ -67,7 +59,6 @@ Result<void> StudyGates::record() const {
                     "it back from your copy",
                     file);
     }
-    if (auto zone = zoneGate(zoneAt(book_.now())); !zone) return zone;
     return clockGate(book_.known.last, book_.now());
 }
 
@@ -91,12 +82,15 @@ Result<void> StudyGates::session(const SessionRequest& request, Participant part
         if (const auto at = stimulatedAt(book_.files, session)) last = at;
     }
     if (auto holds = gapGate(book_.settings, last, book_.now()); !holds) return holds;
-    if (auto holds = consentGate(book_.settings, participant, book_.today()); !holds) return holds;
+    if (!again) {
+        if (auto holds = wentBackGate(book_.settings, book_.known.wentBack, book_.now()); !holds) return holds;
+    }
+    if (auto holds = book_.consented(participant); !holds) return holds;
     if (!request.codeConfirmed) {
         return fail(kGateRefused, "the participant has not confirmed that the code {} is theirs", participant.code);
     }
     if (const auto yes = book_.known.excluded.find(participant.id);
-        yes != book_.known.excluded.end() && !(localDay(yes->second) < book_.today())) {
+        yes != book_.known.excluded.end() && !(utcDay(yes->second) < book_.today())) {
         return fail(kGateRefused,
                     "{} answered yes to the exclusion checklist today; a session begins tomorrow at the "
                     "earliest",

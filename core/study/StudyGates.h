@@ -19,8 +19,8 @@ public:
     /// `book` outlives it.
     explicit StudyGates(const StudyBook& book) noexcept : book_(book) {}
 
-    /// The ledger goes as far as it was written and knows every session's file, the chains of the sessions that ended
-    /// are those that it noted, and the clock was not set back.
+    /// The ledger is the newest known (StudyBook::isNewest()), the chains of the sessions that ended are those that it
+    /// noted, and the clock was not set back.
     [[nodiscard]] Result<void> record() const;
     /// Record and approval.
     [[nodiscard]] Result<void> stillApproved() const;
@@ -31,7 +31,7 @@ private:
     const StudyBook& book_;
 };
 
-/// Session files that the ledger does not know. Errors: Io.
+/// Session files that the ledger does not know, nor gave up when it went back. Errors: Io.
 [[nodiscard]] Result<std::vector<std::string>> strangersIn(const StudyFiles& files, const LedgerState& known);
 
 }  // namespace tacto

@@ -9,6 +9,7 @@
 
 #include "core/base/Csv.h"
 #include "core/base/JsonFields.h"
+#include "core/seal/OwnFile.h"
 #include "core/seal/SealedText.h"
 #include "core/session/Durable.h"
 
@@ -18,14 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kKeyFileVersion = 1;
+constexpr int kKeyFileVersion = 2;
+constexpr int kSaysEndSince = 2;
 constexpr const char* kKeyFileFormat = "tactoscope study keys";
 constexpr const char* kNoSecret = "The keys of a rehearsal with virtual participants: they are not secret.";
 constexpr std::size_t kIdBytes = 16;
 constexpr std::size_t kCodeBytes = 32;
 constexpr std::size_t kEntryBytes = kIdBytes + kCodeBytes + kKeyBytes;
+constexpr std::size_t kHashDigits = 64;
+constexpr std::size_t kEndBytes = 2 * sizeof(std::int64_t) + kHashDigits;
 
-std::string boundTo(const std::string& study) { return study + "\nkeys"; }
+/// The version is bound too: a file that states another does not open.
+std::string boundTo(const std::string& study, bool saysEnd) { return study + (saysEnd ? "\nkeys with end" : "\nkeys"); }
 
 tl::unexpected<Error> ioError(const fs::path& file) {
     return fail(ErrorCode::Io, "the key file {} cannot be written: {}", file.string(), std::strerror(errno));
@@ -36,6 +41,19 @@ void put(std::span<std::byte> into, std::string_view text) { std::memcpy(into.da
 std::string textIn(std::span<const std::byte> bytes) {
     const auto* at = reinterpret_cast<const char*>(bytes.data());
     return {at, ::strnlen(at, bytes.size())};
+}
+
+void putNumber(std::span<std::byte> into, std::int64_t number) {
+    for (auto& byte : into.first(sizeof number)) {
+        byte = static_cast<std::byte>(number & 0xff);
+        number >>= 8;
+    }
+}
+
+std::int64_t numberIn(std::span<const std::byte> bytes) {
+    std::uint64_t number = 0;
+    for (std::size_t i = sizeof number; i-- > 0;) number = number << 8 | std::to_integer<std::uint64_t>(bytes[i]);
+    return static_cast<std::int64_t>(number);
 }
 
 bool writeWhole(int file, std::string_view text) {
@@ -117,18 +135,24 @@ Result<StudyKeys> StudyKeys::open(const fs::path& file, const std::string& study
         return fail(ErrorCode::NotFound, "the key file {} of the study is not there; put it back from your copy",
                     file.string());
     }
+    if (passphrase != nullptr) {
+        if (auto own = isOwnFolder(file.parent_path(), "the key folder"); !own) return failure(own);
+        if (auto own = isOwnFile(file, "the key file"); !own) return failure(own);
+    }
     const auto text = readTextFile(file);
     if (!text) return failure(text);
     const auto json = parseJson(*text, file.string());
     if (!json) return failure(json);
     if (textOr(*json, "format") != kKeyFileFormat)
         return fail(ErrorCode::ParseError, "{} is not a key file of a study", file.string());
-    if (countOr(*json, "version") != kKeyFileVersion) {
+    const auto version = countOr(*json, "version");
+    if (version < 1 || version > kKeyFileVersion) {
         return fail(ErrorCode::Unsupported,
                     "the key file {} has version {}, made by a newer Tactoscope; this program "
-                    "reads {}",
-                    file.string(), countOr(*json, "version"), kKeyFileVersion);
+                    "reads up to {}",
+                    file.string(), version, kKeyFileVersion);
     }
+    const bool saysEnd = version >= kSaysEndSince;
     if (textOr(*json, "study") != study) {
         return fail(ErrorCode::NotFound, "the key file {} belongs to study {}, not to {}", file.string(),
                     textOr(*json, "study"), study);
@@ -138,7 +162,7 @@ Result<StudyKeys> StudyKeys::open(const fs::path& file, const std::string& study
     if (!stored || stored->empty())
         return fail(ErrorCode::ParseError, "the key file {} is damaged: it holds no keys", file.string());
     if (passphrase == nullptr) {
-        if (auto taken = keys.take(Secret(*stored)); !taken) return failure(taken);
+        if (auto taken = keys.take(Secret(*stored), saysEnd); !taken) return failure(taken);
         return keys;
     }
     const auto salt = bytesOfBase64(textOr(*json, "salt"));
@@ -148,13 +172,13 @@ Result<StudyKeys> StudyKeys::open(const fs::path& file, const std::string& study
     auto lock = passphrase->keyFor(keys.salt_, cost);
     if (!lock) return failure(lock);
     keys.lock_ = std::move(*lock);
-    const auto content = openSecret(*keys.lock_, boundTo(study), kTextBlock, *stored);
+    const auto content = openSecret(*keys.lock_, boundTo(study, saysEnd), kTextBlock, *stored);
     if (!content) {
         return fail(ErrorCode::NotFound,
                     "the passphrase does not open the key file {}: it is wrong, or the file was altered",
                     file.string());
     }
-    if (auto taken = keys.take(*content); !taken) return failure(taken);
+    if (auto taken = keys.take(*content, saysEnd); !taken) return failure(taken);
     return keys;
 }
 
@@ -183,11 +207,22 @@ Result<void> StudyKeys::destroy(std::string_view id) {
     return written;
 }
 
+Result<void> StudyKeys::noteEnd(const LedgerEnd& end) {
+    const auto before = std::exchange(end_, end);
+    auto written = write();
+    if (!written) end_ = before;
+    return written;
+}
+
 Secret StudyKeys::content() const {
-    Secret all(kKeyBytes + entries_.size() * kEntryBytes);
+    Secret all(kKeyBytes + kEndBytes + entries_.size() * kEntryBytes);
     std::ranges::copy(study_.bytes(), all.bytes().begin());
+    auto end = all.bytes().subspan(kKeyBytes, kEndBytes);
+    putNumber(end, end_.row);
+    putNumber(end.subspan(sizeof end_.row), end_.at.time_since_epoch().count());
+    put(end.last(kHashDigits), end_.head);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
-        const auto place = all.bytes().subspan(kKeyBytes + i * kEntryBytes, kEntryBytes);
+        const auto place = all.bytes().subspan(kKeyBytes + kEndBytes + i * kEntryBytes, kEntryBytes);
         put(place.first(kIdBytes), entries_[i].id);
         put(place.subspan(kIdBytes, kCodeBytes), entries_[i].code);
         std::ranges::copy(entries_[i].key.bytes(), place.subspan(kIdBytes + kCodeBytes).begin());
@@ -195,13 +230,20 @@ Secret StudyKeys::content() const {
     return all;
 }
 
-Result<void> StudyKeys::take(const Secret& content) {
+Result<void> StudyKeys::take(const Secret& content, bool saysEnd) {
     const auto bytes = content.bytes();
-    if (bytes.size() < kKeyBytes || (bytes.size() - kKeyBytes) % kEntryBytes != 0)
+    const auto head = kKeyBytes + (saysEnd ? kEndBytes : 0);
+    if (bytes.size() < head || (bytes.size() - head) % kEntryBytes != 0)
         return fail(ErrorCode::ParseError, "the key file {} is damaged: it holds {} bytes of keys", file_.string(),
                     bytes.size());
     study_ = Secret(bytes.first(kKeyBytes));
-    for (std::size_t at = kKeyBytes; at < bytes.size(); at += kEntryBytes) {
+    if (saysEnd) {
+        const auto end = bytes.subspan(kKeyBytes, kEndBytes);
+        end_.row = numberIn(end);
+        end_.at = std::chrono::sys_seconds(std::chrono::seconds(numberIn(end.subspan(sizeof end_.row))));
+        end_.head = textIn(end.last(kHashDigits));
+    }
+    for (std::size_t at = head; at < bytes.size(); at += kEntryBytes) {
         const auto place = bytes.subspan(at, kEntryBytes);
         entries_.push_back({textIn(place.first(kIdBytes)), textIn(place.subspan(kIdBytes, kCodeBytes)),
                             Secret(place.subspan(kIdBytes + kCodeBytes))});
@@ -215,7 +257,7 @@ Result<void> StudyKeys::write() const {
     if (lock_) {
         const std::span<const std::byte> parts[] = {all.bytes()};
         json["salt"] = base64Text(salt_);
-        json["sealed"] = base64Text(sealBytes(*lock_, boundTo(studyId_), kTextBlock, parts));
+        json["sealed"] = base64Text(sealBytes(*lock_, boundTo(studyId_, true), kTextBlock, parts));
     } else {
         json["note"] = kNoSecret;
         json["keys"] = base64Text(all.bytes());

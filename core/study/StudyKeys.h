@@ -1,8 +1,10 @@
 // StudyKeys.h - the keys of a study: the study's own and one of each participant, with the code that belongs to it.
 //
-// They lie in one file outside the study's folder, sealed under a passphrase, mode 0600. What the passphrase opens is
-// binary, so that no key passes through a parser: 32 bytes of the study's key, then 80 bytes a participant (16 of the
-// id, 32 of the code, 32 of the key). A rehearsal's file has no passphrase and says that it is not secret.
+// They lie in one file outside the study's folder, sealed under a passphrase, mode 0600; one that others may read, or a
+// folder that they may write to, is refused (OwnFile.h). What the passphrase opens is binary, so that no key passes
+// through a parser: 32 bytes of the study's key; 80 of how far the ledger goes (8 of the row, 8 of its time, both with
+// the low byte first, 64 digits of its hash; version 1 had none); then 80 bytes a participant (16 of the id, 32 of the
+// code, 32 of the key). A rehearsal's file has no passphrase and says that it is not secret.
 //
 // Every change writes a new file, which takes the old one's place; the old one's bytes are overwritten.
 //
@@ -19,6 +21,7 @@
 #include "core/base/Result.h"
 #include "core/seal/Passphrase.h"
 #include "core/seal/Secret.h"
+#include "core/study/LedgerEnd.h"
 
 namespace tacto {
 
@@ -33,13 +36,18 @@ public:
     /// `passphrase` null: a rehearsal's. Errors: InvalidArgument where there is a file already; Io.
     [[nodiscard]] static Result<StudyKeys> create(const std::filesystem::path& file, const std::string& study,
                                                   const Passphrase* passphrase, const PassphraseCost& cost);
-    /// Errors: NotFound for a file that is not there, belongs to another study, or that the passphrase does not open;
+    /// Errors: NotFound for a file that is not there, is not its owner's alone, belongs to another study, or that the
+    /// passphrase does not open;
     /// Unsupported for one of a newer version; ParseError; Io.
     [[nodiscard]] static Result<StudyKeys> open(const std::filesystem::path& file, const std::string& study,
                                                 const Passphrase* passphrase, const PassphraseCost& cost);
 
     [[nodiscard]] const Secret& study() const noexcept { return study_; }
     [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
+    /// How far the ledger went when the keys were written last; row 0 where that is not known.
+    [[nodiscard]] const LedgerEnd& ledgerEnd() const noexcept { return end_; }
+    /// Errors: Io; what was said before stays.
+    [[nodiscard]] Result<void> noteEnd(const LedgerEnd& end);
     /// Null where there is none.
     [[nodiscard]] const Entry* byId(std::string_view id) const noexcept;
 
@@ -51,7 +59,7 @@ public:
 private:
     StudyKeys(std::filesystem::path file, std::string study) : file_(std::move(file)), studyId_(std::move(study)) {}
     [[nodiscard]] Secret content() const;
-    [[nodiscard]] Result<void> take(const Secret& content);
+    [[nodiscard]] Result<void> take(const Secret& content, bool saysEnd);
     [[nodiscard]] Result<void> write() const;
 
     std::filesystem::path file_;
@@ -59,6 +67,7 @@ private:
     std::array<std::byte, Passphrase::kSaltBytes> salt_{};
     std::optional<Secret> lock_;  // Made of the passphrase; nothing in a rehearsal
     Secret study_;
+    LedgerEnd end_;
     std::vector<Entry> entries_;
 };
 

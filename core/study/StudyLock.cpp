@@ -33,12 +33,13 @@ std::optional<std::int64_t> holderOf(const fs::path& file) {
 
 }  // namespace
 
-Result<StudyLock> StudyLock::take(const StudyFiles& files) {
+Result<StudyLock> StudyLock::take(const StudyFiles& files, const fs::path& besideKeys) {
     constexpr std::size_t kLockBytes = 1;
     const auto isOpen = [&](const fs::path& held) {
         const auto holder = holderOf(held);
-        return fail(ErrorCode::Io, "the study in {} is open in {}; end that first. Nothing was changed",
-                    files.folder.string(), holder ? programOf(*holder) : "another program");
+        return fail(ErrorCode::Io, "{} in {} is open in {}; end that first. Nothing was changed",
+                    held == besideKeys ? "a copy of the study" : "the study", files.folder.string(),
+                    holder ? programOf(*holder) : "another program");
     };
     const int folder = ::open(files.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     const auto closed = [folder](tl::unexpected<Error> error) {
@@ -47,13 +48,22 @@ Result<StudyLock> StudyLock::take(const StudyFiles& files) {
     };
     if (folder >= 0 && ::flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         return closed(isOpen(files.folder));
+    const auto refused = [&](const fs::path& file, const LockedFile::Refused& why) {
+        if (why.why == LockedFile::Refusal::Held) return closed(isOpen(file));
+        const bool failed = why.why == LockedFile::Refusal::Failed;
+        return closed(fail(ErrorCode::Io,
+                           "the study in {} cannot be opened for changes: its lock {} cannot be taken: {}",
+                           files.folder.string(), file.string(),
+                           failed ? std::strerror(why.error) : "it is a link, a pipe or has a second name"));
+    };
     auto locked = LockedFile::open(files.lock(), kLockBytes, 0600);
-    if (locked) return StudyLock(folder, std::move(*locked));
-    if (locked.error().why == LockedFile::Refusal::Held) return closed(isOpen(files.lock()));
-    const bool failed = locked.error().why == LockedFile::Refusal::Failed;
-    return closed(fail(ErrorCode::Io, "the study in {} cannot be opened for changes: its lock {} cannot be taken: {}",
-                       files.folder.string(), files.lock().string(),
-                       failed ? std::strerror(locked.error().error) : "it is a link, a pipe or has a second name"));
+    if (!locked) return refused(files.lock(), locked.error());
+    std::error_code error;
+    if (besideKeys.empty() || !fs::is_directory(besideKeys.parent_path(), error))
+        return StudyLock(folder, std::move(*locked), std::nullopt);
+    auto keys = LockedFile::open(besideKeys, kLockBytes, 0600);
+    if (!keys) return refused(besideKeys, keys.error());
+    return StudyLock(folder, std::move(*locked), std::move(*keys));
 }
 
 }  // namespace tacto

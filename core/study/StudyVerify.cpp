@@ -4,6 +4,7 @@
 
 #include "core/base/Csv.h"
 #include "core/session/SessionReader.h"
+#include "core/study/LedgerEnd.h"
 #include "core/study/StudyGates.h"
 
 namespace tacto {
@@ -38,7 +39,8 @@ public:
             return {};
         }
         if (auto current = readStudy(files_, state->settingsSha256); !current) problem(current.error().message);
-        for (const auto& session : state->sessions) check(session, *state);
+        for (const auto& session : state->sessions) check(session, *state, *reader);
+        for (const auto& back : state->wentBack) report_.notes.push_back(goingBackText(back));
         if (const auto strangers = strangersIn(files_, *state)) {
             for (const auto& name : *strangers) problem(fmt::format("sessions/{} is not in the ledger", name));
         } else {
@@ -50,7 +52,7 @@ public:
 private:
     void problem(std::string text) { report_.problems.push_back(std::move(text)); }
 
-    void check(const StudySession& session, const LedgerState& state) {
+    void check(const StudySession& session, const LedgerState& state, const SessionReader& ledger) {
         for (const auto& part : session.parts) {
             const auto path = files_.session(part.file);
             const auto noted = state.heads.find(part.file);
@@ -72,6 +74,10 @@ private:
             if (verified->status != SessionStatus::Intact) problem(fmt::format("session {} is damaged", part.file));
             if (hasHead && verified->head != noted->second)
                 problem(fmt::format("session {} has another chain head than the ledger notes", part.file));
+            if (const auto begunWith = ledgerEndOf(path); begunWith && !reaches(ledger, *begunWith)) {
+                problem(fmt::format("session {} was begun with row {} of a ledger, and this one has another", part.file,
+                                    begunWith->row));
+            }
             if (const auto reader = SessionReader::open(path); reader && !reader->sealed())
                 problem(fmt::format("session {} is not sealed", part.file));
             report_.sessions.push_back({part.file, std::move(*verified)});

@@ -87,7 +87,7 @@ TEST_F(DisturbedSession, WithAClockThatWasMovedBetweenItsPartsItIsRefusedOrGoesO
     RecordProperty("hazard", "H8");
     const auto expected = undisturbed();
     const auto now = [] { return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()); };
-    const auto made = localDay(now());
+    const auto made = utcDay(now());
     ASSERT_EQ(desk.runKilled(kAmongItsRows, kSession, shortSession()), -9);
     takeIn("study");
     expectUnchanged({.clock = 3h}, 4, "it can go on within 2 h", "study");
@@ -97,7 +97,7 @@ TEST_F(DisturbedSession, WithAClockThatWasMovedBetweenItsPartsItIsRefusedOrGoesO
     copy("study", "earlier");
     for (const auto& [study, clock] :
          {std::pair<const char*, std::chrono::seconds>{"study", 50min}, {"earlier", -4min}}) {
-        if (localDay(now() + clock) < made) {  // just after midnight: a rehearsal's approval begins on that day
+        if (utcDay(now() + clock) < made) {  // just after midnight: a rehearsal's approval begins on that day
             expectUnchanged({.clock = clock}, 4, "sessions can begin from that day on", study);
             continue;
         }

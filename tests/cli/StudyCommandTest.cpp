@@ -43,6 +43,65 @@ TEST_F(StudyCli, AGuessAtAPassphraseTakesTheMemoryThatIsPromised) {
     EXPECT_LT(cheap.most_KiB, kPromised_KiB);  // the other tests' way, or that figure would say nothing
 }
 
+TEST_F(StudyCli, GoingBackIsTwoStepsAndStandsInEachReport) {
+    RecordProperty("hazard", "H11");
+    ASSERT_EQ(create().code, 0);
+    const auto code = jsonOf(study({"enrol", at(), "--virtual", "7"}))["code"].get<std::string>();
+    const auto old = desk.at("old"), newest = desk.at("newest");
+    std::filesystem::copy(at(), old, std::filesystem::copy_options::recursive);
+    const Words confirmed{"go-back", at(), "--confirm", "lose-1-rows"};
+    const auto none = study(confirmed);
+    EXPECT_EQ(none.code, 4);
+    EXPECT_THAT(none.err, HasSubstr("there is nothing to go back from"));
+    ASSERT_EQ(study({"enrol", at(), "P-7K3D"}).code, 0);
+    std::filesystem::rename(at(), newest);
+    std::filesystem::rename(old, at());
+    for (const auto& words :
+         {Words{"enrol", at(), "--virtual", "8"}, Words{"leave", at(), code},
+          Words{"withdraw", at(), code, "--confirm", code}, Words{"amend", at(), "--reference", "EC-18"},
+          Words{"consent", at(), code, "--version", "2", "--date", "2026-11-20", "--by", "KL"}}) {
+        const auto refused = study(words);
+        EXPECT_EQ(refused.code, 4) << words.front();
+        EXPECT_EQ(refused.out, "");
+        EXPECT_THAT(refused.err, HasSubstr("tactoscope-cli study go-back says what that gives up"));
+    }
+    const auto exported =
+        desk.run({"export", at(), "--format", "bids", "--out", desk.at("bids"), "--passphrase-file", passphrase});
+    EXPECT_NE(exported.code, 0);
+    EXPECT_FALSE(std::filesystem::exists(desk.at("bids")));
+    EXPECT_EQ(jsonOf(study({"show", at()}))["participants"].size(), 1U) << "it can be read";
+    const auto asked = study({"go-back", at()});
+    EXPECT_EQ(asked.code, 2);
+    EXPECT_THAT(asked.err, HasSubstr("Lost with it: 1 row (1 enrolled); the enrolment of P-7K3D"));
+    EXPECT_THAT(asked.err, HasSubstr("--confirm lose-1-rows goes on with this ledger"));
+    EXPECT_EQ(study({"go-back", at(), "--confirm", "lose-2-rows"}).code, 2);
+    const auto done = study(confirmed);
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(jsonOf(done)["lost"], 1);
+    EXPECT_EQ(study({"enrol", at(), "--virtual", "8"}).code, 0);
+    EXPECT_EQ(jsonOf(study({"show", at()}))["went_back"].size(), 1U);
+    EXPECT_THAT(desk.run({"verify", at()}).out, HasSubstr("ledger went back on"));
+    for (const Words& more : {Words{}, Words{"--for", "committee"}}) {
+        const auto page = desk.at("report.html");
+        const auto drawn = desk.run(Words{"report", at(), "--out", page, "--passphrase-file", passphrase} + more);
+        ASSERT_EQ(drawn.code, 0) << drawn.err;
+        EXPECT_THAT(readTextFile(page).value(), HasSubstr("ledger went back on"));
+    }
+    std::filesystem::rename(at(), old);
+    std::filesystem::rename(newest, at());
+    EXPECT_EQ(study({"enrol", at(), "--virtual", "9"}).code, 4) << "the one that was given up";
+}
+
+TEST_F(StudyCli, APassphraseThatOthersMayReadOpensNothing) {
+    RecordProperty("hazard", "H11");
+    ASSERT_EQ(create().code, 0);
+    std::filesystem::permissions(passphrase, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
+    const auto shown = study({"show", at()});
+    EXPECT_EQ(shown.code, 3);
+    EXPECT_EQ(shown.out, "");
+    EXPECT_THAT(shown.err, HasSubstr("(mode 0604); mode 0600 is expected: chmod 600 " + passphrase));
+}
+
 TEST_F(StudyCli, IsMadeEnrolledInConsentedToShownLeftAndWithdrawnFrom) {
     RecordProperty("hazard", "H11");
     const auto made = create("2099-12-31", {"--set", "blocks=3"});

@@ -43,7 +43,7 @@ void scriptCall(benchmark::State& state) {
         best_us = std::min(best_us, took.count() / kCalls);
     }
     state.counters["us_per_call"] = best_us;
-    state.SetLabel(fmt::format("wanted: at most 50 us a call: {}", perf::verdict(best_us <= 50)));
+    state.SetLabel(fmt::format("wanted: at most 50 us a call: {}", verdict(best_us <= 50)));
 }
 BENCHMARK(scriptCall)->Name("script/calls")->Iterations(5)->UseRealTime()->Unit(benchmark::kMillisecond);
 
@@ -79,7 +79,7 @@ void scriptStart(benchmark::State& state) {
         best_ms = std::min(best_ms, took.count());
     }
     state.counters["best_ms"] = best_ms;
-    state.SetLabel(fmt::format("wanted: at most 25 ms: {}", perf::verdict(best_ms <= 25)));
+    state.SetLabel(fmt::format("wanted: at most 25 ms: {}", verdict(best_ms <= 25)));
 }
 BENCHMARK(scriptStart)->Name("script/start")->Iterations(20)->UseRealTime()->Unit(benchmark::kMillisecond);
 

@@ -8,6 +8,7 @@ namespace tacto {
 namespace {
 
 constexpr CalibrationDate kToday = std::chrono::year(2026) / 11 / 23;
+constexpr CalibrationDate kFormSince = std::chrono::year(2026) / 11 / 1;
 
 StudySettings approved() {
     auto settings = test::someStudy();
@@ -152,17 +153,44 @@ TEST(Gates, ConsentIsToTheVersionInForceDatedAndTakenBySomeone) {
     RecordProperty("hazard", "H11");
     const auto settings = approved();
     auto participant = someone();
-    EXPECT_TRUE(consentGate(settings, participant, kToday));
+    EXPECT_TRUE(consentGate(settings, participant, kFormSince, kToday));
     participant.consents.front().version = "1";
-    expectRefused(consentGate(settings, participant, kToday),
+    expectRefused(consentGate(settings, participant, kFormSince, kToday),
                   "P-7K3D has consented to version 1, and version 2 is in force; consent to it is needed");
     participant.consents.clear();
-    expectRefused(consentGate(settings, participant, kToday),
+    expectRefused(consentGate(settings, participant, kFormSince, kToday),
                   "P-7K3D has given no consent; a dated consent to version 2 is needed");
     participant.consents = {{"2", std::chrono::year(2026) / 11 / 24, "KL"}};
-    EXPECT_EQ(consentGate(settings, participant, kToday).error().code, kGateRefused);
+    EXPECT_EQ(consentGate(settings, participant, kFormSince, kToday).error().code, kGateRefused);
     participant.consents = {{"2", kToday, ""}};
-    EXPECT_EQ(consentGate(settings, participant, kToday).error().code, kGateRefused);
+    EXPECT_EQ(consentGate(settings, participant, kFormSince, kToday).error().code, kGateRefused);
+    participant.consents = {{"2", std::chrono::year(2026) / 10 / 31, "KL"}};
+    expectRefused(consentGate(settings, participant, kFormSince, kToday),
+                  "the consent of P-7K3D is dated 2026-10-31 and taken by \"KL\"; initials and a day from 2026-11-01, "
+                  "from which version 2 of the form is approved, to 2026-11-23 are needed");
+    participant.consents.push_back({"2", kFormSince, "KL"});
+    EXPECT_TRUE(consentGate(settings, participant, kFormSince, kToday)) << "one that counts is enough";
+}
+
+TEST(Gates, AfterALedgerWentBackNoSessionBeginsThatDayNorWithinTheGap) {
+    RecordProperty("hazard", "H11");
+    auto settings = approved();
+    const std::chrono::sys_seconds at = std::chrono::sys_days(kToday) + std::chrono::hours(12);
+    StudyGoingBack back;
+    back.at = at;
+    const std::vector<StudyGoingBack> once{back};
+    using namespace std::chrono_literals;
+    EXPECT_TRUE(wentBackGate(settings, {}, at));
+    expectRefused(wentBackGate(settings, once, at + 19h),
+                  "the ledger went back 19.0 h ago, and what it lost may be a session of today; the next begins on a "
+                  "later day, at least 20 h after it");
+    EXPECT_TRUE(wentBackGate(settings, once, at + 20h));
+    settings.gapMin_h = 0;
+    EXPECT_FALSE(wentBackGate(settings, once, at + 11h)) << "the same day";
+    EXPECT_TRUE(wentBackGate(settings, once, at + 12h));
+    EXPECT_FALSE(wentBackGate(settings, once, at - 24h)) << "a clock that is behind";
+    settings.kind = StudyKind::Rehearsal;
+    EXPECT_TRUE(wentBackGate(settings, once, at));
 }
 
 TEST(Gates, EveryItemOfTheChecklistIsAnsweredWithNo) {
@@ -190,13 +218,6 @@ TEST(Gates, AClockThatWasSetBackIsFound) {
     expectRefused(clockGate(last, last - std::chrono::minutes(6)),
                   "the clock says 2026-11-23 11:54 UTC, and the ledger's last row is of 2026-11-23 12:00 UTC; set the "
                   "clock");
-}
-
-TEST(Gates, DaysAreCountedInAZoneThatThereIs) {
-    RecordProperty("hazard", "H11");
-    using namespace std::chrono_literals;
-    for (const auto zone : {-12h, 0h, 14h}) EXPECT_TRUE(zoneGate(zone));
-    for (const auto zone : {-23h, 15h, 24h}) EXPECT_EQ(zoneGate(zone).error().code, kGateRefused);
 }
 
 TEST(Gates, VirtualParticipantsAndPeopleKeepToTheirDevices) {

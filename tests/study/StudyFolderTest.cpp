@@ -85,6 +85,45 @@ TEST_F(StudyFolder, TheKeyFileIsItsOwnersAloneAndSealed) {
     EXPECT_EQ(text.find("limit"), std::string::npos);  // the cost of a guess is not a file's business
 }
 
+TEST_F(StudyFolder, AKeyFileThatOthersMayReadOrAFolderThatTheyMayWriteIsRefused) {
+    RecordProperty("hazard", "H11");
+    const auto before = ::umask(0);
+    {
+        auto study = make();
+        enrolled(study);
+    }
+    ::umask(before);
+    const auto keys = around().keyFolder;
+    for (const auto& entry : std::filesystem::directory_iterator(keys)) {
+        struct stat about {};
+        ASSERT_EQ(::stat(entry.path().c_str(), &about), 0);
+        EXPECT_EQ(about.st_mode & 07777, 0600U) << entry.path() << " as it was written";
+    }
+    const auto bytes = everythingBelow(scratch.path());
+    for (unsigned others = 0; others <= 077; ++others) {
+        SCOPED_TRACE(others);
+        for (const auto access : {Study::Access::Change, Study::Access::Read}) {
+            ASSERT_EQ(::chmod(keyFile().c_str(), 0600 | others), 0);
+            const auto study = open(access);
+            EXPECT_EQ(study.has_value(), others == 0);
+            if (!study) {
+                EXPECT_EQ(study.error().code, ErrorCode::NotFound);
+                EXPECT_NE(study.error().message.find("the key file "), std::string::npos) << study.error().message;
+            }
+        }
+        ASSERT_EQ(::chmod(keyFile().c_str(), 0600), 0);
+        ASSERT_EQ(::chmod(keys.c_str(), 0700 | others), 0);
+        const auto study = open();
+        EXPECT_EQ(study.has_value(), (others & 022U) == 0);
+        if (!study) {
+            EXPECT_NE(study.error().message.find("the key folder "), std::string::npos);
+        }
+        ASSERT_EQ(::chmod(keys.c_str(), 0700), 0);
+    }
+    EXPECT_TRUE(openWithoutKey()) << "nothing of it is read";
+    EXPECT_EQ(everythingBelow(scratch.path()), bytes);
+}
+
 TEST_F(StudyFolder, TheKeyFileOfBeforeAWithdrawalIsOverwritten) {
     RecordProperty("hazard", "H11");
     auto study = make();
@@ -174,6 +213,9 @@ TEST_F(StudyFolder, ALedgerThatWasCutShortOrIsAnOlderCopyBeginsNoSession) {
     request.devicesSimulated = false;
     const auto older = scratch.path() / "older", whole = scratch.path() / "whole", ledger = folder() / "ledger.tacto";
     std::filesystem::copy_file(ledger, older);
+    auto elsewhere = around();  // a computer that knows of nothing newer
+    elsewhere.keyFolder = scratch.path() / "elsewhere";
+    std::filesystem::copy(around().keyFolder, elsewhere.keyFolder);
     {
         auto study = open();
         ASSERT_TRUE(study) << study.error().message;
@@ -202,20 +244,16 @@ TEST_F(StudyFolder, ALedgerThatWasCutShortOrIsAnOlderCopyBeginsNoSession) {
         std::filesystem::copy_file(older, ledger, std::filesystem::copy_options::overwrite_existing);
         const auto study = open();
         ASSERT_TRUE(study);
-        auto elsewhere = Study::open(folder(), nullptr, Study::Access::Read, around());
-        ASSERT_TRUE(elsewhere);
-        EXPECT_FALSE(elsewhere->stillApproved()) << "also for what a window shows";
+        const auto looked = Study::open(folder(), nullptr, Study::Access::Read, around());
+        ASSERT_TRUE(looked);
+        EXPECT_FALSE(looked->stillApproved()) << "also for what a window shows";
     }
     for (const char* of : {"as many rows, the last another", "a row more, the one before another"}) {
         {
-            auto study = open();
-            ASSERT_TRUE(study);
-            for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "home" / "keys")) {
-                if (entry.path().extension() != ".end") continue;
-                const auto kept = textOf(entry.path());
-                ASSERT_TRUE(study->exported("/media/stick", "bids"));
-                write(entry.path(), kept);
-            }
+            const auto words = test::somePassphrase();
+            auto study = Study::open(folder(), &words, Study::Access::Change, elsewhere);
+            ASSERT_TRUE(study) << study.error().message;
+            ASSERT_TRUE(study->exported("/media/stick", "bids"));
         }
         expectRefused(of);
     }
@@ -233,6 +271,8 @@ TEST_F(StudyFolder, ASessionThatTheLedgerDoesNotKnowBeginsNoOther) {
         code = enrolled(study);
     }
     std::filesystem::copy_file(ledger, older);
+    const auto olderKeys = scratch.path() / "keys of before";
+    std::filesystem::copy(around().keyFolder, olderKeys);
     {
         auto study = open();
         ASSERT_TRUE(study) << study.error().message;
@@ -241,8 +281,9 @@ TEST_F(StudyFolder, ASessionThatTheLedgerDoesNotKnowBeginsNoOther) {
     }
     // An older ledger, on a computer that never wrote a newer one.
     std::filesystem::copy_file(older, ledger, std::filesystem::copy_options::overwrite_existing);
-    for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "home" / "keys"))
-        if (entry.path().extension() == ".end") std::filesystem::remove(entry.path());
+    const auto keys = around().keyFolder;
+    std::filesystem::remove_all(keys);
+    std::filesystem::copy(olderKeys, keys);
     const auto study = open();
     ASSERT_TRUE(study) << study.error().message;
     const auto may = study->mayBegin(test::someRequest(code));

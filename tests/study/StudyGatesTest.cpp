@@ -1,4 +1,6 @@
 // What lets a session begin, and what does not: each gate, the gap between sessions, and records that are not whole.
+#include <random>
+
 #include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
 #include "tests/support/Comes.h"
@@ -228,24 +230,98 @@ TEST_F(Desk, ARecordThatWasChangedAmongItsRowsBarsTheNextSession) {
     EXPECT_FALSE(study.events(begun.session));
 }
 
-TEST_F(GateOfASession, AZoneThatThereIsNotRevivesNoApproval) {
-    RecordProperty("hazard", "H11");
-    auto study = make();
-    const auto code = enrolled(study);
-    const auto zone = [](const char* text) {
-        if (text != nullptr)
-            ::setenv("TZ", text, 1);
+/// The zone of this process, as TZ names it, while it lives.
+class Zone {
+public:
+    explicit Zone(const char* text) {
+        if (const char* was = std::getenv("TZ")) before_ = was;
+        ::setenv("TZ", text, 1);
+        ::tzset();
+    }
+    ~Zone() {
+        if (before_)
+            ::setenv("TZ", before_->c_str(), 1);
         else
             ::unsetenv("TZ");
         ::tzset();
+    }
+    Zone(const Zone&) = delete;
+    Zone& operator=(const Zone&) = delete;
+
+private:
+    std::optional<std::string> before_;
+};
+
+TEST_F(GateOfASession, NoTimeZoneMovesADay) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto person = study.enrol({}).value().code;
+    const auto last = std::chrono::sys_days(std::chrono::year(2027) / 10 / 31);
+    using namespace std::chrono_literals;
+    std::mt19937 random(47);
+    for (int i = 0; i < 60; ++i) {
+        const auto zone = fmt::format("Z{}{:+}", "AB", static_cast<int>(random() % 49) - 24);
+        SCOPED_TRACE(zone);
+        const Zone here(zone.c_str());
+        const auto second = std::chrono::seconds(random() % 86'400);
+        time.now = last + second;
+        EXPECT_EQ(study.today(), std::chrono::year(2027) / 10 / 31);
+        EXPECT_TRUE(study.mayBegin(test::someRequest(code)));
+        time.now = last + 24h + second;
+        expectRefused(study, test::someRequest(code), "expired on 2027-10-31, and today is 2027-11-01");
+    }
+    time.now = last - 24h * 300 + 23h + 59min;
+    auto yes = test::someRequest(person);
+    yes.exclusions.front().yes = true;
+    ASSERT_TRUE(study.consent(person, {"2", study.today(), "KL"}));
+    ASSERT_TRUE(study.noteExclusions(yes));
+    auto request = test::someRequest(person);
+    request.devicesSimulated = false;
+    for (const char* zone : {"E-14", "W+12", "A+24"}) {
+        const Zone here(zone);
+        expectRefused(study, request, "answered yes to the exclusion checklist today");
+    }
+}
+
+TEST_F(GateOfASession, AConsentFromBeforeTheApprovalOrTheFormsVersionOpensNone) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    const auto code = study.enrol({}).value().code;
+    const auto dated = [&](const char* version, int month, int day) {
+        return study.consent(code, {version, std::chrono::year(2026) / month / day, "KL"});
     };
-    const char* was = std::getenv("TZ");
-    const auto before = was != nullptr ? std::optional(std::string(was)) : std::nullopt;
-    time.now = std::chrono::sys_days(std::chrono::year(2027) / 11 / 1) + std::chrono::hours(12);
-    zone("AAA+23");
-    EXPECT_EQ(study.today(), std::chrono::year(2027) / 10 / 31) << "its last day";
-    expectRefused(study, test::someRequest(code), "is -23.0 h ahead of UTC");
-    zone(before ? before->c_str() : nullptr);
+    const auto early = dated("2", 10, 31);
+    ASSERT_FALSE(early);
+    EXPECT_EQ(early.error().code, ErrorCode::InvalidArgument);
+    EXPECT_NE(early.error().message.find("version 2 of the form is approved from 2026-11-01"), std::string::npos)
+        << early.error().message;
+    ASSERT_TRUE(dated("2", 11, 1));
+    auto request = test::someRequest(code);
+    request.devicesSimulated = false;
+    EXPECT_TRUE(study.mayBegin(request));
+    ASSERT_TRUE(dated("3", 11, 20)) << "of a form that is not in force";
+    auto amended = study.settings();
+    amended.consentVersion = "3";
+    ASSERT_TRUE(study.amend(amended, "EC-2026-18"));
+    expectRefused(study, request, "initials and a day from 2026-11-23, from which version 3 of the form is approved");
+    EXPECT_FALSE(dated("3", 11, 22));
+    ASSERT_TRUE(dated("3", 11, 23));
+    EXPECT_TRUE(study.mayBegin(request));
+    time.now += std::chrono::hours(24 * 300);
+    amended.approval.from = std::chrono::year(2027) / 9 / 1;
+    amended.approval.expires = std::chrono::year(2028) / 8 / 31;
+    ASSERT_TRUE(study.amend(amended, "EC-2027-3"));
+    EXPECT_TRUE(study.mayBegin(request)) << "a renewal asks for no consent that was given";
+    amended.consentVersion = "2";
+    ASSERT_TRUE(study.amend(amended, "EC-2027-4"));
+    EXPECT_TRUE(study.mayBegin(request)) << "the form that they signed first";
+    amended.consentVersion = "4";
+    amended.approval.from = std::chrono::year(2027) / 9 / 10;
+    ASSERT_TRUE(study.amend(amended, "EC-2027-5"));
+    EXPECT_FALSE(study.consent(code, {"4", std::chrono::year(2027) / 9 / 9, "KL"}));
+    ASSERT_TRUE(study.consent(code, {"4", std::chrono::year(2027) / 9 / 10, "KL"}));
+    EXPECT_TRUE(study.mayBegin(request));
 }
 
 TEST_F(Desk, AProcedureThatWasNotApprovedBeginsNoSession) {

@@ -47,7 +47,7 @@ QString consentWords(const Study& study, const Participant& participant) {
     if (participant.consents.empty()) return QObject::tr("none yet");
     const auto& last = participant.consents.back();
     const auto words = QObject::tr("version %1, %2").arg(qtext(last.version), qtext(dateText(last.date)));
-    return consentGate(study.settings(), participant, study.today()) ? words : "⚠ " + words;
+    return study.consented(participant) ? words : "⚠ " + words;
 }
 
 }  // namespace

@@ -87,6 +87,7 @@ Result<StudyRecord> readStudyRecord(const Study& study) {
     out.labelSeed = *seed;
     out.places = study.firstPlaces();
     out.amendments = study.amendments();
+    out.goingsBack = study.goingsBack();
     const auto sessions = study.sessions();
     for (const auto& participant : study.participants()) {
         ParticipantRecord record{participant, {}};

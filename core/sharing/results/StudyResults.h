@@ -41,6 +41,7 @@ struct StudyRecord {
     int places = 0;               ///< Study::firstPlaces(); 0: as many as the settings say
     std::string ledgerHead;
     std::vector<StudyAmendment> amendments;
+    std::vector<StudyGoingBack> goingsBack;
     std::vector<ParticipantRecord> participants;  ///< in the order of enrolment; of a withdrawn one no sessions
     std::vector<std::pair<std::string, AdverseEvent>> events;  ///< session id, event
 };
