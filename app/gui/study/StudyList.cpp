@@ -11,6 +11,7 @@
 #include "app/gui/study/ConsentDialog.h"
 #include "app/gui/study/EndPartDialog.h"
 #include "app/gui/study/EnrolDialog.h"
+#include "app/gui/study/GoBackDialog.h"
 #include "app/gui/study/NextDayDialog.h"
 #include "app/gui/study/StudySessions.h"
 #include "app/gui/theme/Dialogs.h"
@@ -241,11 +242,14 @@ QWidget* StudyList::buildFoot() {
             say({});
             openDialog(dialog());
         });
+        return action;
     };
     addNote(tr("An amendment of the committee…"), "amendStudy", [this] { return new AmendDialog(study_, this); });
     addNote(tr("An adverse event…"), "noteAdverseEvent",
             [this] { return new AdverseEventDialog(study_, code_, this); });
     addNote(tr("The day after a session…"), "noteNextDay", [this] { return new NextDayDialog(study_, code_, this); });
+    goBack_ = addNote(tr("Go back to this older ledger…"), "goBackInStudy",
+                      [this] { return new GoBackDialog(study_, this); });
     note->setMenu(notes);
     auto* close = button(tr("Close the study"), tr("Forgets its passphrase. Another program can change it then."),
                          "closeStudy", holder);
@@ -266,6 +270,14 @@ void StudyList::say(const QString& what, bool trouble) {
     trouble_->setVisible(!what.isEmpty());
 }
 
+void StudyList::sayWhatHinders() {
+    const auto* study = study_.study();
+    const auto approved = study == nullptr ? Result<void>() : study->stillApproved();
+    auto words = approved ? QString() : tr("No session can begin: %1").arg(sentence(approved.error()));
+    if (goBack_->isVisible()) words += ' ' + tr("Here that is “%1” under “Note”.").arg(goBack_->text());
+    say(words);
+}
+
 void StudyList::refresh() {
     const auto* study = study_.study();
     if (study != nullptr) showTables(*study);
@@ -283,8 +295,8 @@ void StudyList::showTables(const Study& study) {
                                    qtext(dateText(approval.expires)), qtext(settings.consentVersion))
                               .arg(study.participants().size())
                               .arg(settings.participantsMax));
-    if (const auto approved = study.stillApproved(); !approved)
-        say(tr("No session can begin: %1").arg(sentence(approved.error())));
+    goBack_->setVisible(study.lossOfGoingBack().has_value());
+    if (!study.stillApproved()) sayWhatHinders();
     delete std::exchange(participants_, nullptr);
     const auto people = participantRows(study);
     participants_ = makeRecordTable({{tr("Code"), "code"},

@@ -26,6 +26,8 @@ public:
     explicit StudyList(OpenStudy& study, QWidget* parent = nullptr);
     /// A sentence in the way; empty for none.
     void say(const QString& what, bool trouble = true);
+    /// Why no session can begin; nothing where one can.
+    void sayWhatHinders();
     /// Empty where none is.
     [[nodiscard]] QString chosen() const;
 
@@ -62,6 +64,7 @@ private:
     StudySessions* sessions_;
     std::vector<QPushButton*> ofOne_;  ///< need a participant
     std::vector<QPushButton*> all_;    ///< need the study
+    QAction* goBack_ = nullptr;        ///< in sight where the ledger is not the newest known
     QWidget* ofOneRow_ = nullptr;
 };
 

@@ -35,7 +35,7 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
     connect(&study_, &OpenStudy::opened, this, [this] {
         if (asks_) asks_->accept();
         say({});
-        list_->say({});
+        list_->sayWhatHinders();
         pages_->setCurrentIndex(kList);
     });
     connect(&study_, &OpenStudy::refused, this, [this](const QString& why) {

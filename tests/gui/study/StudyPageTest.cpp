@@ -134,6 +134,44 @@ TEST_F(StudyPageTest, WithdrawingTakesTheCodeTypedAndSaysWhatItDoesNotReach) {
     EXPECT_FALSE(page.findChild<QTableWidget*>("participants")->isVisible());
 }
 
+TEST_F(StudyPageTest, AnOlderLedgerIsRefusedAndGoneBackToByItsWordAndThePassphrase) {
+    RecordProperty("hazard", "H11");
+    namespace fs = std::filesystem;
+    const auto at = fs::path(folder().toStdString()), old = scratch.path() / "old";
+    EXPECT_FALSE(page.findChild<QAction*>("goBackInStudy")->isVisible());
+    study.close();
+    fs::copy_file(at / "ledger.tacto", old);
+    open();
+    enrol(false);
+    study.close();
+    fs::copy_file(old, at / "ledger.tacto", fs::copy_options::overwrite_existing);
+    open();
+    EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(),
+                HasSubstr("tactoscope-cli study go-back"));
+    Participant another;
+    EXPECT_FALSE(study.study()->enrol(another));
+    ASSERT_TRUE(page.findChild<QAction*>("goBackInStudy")->isVisible());
+    choose("goBackInStudy");
+    auto* asks = dialog("goBackDialog");
+    ASSERT_NE(asks, nullptr);
+    const auto loss = study.study()->lossOfGoingBack().value();
+    EXPECT_THAT(asks->findChild<QLabel*>("goBackLoss")->text().toStdString(), HasSubstr("1 enrolled"));
+    auto* back = asks->findChild<QPushButton*>("goBack");
+    auto* words = asks->findChild<QLineEdit*>("goBackPassphrase");
+    auto* word = asks->findChild<QLineEdit*>("goBackWord");
+    QTest::keyClicks(words, "another");
+    EXPECT_FALSE(back->isEnabled());
+    QTest::keyClicks(word, QString::fromStdString(loss.word()));
+    looksRight(*asks, "study-go-back", kDialog);
+    pressWhenHeard(*back);
+    EXPECT_THAT(asks->findChild<QLabel*>("goBackTrouble")->text().toStdString(), HasSubstr("another than the study"));
+    EXPECT_TRUE(study.study()->goingsBack().empty());
+    QTest::keyClicks(words, kWords);
+    pressWhenHeard(*back);
+    EXPECT_EQ(study.study()->goingsBack().size(), 1U);
+    EXPECT_TRUE(study.study()->enrol(another));
+}
+
 /// A virtual participant's study, whose only session was begun some days ago and has ended.
 class StudyWithASession : public StudyInThePage {
 protected:
