@@ -23,6 +23,7 @@ Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings)
 /// With what --set changes and what this program and --profile are.
 Result<StudySettings> asSetHere(const QCommandLineParser& parser, StudySettings settings) {
     if (!settings.procedure) settings.procedure.emplace();
+    if (!settings.painCeiling) settings.painCeiling = kPainCeiling;
     if (auto taken = takeSets(parser, settings); !taken) return failure(taken);
     const auto profile = profileOption(parser);
     if (!profile) return failure(profile);

@@ -97,6 +97,8 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     settings_.session = continued ? continued->number : who_.sessions + 1;
     if (const auto& seed = unfinished_.earlier().seed) order.seed = *seed;  // The session's replaces the command's
     settings_.seed = order.seed;
+    settings_.painCeiling = study.painCeiling.value_or(kPainCeiling);
+    settings_.holds = openHolds(study_, who_);
     auto turn = encodingTurn(study_, who_, continued);
     settings_.encoding = std::move(turn.encoding);
     settings_.earlierEncoding = std::move(turn.earlier);

@@ -116,6 +116,9 @@ Result<void> PilotCare::gate(const std::string& name, bool holds, const std::str
 
 Result<void> PilotCare::checklist() {
     if (auto held = machine(); !held) return held;
+    for (const auto& each : stage_.settings().holds) {
+        if (auto answered = stage_.answeredFor(each); !answered) return answered;
+    }
     for (const auto by : {PromptTo::Participant, PromptTo::Operator}) {
         if (auto held = stopTest(by); !held) return held;
     }
@@ -325,8 +328,14 @@ Result<void> PilotCare::ratings(const std::vector<PresentedCondition>& condition
             choicePrompt("naturalness", "How natural did it feel?", targets(kNaturalnessTargets)),
             severalPrompt("qualities", "What did it feel like? Any number of words.", targets(kQualityTargets))};
         for (const auto& prompt : prompts) {
-            const auto said = stage_.ask(row::kRating, condition.name + " " + prompt.name, prompt);
+            const auto name = condition.name + " " + prompt.name;
+            const bool replayed = stage_.record().find(row::kRating, name) != nullptr;
+            const auto said = stage_.ask(row::kRating, name, prompt);
             if (!said) return failure(said);
+            const auto pain = replayed ? std::nullopt : painHold(*said, stage_.settings().painCeiling);
+            if (pain) {
+                if (auto answered = stage_.answeredFor(*pain); !answered) return answered;
+            }
         }
     }
     return compareEncodings();

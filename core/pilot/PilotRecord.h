@@ -56,6 +56,7 @@ inline constexpr const char* kContinue = "continue";
 inline constexpr const char* kResumed = "resumed";
 inline constexpr const char* kRating = "rating";
 inline constexpr const char* kSideEffect = "side-effect";
+inline constexpr const char* kHold = "hold";  // the operator answered by name what held the session
 inline constexpr const char* kAdverseEvent = "adverse-event";
 inline constexpr const char* kSessionEnd = "session-end";
 inline constexpr const char* kEnd = "end";    // name of its row

@@ -10,6 +10,7 @@
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/base/Units.h"
 #include "core/encoding/EncodingProfile.h"
+#include "core/pilot/PilotHold.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto {
@@ -32,7 +33,9 @@ struct PilotSettings {
     int perCondition = 4;   ///< of a block
     int catchTrials = 2;    ///< of a block
     std::string runSha256;  ///< of what it is run with (runHash()); in the plan, so that it resumes with the same
-    double adaptation = 0;  ///< for the record; the virtual participant applies it
+    int painCeiling = kPainCeiling;
+    std::vector<PilotHold> holds;  ///< of earlier sessions: answered before anything is presented
+    double adaptation = 0;         ///< for the record; the virtual participant applies it
 
     /// What the participant feels it through, as the record says it.
     [[nodiscard]] std::string_view modality() const noexcept {

@@ -309,6 +309,23 @@ Result<PilotStage::Json> PilotStage::ask(const char* kind, const std::string& na
     });
 }
 
+Result<void> PilotStage::answeredFor(const PilotHold& held) {
+    if (record_.find(row::kHold, held.name) != nullptr) return {};
+    rest();
+    auto prompt = choicePrompt(kHoldPrompt,
+                               fmt::format("{}. Nothing is presented until you answer with your initials", held.said),
+                               {}, PromptTo::Operator);
+    prompt.kind = PromptKind::Text;
+    for (;;) {
+        const auto said = output_.insist(prompt);
+        if (!said) return failure(said);
+        if (said->key().empty()) continue;
+        lastAnswer_ = bench_.clock().now();
+        return record_.write(row::kHold, held.name,
+                             {{"said", held.said}, {"by", said->key()}, {"rt_s", said->after.count()}});
+    }
+}
+
 Result<void> PilotStage::hold() {
     const auto held = output_.insist(holdPrompt());
     return held ? Result<void>() : failure(held);

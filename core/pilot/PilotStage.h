@@ -79,6 +79,8 @@ public:
     /// Arms and presents nothing: for the test of the STOPs. Where the output is real, the operator confirms it by
     /// name.
     [[nodiscard]] Result<void> arm() { return output_.arm(); }
+    /// Nothing is presented until the operator has answered what happened with their name; asked once. Output off.
+    [[nodiscard]] Result<void> answeredFor(const PilotHold& held);
     /// The participant holds, and lets go to stop. Waits until they do.
     [[nodiscard]] Result<void> hold();
     /// |Z|, with nothing armed before or after; into the record as `name`. NaN where the stimulator reads nothing back.

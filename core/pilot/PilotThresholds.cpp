@@ -121,6 +121,9 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     // "Too strong" for an empty presentation counts for the last level of the series.
     const double level = next.empty() && tooStrong ? limits.result().series.back().highest : next.level;
     if (auto told = stage_.judged(level, tooStrong, trial.name, answer->replayed); !told) return told;
+    if (tooStrong && !answer->replayed) {
+        if (auto answered = stage_.answeredFor(tooStrongHold(trial.name)); !answered) return answered;
+    }
     return limits.answer(*word);
 }
 

@@ -14,7 +14,8 @@ struct SettingName {
 
 constexpr std::string_view kShortest = "shortest interval", kLongest = "longest interval",
                            kMethod = "method of detection", kTrials = "trials of each condition in a block",
-                           kEmpty = "empty trials in a block", kComparison = "Weber fraction of strength";
+                           kEmpty = "empty trials in a block", kComparison = "Weber fraction of strength",
+                           kPain = "pain ceiling";
 constexpr SettingName kNames[] = {
     {"procedure.interval_min_s", kShortest, kShortest},
     {"procedure.interval_max_s", kLongest, kLongest},
@@ -24,6 +25,7 @@ constexpr SettingName kNames[] = {
      "conditions or their assignment"},
     {"per_condition", kTrials, kTrials},
     {"catch", kEmpty, kEmpty},
+    {"pain_ceiling", kPain, kPain},
     {"train.shape", "shape of the pulses"},
     {"train.width_us", "width of a phase"},
     {"train.gap_us", "gap between the phases"},
@@ -74,6 +76,10 @@ std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings) {
     }
     all.push_back({"Test", fmt::format("{} blocks, each {} times each condition and {} times nothing", settings.blocks,
                                        settings.perCondition, settings.catchTrials)});
+    all.push_back(
+        {"Pain ceiling", settings.painCeiling
+                             ? fmt::format("{} of 10", *settings.painCeiling)
+                             : fmt::format("not kept by this approval; sessions are held to {} of 10", kPainCeiling)});
     return all;
 }
 

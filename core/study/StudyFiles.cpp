@@ -34,11 +34,11 @@ std::string studyText(const StudySettings& settings) {
 
 namespace {
 /// A study is written whole: what is missing was taken away, and its default was never approved. Studies from before
-/// exports had a license have none.
+/// exports had a license, or pain a ceiling, have none.
 Result<void> checkWhole(const nlohmann::json& record, const std::vector<FieldInfo>& infos, const std::string& source) {
     for (const auto& info : infos) {
         if (!record.contains(info.key)) {
-            if (info.key == "license") continue;
+            if (info.key == "license" || info.key == "pain_ceiling") continue;
             return fail(ErrorCode::ParseError, "{}: \"{}\" is missing; a study has all its settings", source, info.key);
         }
         if (!record[info.key].is_object()) continue;

@@ -115,6 +115,7 @@ RecordFields<StudySettings> buildStudyFields() {
     all.number("catch", &S::catchTrials, {.low = 0, .high = 20});
     all.flag("blind", &S::blind);
     all.word("data_on_request", &S::dataOnRequest, kDataOnRequest);
+    all.number("pain_ceiling", &S::painCeiling, {.low = 1, .high = 10});
     all.text("license", &S::license, kOptionalText);
     all.list("scripts", &S::scripts, namedHashFields<ScriptHash>("name", &ScriptHash::name).kind(), 0, 100);
     all.record("procedure", &S::procedure, procedureFields());
@@ -227,6 +228,7 @@ std::string protocolHash(const StudySettings& settings) {
     auto json = studyFields().write(settings);
     for (const char* key : {"id", "approval", "license"}) json.erase(key);
     if (!settings.procedure) json.erase("procedure");
+    if (!settings.painCeiling) json.erase("pain_ceiling");
     return sha256Hex(dumpJson(json));
 }
 

@@ -39,7 +39,7 @@ enum class DataOnRequest { Destroy, Keep };
 [[nodiscard]] std::string_view nameOf(DetectionMethod method) noexcept;
 [[nodiscard]] std::string_view nameOf(DataOnRequest kept) noexcept;
 
-/// A committee's approval. Days are local dates; both ends count.
+/// A committee's approval. Days are UTC days; both ends count.
 struct Approval {
     std::string reference;
     std::string committee;
@@ -88,6 +88,8 @@ struct StudyProcedure {
     bool operator==(const StudyProcedure&) const = default;
 };
 
+inline constexpr int kPainCeiling = 4;
+
 struct StudySettings {
     std::string id;  ///< 16 hexadecimal digits; made by Study::create()
     std::string title;
@@ -114,6 +116,9 @@ struct StudySettings {
     int catchTrials = 2;  ///< per block
     bool blind = true;
     DataOnRequest dataOnRequest = DataOnRequest::Destroy;
+    /// Of 10: a pain that is rated so high holds the next presentation (pilot.md section 4). Studies from before it was
+    /// kept have none in their approval, and are held to kPainCeiling.
+    std::optional<int> painCeiling;
     std::string license;                      ///< under which exports may be used: "CC-BY-4.0"; empty: not decided
     std::vector<ScriptHash> scripts;          ///< approved; a session's script must be one of them
     std::optional<StudyProcedure> procedure;  ///< approved; older studies have none until they are amended

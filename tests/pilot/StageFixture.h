@@ -49,6 +49,7 @@ public:
         answer.keys.push_back(told != answers.end()    ? told->second
                               : prompt.targets.empty() ? "as asked"
                                                        : prompt.targets.front().key);
+        if (const auto rated = values.find(prompt.name); rated != values.end()) answer.value = rated->second;
         answer.after = Seconds(0.5);
         return answer;
     }
@@ -78,6 +79,7 @@ public:
 
     std::vector<std::string> texts;
     std::map<std::string, std::string> answers;  // by the prompt's name; else its first target
+    std::map<std::string, int> values;           // of scales
     int stops = 0;
     const char* stoppedBy = "participant";
     int stopsAtGoOn = 0;

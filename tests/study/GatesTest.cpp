@@ -110,7 +110,7 @@ TEST(Gates, AnApprovalIsForItsProcedureAndOldOnesKeepTheirHash) {
     RecordProperty("hazard", "H11");
     auto settings = approved();
     auto stored = studyFields().write(settings);
-    for (const char* key : {"id", "approval", "license", "procedure"}) stored.erase(key);
+    for (const char* key : {"id", "approval", "license", "procedure", "pain_ceiling"}) stored.erase(key);
     EXPECT_EQ(protocolHash(settings), sha256Hex(stored.dump())) << "as before there was one";
     settings.procedure.emplace();
     EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused);

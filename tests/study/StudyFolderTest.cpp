@@ -124,6 +124,42 @@ TEST_F(StudyFolder, AKeyFileThatOthersMayReadOrAFolderThatTheyMayWriteIsRefused)
     EXPECT_EQ(everythingBelow(scratch.path()), bytes);
 }
 
+TEST_F(StudyFolder, AKeyFileOfAnEarlierVersionIsReadAndSaysHowFarTheLedgerGoesFromThenOn) {
+    RecordProperty("hazard", "H8");
+    std::string code, id;
+    {
+        auto study = make();
+        code = enrolled(study);
+        id = study.settings().id;
+    }
+    // As version 1 was: without the 80 bytes that say how far the ledger goes, bound by another word.
+    auto json = nlohmann::json::parse(textOf(keyFile()));
+    ASSERT_EQ(json["version"], 2);
+    const auto salt = bytesOfBase64(json["salt"].get<std::string>()).value();
+    const auto lock = test::somePassphrase().keyFor(salt, PassphraseCost::least()).value();
+    const auto sealed = bytesOfBase64(json["sealed"].get<std::string>()).value();
+    const auto content = openSecret(lock, id + "\nkeys with end", kTextBlock, sealed).value();
+    const auto bytes = content.bytes();
+    const std::span<const std::byte> parts[] = {bytes.first(kKeyBytes), bytes.subspan(kKeyBytes + 80)};
+    json["version"] = 1;
+    json["sealed"] = base64Text(sealBytes(lock, id + "\nkeys", kTextBlock, parts));
+    write(keyFile(), json.dump());
+    const auto passphrase = test::somePassphrase();
+    const auto endInKeys = [&] {
+        return StudyKeys::open(keyFile(), id, &passphrase, PassphraseCost::least())->ledgerEnd().row;
+    };
+    EXPECT_EQ(endInKeys(), 0);
+    {
+        const auto study = open();
+        ASSERT_TRUE(study) << study.error().message;
+        EXPECT_TRUE(study->find(code));
+    }
+    EXPECT_EQ(endInKeys(), 4);
+    json["version"] = 2;  // what was sealed as version 1 does not open as another
+    write(keyFile(), json.dump());
+    EXPECT_FALSE(open());
+}
+
 TEST_F(StudyFolder, TheKeyFileOfBeforeAWithdrawalIsOverwritten) {
     RecordProperty("hazard", "H11");
     auto study = make();

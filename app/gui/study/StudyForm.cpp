@@ -116,6 +116,8 @@ std::vector<StudyFormField> describedFields() {
         {Group::Test, "blocks", WORDS("Blocks"), WORDS("Number of test blocks, with breaks in between.")},
         {Group::Test, "per_condition", WORDS("Trials of each condition"), WORDS("In a block.")},
         {Group::Test, "catch", WORDS("Empty trials"), WORDS("In a block. The right answer is “nothing”.")},
+        {Group::Test, "pain_ceiling", WORDS("Pain ceiling"),
+         WORDS("From this rating of 10 on, the operator answers by name before the next presentation.")},
         {Group::Test, "blind", WORDS("Conditions hidden from the operator"), WORDS("Until the session has ended.")},
     };
 }
@@ -139,6 +141,7 @@ nlohmann::json& memberOf(nlohmann::json& record, std::string_view key) {
 StudySettings shownIn(const std::optional<StudySettings>& amended) {
     auto settings = amended.value_or(StudySettings{});
     if (!settings.procedure) settings.procedure.emplace();
+    if (!settings.painCeiling) settings.painCeiling = kPainCeiling;
     return settings;
 }
 

@@ -15,6 +15,9 @@ protected:
         QObject::connect(&desk, &gui::ParticipantDesk::screenChanged, &window, [this](const PilotScreen& screen) {
             if (screen.state == ScreenState::Interval && screen.interval > 0) ++marked[screen.interval];
         });
+        QObject::connect(&desk, &gui::ParticipantDesk::asked, &window, [this](const PilotPrompt& prompt, quint64 id) {
+            if (prompt.name == kHoldPrompt) desk.answerAsOperator(id, {.keys = {"KL"}});
+        });
     }
     /// The key that this person presses for what stands on the screen.
     [[nodiscard]] Qt::Key answerTo(const FeltPresentation& felt) {

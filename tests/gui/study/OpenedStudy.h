@@ -41,6 +41,7 @@ protected:
         made.approval.from = std::chrono::year(2020) / 1 / 1;
         made.approval.expires = std::chrono::year(2090) / 12 / 31;
         made.consentVersion = "2";
+        made.painCeiling = kPainCeiling;
         EXPECT_TRUE(stateProgram(made, shippedProfile().value()));
         return made;
     }

@@ -57,6 +57,7 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
     expected.approval.from = std::chrono::year(2026) / 11 / 1;
     expected.approval.expires = std::chrono::year(2027) / 10 / 31;
     expected.consentVersion = "2";
+    expected.painCeiling = kPainCeiling;
     expected.limits = read->limits;
     expected.scripts = read->scripts;
     expected.procedure = procedureOf(shippedProfile().value(), expected, {});
