@@ -22,12 +22,13 @@ inline const std::filesystem::path& scratchFolder() {
     return folder;
 }
 
-/// Writes `bytes` as `name` below the folder, in place of what was there.
+/// Writes `bytes` as `name` below the folder, its owner's alone, in place of what was there.
 inline std::filesystem::path inputFile(const char* name, std::span<const std::uint8_t> bytes) {
     const auto path = scratchFolder() / name;
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (!file.flush()) std::abort();
+    std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     return path;
 }
 
