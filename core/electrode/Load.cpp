@@ -229,7 +229,9 @@ Circuit circuitAt(const Load& load, double t_s, std::span<const DriveSegment> pu
         return circuit;
     }
     const double drift = std::clamp(1 + load.driftPerSecond * t_s, 0.01, 100.0);
-    circuit.seriesOhm = std::max(load.series.value() * drift, kShortOhms);
+    // A drift ends at a wire. What is less by itself, an end of a range, stays as it is: the worst case lies there
+    // (H1).
+    circuit.seriesOhm = std::max(load.series.value() * drift, std::min(load.series.value(), kShortOhms));
     circuit.open = load.isOpenAt(t_s);
     if (load.kind == LoadKind::Resistor) return circuit;
     circuit.parallelOhm = load.parallel.value() * drift;

@@ -37,7 +37,7 @@ struct SourceLimits {
 /// A resistor has parallelOhm = capacitance_F = 0. `open`: the contact is broken (the capacitor keeps its charge
 /// and leaks through its own resistance).
 struct Circuit {
-    double seriesOhm = 0;    ///< ≥ kShortOhms
+    double seriesOhm = 0;    ///< above 0
     double parallelOhm = 0;  ///< > 0 with a capacitance
     double capacitance_F = 0;
     bool open = false;

@@ -550,6 +550,17 @@ TEST(TrainExposure, WorstCaseIsTheLowLoadForVoltsAndTheHighOneForCurrents) {
     EXPECT_NEAR(current.at(Quantity::PulseEnergy), 12 * 0.01 * 4e-4 * 1e3, 1e-9);
 }
 
+TEST(TrainExposure, TheSmallestLoadsAreJudgedOverAllOfTheirRange) {
+    RecordProperty("hazard", "H1");
+    for (int trial = 0; trial <= 60; ++trial) {
+        const double ohm = 0.1 + 0.001 * trial;
+        const auto range = LoadRange::declared(Load::resistor(Ohms(ohm)));
+        const auto worst = worstExposure(volts(0.001), Seconds(1), range, voltageSource(), kNaN);
+        EXPECT_NEAR(worst.at(Quantity::PeakCurrent), 1e3 * 0.001 / (0.8 * ohm), 1e-9) << ohm;
+        EXPECT_NEAR(impedanceOf(range.min, volts(1), voltageSource()).value(), 0.8 * ohm, 1e-9) << ohm;
+    }
+}
+
 TEST(TrainExposure, LostContactAndDriftDoNotHideALoad) {
     RecordProperty("hazard", "H1");
     Load load = Load::resistor(Ohms(500));
