@@ -36,7 +36,7 @@ Result<void> staysNear(const PulseTrain& programmed, const PulseTrain& command) 
 }
 
 /// As SafetyGate: what decimal steps lose in binary.
-bool onGrid(double value, double step) noexcept {
+bool isOnGrid(double value, double step) noexcept {
     return step == 0 || std::abs(value / step - std::round(value / step)) <= 1e-6;
 }
 
@@ -46,7 +46,7 @@ Result<void> canBeSet(Milliamps level, const SourceTraits& source) {
         return fail(ErrorCode::InvalidArgument,
                     "a level of {} mA; above 0 to {:g} mA, the device's largest, is accepted", mA, source.amplitudeMax);
     }
-    if (onGrid(mA, source.amplitudeStep)) return {};
+    if (isOnGrid(mA, source.amplitudeStep)) return {};
     return fail(ErrorCode::InvalidArgument, "a level of {} mA; multiples of the device's step, {:g} mA, are accepted",
                 mA, source.amplitudeStep);
 }
@@ -64,7 +64,7 @@ Result<PulseTrain> levelTrain(const EncodingProfile& profile, const SourceTraits
     PulseTrain programmed = programmedFor(wanted, calibration);
     programmed.amplitude = level;
     if (auto near = timesStayNear(programmed, wanted); !near) return failure(near);
-    auto rounded = roundToDevice(programmed, gridOf(source));
+    auto rounded = roundToDevice(programmed, gridOf(source), calibration ? RoundedTo::Nearest : RoundedTo::Zero);
     if (!rounded) return failure(rounded);
     rounded->train.amplitude = level;
     return rounded->train;
@@ -104,6 +104,15 @@ Result<PlannedLevel> TrainPlanner::planLevel(Milliamps level, Seconds interval, 
     return PlannedLevel{std::move(*approved), onset, expected};
 }
 
+/// A correction to the nearest step, unless more than the profile's largest amplitude, `top`, would come out.
+Result<RoundedTrain> TrainPlanner::onGrid(PulseTrain programmed, double top) const {
+    if (!calibration_) return roundToDevice(programmed, gridOf(source_));
+    const double wanted = levelOf(programmed), step = source_.amplitudeStep;
+    if (calibration_->amplitude.delivered(toNearest(wanted, step)) > top)
+        programmed = trainAt(programmed, source_.drive, towardZero(wanted, step));
+    return roundToDevice(programmed, gridOf(source_), RoundedTo::Nearest);
+}
+
 Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedance) {
     const Instant onset = std::max(series_.due().value_or(now), now);
     const Command command = series_.begin(onset);
@@ -116,7 +125,8 @@ Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedan
     if (auto near = staysNear(programmed, *train); !near) return failure(near);
     const Seconds interval = programmedFor(command.interval, calibration_);
     if (auto near = staysNear("the interval", interval.count(), command.interval.count()); !near) return failure(near);
-    const auto rounded = roundToDevice(programmed, gridOf(source_));
+    const double top = levelOf(*train) * (encoder().profile().amplitudeMax / *held);
+    const auto rounded = onGrid(programmed, top);
     if (!rounded) return failure(rounded);
     auto approved = gate_.approve(TrainRequest{rounded->train, interval, onset});
     if (!approved) return failure(approved);

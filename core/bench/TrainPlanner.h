@@ -75,6 +75,7 @@ public:
 
 private:
     [[nodiscard]] const Encoder& encoder() const noexcept { return series_.encoder(); }
+    [[nodiscard]] Result<RoundedTrain> onGrid(PulseTrain programmed, double top) const;
 
     const SourceTraits source_;
     const KnownLines calibration_;

@@ -10,7 +10,7 @@ namespace {
 double shrunk(double wanted, double rounded) noexcept {
     if (!(wanted > 0)) return 0;
     const double relative = (wanted - rounded) / wanted;
-    return relative > 1e-9 ? relative : 0;
+    return std::abs(relative) > 1e-9 ? relative : 0;
 }
 
 }  // namespace
@@ -21,23 +21,26 @@ double towardZero(double value, double step) noexcept {
     return multiple == 0 ? 0.0 : multiple * step;
 }
 
-Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& grid) {
+double toNearest(double value, double step) noexcept { return step > 0 ? std::round(value / step) * step : value; }
+
+Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& grid, RoundedTo to) {
     if (auto valid = validate(wanted); !valid) return failure(valid);
     RoundedTrain result{wanted};
-    const auto tooFar = [](double relative) { return !(relative <= kLargestRounding * (1 + 1e-9)); };
+    const auto tooFar = [](double relative) { return !(std::abs(relative) <= kLargestRounding * (1 + 1e-9)); };
+    const auto onto = to == RoundedTo::Zero ? towardZero : toNearest;
 
     const bool current = isCurrent(wanted.amplitude);
     const double amplitude = std::visit([](auto a) { return a.value(); }, wanted.amplitude);
     // The outer minimum: a multiple of a step that is not exact in binary may lie a last bit above the range.
     const double amplitudeSet =
-        std::min(towardZero(std::min(amplitude, grid.amplitudeMax), grid.amplitudeStep), grid.amplitudeMax);
+        std::min(onto(std::min(amplitude, grid.amplitudeMax), grid.amplitudeStep), grid.amplitudeMax);
     const char* unit = amplitudeUnit(wanted.amplitude);
     result.amplitude = shrunk(amplitude, amplitudeSet);
     if (tooFar(result.amplitude)) {
         return fail(
             ErrorCode::Unsupported,
             "amplitude {:.6g} {} would become {:.6g} {} on this device (steps of {:.6g}, at most {:.6g} {}), more "
-            "than 10 % less",
+            "than 10 % away",
             amplitude, unit, amplitudeSet, unit, grid.amplitudeStep, grid.amplitudeMax, unit);
     }
     if (current) {
@@ -48,7 +51,7 @@ Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& g
 
     const double width = wanted.phaseWidth.count();
     const double widthMax = grid.widthMax.count();
-    const double widthSet = std::min(towardZero(std::min(width, widthMax), grid.widthStep.count()), widthMax);
+    const double widthSet = std::min(onto(std::min(width, widthMax), grid.widthStep.count()), widthMax);
     result.phaseWidth = shrunk(width, widthSet);
     if (tooFar(result.phaseWidth) || !(widthSet >= grid.widthMin.count() * (1 - 1e-9))) {
         return fail(
@@ -61,7 +64,7 @@ Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& g
 
     if (wanted.shape != PulseShape::Monophasic) {
         const double gap = wanted.interPhaseGap.count();
-        const double gapSet = towardZero(gap, grid.widthStep.count());
+        const double gapSet = onto(gap, grid.widthStep.count());
         result.gap = shrunk(gap, gapSet);
         if (tooFar(result.gap)) {
             return fail(ErrorCode::Unsupported,

@@ -1,4 +1,6 @@
 // A bench that knows its stimulator's calibration delivers what is asked, and says so in the session.
+#include <random>
+
 #include "core/measure/PulseMeasurement.h"
 #include "core/session/SessionReader.h"
 #include "tests/bench/BenchFixture.h"
@@ -75,6 +77,43 @@ TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
     const auto captures = bench_->capture(3, ScopeSettings{});
     ASSERT_TRUE(captures) << captures.error().message;
     EXPECT_NEAR(measureTrains(*captures, "voltage")->gap_s.mean, 93.602e-6 * 1.004, 0.3e-6);
+}
+
+/// With calibrations drawn at random, what comes out is at most half a step short, and never more than the limit.
+TEST_F(CalibratedBenchTest, ACorrectionGoesToTheNearestStep) {
+    RecordProperty("hazard", "H1");
+    std::mt19937 draw(13);
+    const auto near1 = [&draw] {
+        const double size = std::pow(10, std::uniform_real_distribution(-6.0, -1.2)(draw));
+        return 1 + (draw() % 2 == 0 ? size : -size);
+    };
+    for (int trial = 0; trial < 120; ++trial) {
+        const bool first = trial == 0;
+        const double gain = first ? 1.000016 : near1(), width = first ? 1.000016 : near1(), gap = near1();
+        calibration_ = StimulatorCalibration{{.gain = gain, .offset = 0, .lowest = 1, .highest = 60},
+                                             CalibrationLine{1, 0, 0.5, 2},
+                                             CalibrationLine{width, 0, 100e-6, 400e-6},
+                                             CalibrationLine{gap, 0, 50e-6, 400e-6}};
+        const bool current = trial % 2 == 1;
+        open({fmt::format("sim:stimulator?gain={:.9f}&widthgain={:.9f}&step={}{}", gain, width,
+                          current ? "0.5mA" : "0.1V", current ? "&mode=current" : "")});
+        ASSERT_TRUE(arm());
+        const double strength = first ? 1 : std::uniform_real_distribution(0.2, 1.0)(draw);
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, strength, 1));
+        const auto captures = bench_->capture(2, ScopeSettings{});
+        ASSERT_TRUE(captures) << trial << ": " << captures.error().message;
+        const auto measured = measureTrains(*captures, current ? "current" : "voltage").value();
+        const auto seen = bench_->telemetry();
+        const double ohm = current ? seen.impedance_ohm : 1;
+        const double step = current ? 0.5e-3 : 0.1;
+        const double asked = (10 + 30 * strength) / ohm;
+        const double noise = current ? 0.01 * asked : 1e-9;  // of |Z|, as each train reads it
+        const double programmed = seen.trainAmplitude * (current ? 1e-3 : 1);
+        const bool atTheTop = gain * std::round(asked / gain / step) * step > 40 / ohm;
+        EXPECT_GE(gain * programmed, asked - (atTheTop ? 1 : 0.5) * gain * step - noise) << trial;
+        EXPECT_LE(gain * programmed, std::min(asked + 0.5 * gain * step, 40 / ohm) + noise) << trial;
+        EXPECT_NEAR(measured.width_s.mean, 200e-6, 0.5e-6 * width + 0.1e-6) << width;
+    }
 }
 
 TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
