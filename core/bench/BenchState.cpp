@@ -1,30 +1,11 @@
 #include "core/bench/BenchState.h"
 
-#include <cmath>
 #include <utility>
 
 #include "core/bench/BenchPerson.h"
 #include "core/bench/LoopJournal.h"
 
 namespace tacto {
-
-namespace {
-
-/// What was programmed for the train that begins at the trigger; NaN where none does.
-ProgrammedTrain programmedFor(const Capture& capture, const Telemetry& now) {
-    constexpr double kNear_s = 0.05;
-    double nearest_s = kNear_s;
-    ProgrammedTrain programmed;
-    for (const auto& train : now.programmed) {
-        const double off_s = std::abs(capture.trigger_s - toSeconds(train.onset));
-        if (std::isnan(train.amplitude) || !(off_s < nearest_s)) continue;
-        nearest_s = off_s;
-        programmed = train;
-    }
-    return programmed;
-}
-
-}  // namespace
 
 Bench::State::State(BenchConfig given)
     : config(withStatedCalibration(std::move(given))),
@@ -131,13 +112,11 @@ void Bench::State::openScope() {
 /// Beside the capture stands what was programmed, and the loop judges what came out of it.
 void Bench::State::noteCapture(Capture& capture) {
     applyStatement(capture, config.devices.scopeStatement);
-    const auto programmed = programmedFor(capture, loop->telemetry());
-    capture.programmed = programmed.amplitude;
+    const auto command = commandShownIn(capture, loop->telemetry().programmed);
+    capture.programmed = command ? command->amplitude : kNaN;
     if (output.stimulator() == nullptr) return;
-    if (auto seen = amplitudeSeenIn(capture, output.source().drive); seen && !std::isnan(programmed.expected)) {
-        seen->expected = programmed.expected;
-        seen->onset = programmed.onset;
-        loop->noteAmplitude(*seen);
+    if (command) {
+        if (const auto seen = amplitudeSeenIn(capture, output.source().drive, *command)) loop->noteAmplitude(*seen);
     }
     if (output.source().readsBack) return;
     if (const auto seen = loadSeenIn(capture)) loop->noteLoad(*seen);

@@ -12,13 +12,50 @@ namespace {
 /// Below this a current is not distinguished from none (the limit of the load-safety check too).
 constexpr double kMinSteps = 10;
 
+/// Where the instrument does not say how well it knows the time of its records.
+constexpr Instant kUnknownStamp = std::chrono::milliseconds(50);
+/// From a write to the onset it leads to, beyond what a driver waits for itself.
+constexpr Instant kOutputDelay = std::chrono::milliseconds(2);
+
+struct Stretch {
+    Instant from, until;
+};
+
+Stretch stretchOf(const Capture& capture) {
+    const double length_s = capture.rate_hz > 0 ? static_cast<double>(capture.samples()) / capture.rate_hz : 0;
+    return {toInstant(Seconds(capture.start_s)), toInstant(Seconds(capture.start_s + length_s))};
+}
+
+Instant stampSlack(const Capture& capture) {
+    const double stated_s = capture.stampTolerance_s;
+    return std::isfinite(stated_s) ? toInstant(Seconds(stated_s)) + kOutputDelay : kUnknownStamp;
+}
+
+/// One reading of both is one of each.
+bool alike(const ProgrammedTrain& a, const ProgrammedTrain& b) {
+    constexpr double kSame = 1e-9;
+    return std::abs(a.expected - b.expected) <= kSame * std::abs(b.expected) && a.isCheck == b.isCheck;
+}
+
+bool showsAllOf(const Capture& capture, const ProgrammedTrain& command) {
+    const auto [from, until] = stretchOf(capture);
+    const Instant slack = stampSlack(capture);
+    return command.acknowledged && from <= command.from - slack && command.until + slack <= until;
+}
+
+/// From the least to the most in a channel that knows its resolution; nothing where samples are missing.
+std::optional<double> mostIn(const CaptureChannel& channel) {
+    if (!(channel.lsb > 0) || channel.samples.empty()) return std::nullopt;
+    const auto [low, high] = std::minmax_element(channel.samples.begin(), channel.samples.end());
+    const double most = static_cast<double>(*high) - static_cast<double>(*low);
+    return std::isfinite(most) ? std::optional(most) : std::nullopt;
+}
+
 /// The least that |Z| can be where `current` stays within its channel's last steps.
 std::optional<Ohms> leastImpedance(const Capture& capture, std::size_t voltage, const CaptureChannel& current) {
     const double visible = kMinSteps * current.lsb;
-    if (!(visible > 0) || current.samples.empty()) return std::nullopt;
-    const auto [low, high] = std::minmax_element(current.samples.begin(), current.samples.end());
-    const double swing = static_cast<double>(*high) - static_cast<double>(*low);
-    if (!(swing < visible)) return std::nullopt;
+    const auto swing = mostIn(current);
+    if (!swing || !(*swing < visible)) return std::nullopt;
     const double amplitude = measureChannel(capture, voltage).amplitude.mean;
     if (!(amplitude > 0)) return std::nullopt;
     return Ohms(amplitude / visible);
@@ -68,23 +105,48 @@ std::optional<SeenLoad> loadSeenIn(const Capture& capture) {
     return SeenLoad{*least, true, at};
 }
 
-std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive) {
-    if (capture.untriggered || !std::isfinite(capture.trigger_s)) return std::nullopt;
+std::optional<ProgrammedTrain> commandShownIn(const Capture& capture, std::span<const ProgrammedTrain> programmed) {
+    const auto [from, until] = stretchOf(capture);
+    const Instant slack = stampSlack(capture);
+    const ProgrammedTrain* shown = nullptr;
+    Instant oldest = Instant::max();
+    bool full = true;
+    for (const auto& command : programmed) {
+        full = full && command.until != Instant(0);
+        oldest = std::min(oldest, command.from);
+        if (std::isnan(command.amplitude) || command.until + slack < from || command.from - slack > until) continue;
+        if (shown != nullptr && !(alike(command, *shown))) return std::nullopt;
+        if (shown == nullptr || command.from > shown->from) shown = &command;
+    }
+    // Before the oldest that is remembered there was another.
+    if (shown == nullptr || (full && from < oldest - slack)) return std::nullopt;
+    return *shown;
+}
+
+std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive, const ProgrammedTrain& command) {
     const auto channels = loadChannels(capture);
     if (!channels) return std::nullopt;
     const bool current = drive == Drive::Current;
     const auto index = current ? channels->second : channels->first;
-    const double amplitude = measureChannel(capture, index).amplitude.mean;
-    if (!std::isfinite(amplitude)) return std::nullopt;
     const auto& channel = capture.channels[index];
     const double scale = current ? 1e3 : 1;
+    double amplitude = measureChannel(capture, index).amplitude.mean;
+    if (!std::isfinite(amplitude)) {
+        if (!showsAllOf(capture, command)) return std::nullopt;
+        const auto most = mostIn(channel);
+        if (!most || !(kMinSteps * channel.lsb < command.expected / scale)) return std::nullopt;
+        amplitude = *most;
+    }
     SeenAmplitude seen;
     seen.amplitude = scale * amplitude;
     // What the instrument does not state excuses nothing: a fault is then found sooner (hazard H3).
     const auto stated = [](double tolerance) { return std::isfinite(tolerance) ? tolerance : 0; };
     seen.uncertainty = scale * ((stated(channel.gainTolerance) + stated(channel.probeTolerance)) * amplitude +
                                 stated(channel.offsetTolerance) + channel.linearityTolerance + channel.lsb);
-    seen.onset = toInstant(Seconds(capture.trigger_s));
+    seen.expected = command.expected;
+    seen.programmed = command.amplitude;
+    seen.onset = command.onset;
+    seen.isCheck = command.isCheck;
     return seen;
 }
 

@@ -1,14 +1,16 @@
 // CaptureLoad.h - what one capture shows of its pulses: of the load that they met, for a stimulator that cannot read it
 // back, of their amplitude, and whether they are what was commanded.
 //
-// Thread-safety: pure function.
+// Thread-safety: pure functions.
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/base/Clock.h"
 #include "core/base/Result.h"
 #include "core/base/Units.h"
+#include "core/bench/Telemetry.h"
 #include "core/encoding/PulseTrain.h"
 #include "core/measure/Capture.h"
 
@@ -25,14 +27,23 @@ struct SeenAmplitude {
     const char* by = "the oscilloscope shows";  ///< begins the sentence of a fault
     double amplitude = 0;
     double expected = 0;
+    double programmed = 0;   ///< for it
     double uncertainty = 0;  ///< of `amplitude`, half-width, as its instrument states it
+    double unstated = 0;     ///< the same of one that states nothing: it proves no limit broken, and excuses nothing
     Instant onset{0};
+    bool isCheck = false;
 };
 
-/// The amplitude of the voltage, or of the current, in a capture that was triggered on a train. `expected` is left to
-/// the caller. Nothing for a record without a trigger, without exactly one channel in V and one in A, or without a
-/// pulse that was measured.
-[[nodiscard]] std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive);
+/// The one command that a record shows, by its time: nothing where it shows none, or a part of two that differ, since a
+/// reading of both is one of neither. `programmed` are the last commands, with none missing between them.
+[[nodiscard]] std::optional<ProgrammedTrain> commandShownIn(const Capture& capture,
+                                                            std::span<const ProgrammedTrain> programmed);
+
+/// The amplitude of the voltage, or of the current, in a record of `command`. Where the device has acknowledged the
+/// command, the record covers all of it and no pulse is found, it is how far the signal moves at most. Nothing without
+/// exactly one channel in V and one in A, and else without a pulse that was measured.
+[[nodiscard]] std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive,
+                                                           const ProgrammedTrain& command);
 
 /// Nothing for a record without a trigger, without a channel in V and one in A, or without a pulse that was measured.
 [[nodiscard]] std::optional<SeenLoad> loadSeenIn(const Capture& capture);

@@ -36,7 +36,7 @@ ControlLoop::ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::
       finger_(std::move(finger), parts_.sensorReport, journal_, taps_),
       reading_(parts_.stimulator, load_, judge_),
       dispatch_({parts_.gate, parts_.interlock, order_, arming_, load_, judge_, journal_, exposure_, parts_.stimulator,
-                 parts_.massager}) {}
+                 parts_.massager, latest_}) {}
 
 void ControlLoop::arm(ArmCommand command) {
     arming_.expect();
@@ -133,6 +133,7 @@ void ControlLoop::takeCommands(Instant now) noexcept {
         journal_.drive(now, drive_);
     }
     if (taken->arm) {
+        judge_.forgetMeasured();
         presentation_.end(now, PresentationEnd::Stopped, "the output was armed again");
         order_.armFor(taken->arm->asked);
         arming_.begin(std::move(*taken->arm));
@@ -200,6 +201,7 @@ bool ControlLoop::hear(const TrainReport& report) noexcept {
 
 void ControlLoop::judge(const TrainReport& report) noexcept {
     const Instant now = report.statusAt;
+    dispatch_.reported(report, shown_);
     if (report.outcome == TrainOutcome::Voided) {
         journal_.train(report, "voided");
         if (arming_.active() && report.isCheck) {
@@ -334,6 +336,13 @@ void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now, E
     noteState(now);
 }
 
+/// Once for each time that what comes out leaves what the source states.
+void ControlLoop::noteMeasured(Instant now) noexcept {
+    const bool before = shown_.measured.beyond;
+    shown_.measured = judge_.measured();
+    if (shown_.measured.beyond && !before) journal_.measuredBeyond(now, shown_.measured, judge_.unit());
+}
+
 void ControlLoop::publish(Instant now) noexcept {
     shown_.at = now;
     shown_.state = parts_.interlock.state();
@@ -347,7 +356,8 @@ void ControlLoop::publish(Instant now) noexcept {
     shown_.impedance_ohm = load_.impedance ? load_.impedance->value() : NAN;
     shown_.impedanceAge_s = load_.impedance ? toSeconds(now - load_.impedanceAt) : NAN;
     ++shown_.steps;
-    exposure_.look(now);
+    noteMeasured(now);
+    exposure_.look(now, shown_.measured);
     latest_.write(shown_);
 }
 

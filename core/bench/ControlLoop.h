@@ -140,6 +140,7 @@ private:
     void trip(const std::optional<LoopFault>& fault, Instant now) noexcept {
         if (fault) trip(fault->cause, fault->reason.view(), now);
     }
+    void noteMeasured(Instant now) noexcept;
     void publish(Instant now) noexcept;
 
     Parts parts_;

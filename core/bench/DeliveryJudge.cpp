@@ -1,5 +1,6 @@
 #include "core/bench/DeliveryJudge.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tacto {
@@ -24,6 +25,9 @@ ElectrodeReading readingOf(ElectrodeState state) noexcept {
     return ElectrodeReading::NotMeasured;
 }
 
+/// A command at its limit passes its calibration when it comes out within that (science.md section 9).
+constexpr double kCommandTolerance = 0.02;
+
 template <class... Values>
 FixedText<255> faultText(fmt::format_string<const Values&...> text, const Values&... values) {
     return std::string_view(fmt::vformat(text, fmt::make_format_args(values...)));
@@ -46,11 +50,27 @@ std::optional<LoopFault> DeliveryJudge::delivered(const TrainReport& report, boo
     if (judgement.stops()) return LoopFault{causeOf(judgement.finding), judgement.reason.view()};
     if (auto fault = readBack(report); fault && !(fault->cause == FaultCause::DeviceFault && wasCutOff(report)))
         return fault;
-    if (!source_.readsBack || !permitted) return std::nullopt;
+    return permitted ? reading(report) : std::nullopt;
+}
+
+/// Every train must be read by a source that reads: what is not known of its electrode is no reason to go on.
+std::optional<LoopFault> DeliveryJudge::reading(const TrainReport& report) {
+    const bool put = report.isCheck || expected_ > 0;  // nothing is read of no output
+    const bool unread = std::isnan(report.measured);
+    if (put && unread && readsAmplitude_)
+        return LoopFault{FaultCause::StatusMissing,
+                         "the stimulator's answer has no reading of the amplitude of its train"};
+    if (!source_.readsBack) return std::nullopt;
     if (!std::isnan(report.impedance_ohm)) return updateImpedance(Ohms(report.impedance_ohm), report.statusAt);
-    // A train too small to be read leaves the last reading to grow old; a check exists to be read.
-    if (!report.isCheck) return std::nullopt;
-    return LoopFault{FaultCause::StatusMissing, "the impedance check was not read back"};
+    if (report.isCheck) return LoopFault{FaultCause::StatusMissing, "the impedance check was not read back"};
+    if (!put) return std::nullopt;
+    const double check = source_.drive == Drive::Current ? source_.checkCurrent.value() : source_.checkVoltage.value();
+    if (report.amplitude >= check)
+        return LoopFault{FaultCause::StatusMissing,
+                         "the stimulator's answer has no reading of the electrode of its train"};
+    // Too small to be read: a check pulse goes before the next.
+    load_.impedanceAt = std::min(load_.impedanceAt, report.onset - Interlock::kImpedanceAge);
+    return std::nullopt;
 }
 
 /// A stop disarms before it switches off: what was being delivered may then read as the pulse before it. Whether too
@@ -67,23 +87,72 @@ TrainJudgement DeliveryJudge::status(const TrainReport& report) const noexcept {
 
 /// What is programmed proves nothing: a calibration may have made it so. The command must come out, read back in the
 /// device's own steps; a check pulse is so small that a step would excuse anything.
-std::optional<LoopFault> DeliveryJudge::readBack(const TrainReport& report) const {
+std::optional<LoopFault> DeliveryJudge::readBack(const TrainReport& report) {
     if (std::isnan(report.measured)) return std::nullopt;  // it is not read back
+    readsAmplitude_ = true;
     const double expected = report.isCheck ? report.amplitude : expected_;
-    const double step = report.isCheck ? 0 : source_.amplitudeStep;
-    return amplitude({"the stimulator reads back", report.measured, expected, step, report.onset});
+    // Less than that share of the command is noise, whatever a step excuses.
+    constexpr double kAbsent = 0.1;
+    const bool absent = report.measured < kAbsent * expected;
+    const double step = report.isCheck || absent ? 0 : source_.amplitudeStep;
+    return amplitude({"the stimulator reads back", report.measured, expected, report.amplitude, step,
+                      kUnknownSpread.relative * report.measured, report.onset, report.isCheck});
 }
 
-std::optional<LoopFault> DeliveryJudge::amplitude(const SeenAmplitude& seen) const {
+std::optional<LoopFault> DeliveryJudge::amplitude(const SeenAmplitude& seen) {
+    if (seen.onset < load_.armedAt || interlock_.state() == InterlockState::Faulted) return std::nullopt;
     const double off = seen.amplitude - seen.expected;
     const auto& stated = source_.accuracy.amplitude;
     const double uncertainty = seen.uncertainty + (stated ? stated->absolute : 0);
-    if (std::abs(off) <= kMaxDeviation * seen.expected + uncertainty) return std::nullopt;
-    if (seen.onset < load_.armedAt || interlock_.state() == InterlockState::Faulted) return std::nullopt;
-    const auto* unit = amplitudeUnit(source_.drive);
+    if (std::abs(off) <= kMaxDeviation * seen.expected + uncertainty) return overLimit(seen);
     return LoopFault{off < 0 ? FaultCause::DeviceFault : FaultCause::LimitBroken,
                      faultText("{} {:.4g} {}; {:.4g} {} was commanded, and it must be within 20 % of that", seen.by,
-                               seen.amplitude, unit, seen.expected, unit)};
+                               seen.amplitude, unit(), seen.expected, unit())};
+}
+
+/// More than the gate has judged by is a fault where it passes a limit: the gate's worst case, by as much larger, or
+/// squared where a quantity goes with the square. The commanded voltage is held against its limit as it was measured.
+std::optional<LoopFault> DeliveryJudge::overLimit(const SeenAmplitude& seen) {
+    if (seen.isCheck) return std::nullopt;
+    const auto judged = gate_.amplitudes(seen.programmed);
+    const double uncertainty = seen.uncertainty + seen.unstated;
+    const double proven = seen.amplitude - uncertainty;
+    const double over = std::max(1.0, proven / judged.most);
+    bool beyond = proven > std::min(judged.most, kUnknownSpread.above(seen.expected)) ||
+                  seen.amplitude + uncertainty < std::max(judged.least, kUnknownSpread.below(seen.expected));
+    const double stated = std::clamp(judged.most / seen.expected - 1, 0.0, kCommandTolerance);
+    std::optional<LoopFault> fault;
+    gate_.exposure(rows_);
+    for (const auto& row : rows_) {
+        if (row.action != LimitAction::Refuse || !row.evaluated || std::isnan(row.limit)) continue;
+        const bool isCommand = row.quantity == Quantity::CommandVoltage;
+        const bool squared = row.quantity == Quantity::PulseEnergy || row.quantity == Quantity::PowerDensity;
+        const double value = isCommand ? voltsOf(proven) / (1 + stated) : row.value * (squared ? over * over : over);
+        beyond = beyond || (isCommand && voltsOf(seen.amplitude) > row.limit * (1 + stated));
+        if (fault || (!isCommand && over == 1) || std::isnan(value) || value <= row.limit) continue;
+        fault = LoopFault{FaultCause::LimitBroken,
+                          faultText("{} {:.4g} {} where {:.4g} {} was set: more than the limit of {} ({}), {:.4g} {}",
+                                    seen.by, seen.amplitude, unit(), seen.expected, unit(), titleOf(row.quantity),
+                                    row.set.view(), row.limit, row.unit)};
+    }
+    keep(seen, beyond || fault);
+    return fault;
+}
+
+void DeliveryJudge::keep(const SeenAmplitude& seen, bool beyond) noexcept {
+    constexpr Instant kStays = std::chrono::seconds(5);  // as the windows of the limits
+    const bool another = std::isnan(measured_.amplitude) || seen.onset - measured_.at > kStays;
+    // One that is off stays in sight.
+    if (!another && (measured_.beyond != beyond ? measured_.beyond : measured_.amplitude > seen.amplitude)) return;
+    measured_ = {
+        seen.by, seen.onset, seen.amplitude, seen.uncertainty + seen.unstated, seen.expected, voltsOf(seen.amplitude),
+        beyond};
+}
+
+double DeliveryJudge::voltsOf(double amplitude) const noexcept {
+    if (source_.drive != Drive::Current) return amplitude;
+    const auto& known = load_.impedance ? load_.impedance : load_.reference;
+    return known ? amplitude * 1e-3 * known->value() : NAN;
 }
 
 std::optional<LoopFault> DeliveryJudge::load(const SeenLoad& seen, bool permitted, Instant now) {

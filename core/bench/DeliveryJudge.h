@@ -5,9 +5,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/bench/ArmingSequence.h"
 #include "core/bench/CaptureLoad.h"
+#include "core/bench/Telemetry.h"
 #include "core/bench/TrainReport.h"
 #include "core/safety/FixedText.h"
 #include "core/safety/TrainCheck.h"
@@ -28,7 +30,9 @@ public:
     /// All outlive the judge, which keeps `load` up to date. `source`: the stimulator's.
     DeliveryJudge(OutputMode mode, SafetyGate& gate, const Interlock& interlock, ArmedLoad& load,
                   const SourceTraits& source)
-        : mode_(mode), gate_(gate), interlock_(interlock), load_(load), source_(source) {}
+        : mode_(mode), gate_(gate), interlock_(interlock), load_(load), source_(source) {
+        rows_.reserve(kMaxExposureRows);
+    }
 
     /// The amplitude that the train that was posted last should come out with, V or mA.
     void expect(double amplitude) noexcept { expected_ = amplitude; }
@@ -39,9 +43,14 @@ public:
     [[nodiscard]] TrainJudgement status(const TrainReport& report) const noexcept;
     [[nodiscard]] bool wasCutOff(const TrainReport& report) const noexcept;
     /// Whether what is read back is the amplitude that was commanded.
-    [[nodiscard]] std::optional<LoopFault> readBack(const TrainReport& report) const;
+    [[nodiscard]] std::optional<LoopFault> readBack(const TrainReport& report);
     /// The same from a capture.
-    [[nodiscard]] std::optional<LoopFault> amplitude(const SeenAmplitude& seen) const;
+    [[nodiscard]] std::optional<LoopFault> amplitude(const SeenAmplitude& seen);
+    /// What was measured of the output since it was armed; nothing measured yet: NaN.
+    [[nodiscard]] const MeasuredOutput& measured() const noexcept { return measured_; }
+    void forgetMeasured() noexcept { measured_ = {}; }
+    /// The unit of amplitudes: "V" or "mA".
+    [[nodiscard]] const char* unit() const noexcept { return amplitudeUnit(source_.drive); }
     /// Where the stimulator does not read back: what a capture shows of the load.
     [[nodiscard]] std::optional<LoopFault> load(const SeenLoad& seen, bool permitted, Instant now);
     /// A train that ended at `trainEnd` and whose status has not come by `now`.
@@ -49,6 +58,10 @@ public:
 
 private:
     [[nodiscard]] std::optional<LoopFault> updateImpedance(Ohms measured, Instant at);
+    [[nodiscard]] std::optional<LoopFault> reading(const TrainReport& report);
+    [[nodiscard]] std::optional<LoopFault> overLimit(const SeenAmplitude& seen);
+    void keep(const SeenAmplitude& seen, bool beyond) noexcept;
+    [[nodiscard]] double voltsOf(double amplitude) const noexcept;
 
     OutputMode mode_;
     SafetyGate& gate_;
@@ -56,6 +69,9 @@ private:
     ArmedLoad& load_;
     const SourceTraits& source_;
     double expected_ = NAN;
+    bool readsAmplitude_ = false;  // it did once
+    MeasuredOutput measured_;
+    std::vector<ExposureRow> rows_;
 };
 
 }  // namespace tacto

@@ -25,8 +25,8 @@ public:
     void beginOrder() noexcept { anotherOrder_.store(true, std::memory_order_release); }
     /// A window is fullest when a train has just been booked: the next look() is one.
     void lookNext() noexcept { at_ = Instant(0); }
-    /// Where a look is due.
-    void look(Instant now) noexcept;
+    /// Where a look is due. `measured` stands beside what was commanded.
+    void look(Instant now, const MeasuredOutput& measured) noexcept;
 
     /// The table of the last look, into `all`.
     void show(Telemetry& all) const noexcept;

@@ -95,6 +95,16 @@ void LoopJournal::refused(Instant at, std::string_view why) noexcept { event(at,
 void LoopJournal::fault(Instant at, std::string_view reason) noexcept { event(at, "fault", {}, reason); }
 void LoopJournal::orderEnded(Instant at, const char* kind, std::string_view why) noexcept { event(at, kind, {}, why); }
 
+void LoopJournal::measuredBeyond(Instant at, const MeasuredOutput& measured, const char* unit) noexcept {
+    std::array<char, 160> text{};
+    fmt::format_to_n(text.data(), text.size() - 1,
+                     "Measured beyond the stimulator's accuracy: {} {:.4g} {} where {:.4g} {} was set.", measured.by,
+                     measured.amplitude, unit, measured.set, unit);
+    event(at, kMeasuredBeyondEvent,
+          {{"measured", measured.amplitude}, {"uncertainty", measured.uncertainty}, {"set", measured.set}},
+          text.data());
+}
+
 void LoopJournal::planned(const PlannedTrain& train, double roughness, double pressure) noexcept {
     command(train.onset, "train",
             {{"amplitude_v", train.command.amplitude.value()},

@@ -41,6 +41,7 @@ public:
     void interlock(Instant at, InterlockState state, std::string_view reason) noexcept;
     void refused(Instant at, std::string_view why) noexcept;
     void fault(Instant at, std::string_view reason) noexcept;
+    void measuredBeyond(Instant at, const MeasuredOutput& measured, const char* unit) noexcept;
     /// `kind`, a literal: what ended the operator's order.
     void orderEnded(Instant at, const char* kind, std::string_view why) noexcept;
 

@@ -34,9 +34,12 @@ Result<std::unique_ptr<UnitRecord>> takeUpUnit(const DeviceIdentity& stimulator,
     return record;
 }
 
+Instant StimulatorSession::latestEnd(const PulseTrain& train, Instant onset) noexcept {
+    return onset + kBeginsWithin + durationOf(train);
+}
+
 void StimulatorSession::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
-    const Instant latest = onset + kBeginsWithin + durationOf(train.train());
-    trainEnd_.store(latest.count(), std::memory_order_release);
+    trainEnd_.store(latestEnd(train.train(), onset).count(), std::memory_order_release);
     OutputSession::post({std::move(train), onset, isCheck});
 }
 

@@ -35,6 +35,8 @@ public:
 
     /// How long deliver() may take until the train begins: a device is programmed first.
     static constexpr Instant kBeginsWithin = std::chrono::milliseconds(200);
+    /// When a train that is to be written at `onset` has ended at the latest.
+    [[nodiscard]] static Instant latestEnd(const PulseTrain& train, Instant onset) noexcept;
     /// When the train that is in the session ends at the latest, as far as it is known: its status is due from then on.
     /// Any thread.
     [[nodiscard]] Instant trainEnd() const noexcept { return Instant(trainEnd_.load(std::memory_order_acquire)); }

@@ -28,11 +28,25 @@ struct DriveCommand {
     double pressure = 0;
 };
 
-/// What was programmed for a train, before it is delivered.
+/// What was programmed for a train or a check pulse: published before it is handed over.
 struct ProgrammedTrain {
-    Instant onset{0};
-    double amplitude = NAN;  ///< V or mA by its drive
-    double expected = NAN;   ///< the same, as it should come out: the command, to the device's step
+    Instant onset{0};           ///< as planned
+    double amplitude = NAN;     ///< V or mA by its drive; NaN: there is none, or it was taken back
+    double expected = NAN;      ///< the same, as it should come out: the command, to the device's step
+    Instant from{0}, until{0};  ///< when it is put out: at the earliest and latest until the device has reported it
+    bool isCheck = false;
+    bool acknowledged = false;  ///< the device said that it was delivered
+};
+
+/// What an instrument showed of a train, beside what was set; V or mA by its drive.
+struct MeasuredOutput {
+    const char* by = "";  ///< a literal: "the oscilloscope shows"
+    Instant at{0};        ///< of the train
+    double amplitude = NAN;
+    double uncertainty = NAN;  ///< half-width
+    double set = NAN;          ///< as it should have come out
+    double volts = NAN;        ///< `amplitude` as the commanded voltage A; NaN where |Z| is not known
+    bool beyond = false;       ///< what the source states of its accuracy does not explain it
 };
 
 /// Trivially copyable; NaN means absent.
@@ -71,8 +85,9 @@ struct StepTelemetry {
 
     bool uncalibratedStimulator = false;  ///< one is open, and no calibration of it holds
     double trainAmplitude = NAN;          ///< as programmed for the last train, V or mA by its drive
-    std::array<ProgrammedTrain, 8>
+    std::array<ProgrammedTrain, 16>
         programmed{};                   ///< the last trains, in no order; those that are not there have no amplitude
+    MeasuredOutput measured;            ///< the largest of the last 5 s, of trains since the output was armed
     std::uint64_t trainsDelivered = 0;  ///< or bursts
     std::uint64_t trainsRefused = 0;    ///< by the limits
     std::uint64_t trainsSkipped = 0;    ///< for stale or missing sensor data

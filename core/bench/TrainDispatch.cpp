@@ -1,5 +1,6 @@
 #include "core/bench/TrainDispatch.h"
 
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -85,9 +86,23 @@ void TrainDispatch::post(ApprovedTrain&& train, Instant onset, std::optional<dou
     const auto& amplitude = train.train().amplitude;
     const double programmed = siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1);
     // Check pulses too: a capture of one belongs to no train that was delivered shortly before.
-    shown.programmed[posted_++ % shown.programmed.size()] = {onset, programmed, expected.value_or(programmed)};
+    ++posted_;
+    lastPosted(shown) = {
+        onset,    programmed, expected.value_or(programmed), onset, StimulatorSession::latestEnd(train.train(), onset),
+        !expected};
+    parts_.latest.write(shown);
     parts_.stimulator->post(std::move(train), onset, !expected);
     parts_.exposure.lookNext();
+}
+
+void TrainDispatch::reported(const TrainReport& report, StepTelemetry& shown) const noexcept {
+    if (posted_ == 0) return;
+    auto& train = lastPosted(shown);
+    if (report.outcome == TrainOutcome::Voided) train.amplitude = NAN;
+    if (report.end == Instant(0)) return;  // when it was put out is not known better
+    train.from = report.onset;
+    train.until = report.end;
+    train.acknowledged = report.outcome == TrainOutcome::Delivered;
 }
 
 }  // namespace tacto

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/Latest.h"
 #include "core/bench/ArmingSequence.h"
 #include "core/bench/DeliveryJudge.h"
 #include "core/bench/ExposureWatch.h"
@@ -34,6 +35,7 @@ public:
         ExposureWatch& exposure;
         StimulatorSession* stimulator;
         MassagerSession* massager;
+        Latest<StepTelemetry>& latest;  ///< what is shown: a record may come before the loop's step has ended
     };
     explicit TrainDispatch(Parts parts) noexcept : parts_(parts) {}
 
@@ -68,12 +70,19 @@ public:
         post(std::move(check), onset, std::nullopt, shown);
     }
 
+    /// What the device said of the train that was posted last.
+    void reported(const TrainReport& report, StepTelemetry& shown) const noexcept;
+
 private:
     /// `expected` is the amplitude that should come out, in V or mA; nothing for a check pulse: what is programmed.
     void post(ApprovedTrain&& train, Instant onset, std::optional<double> expected, StepTelemetry& shown) noexcept;
 
     const Parts parts_;
     std::atomic<bool> paused_{false};
+    [[nodiscard]] ProgrammedTrain& lastPosted(StepTelemetry& shown) const noexcept {
+        return shown.programmed[(posted_ - 1) % shown.programmed.size()];
+    }
+
     bool began_ = false;
     std::size_t posted_ = 0;  // trains, for the ring of what is shown
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -24,7 +25,11 @@ public:
                        r.set.view() == row.set.view();
             });
             if (at != known.end()) {
+                const double measured = std::fmax(at->measured, row.measured);
+                const bool beyond = at->beyond || row.beyond;
                 if (at->evaluated && (!row.evaluated || !(row.value <= at->value))) *at = row;
+                at->measured = measured;
+                at->beyond = beyond;
             } else if (count_ < rows_.size()) {  // always: the gate refuses more
                 rows_[count_++] = row;
             }

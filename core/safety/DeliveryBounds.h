@@ -86,6 +86,9 @@ public:
     [[nodiscard]] PulseTrain levelOf(const PulseTrain& programmed) const noexcept;
     [[nodiscard]] PulseTrain acceptedAs(const PulseTrain& programmed) const noexcept;
 
+    [[nodiscard]] Range<double> amplitudes(double programmed) const noexcept {
+        return {amplitude_.least(programmed), amplitude_.most(programmed)};
+    }
     /// Between which an interval may come out: the shortest gives the most exposure, the longest the lowest band.
     [[nodiscard]] Range<Seconds> intervals(Seconds programmed) const noexcept { return interval_.times(programmed); }
     /// How much longer a window of real time may last by the clock that trains are booked on: 1 or more.

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "core/base/NaN.h"
 #include "core/safety/FixedText.h"
 #include "core/safety/LimitSet.h"
 
@@ -29,6 +30,8 @@ struct ExposureRow {
     bool evaluated = false;  ///< false: reads "not evaluated", and is never a pass (H9)
     bool within = false;     ///< evaluated and within the limit (true without a limit)
     FixedText<95> reason;    ///< why it was not evaluated, else empty
+    double measured = kNaN;  ///< in `unit`: what an instrument showed of what was set; NaN: none did
+    bool beyond = false;     ///< what was measured lies beyond what the source states of its accuracy
 };
 
 }  // namespace tacto

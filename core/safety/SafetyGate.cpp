@@ -355,6 +355,13 @@ bool SafetyGate::isCurrent(std::uint64_t epoch, Instant expires) const noexcept 
     return firstBroken(kApprovalConditions, approval) == nullptr;
 }
 
+SafetyGate::Amplitudes SafetyGate::amplitudes(double programmed) const noexcept {
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    if (!state_->bounds) return {kUnknown, kUnknown};
+    const auto range = state_->bounds->amplitudes(programmed);
+    return {range.least, range.most};
+}
+
 void SafetyGate::exposure(std::vector<ExposureRow>& rows) const {
     const State& s = *state_;
     rows.clear();

@@ -153,6 +153,13 @@ public:
         return isCurrent(approved.epoch_, approved.expires_);
     }
 
+    /// Between which the amplitude of a train that is programmed to `programmed` comes out, as it is judged; V or mA.
+    /// NaN before configure().
+    struct Amplitudes {
+        double least, most;
+    };
+    [[nodiscard]] Amplitudes amplitudes(double programmed) const noexcept;
+
     /// The exposure booked in the last 5 s, each row against its limit, for the exposure display. Does not allocate
     /// when `rows` has capacity.
     void exposure(std::vector<ExposureRow>& rows) const;

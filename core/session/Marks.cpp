@@ -17,6 +17,7 @@ struct Recorded {
     std::vector<std::string> flags;
     bool complete = false;
     bool uncalibratedStimulator = false;
+    std::string measuredBeyond;          ///< the first; empty: none was seen
     std::vector<double> uncertaintyOfR;  ///< U at R 0, 0.5 and 1; empty: not known
 };
 
@@ -44,6 +45,8 @@ Recorded recordedIn(const std::vector<SessionRow>& events) {
     std::vector<std::string> early;
     for (const auto& row : events) {
         if (row.name == kMarkEvent) addOnce(early, textOr(row.body, "text"));
+        if (row.name == kMeasuredBeyondEvent && out.measuredBeyond.empty())
+            out.measuredBeyond = textOr(row.body, "text");
         if (row.name != kMarksEvent) continue;
         out.complete = true;
         for (const auto& flag : textsOr(row.body, "flags")) addOnce(out.flags, flag);
@@ -69,6 +72,7 @@ Result<std::vector<std::string>> sessionMarks(const SessionReader& session) {
     const bool calibrates = std::ranges::find(*measured, kCalibrationMeasurement, &SessionRow::name) != measured->end();
     if (recorded.uncalibratedStimulator)
         marks.emplace_back(calibrates ? kNotCalibratedBefore : "The stimulator is not calibrated.");
+    if (!recorded.measuredBeyond.empty()) marks.push_back(recorded.measuredBeyond);
     marks.insert(marks.end(), recorded.flags.begin(), recorded.flags.end());
     const bool felt = std::ranges::any_of(about.devices, [](const auto& device) { return device.is(Role::Sensor); });
     const bool uncalibrated =

@@ -43,6 +43,7 @@ constexpr ShownOfEvent kShownOfEvents[] = {
     {"fault", kTextKeys},
     {"refused", kTextKeys},
     {"stale", kTextKeys},
+    {kMeasuredBeyondEvent, kTextKeys},
     {"arming", kArmingKeys},
     {"calibration", {}, true},
     {kCertificateEvent, {}, true},

@@ -22,6 +22,8 @@ inline constexpr const char* kCalibrationMeasurement = "calibration to keep";
 /// at once when it first drives the output.
 inline constexpr const char* kMarksEvent = "marks";
 inline constexpr const char* kMarkEvent = "mark";
+/// What came out of a stimulator is not what was set; its text is a mark of the session.
+inline constexpr const char* kMeasuredBeyondEvent = "measured beyond";
 /// The operator marked this moment; the word is body["text"].
 inline constexpr const char* kOperatorMarkEvent = "operator mark";
 /// How the oscilloscope's calibration certificate stood when the session began, a sentence.

@@ -31,6 +31,7 @@ const std::map<std::string, const char*>& titles() {
         {"calibration", QT_TR_NOOP("Stimulator calibration")},
         {kCertificateEvent, QT_TR_NOOP("Oscilloscope certificate")},
         {kMarkEvent, QT_TR_NOOP("R drove the output, flagged")},
+        {kMeasuredBeyondEvent, QT_TR_NOOP("Output was not as set")},
         {"operator", QT_TR_NOOP("The operator answered")},
         {"script not started", QT_TR_NOOP("The script was not started")},
         {"capture warning", QT_TR_NOOP("Oscilloscope")},
