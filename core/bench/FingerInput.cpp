@@ -38,6 +38,7 @@ FingerInput::FingerInput(SensorSession& session, std::unique_ptr<RoughnessChain>
     : session_(session), chain_(std::move(chain)) {
     for (const auto& stream : session.device().streams()) {
         health_.emplace_back(stream.rate_hz);
+        still_.emplace_back(stream.channels);
         blocks_.emplace_back();
         // A second's worth, so that a step never has to grow it.
         const auto samples = static_cast<std::size_t>(std::max(64.0, stream.rate_hz));
@@ -53,6 +54,7 @@ void FingerInput::update() {
     const auto streams = session_.device().streams();
     for (std::size_t s = 0; s < blocks_.size(); ++s) {
         health_[s].feed(blocks_[s], streams[s].channels);
+        still_[s].feed(blocks_[s]);
         watchRange(s);
     }
     frames_.clear();
@@ -67,7 +69,22 @@ void FingerInput::update() {
 double FingerInput::age_s(double now_s) const noexcept {
     double oldest = 0;
     for (const auto& health : health_) oldest = std::max(oldest, health.age_s(now_s));
-    return oldest;
+    const auto since = standsStillSince();
+    return since ? std::max(oldest, now_s - *since) : oldest;
+}
+
+/// An accelerometer is never still by itself: its noise is larger than its steps. Force and taxels may be.
+std::optional<double> FingerInput::standsStillSince() const noexcept {
+    const auto streams = session_.device().streams();
+    std::optional<double> latest;  // when the last of them came to stand
+    bool all = !still_.empty();
+    for (std::size_t s = 0; s < still_.size(); ++s) {
+        const auto since = still_[s].since();
+        if (since && streams[s].kind == StreamKind::Acceleration) return since;
+        all = all && since;
+        if (since) latest = std::max(latest.value_or(*since), *since);
+    }
+    return all ? latest : std::nullopt;
 }
 
 bool FingerInput::fresh(double now_s) const noexcept {
@@ -77,7 +94,7 @@ bool FingerInput::fresh(double now_s) const noexcept {
     };
     const bool streams =
         std::ranges::all_of(health_, [&](const StreamHealth& health) { return current(health.age_s(now_s), 0); });
-    return streams && current(now_s - latest_.t_s, kFrameLatency_s) &&
+    return streams && !standsStillSince() && current(now_s - latest_.t_s, kFrameLatency_s) &&
            !(std::abs(now_s - implausible_s_) <= StreamHealth::kStale_s);
 }
 

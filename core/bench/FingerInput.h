@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/acquisition/Standstill.h"
 #include "core/acquisition/StreamHealth.h"
 #include "core/bench/SensorSession.h"
 #include "core/dsp/RoughnessChain.h"
@@ -26,10 +27,12 @@ public:
     /// The newest frame; its R is NaN before the first.
     [[nodiscard]] const RoughnessFrame& latest() const noexcept { return latest_; }
 
-    /// Age of the oldest stream's newest sample; infinite before the first.
+    /// Age of the oldest stream's newest sample; infinite before the first. While the samples stand still, as all
+    /// streams do or the acceleration does by itself, it is that of the first of those.
     [[nodiscard]] double age_s(double now_s) const noexcept;
-    /// True when every stream, and the newest frame allowing for its window, is at most 100 ms old, none is stamped in
-    /// the future, and no value of the last 100 ms was outside what a fingertip can give (hazard H7).
+    /// True when no sample stands still, every stream, and the newest frame allowing for its window, is at most 100 ms
+    /// old, none is stamped in the future, and no value of the last 100 ms was outside what a fingertip can give
+    /// (hazard H7).
     [[nodiscard]] bool fresh(double now_s) const noexcept;
     [[nodiscard]] std::uint64_t gaps() const noexcept;
     [[nodiscard]] RoughnessFlags flags() const noexcept { return chain_->flags(); }
@@ -41,7 +44,10 @@ private:
 
     SensorSession& session_;
     std::unique_ptr<RoughnessChain> chain_;
+    [[nodiscard]] std::optional<double> standsStillSince() const noexcept;
+
     std::vector<StreamHealth> health_;
+    std::vector<Standstill> still_;
     std::vector<SampleBlock> blocks_;
     std::vector<RoughnessFrame> frames_;
     RoughnessFrame latest_;

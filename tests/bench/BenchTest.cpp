@@ -250,7 +250,7 @@ TEST_F(BenchTest, TheFingerDrivesTheStimulator) {
 
 TEST_F(BenchTest, StaleCorruptOrMissingSensorDataDriveNothing) {
     RecordProperty("hazard", "H7");
-    for (const auto* fault : {"stale@3s", "nan@3s", "unplug@3s"}) {
+    for (const auto* fault : {"stale@3s", "nan@3s", "unplug@3s", "stuck@3s"}) {
         open({std::string("sim:finger?material=P60&force=3N&fault=") + fault}, {Role::Sensor, Role::Stimulator});
         ASSERT_TRUE(arm());
         ASSERT_TRUE(bench_->drive(DriveSource::Sensor));
