@@ -110,6 +110,7 @@ void ControlLoop::step(Instant now) noexcept {
     trip(finger_.failure(), now);
     finger_.noteLosses(now);
     judgeReports();
+    watchMassager(now);
     if (arming_.checkDue()) postCheckOfArming(now);
     arming_.armOnCapture(now);
     trip(reading_.silence(now), now);
@@ -243,6 +244,25 @@ void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
     if (!delivered) return;
     ++shown_.trainsDelivered;
     shown_.intensity = report.amplitude;
+    rests_.burst(report.onset, report.end);
+}
+
+/// Not of a fingertip that drives: what it feels begins and ends with the bursts.
+void ControlLoop::watchMassager(Instant now) noexcept {
+    const auto* finger = finger_.input();
+    if (parts_.massager == nullptr || finger == nullptr) return;
+    if (drive_.source == DriveSource::Sensor) return rests_.forget();
+    const auto streams = finger->session().device().streams();
+    for (std::size_t s = 0; s < streams.size(); ++s) {
+        if (streams[s].kind == StreamKind::Acceleration) rests_.feed(finger->blocks()[s], streams[s].channels);
+    }
+    if (!(rests_.goesOnAt() > 0) || parts_.interlock.state() == InterlockState::Faulted) return;
+    std::array<char, 120> why{};
+    fmt::format_to_n(why.data(), why.size() - 1,
+                     "the massager goes on after its bursts: the accelerometer feels {:.3g} m/s2 r.m.s. at rest",
+                     rests_.goesOnAt());
+    rests_.forget();
+    trip(FaultCause::DeviceFault, why.data(), now);
 }
 
 void ControlLoop::updateCommand(Instant now) noexcept {

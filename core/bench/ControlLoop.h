@@ -24,6 +24,7 @@
 #include "core/bench/LoopInbox.h"
 #include "core/bench/LoopJournal.h"
 #include "core/bench/MassagerSession.h"
+#include "core/bench/MassagerWatch.h"
 #include "core/bench/OwnerWatchdog.h"
 #include "core/bench/PresentationRun.h"
 #include "core/bench/ReadingWatch.h"
@@ -141,6 +142,7 @@ private:
         if (fault) trip(fault->cause, fault->reason.view(), now);
     }
     void noteMeasured(Instant now) noexcept;
+    void watchMassager(Instant now) noexcept;
     void publish(Instant now) noexcept;
 
     Parts parts_;
@@ -162,6 +164,7 @@ private:
     SampleTaps taps_;
     FingerWatch finger_;
     ReadingWatch reading_;
+    MassagerWatch rests_;
     TrainDispatch dispatch_;
     Instant asleepSeen_{0};  // of the clock, when it was looked at last after a silence
     DriveCommand drive_;

@@ -1,5 +1,5 @@
-// What came out beside what was set: a train that was not read, one that never came, and one that is more than was asked
-// for end the output; a reading belongs to one command by its time.
+// What came out beside what was set: a train that was not read, one that never came, and one that is more than was
+// asked for end the output; a reading belongs to one command by its time.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <random>
@@ -261,6 +261,39 @@ TEST_F(DeliveredTruth, MoreThanALimitIsAFaultAndBesideTheCommandAMark) {
         }
     }
     EXPECT_GT(std::min({faults, marks, neither}), 3) << faults << " " << marks << " " << neither;
+}
+
+TEST_F(DeliveredTruth, AMassagerThatGoesOnWhenItShouldRestIsAFault) {
+    RecordProperty("hazard", "H2");
+    for (int trial = 0; trial < 24; ++trial) {
+        const double strength = std::uniform_real_distribution(0.0, 1.0)(draw_);
+        const double pressure = std::uniform_real_distribution(0.0, 1.0)(draw_);
+        const double from = trial % 3 == 0 ? 0 : std::uniform_real_distribution(1.0, 9.0)(draw_);
+        open({fmt::format("sim:massager?fault=stuck-on@{:.3f}s", from), "sim:finger?on=motor"},
+             {Role::Massager, Role::Sensor});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->wait(Seconds(0.5)));
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, strength, pressure));
+        EXPECT_FALSE(bench_->wait(Seconds(25))) << strength << ", " << pressure << " from " << from;
+        EXPECT_EQ(state(), InterlockState::Faulted);
+        EXPECT_THAT(reason(), HasSubstr("goes on after its bursts"));
+        EXPECT_LE(toSeconds(bench_->clock().now()), 0.5 + from + 10) << strength << ", " << pressure;
+    }
+}
+
+TEST_F(DeliveredTruth, AMassagerThatRestsIsNoFaultWhateverTheSensorFeels) {
+    RecordProperty("hazard", "H2");
+    const char* const fingers[] = {"sim:finger?on=motor", "sim:finger?material=P60&force=3N",
+                                   "sim:finger?material=glass&stroke=1.3s&lift=0.4s",
+                                   "sim:finger?material=P120&stroke=0.7s&lift=0.6s&tremor=0"};
+    for (int trial = 0; trial < 16; ++trial) {
+        seed_ = static_cast<std::uint64_t>(trial);
+        open({"sim:massager", fingers[trial % 4]}, {Role::Massager, Role::Sensor});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, std::uniform_real_distribution(0.0, 1.0)(draw_),
+                                  std::uniform_real_distribution(0.0, 1.0)(draw_)));
+        EXPECT_TRUE(bench_->wait(Seconds(40))) << fingers[trial % 4] << ": " << reason();
+    }
 }
 
 TEST_F(DeliveredTruth, WhatWasMeasuredBesideTheCommandIsAMarkOfTheSession) {
