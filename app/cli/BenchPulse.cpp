@@ -43,18 +43,32 @@ Result<std::unique_ptr<BenchPulse>> BenchPulse::create(PulseOrder order, science
     if (!identity.simulated) {
         auto record = takeUpUnit(identity, unitFolders(), clock, SystemTime::real(), made->gate_);
         if (!record) return failure(record);
-        if (const auto left = (*record)->fault()) {
-            return fail(ErrorCode::NotArmed,
-                        "the stimulator was left in a fault by an earlier run: {}. Fix the cause, then reset the "
-                        "fault: run with --reset-fault, or Bench > Reset fault in the window",
-                        left->reason.view());
-        }
         made->record_ = std::move(*record);
     }
     if (auto configured = made->gate_.configure(made->setup_); !configured) return failure(configured);
     if (auto connected = made->interlock_.connect(); !connected) return failure(connected);
     if (made->record_) made->interlock_.keepFaultsIn(*made->record_);
+    if (auto left = made->leaveFault(); !left) return failure(left);
     return made;
+}
+
+/// The device is asked whether the cause is gone; what it cannot tell, the check pulse finds.
+Result<void> BenchPulse::leaveFault() {
+    if (interlock_.state() != InterlockState::Faulted) return {};
+    if (!order_.resetFault) {
+        return fail(ErrorCode::NotArmed,
+                    "the stimulator is in a fault, {}. Output is off. Fix the cause, then reset the fault: run again "
+                    "with --reset-fault, or Bench > Reset fault in the window",
+                    interlock_.reason().view());
+    }
+    session_.forceOff();
+    const auto status = device_.status();
+    if (!status) return fail(ErrorCode::NotArmed, "not reset: {}", status.error().message);
+    if (status->delivering) return fail(ErrorCode::NotArmed, "not reset: the stimulator still delivers");
+    for (int cause = 0; cause < kFaultCauseCount; ++cause) interlock_.causeGone(static_cast<FaultCause>(cause));
+    if (auto reset = interlock_.reset(); !reset) return reset;
+    // One whose device was lost leaves it disconnected.
+    return interlock_.state() == InterlockState::Disconnected ? interlock_.connect() : Result<void>{};
 }
 
 BenchPulse::~BenchPulse() { stop(); }

@@ -24,6 +24,8 @@ struct PulseOrder {
     std::vector<LimitSet> limits;
     Ceilings ceilings;                               ///< of the profile
     std::optional<SquareCentimetres> electrodeArea;  ///< without it density rows are not evaluated
+    bool resetFault =
+        false;  ///< one in which an earlier run left the unit, if its cause is gone; else it ends this one
 };
 
 /// What one pulse showed.
@@ -44,7 +46,8 @@ struct PulseOutcome {
 
 class BenchPulse {
 public:
-    /// `device` and `clock` outlive it. Errors: as SafetyGate::configure().
+    /// `device` and `clock` outlive it. Errors: as SafetyGate::configure(); NotArmed for a unit that was left in a
+    /// fault which is not reset.
     [[nodiscard]] static Result<std::unique_ptr<BenchPulse>> create(PulseOrder order,
                                                                     sciencemode::ScienceModeStimulator& device,
                                                                     const Clock& clock);
@@ -71,6 +74,7 @@ public:
 
 private:
     BenchPulse(PulseOrder order, GateSetup setup, sciencemode::ScienceModeStimulator& device, const Clock& clock);
+    [[nodiscard]] Result<void> leaveFault();
     [[nodiscard]] TrainRequest requestNow() const noexcept;
     [[nodiscard]] Result<PulseFinding> send(Result<ApprovedTrain> approved, bool isCheck, Milliamps current);
     [[nodiscard]] TrainReport report();

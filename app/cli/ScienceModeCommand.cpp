@@ -40,11 +40,11 @@ int identifyIt(const QCommandLineParser& parser) {
                    {"firmware", who.firmware.text()},
                    {"protocol", who.protocol.text()},
                    {"place", seen->place},
-                   {"simulated", seen->simulated()}});
+                   {"simulated", seen->simulated}});
         return kDone;
     }
     TextTable table({"", ""});
-    table.add({"identity", who.id + (seen->simulated() ? "  (simulated)" : "")});
+    table.add({"identity", who.id + (seen->simulated ? "  (simulated)" : "")});
     table.add({"firmware", who.firmware.text()});
     table.add({"protocol", fmt::format("ScienceMode {}", who.protocol.text())});
     table.add({"plugged in", seen->place});
@@ -94,7 +94,7 @@ int statusOf(const QCommandLineParser& parser) {
         const auto volts = voltsOf(status.highVoltage);
         printJson({{"id", seen->identification.id},
                    {"place", seen->place},
-                   {"simulated", seen->simulated()},
+                   {"simulated", seen->simulated},
                    {"stimulation", words.name},
                    {"running", status.status == Stimulation::MidLevelRunning},
                    {"high_voltage_level", status.highVoltage},
@@ -104,7 +104,7 @@ int statusOf(const QCommandLineParser& parser) {
     }
     TextTable table({"", ""});
     table.add({"stimulator", fmt::format("{} at {}{}", seen->identification.id, seen->place,
-                                         seen->simulated() ? "  (simulated)" : "")});
+                                         seen->simulated ? "  (simulated)" : "")});
     table.add({"stimulation", words.sentence});
     table.add({"high voltage", highVoltageText(status.highVoltage)});
     table.print();
@@ -134,7 +134,7 @@ int runScienceMode(const QCommandLineParser& parser) {
 
 const Command kScienceMode{"sciencemode",
                            "{identify | status | pulse --current MA --width US --gap US --load OHM [--yes-bench-load] "
-                           "[--out FILE.csv]} [--device URI] [--json]",
+                           "[--reset-fault] [--out FILE.csv]} [--device URI] [--json]",
                            "A ScienceMode stimulator by hand: its identity, its state, one pulse into a bench load",
                            declareScienceMode, runScienceMode};
 

@@ -69,7 +69,12 @@ tl::expected<PulseOrder, int> pulseOrderFrom(const QCommandLineParser& parser) {
     auto limits = shippedLimits();
     if (limits && !addedLimitsText(*limits).empty()) say(stderr, "{}\n", addedLimitsText(*limits));
     if (!limits) return tl::unexpected(couldNotRun(limits.error()));
-    return PulseOrder{*train, *load, std::move(limits->sets), std::move(profile->ceilings), profile->electrodeArea};
+    return PulseOrder{*train,
+                      *load,
+                      std::move(limits->sets),
+                      std::move(profile->ceilings),
+                      profile->electrodeArea,
+                      parser.isSet("reset-fault")};
 }
 
 /// Before anything is delivered: a record that cannot be written would be lost.
@@ -123,6 +128,8 @@ void declarePulse(QCommandLineParser& parser) {
     parser.addOption(
         {"load", "The bench load that is connected, in ohm; the limits are judged at ± 20 % of it.", "OHM"});
     parser.addOption({"yes-bench-load", "Confirms, where no question can be asked, that a bench load is connected."});
+    parser.addOption(
+        {"reset-fault", "Resets the fault in which an earlier run left the stimulator, if its cause is gone."});
     parser.addOption({"out", "Saves the samples that were read back as a capture.", "FILE.csv"});
 }
 

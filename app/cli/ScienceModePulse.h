@@ -11,7 +11,8 @@
 
 namespace tacto::cli {
 
-inline constexpr std::array<const char*, 6> kPulseOptions{"current", "width", "gap", "load", "yes-bench-load", "out"};
+inline constexpr std::array<const char*, 7> kPulseOptions{"current",        "width", "gap",        "load",
+                                                          "yes-bench-load", "out",   "reset-fault"};
 
 void declarePulse(QCommandLineParser& parser);
 

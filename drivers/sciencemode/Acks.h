@@ -54,7 +54,8 @@ struct StimStatusAck {
     std::uint8_t highVoltage = 0;
 };
 
-/// How the identity of an emulated device begins, so that its results are marked as simulated (H9).
+/// How the identity of an emulated device begins. It makes nothing simulated: the address does. Where that says so and
+/// another identity answers, the device is not opened (H4).
 inline constexpr std::string_view kEmulatedId = "EMU";
 
 struct DeviceIdAck {

@@ -43,6 +43,7 @@ Result<Wanted> readUri(const DeviceUri& uri) {
         if (!level) from.refuse("voltage", *text, "30, 60, 90, 120 or 150 V");
         settings.highVoltage = level.value_or(HighVoltage::Default);
     }
+    settings.emulated = from.choice("emulated", "no", {"yes", "no"}) == "yes";
     wanted.terminal = from.text("tty");
     if (wanted.terminal == "") from.refuse("tty", "", "a terminal's path, as /dev/ttyACM0");
     if (const auto read = from.finish(); !read) return failure(read);
@@ -51,10 +52,10 @@ Result<Wanted> readUri(const DeviceUri& uri) {
 
 /// Asks who is there, then how it is.
 Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string place, std::string_view wanted,
-                     const Clock& clock) {
+                     const Clock& clock, bool emulated = false) {
     if (!opened) return failure(opened);
     Exchange exchange(**opened, clock);
-    auto found = identify(exchange);
+    auto found = identify(exchange, emulated);
     if (!found) return failure(found);
     if (!wanted.empty() && found->id != wanted) {
         return fail(ErrorCode::NotFound, "stimulator {} answered where {} was asked for", found->id, wanted);
@@ -64,7 +65,7 @@ Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string plac
     const auto status = readStimStatusAck(*answer);
     if (!status) return failure(status);
     if (status->result != ResultCode::Ok) return refusal(Command::StimStatus, status->result);
-    return Sighting{std::move(*found), std::move(place), *status};
+    return Sighting{std::move(*found), std::move(place), *status, emulated};
 }
 
 /// The ports among `all` where a stimulator answers.
@@ -165,9 +166,11 @@ Result<Sighting> lookAt(const DeviceUri& uri, TransportPorts* ports, const Clock
     }
     const auto wanted = readUri(uri);
     if (!wanted) return failure(wanted);
-    if (wanted->terminal) return ask(TtyTransport::open(*wanted->terminal), *wanted->terminal, uri.path, clock);
+    const bool emulated = wanted->settings.emulated;
+    if (wanted->terminal)
+        return ask(TtyTransport::open(*wanted->terminal), *wanted->terminal, uri.path, clock, emulated);
     return theOneThatAnswers(uri, ports, clock, [&](const TransportPort& port, std::string_view identity) {
-        return ask(ports->open(port), port.place, identity, clock);
+        return ask(ports->open(port), port.place, identity, clock, emulated);
     });
 }
 

@@ -6,7 +6,8 @@
 //   sciencemode:?channel=2&connector=green          channel 0 to 3 of connector yellow or green (0, yellow)
 //   sciencemode:?measure=current                    the read-back gives the amplitude in place of |Z| (voltage)
 //   sciencemode:?voltage=60                         high-voltage level 30, 60, 90, 120 or 150 V (the device's own)
-//   sciencemode:?tty=/dev/pts/3                     through a terminal, for a device or an emulated one behind it
+//   sciencemode:?tty=/dev/pts/3                     through a terminal
+//   sciencemode:?tty=/dev/pts/3&emulated=yes        an emulated device, whose results are marked as simulated
 //
 // Thread-safety: as Driver.
 #pragma once
@@ -29,7 +30,7 @@ struct Sighting {
     Identification identification;
     std::string place;  ///< the socket or the terminal behind which it answered
     StimStatusAck status;
-    [[nodiscard]] bool simulated() const { return identification.id.starts_with(kEmulatedId); }
+    bool simulated = false;  ///< as the address says
 };
 
 /// Looks at the device that `uri` names and changes nothing about what it does: opening one ends that. `ports` may be

@@ -41,7 +41,7 @@ Result<std::unique_ptr<ScienceModeStimulator>> ScienceModeStimulator::open(Conne
                           "ScienceMode stimulator",
                           found->id,
                           fmt::format("{}, ScienceMode {}", found->firmware.text(), found->protocol.text()),
-                          found->id.starts_with(kEmulatedId)};
+                          settings.emulated};
         self.endEverything();
         if (const auto ready = self.ensureLowLevel(self.offs_.load()); !ready) return failure(ready);
     }
@@ -83,7 +83,7 @@ Result<Identification> ScienceModeStimulator::connect() {
     }
     exchange_ = std::make_unique<Exchange>(*transport_, clock_);
     // Asked before anything else: it may be some other instrument's serial port.
-    auto found = identify(*exchange_);
+    auto found = identify(*exchange_, settings_.emulated);
     if (found) {
         gone_ = false;
     } else {

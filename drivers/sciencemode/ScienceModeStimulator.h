@@ -35,6 +35,8 @@ struct StimulatorSettings {
     /// Whether firmware honours a fixed level is unverified, so the compliance stated to the gate stays 150 V.
     HighVoltage highVoltage = HighVoltage::Default;
     Measurement measurement = Measurement::Voltage;  ///< Voltage gives |Z|, Current the amplitude
+    /// The operator's word, in the address: what answers is an emulator, and what it gives is simulated (H4, H9).
+    bool emulated = false;
 };
 
 /// What a device says it is.
@@ -43,8 +45,9 @@ struct Identification {
     Version firmware;
     Version protocol;
 };
-/// Errors: Device when it is none of this kind or speaks another protocol than version 4 (or 3: RehaMove3); Timeout.
-[[nodiscard]] Result<Identification> identify(Exchange& exchange);
+/// `emulated`: whether an emulator is expected, whose identity begins with kEmulatedId. Errors: Device when it is none
+/// of this kind, speaks another protocol than version 4 (or 3: RehaMove3), or is no emulator; Timeout.
+[[nodiscard]] Result<Identification> identify(Exchange& exchange, bool emulated = false);
 
 class ScienceModeStimulator final : public Stimulator {
 public:

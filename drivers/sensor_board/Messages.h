@@ -19,7 +19,8 @@ namespace tacto::sensorboard {
 inline constexpr std::size_t kMaxStreams = 8;
 inline constexpr std::size_t kMaxColumns = 16;
 
-/// How the serial number of an emulated board begins (PROTOCOL.md, section 4).
+/// How the serial number of an emulated board begins (PROTOCOL.md, section 4). It makes nothing simulated: the address
+/// does. Where that says so and another serial number answers, the board is not opened.
 inline constexpr std::string_view kEmulatedSerial = "EMU-";
 
 struct BoardIdentity {

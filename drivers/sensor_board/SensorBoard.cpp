@@ -175,8 +175,14 @@ Result<void> SensorBoard::identify(const SensorBoardSettings& settings) {
         return fail(ErrorCode::NotFound, "its serial number is \"{}\"; \"{}\" was expected", who->serial,
                     settings.serial);
     }
+    if (settings.emulated && !who->serial.starts_with(kEmulatedSerial)) {
+        return fail(ErrorCode::Device,
+                    "its serial number is \"{}\", and the address says emulated=yes; that of an emulated board begins "
+                    "with {}",
+                    who->serial, kEmulatedSerial);
+    }
     identity_ = {settings.uri, Role::Sensor,  who->name.empty() ? "sensor board" : who->name,
-                 who->serial,  who->firmware, who->serial.starts_with(kEmulatedSerial)};
+                 who->serial,  who->firmware, settings.emulated};
     // One that a program left running is stopped first: configurations are set in silence.
     if (const auto stopped = link_.order(Command::Stop); !stopped) return stopped;
     return configure(settings, who->streams);

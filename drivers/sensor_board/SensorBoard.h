@@ -45,6 +45,7 @@ struct SensorBoardSettings {
     std::string serial = {};         ///< the board that it must be; empty: any
     double accelerationRate_hz = 0;  ///< 0: as the board is configured
     double slowRate_hz = 0;          ///< of taxels and force; 0: as the board is configured
+    bool emulated = false;           ///< the operator's word, in the address: what it gives is simulated
 };
 
 class SensorBoard final : public TactileSensor {

@@ -23,6 +23,7 @@ Result<Wanted> readUri(const DeviceUri& uri) {
     wanted.settings.accelerationRate_hz = from.quantity("rate", "Hz", 0, 100, 20'000);
     // Slower than 20 Hz is stale between two samples (H7).
     wanted.settings.slowRate_hz = from.quantity("slowrate", "Hz", 0, 20, 2000);
+    wanted.settings.emulated = from.choice("emulated", "no", {"yes", "no"}) == "yes";
     wanted.terminal = from.text("tty");
     if (wanted.terminal == "") from.refuse("tty", "", "a terminal's path, as /dev/ttyACM0");
     if (const auto read = from.finish(); !read) return failure(read);

@@ -4,7 +4,8 @@
 //   sensor:TSB-0001                  by serial number
 //   sensor:1-4.2                     by its USB socket
 //   sensor:?rate=2kHz&slowrate=100   acceleration at 2 kHz, taxels and force at 100 Hz, if the board can
-//   sensor:?tty=/dev/pts/3           through a terminal, for a board on a serial port or an emulated one behind it
+//   sensor:?tty=/dev/pts/3           through a terminal
+//   sensor:?tty=/dev/pts/3&emulated=yes  an emulated board, whose results are marked as simulated
 //
 // Thread-safety: as Driver.
 #pragma once

@@ -85,6 +85,27 @@ TEST_F(RunOnHardware, ATerminalIsAskedForATypedWord) {
     EXPECT_EQ(putOut(), 1U);
 }
 
+/// Its identity is an emulator's, and its address is that of any device.
+TEST_F(RunOnHardware, WhatADeviceSaysOfItselfSparesNoConfirmationAndNoRecord) {
+    RecordProperty("hazard", "H4");
+    auto settings = unit();
+    const OwnSerial emulators("EMU");
+    settings.id = emulators.text();
+    const auto liar = *sciencemode::EmulatedPty::open(settings, clock_);
+    const auto lied = [&](const Words& more) {
+        Words all{"run", script_, "--device", "sciencemode:?tty=" + liar->path(), "--out", "out"};
+        all.insert(all.end(), more.begin(), more.end());
+        return desk_.run(all);
+    };
+    const auto refused = lied({});
+    EXPECT_EQ(liar->inspect([](auto& device, Instant now) { return device.pulses(now).size(); }), 0U);
+    ASSERT_EXIT_IN_TIME(refused.code, 3) << refused.err;
+    ASSERT_IN_TIME(!wanted(refused.err).empty()) << refused.err;
+    const auto ran = lied({"--set", "confirm-arming=" + wanted(refused.err)});
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("Real: stimulator ScienceMode stimulator " + settings.id));
+}
+
 TEST_F(RunOnHardware, IsNotCalledSimulatedForASimulatedFinger) {
     RecordProperty("hazard", "H9");
     const auto script = desk_.protocol("feels.js", R"js(protocol({ title: "Feels", needs: ["sensor", "stimulator"] });

@@ -32,7 +32,9 @@ protected:
         pty_.reset();
         pty_ = *sciencemode::EmulatedPty::open(on(load), clock_);
     }
-    [[nodiscard]] std::string uri() const { return "sciencemode:?tty=" + pty_->path(); }
+    [[nodiscard]] std::string uri() const {
+        return fmt::format("sciencemode:?emulated={}&tty={}", emulated_ ? "yes" : "no", pty_->path());
+    }
     [[nodiscard]] Ran run(Words words) const {
         words.insert(words.begin(), "sciencemode");
         words.insert(words.end(), {"--device", uri()});
@@ -62,7 +64,8 @@ protected:
         return pty_->inspect([&](auto& device, Instant) { return device.requests(command); });
     }
 
-    bool answers_ = true;  ///< the emulated device, as far as the machine lets it
+    bool emulated_ = true;  ///< as the address says
+    bool answers_ = true;   ///< the emulated device, as far as the machine lets it
     const SteadyClock clock_;
     const Desk desk_;
     std::unique_ptr<sciencemode::EmulatedPty> pty_ = *sciencemode::EmulatedPty::open(on("1 kohm"), clock_);
@@ -273,7 +276,8 @@ TEST_F(ScienceModeCommand, ASignalDuringTheCheckCutsItAndNothingFollows) {
 
 TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
     RecordProperty("hazard", "H3");
-    const OwnSerial serial;
+    const OwnSerial serial("EMU");  // what it says of itself spares it nothing
+    emulated_ = false;
     auto settings = on("1 kohm");
     settings.id = serial.text();
     pty_.reset();
@@ -287,8 +291,17 @@ TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
     run.signal(SIGCONT);
     expectRefused(run.wait(std::chrono::seconds(20)), 3, {"stood still"});
     const auto before = putOut().size();
-    expectRefused(pulse("5", "1000"), 4, {"left in a fault", "stood still", "--reset-fault"});
+    expectRefused(pulse("5", "1000"), 4, {"left by an earlier run", "stood still", "--reset-fault"});
     EXPECT_EQ(putOut().size(), before);
+
+    // It is left where it is met, and stays left.
+    for (const Words& how : {Words{"--reset-fault"}, Words{}}) {
+        const auto ran = pulse("5", "1000", how);
+        ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
+        EXPECT_THAT(ran.out, testing::Not(HasSubstr("SIMULATED")));
+    }
+    EXPECT_EQ(putOut().size(), before + 4);
+    expectRefused(ScienceModeCommand::run({"status", "--reset-fault"}), 2, {"--reset-fault", "pulse"});
 }
 
 TEST_F(ScienceModeCommand, WithoutATerminalThereIsNoQuestionAndNothingIsDelivered) {

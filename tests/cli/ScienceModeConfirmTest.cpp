@@ -19,8 +19,9 @@ class ScienceModeConfirm : public testing::Test {
 protected:
     ScienceModeConfirm() { RecordProperty("hazard", "H12"); }
     [[nodiscard]] Words words() const {
-        return {"sciencemode", "pulse", "--current", "5",    "--width",  "200",
-                "--gap",       "100",   "--load",    "1000", "--device", "sciencemode:?tty=" + pty_->path()};
+        return {"sciencemode", "pulse", "--current", "5",
+                "--width",     "200",   "--gap",     "100",
+                "--load",      "1000",  "--device",  "sciencemode:?emulated=yes&tty=" + pty_->path()};
     }
     [[nodiscard]] std::size_t putOut() const {
         return pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); });

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 class SensorCommand : public testing::Test {
 protected:
     [[nodiscard]] std::string uri(const std::string& parameters = "") const {
-        return "sensor:?tty=" + board_.path() + parameters;
+        return "sensor:?emulated=yes&tty=" + board_.path() + parameters;
     }
     [[nodiscard]] Ran status(const Words& more = {}) const {
         Words words{"sensor", "status", uri()};

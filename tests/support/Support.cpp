@@ -38,7 +38,10 @@ std::filesystem::path ScratchDir::write(std::string_view name, std::string_view 
     return path;
 }
 
-OwnSerial::OwnSerial() : text_(fmt::format("P2{:08}", ::getpid() % 100'000'000)) {}
+OwnSerial::OwnSerial(std::string_view begins) {
+    static int made = 0;
+    text_ = fmt::format("{}{:0{}}", begins, ::getpid() % 100'000 * 100 + made++ % 100, 10 - begins.size());
+}
 
 OwnSerial::~OwnSerial() {
     std::error_code gone;

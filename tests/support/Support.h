@@ -36,7 +36,8 @@ private:
 /// The serial number of a unit that no other test drives, and of which nothing is left on the computer.
 class OwnSerial {
 public:
-    OwnSerial();
+    /// Ten characters, another each time. `begins`: at most three.
+    explicit OwnSerial(std::string_view begins = "P2");
     ~OwnSerial();
     OwnSerial(const OwnSerial&) = delete;
     OwnSerial& operator=(const OwnSerial&) = delete;

@@ -147,7 +147,7 @@ TEST_F(ScienceModeUri, ALookSaysWhoIsWhereAndLeavesWhatRunsAlone) {
         ASSERT_IN_TIME(seen);
         EXPECT_EQ(seen->identification.id, "P24-000002");
         EXPECT_EQ(seen->place, "1-2");
-        EXPECT_FALSE(seen->simulated());
+        EXPECT_FALSE(seen->simulated);
         EXPECT_EQ(seen->status.status, Stimulation::MidLevelRunning);
     }
     EXPECT_EQ(stops(), before);
@@ -195,7 +195,7 @@ TEST_F(ScienceModeUri, RefusesWhatItDoesNotKnow) {
     ports_->add({"A1", "1-1", ""}, named("P24-000001"));
     for (const auto* wrong :
          {"channel=4", "channel=-1", "channel=1.5", "channel=nan", "channel=x", "connector=blue", "level=mid",
-          "level=low", "measure=all", "voltage=40", "tty=", "speed=3", "channel=1&channel=2"}) {
+          "level=low", "measure=all", "voltage=40", "emulated=1", "tty=", "speed=3", "channel=1&channel=2"}) {
         const auto refused = open(std::string("sciencemode:?") + wrong);
         ASSERT_FALSE(refused.has_value()) << wrong;
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
@@ -233,9 +233,9 @@ protected:
 };
 
 TEST_F(ScienceModePty, DeliversAndReadsBack) {
-    const auto opened = open("sciencemode:?tty=" + pty_->path());
+    const auto opened = open("sciencemode:?emulated=yes&tty=" + pty_->path());
     ASSERT_IN_TIME(opened);
-    EXPECT_TRUE(devices_.stimulator->identity().simulated) << "an emulated device is never taken for a real one";
+    EXPECT_TRUE(devices_.stimulator->identity().simulated);
     for (int i = 0; i < 100; ++i) {
         ASSERT_NO_FATAL_FAILURE(deliver(0.5 * (i + 1)));
         const auto status = devices_.stimulator->status();
@@ -244,6 +244,30 @@ TEST_F(ScienceModePty, DeliversAndReadsBack) {
         EXPECT_NEAR(status->impedance->value(), 1000, 20);
     }
     EXPECT_EQ(pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); }), 100U);
+}
+
+TEST_F(ScienceModePty, WhatItSaysOfItselfMakesNothingSimulated) {
+    RecordProperty("hazard", "H4");
+    ASSERT_IN_TIME(open("sciencemode:?tty=" + pty_->path()));
+    EXPECT_TRUE(devices_.stimulator->identity().serial.starts_with("EMU"));
+    EXPECT_FALSE(devices_.stimulator->identity().simulated);
+    devices_.stimulator.reset();
+    for (const auto* emulated : {"no", "yes"}) {
+        const auto seen = lookAt(
+            *DeviceUri::parse(fmt::format("sciencemode:?emulated={}&tty={}", emulated, pty_->path())), nullptr, clock_);
+        ASSERT_IN_TIME(seen);
+        EXPECT_EQ(seen->simulated, emulated == std::string_view("yes"));
+    }
+}
+
+TEST_F(ScienceModeUri, ADeviceThatIsNoEmulatorIsNotOpenedAsOne) {
+    RecordProperty("hazard", "H4");
+    ports_->add({"A1", "1-1", ""}, named("P24-000001"));
+    const auto refused = open("sciencemode:?emulated=yes");
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("P24-000001 answers where the address says emulated=yes"));
+    ASSERT_IN_TIME(open("sciencemode:"));
+    EXPECT_FALSE(devices_.stimulator->identity().simulated);
 }
 
 TEST_F(ScienceModePty, StopReachesTheDevice) {

@@ -18,7 +18,7 @@ protected:
     }
     void open() {
         ASSERT_IN_TIME(comes([&] { return registry().list().size() == 1; }));
-        UsbBench::open({*DeviceUri::parse("sciencemode:")}, {Role::Stimulator});
+        UsbBench::open({*DeviceUri::parse("sciencemode:?emulated=yes")}, {Role::Stimulator});
     }
 
     EmulatedOnUsb device_{bed_, *clock_};
@@ -28,7 +28,7 @@ TEST_F(ScienceModeOnUsb, IsFoundAndDrivenThroughTheRealLibusb) {
     RecordProperty("hazard", "H4");
     open();
     const auto& identity = bench_->devices().stimulator->identity();
-    EXPECT_TRUE(identity.simulated) << "an emulated device says so";
+    EXPECT_TRUE(identity.simulated) << "the address says so";
     const auto armed = arm();
     ASSERT_IN_TIME(armed);
     EXPECT_EQ(device_.pulses(), 1U) << "the impedance check";

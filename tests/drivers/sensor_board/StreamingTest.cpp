@@ -15,14 +15,14 @@ using namespace sensorboard;
 
 TEST(SensorBoard, SaysWhatItIs) {
     SensorBoardBench bench;
-    bench.open({"sensor:EMU-0001", "EMU-0001"});
+    bench.open({.uri = "sensor:EMU-0001", .serial = "EMU-0001"});
     const auto& identity = bench.board->identity();
     EXPECT_EQ(identity.uri, "sensor:EMU-0001");
     EXPECT_EQ(identity.role, Role::Sensor);
     EXPECT_EQ(identity.name, "emulated sensor board");
     EXPECT_EQ(identity.serial, "EMU-0001");
     EXPECT_EQ(identity.firmware, TACTOSCOPE_VERSION);
-    EXPECT_TRUE(identity.simulated) << "a serial number that begins with EMU- is an emulated board's";
+    EXPECT_FALSE(identity.simulated) << "its word does not count";
     const auto streams = bench.board->streams();
     ASSERT_EQ(streams.size(), 3U);
     EXPECT_EQ(streams[0].kind, StreamKind::Acceleration);
@@ -35,6 +35,20 @@ TEST(SensorBoard, SaysWhatItIs) {
     ASSERT_EQ(bench.board->calibrations().size(), 3U);
     EXPECT_EQ(bench.board->calibrations()[0].date, "2026-11-20");
     EXPECT_TRUE(bench.board->calibrations()[2].calibrated);
+}
+
+TEST(SensorBoard, IsSimulatedWhereTheAddressSaysSoAndItAgrees) {
+    testing::Test::RecordProperty("hazard", "H9");
+    SensorBoardBench emulated;
+    emulated.open({.uri = "sensor:?emulated=yes", .emulated = true});
+    EXPECT_TRUE(emulated.board->identity().simulated);
+    EmulatedBoardSettings another;
+    another.serial = "TSB-0001";
+    SensorBoardBench real;
+    real.line = std::make_shared<EmulatedBoardLine>(real.clock, &real.clock, another);
+    const auto refused = real.tryOpen({.uri = "sensor:?emulated=yes", .emulated = true});
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, testing::HasSubstr("\"TSB-0001\", and the address says emulated=yes"));
 }
 
 TEST(SensorBoard, GivesEverySampleOnceWithItsValueAndTime) {

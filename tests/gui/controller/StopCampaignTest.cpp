@@ -107,7 +107,7 @@ TEST(StopAtRandomMomentsInRealTime, OfAnEmulatedScienceModeStimulator) {
                device.inspect([](auto& on, Instant now) { return on.state(now) != sciencemode::Stimulation::None; }))
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
     };
-    stopAtRandomMoments(controller, {"sciencemode", "", {{"tty", device.path()}}}, quiet, [&] {
+    stopAtRandomMoments(controller, {"sciencemode", "", {{"tty", device.path()}, {"emulated", "yes"}}}, quiet, [&] {
         return device.inspect([](auto& on, Instant now) { return static_cast<int>(on.pulses(now).size()); });
     });
 }

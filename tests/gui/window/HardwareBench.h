@@ -61,6 +61,7 @@ struct Hardware {
     }
 
     const SteadyClock clock;
+    const OwnSerial serial{"EMU"};  // taken for a device all the same: it has a record of its own
     std::shared_ptr<EmulatedLine> stimulator = std::make_shared<EmulatedLine>(clock, nullptr);
     std::shared_ptr<StimulatorSockets::Plugs> plugs = std::make_shared<StimulatorSockets::Plugs>();
     std::shared_ptr<sensorboard::EmulatedBoardLine> board =
@@ -69,7 +70,11 @@ struct Hardware {
 
 class HardwareWindow : protected Hardware, public Window {
 protected:
-    HardwareWindow() : Window([this] { return registry(); }) {}
+    HardwareWindow() : Window([this] { return registry(); }) {
+        sciencemode::EmulatedSettings unit;
+        unit.id = serial.text();
+        stimulator->plugAnother(unit);
+    }
 
     [[nodiscard]] QTreeWidget& tree() { return *window.findChild<gui::DeviceDock*>()->findChild<QTreeWidget*>(); }
     /// The dock's line for a URI, as soon as there is one. The test ends after 10 s.
