@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/LockHolder.h"
 #include "core/base/RecordFields.h"
 #include "core/session/SessionReader.h"
 
@@ -66,6 +67,11 @@ Result<SessionSummary> summaryFrom(std::string_view text) {
     auto read = summaryFields().read(*json, RecordPlace{});
     if (!read) return fail(ErrorCode::ParseError, "{}", read.error().message);
     return read;
+}
+
+bool openElsewhere(const std::filesystem::path& session) {
+    // SQLite holds such a lock on a database with a journal of this kind for as long as it is open.
+    return lockHolder(session, "POSIX", LockedBy::Another).has_value();
 }
 
 }  // namespace tacto

@@ -26,6 +26,9 @@ struct SessionSummary {
 /// Read from the session itself. Errors: as SessionReader.
 [[nodiscard]] Result<SessionSummary> summarise(const std::filesystem::path& session);
 
+/// Whether another program has the session open, and so is recording it where it has no end mark.
+[[nodiscard]] bool openElsewhere(const std::filesystem::path& session);
+
 [[nodiscard]] std::string toJsonText(const SessionSummary& summary);
 /// Errors: ParseError for what is not a summary.
 [[nodiscard]] Result<SessionSummary> summaryFrom(std::string_view json);

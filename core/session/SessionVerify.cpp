@@ -11,6 +11,7 @@
 #include "core/session/Schema.h"
 #include "core/session/SealedRow.h"
 #include "core/session/SessionSource.h"
+#include "core/session/SessionSummary.h"
 #include "core/session/WalScan.h"
 
 namespace tacto {
@@ -337,7 +338,10 @@ Result<VerifyReport> verifySession(const std::filesystem::path& path) {
         }
     }
     if (!report.closed && report.rows > 0) {
-        report.notes.push_back("The session ended without closing (crash or power loss), or is still being written.");
+        report.notes.push_back(openElsewhere(path)
+                                   ? "The session is being recorded by another program."
+                                   : "The session ended without closing (crash or power loss), or is still being "
+                                     "written.");
     }
     if (report.recovered) {
         report.notes.push_back("Rows were recovered from the journal beside the file; keep both together.");

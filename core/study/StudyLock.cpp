@@ -3,40 +3,18 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
-#include <optional>
 #include <sys/file.h>
-#include <sys/stat.h>
 
-#include "core/base/WholeNumber.h"
+#include "core/base/LockHolder.h"
 
 namespace tacto {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-/// The process that holds a lock on `file`, as the system lists it.
-std::optional<std::int64_t> holderOf(const fs::path& file) {
-    struct stat about {};
-    if (::stat(file.c_str(), &about) != 0) return std::nullopt;
-    std::ifstream locks("/proc/locks");
-    const auto inode = fmt::format(":{}", about.st_ino);
-    for (std::string number, kind, mode, access, process, place, rest;
-         locks >> number >> kind >> mode >> access >> process >> place; std::getline(locks, rest)) {
-        const bool isHere = kind == "FLOCK" && place.ends_with(inode);
-        const auto id = isHere ? parseWhole<std::int64_t>(process) : std::nullopt;
-        if (id && *id > 0) return id;
-    }
-    return std::nullopt;
-}
-
-}  // namespace
 
 Result<StudyLock> StudyLock::take(const StudyFiles& files, const fs::path& besideKeys) {
     constexpr std::size_t kLockBytes = 1;
     const auto isOpen = [&](const fs::path& held) {
-        const auto holder = holderOf(held);
+        const auto holder = lockHolder(held, "FLOCK");
         return fail(ErrorCode::Io, "{} in {} is open in {}; end that first. Nothing was changed",
                     held == besideKeys ? "a copy of the study" : "the study", files.folder.string(),
                     holder ? programOf(*holder) : "another program");

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/session/SessionSummary.h"
 #include "tests/session/SessionSupport.h"
 
 namespace tacto {
@@ -61,6 +62,7 @@ Killed killAfter(const std::filesystem::path& path, int lines) {
     int count = 0;
     while (std::fgets(line, sizeof line, said) != nullptr) {
         if (++count == lines) {
+            EXPECT_TRUE(openElsewhere(path)) << "while another program records";
             EXPECT_EQ(kill(child, SIGKILL), 0);
         }
         killed.acknowledged[line[0]] = std::strtod(line + 2, nullptr);
@@ -70,6 +72,7 @@ Killed killAfter(const std::filesystem::path& path, int lines) {
     EXPECT_EQ(waitpid(child, &status, 0), child);
     EXPECT_TRUE(WIFSIGNALED(status)) << "the child ended by itself with " << WEXITSTATUS(status);
     EXPECT_GE(count, lines);
+    EXPECT_FALSE(openElsewhere(path)) << "what a crash left is not going on";
     return killed;
 }
 

@@ -8,6 +8,7 @@
 #include "core/session/Origin.h"
 #include "core/session/SessionLabels.h"
 #include "core/session/SessionReader.h"
+#include "core/session/SessionSummary.h"
 
 namespace tacto::gui {
 
@@ -74,6 +75,7 @@ Result<ReadSession> readSession(const std::filesystem::path& path) {
     session.path = path;
     session.about = reader->about();
     session.closed = reader->closed();
+    session.elsewhere = !session.closed && openElsewhere(path);
     session.head = reader->chainHead();
     session.length = reader->lastAt();
     if (const auto takes = takesLabels(path, *reader); !takes) session.fixed = sentence(takes.error());

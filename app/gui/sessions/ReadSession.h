@@ -32,6 +32,7 @@ struct ReadSession {
     SessionLabels labels;
     QString fixed;  ///< why the labels cannot be changed, a sentence; empty when they can
     bool closed = false;
+    bool elsewhere = false;  ///< another program is recording it
     std::string head;
     Instant length{0};
     std::vector<std::string> marks;  ///< of sessionMarks()

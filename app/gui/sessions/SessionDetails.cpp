@@ -226,7 +226,9 @@ QString SessionDetails::aboutHtml() const {
     };
     row(tr("Procedure"), procedureText(about.protocol));
     row(tr("Began"), beganWords(about.wallStart));
-    row(tr("Ended"), session_->closed ? tr("in order") : tr("not in order: a crash, or still being recorded"));
+    row(tr("Ended"), session_->closed      ? tr("in order")
+                     : session_->elsewhere ? tr("not yet: another program is recording it")
+                                           : tr("not in order: a crash, or still being recorded"));
     for (const auto& [key, value] : about.parameters.items()) {
         const auto declared = session_->settings.find(key);
         const bool known = declared != session_->settings.end();

@@ -17,6 +17,7 @@ SessionEntry::SessionEntry(ListedSession listed)
       summary(std::move(listed.summary)),
       began(QDateTime::fromString(qtext(summary.wallStart), Qt::ISODate).toLocalTime()),
       bytes(qint64(listed.bytes)),
+      elsewhere(!summary.closed && openElsewhere(path)),
       problem(qtext(listed.problem)) {
     if (!began.isValid()) began = QFileInfo(qtext(path.string())).lastModified();
     began_ms = began.toMSecsSinceEpoch();

@@ -16,7 +16,8 @@ struct SessionEntry {
     explicit SessionEntry(ListedSession listed);
     /// Whether both say the same of the same session.
     [[nodiscard]] bool sameAs(const SessionEntry& other) const {
-        return path == other.path && bytes == other.bytes && summary == other.summary && problem == other.problem;
+        return path == other.path && bytes == other.bytes && summary == other.summary && problem == other.problem &&
+               elsewhere == other.elsewhere;
     }
 
     std::filesystem::path path;
@@ -24,6 +25,7 @@ struct SessionEntry {
     QDateTime began;
     qint64 began_ms = 0;  ///< the same since 1970, to sort by
     qint64 bytes = 0;
+    bool elsewhere;    ///< another program is recording it
     QString problem;   ///< why it cannot be read; empty when it can
     QString searched;  ///< everything a search looks at, in lower case
 };

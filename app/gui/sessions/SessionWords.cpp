@@ -140,6 +140,7 @@ QString beginning(const ReadSession& session) {
 }
 
 QString ending(const ReadSession& session) {
+    if (!session.closed && session.elsewhere) return words("Another program is recording it.");
     if (!session.closed) return words("The recording has no end mark: a crash, or it is still going on.");
     QStringList found;
     if (!session.trials.empty()) found << trialsText(session.trials.size());
@@ -176,6 +177,7 @@ SessionEnding endingOf(const SessionEntry& entry, bool recording) {
     };
     if (!entry.problem.isEmpty()) return as(words("cannot be read"), verdictStyle("error"));
     if (recording) return {words("recording"), "state-delivering", verdictStyle({}).colour};
+    if (entry.elsewhere) return {words("recording in another program"), "state-delivering", verdictStyle({}).colour};
     const auto& summary = entry.summary;
     if (!summary.verdict.empty() && summary.verdict != "none")
         return as(qtext(summary.verdict), verdictStyle(qtext(summary.verdict)));
