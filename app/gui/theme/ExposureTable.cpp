@@ -183,7 +183,7 @@ void ExposureTable::showRow(int line, const ExposureRow& row) {
     quantity->setData(Qt::ForegroundRole, QVariant());
     const auto missing = compact_ ? QString("–") : tr("not evaluated");
     auto* value = cell(line, kValue, row.evaluated ? valueText(row) : missing);
-    value->setToolTip(row.evaluated ? QString() : tr("Not evaluated: %1").arg(qtext(row.reason.view())));
+    value->setToolTip(row.evaluated ? measuredText(row) : tr("Not evaluated: %1").arg(qtext(row.reason.view())));
     // Else the palette's own, which follows the theme.
     value->setData(Qt::ForegroundRole, QVariant());
     cell(line, kLimit, limitText(row, compact_))->setToolTip(limitText(row));

@@ -67,4 +67,13 @@ QString valueOfLimitText(const ExposureRow& row) {
     return QObject::tr("%1 of %2").arg(oneUnit ? value.number : joined(value), joined(limit));
 }
 
+QString measuredText(const ExposureRow& row) {
+    if (std::isnan(row.measured)) return {};
+    auto shown = row;
+    shown.value = row.measured;
+    // Beside its limit it would read "> 40 V": how far above it is said here.
+    shown.limit = std::nan("");
+    return (row.beyond ? QObject::tr("⚠ %1 measured") : QObject::tr("%1 measured")).arg(valueText(shown));
+}
+
 }  // namespace tacto::gui

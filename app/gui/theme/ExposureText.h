@@ -22,5 +22,8 @@ struct ExposureFigure {
 [[nodiscard]] QString valueText(const ExposureRow& row);
 /// "0.69 of 10 mA", "> 10 mA". A density's limit is without "/cm²", which its title has.
 [[nodiscard]] QString valueOfLimitText(const ExposureRow& row);
+/// "45.3 V measured": what an instrument showed of what was set; with "⚠" where the source's accuracy does not explain
+/// it. Empty where none did.
+[[nodiscard]] QString measuredText(const ExposureRow& row);
 
 }  // namespace tacto::gui

@@ -19,6 +19,8 @@ std::vector<ExposureRow> exposureNow(const Telemetry& telemetry) {
         if (!row.evaluated || std::isnan(row.value) || windowOf(row.quantity) > 0) continue;
         row.value = 0;
         row.within = true;
+        row.measured = std::nan("");
+        row.beyond = false;
     }
     return rows;
 }

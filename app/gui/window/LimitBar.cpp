@@ -70,6 +70,10 @@ void LimitBar::show(const std::optional<ExposureRow>& row, std::span<const Limit
     } else {
         text_ = quantityText(row->value, qtext(row->unit), 3);
     }
+    set_ = text_;
+    beyond_ = row && row->beyond;
+    measured_ = row && evaluated_ ? measuredText(*row) : QString();
+    if (!measured_.isEmpty()) text_ = tr("%1, %2").arg(set_, measured_);
     if (text_ == before && !(share_ != shareBefore && !std::isnan(share_))) return;
     if (row) {
         const auto name = qtext(titleOf(row->quantity));
@@ -84,14 +88,19 @@ void LimitBar::show(const std::optional<ExposureRow>& row, std::span<const Limit
 
 bool LimitBar::fits() const {
     const QFontMetrics metrics(textFont(TextSize::Small));
-    const int title = metrics.horizontalAdvance(title_), said = metrics.horizontalAdvance(text_);
+    const int title = metrics.horizontalAdvance(title_),
+              said = metrics.horizontalAdvance(measured_.isEmpty() ? text_ : shownText());
     return shape_ == Shape::Line ? title + scaledPx(kBarWidth / 8) + said <= width() : std::max(title, said) <= width();
 }
 
 QString LimitBar::shownText() const {
-    if (shape_ == Shape::Line || std::isnan(share_)) return text_;
     const QFontMetrics metrics(textFont(TextSize::Small));
-    return metrics.horizontalAdvance(text_) <= width() ? text_ : tr("%1 used").arg(quantityText(100 * share_, "%", 2));
+    const bool line = shape_ == Shape::Line;
+    const int room = width() - (line ? metrics.horizontalAdvance(title_) + scaledPx(kBarWidth / 8) : 0);
+    for (const auto& text : {text_, beyond_ ? measured_ : set_})
+        if (metrics.horizontalAdvance(text) <= room) return text;
+    if (line || std::isnan(share_)) return beyond_ ? measured_ : set_;
+    return tr("%1 used").arg(quantityText(100 * share_, "%", 2));
 }
 
 QSize LimitBar::sizeHint() const {
@@ -115,11 +124,11 @@ void LimitBar::paintEvent(QPaintEvent*) {
     const bool oneLine = shape_ == Shape::Line;
     const QRect top(0, 0, width(), line);
     const QRect bottom(0, height() - line, width(), line);
-    const int taken = oneLine ? metrics.horizontalAdvance(text_) + scaledPx(kBarWidth / 8) : 0;
+    const int taken = oneLine ? metrics.horizontalAdvance(shownText()) + scaledPx(kBarWidth / 8) : 0;
     painter.setPen(oneLine ? c.text : c.quiet);
     painter.drawText(top, Qt::AlignLeft | Qt::AlignVCenter,
                      metrics.elidedText(title_, Qt::ElideRight, width() - taken));
-    painter.setPen(share_ >= 0.8 && oneLine ? c.amberText : c.text);
+    painter.setPen(beyond_ || (share_ >= 0.8 && oneLine) ? c.amberText : c.text);
     painter.drawText(oneLine ? top : bottom, int((oneLine ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter),
                      metrics.elidedText(shownText(), Qt::ElideRight, width()));
     if (known_ && !limited_ && evaluated_) return;
@@ -136,7 +145,7 @@ void LimitBar::paintEvent(QPaintEvent*) {
     if (std::isnan(share_)) return;
     const double filled = std::clamp(share_, 0.0, 1.0);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(broken_ ? c.fail : share_ >= 0.8 ? c.amber : c.bar);
+    painter.setBrush(broken_ ? c.fail : share_ >= 0.8 || beyond_ ? c.amber : c.bar);
     painter.drawRect(QRectF(frame.left(), frame.top(), frame.width() * filled, frame.height()));
 }
 

@@ -1,7 +1,7 @@
 // LimitBar.h - one quantity against its limit: name, bar, value and limit in words.
 //
 // The bar fills towards the limit, amber from 80 %, red from the limit on. Hatched: not evaluated. No bar: a quantity
-// that is shown and has no limit.
+// that is shown and has no limit. What was measured stands beside what was set, and is amber where it is not that.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -30,7 +30,8 @@ public:
     [[nodiscard]] QSize minimumSizeHint() const override;
     /// "0.82 of 10 mA", "not evaluated", "–": what is painted, and for screen readers.
     [[nodiscard]] QString text() const { return text_; }
-    /// What is painted of it: the share in per cent where value and limit have no room.
+    /// What is painted of it: where it has no room, without what was measured, or only that where it is not as set;
+    /// else the share in per cent.
     [[nodiscard]] QString shownText() const;
     /// Whether title and numbers have room beside each other; stacked, one above the other.
     [[nodiscard]] bool fits() const;
@@ -49,6 +50,9 @@ private:
     bool limited_ = false;
     bool evaluated_ = false;
     bool broken_ = false;  ///< a limit that refuses is not kept
+    QString set_;          ///< the text without what was measured
+    QString measured_;     ///< empty where nothing was
+    bool beyond_ = false;
 };
 
 /// The row of `quantities` that is nearest to its limit, the first of several that are equally near; one that should be
