@@ -13,6 +13,7 @@
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/drivers/sciencemode/EmulatedLine.h"
 #include "tests/gui/window/WindowFixture.h"
+#include "tests/support/Support.h"
 #include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
 
 namespace tacto::test {
