@@ -1,9 +1,9 @@
 // Standstill.h - whether the values of a stream stand still although its stamps go on: a sensor that hangs, behind
 // electronics that repeat the last it said (hazard H7).
 //
-// A value that repeats to the last bit is no news. How often that happens by itself, from noise and coarse steps, is
-// learnt from the stream: it stands still once so many repeats in a row would come by chance once in 10^9 times, and
-// for longer than samples may be old.
+// How often a value repeats to the last bit by itself, from noise and coarse steps, is learnt from the stream: it
+// stands still once so many repeats in a row would come by chance once in 10^9 times, and for longer than samples may
+// be old.
 //
 // Thread-safety: none; one owner. Does not allocate after construction.
 #pragma once

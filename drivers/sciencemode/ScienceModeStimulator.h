@@ -46,7 +46,7 @@ struct Identification {
     Version protocol;
 };
 /// `emulated`: whether an emulator is expected, whose identity begins with kEmulatedId. Errors: Device when it is none
-/// of this kind, speaks another protocol than version 4 (or 3: RehaMove3), or is no emulator; Timeout.
+/// of this kind, speaks another protocol than version 4 (or 3: RehaMove3), or is another than that emulator; Timeout.
 [[nodiscard]] Result<Identification> identify(Exchange& exchange, bool emulated = false);
 
 class ScienceModeStimulator final : public Stimulator {
