@@ -137,7 +137,7 @@ Result<void> Bench::State::health() const {
         return fail(ErrorCode::Stopped, "stopped: {}. Output is off.", why.view());
     }
     if (interlock.state() == InterlockState::Faulted) {
-        return fail(interlock.faultCode(), "fault: {}. Output is off.", interlock.reason().view());
+        return fail(interlock.faultCode(), "fault: {}. {}", interlock.reason().view(), outputAfter(interlock.cause()));
     }
     if (driving == DriveSource::Sensor && sensor && sensor->failed()) {
         return fail(ErrorCode::Device, "the fingertip sensor failed: {}. No trains are sent.", sensor->error().view());

@@ -281,7 +281,7 @@ void ControlLoop::updateCommand(Instant now) noexcept {
         return;
     }
     const auto* finger = finger_.input();
-    if (finger == nullptr || !finger->fresh(toSeconds(now))) {
+    if (shown_.finger != FingerStanding::Fresh) {
         if (!staleSeen_ && planner_->command()) {
             ++shown_.trainsSkipped;
             journal_.sensorStale(now, shown_.sensorAge_s);

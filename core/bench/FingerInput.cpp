@@ -87,15 +87,16 @@ std::optional<double> FingerInput::standsStillSince() const noexcept {
     return all ? latest : std::nullopt;
 }
 
-bool FingerInput::fresh(double now_s) const noexcept {
+FingerStanding FingerInput::standing(double now_s) const noexcept {
+    if (std::abs(now_s - implausible_s_) <= StreamHealth::kStale_s) return FingerStanding::Implausible;
     // A stamp ahead of time says nothing of how old the data are: as bad as a stale one.
     const auto current = [&](double age_s, double allowed_s) {
         return age_s <= StreamHealth::kStale_s + allowed_s && age_s >= -StreamHealth::kStale_s;
     };
     const bool streams =
         std::ranges::all_of(health_, [&](const StreamHealth& health) { return current(health.age_s(now_s), 0); });
-    return streams && !standsStillSince() && current(now_s - latest_.t_s, kFrameLatency_s) &&
-           !(std::abs(now_s - implausible_s_) <= StreamHealth::kStale_s);
+    return streams && !standsStillSince() && current(now_s - latest_.t_s, kFrameLatency_s) ? FingerStanding::Fresh
+                                                                                           : FingerStanding::Stale;
 }
 
 void FingerInput::watchRange(std::size_t stream) noexcept {

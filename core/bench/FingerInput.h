@@ -10,6 +10,7 @@
 #include "core/acquisition/Standstill.h"
 #include "core/acquisition/StreamHealth.h"
 #include "core/bench/SensorSession.h"
+#include "core/bench/Telemetry.h"
 #include "core/dsp/RoughnessChain.h"
 
 namespace tacto {
@@ -30,10 +31,10 @@ public:
     /// Age of the oldest stream's newest sample; infinite before the first. While the samples stand still, as all
     /// streams do or the acceleration does by itself, it is that of the first of those.
     [[nodiscard]] double age_s(double now_s) const noexcept;
-    /// True when no sample stands still, every stream, and the newest frame allowing for its window, is at most 100 ms
+    /// Fresh when no sample stands still, every stream, and the newest frame allowing for its window, is at most 100 ms
     /// old, none is stamped in the future, and no value of the last 100 ms was outside what a fingertip can give
     /// (hazard H7).
-    [[nodiscard]] bool fresh(double now_s) const noexcept;
+    [[nodiscard]] FingerStanding standing(double now_s) const noexcept;
     [[nodiscard]] std::uint64_t gaps() const noexcept;
     [[nodiscard]] RoughnessFlags flags() const noexcept { return chain_->flags(); }
     [[nodiscard]] SensorSession& session() const noexcept { return session_; }

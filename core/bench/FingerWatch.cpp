@@ -44,6 +44,7 @@ void FingerWatch::read(Instant now, StepTelemetry& shown) noexcept {
     shown.contact = newest.contact;
     shown.sliding = newest.sliding;
     shown.sensorAge_s = finger_->age_s(toSeconds(now));
+    shown.finger = finger_->standing(toSeconds(now));
     shown.samplesLost = finger_->session().samplesLost();
     shown.sensorFinished = finger_->session().finished();
     shown.gaps = finger_->gaps();

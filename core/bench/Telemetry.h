@@ -22,6 +22,14 @@ namespace tacto {
 /// Where R and P come from.
 enum class DriveSource { Off, Manual, Sensor };
 
+/// Whether what the fingertip shows may drive the output (hazard H7).
+enum class FingerStanding {
+    None,         ///< no fingertip is open
+    Fresh,        ///< it may
+    Stale,        ///< old, or stamped ahead of time
+    Implausible,  ///< not numbers, or beyond what a fingertip can give
+};
+
 struct DriveCommand {
     DriveSource source = DriveSource::Off;
     double roughness = 0;  ///< 0..1, Manual only
@@ -65,8 +73,9 @@ struct StepTelemetry {
     double pressure_pa = NAN;
     bool contact = false;
     bool sliding = false;
-    RoughnessFlags flags;             ///< of R and P: those shown now, and those that have driven the output
-    double sensorAge_s = NAN;         ///< of the newest sample
+    RoughnessFlags flags;      ///< of R and P: those shown now, and those that have driven the output
+    double sensorAge_s = NAN;  ///< of the newest sample
+    FingerStanding finger = FingerStanding::None;
     bool sensorFinished = false;      ///< a replayed sensor has no more samples
     std::uint64_t slidingFrames = 0;  ///< frames with a spectral feature so far, and the sum of it:
     double sumH = 0;                  ///< the difference of two readings gives the mean between them

@@ -21,12 +21,17 @@ constexpr Word<InterlockState> kStates[] = {{"disconnected", InterlockState::Dis
                                             {"delivering", InterlockState::Delivering},
                                             {"paused", InterlockState::Paused},
                                             {"faulted", InterlockState::Faulted}};
-constexpr Word<FaultCause> kCauses[] = {
-    {"device lost", FaultCause::DeviceLost},       {"device fault", FaultCause::DeviceFault},
-    {"open electrode", FaultCause::OpenElectrode}, {"shorted electrode", FaultCause::ShortElectrode},
-    {"net charge", FaultCause::NetCharge},         {"status missing", FaultCause::StatusMissing},
-    {"loop silent", FaultCause::LoopSilent},       {"stale sensor", FaultCause::StaleSensor},
-    {"limit broken", FaultCause::LimitBroken},     {"internal error", FaultCause::Internal}};
+constexpr Word<FaultCause> kCauses[] = {{"device lost", FaultCause::DeviceLost},
+                                        {"device fault", FaultCause::DeviceFault},
+                                        {"open electrode", FaultCause::OpenElectrode},
+                                        {"shorted electrode", FaultCause::ShortElectrode},
+                                        {"net charge", FaultCause::NetCharge},
+                                        {"status missing", FaultCause::StatusMissing},
+                                        {"loop silent", FaultCause::LoopSilent},
+                                        {"stale sensor", FaultCause::StaleSensor},
+                                        {"limit broken", FaultCause::LimitBroken},
+                                        {"internal error", FaultCause::Internal},
+                                        {"stuck on", FaultCause::StuckOn}};
 static_assert(std::size(kCauses) == kFaultCauseCount);
 
 constexpr std::uint32_t bitOf(FaultCause cause) noexcept { return 1U << static_cast<unsigned>(cause); }
@@ -156,6 +161,10 @@ ErrorCode codeOf(FaultCause cause) noexcept {
     return late ? ErrorCode::Timeout : ErrorCode::Device;
 }
 
+std::string_view outputAfter(std::optional<FaultCause> cause) noexcept {
+    return cause == FaultCause::StuckOn ? "The output may still be on." : "Output is off.";
+}
+
 FixedText<159> Interlock::reason() const noexcept {
     const std::lock_guard lock(mutex_);
     return reason_;
@@ -164,6 +173,7 @@ FixedText<159> Interlock::reason() const noexcept {
 std::optional<FaultCause> Interlock::cause() const noexcept {
     const std::lock_guard lock(mutex_);
     if (state_.load(std::memory_order_relaxed) != InterlockState::Faulted) return std::nullopt;
+    if ((causes_ & bitOf(FaultCause::StuckOn)) != 0) return FaultCause::StuckOn;
     for (int i = 0; i < kFaultCauseCount; ++i) {
         if ((causes_ & bitOf(FaultCause(i))) != 0) return FaultCause(i);
     }

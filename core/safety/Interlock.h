@@ -27,7 +27,7 @@ enum class InterlockState { Disconnected, Disarmed, Checking, Armed, Delivering,
 
 enum class FaultCause {
     DeviceLost,   ///< unplugged, or gone silent
-    DeviceFault,  ///< garbage, a refused command, stuck on
+    DeviceFault,  ///< garbage, a refused command
     OpenElectrode,
     ShortElectrode,
     NetCharge,
@@ -36,8 +36,9 @@ enum class FaultCause {
     StaleSensor,
     LimitBroken,  ///< something measured above a limit
     Internal,     ///< a broken invariant
+    StuckOn,      ///< the device goes on after its train should have ended
 };
-inline constexpr int kFaultCauseCount = 10;
+inline constexpr int kFaultCauseCount = 11;
 [[nodiscard]] std::string_view nameOf(FaultCause cause) noexcept;  // "open electrode", ...
 /// Timeout for a cause that is lateness alone (status missing, loop silent, stale sensor), else Device.
 [[nodiscard]] ErrorCode codeOf(FaultCause cause) noexcept;
@@ -56,6 +57,10 @@ struct ArmingEvidence {
     bool declaredLoadConfirmed = false;  ///< stands in for a reading where the device cannot read back
 };
 
+/// What a fault of that cause leaves of the output, as a sentence: "Output is off.", but of a device that does not
+/// obey.
+[[nodiscard]] std::string_view outputAfter(std::optional<FaultCause> cause) noexcept;
+
 class UnitRecord;
 
 class Interlock {
@@ -66,7 +71,8 @@ public:
     [[nodiscard]] InterlockState state() const noexcept { return state_.load(std::memory_order_acquire); }
     /// Why it is faulted or was last disarmed; empty otherwise.
     [[nodiscard]] FixedText<159> reason() const noexcept;
-    /// The first cause that is still present, in the order of FaultCause; nothing unless Faulted.
+    /// The first cause that is still present, StuckOn before the others, then in the order of FaultCause; nothing
+    /// unless Faulted.
     [[nodiscard]] std::optional<FaultCause> cause() const noexcept;
     /// The code of an error that tells reason() while Faulted: Timeout where the first fault was lateness, else Device.
     [[nodiscard]] ErrorCode faultCode() const noexcept;

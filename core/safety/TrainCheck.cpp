@@ -119,6 +119,7 @@ FaultCause causeOf(TrainFinding finding) noexcept {
         case TrainFinding::StatusMissing:
             return FaultCause::StatusMissing;
         case TrainFinding::StuckOn:
+            return FaultCause::StuckOn;
         case TrainFinding::Garbage:
             return FaultCause::DeviceFault;
         case TrainFinding::Pending:

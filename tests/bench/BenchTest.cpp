@@ -197,6 +197,9 @@ TEST_F(BenchTest, FaultsOfTheStimulatorEndInSilence) {
         EXPECT_FALSE(waited) << fault;
         EXPECT_EQ(state(), InterlockState::Faulted) << fault;
         EXPECT_LE(bench_->clock().now(), 2.2s + 0.5s + 0.12s) << fault;
+        const bool obeys = std::string_view(fault) != "stuck-on@2.2s";
+        EXPECT_EQ(bench_->telemetry().fault != FaultCause::StuckOn, obeys) << fault;
+        EXPECT_EQ(waited.error().message.ends_with("Output is off."), obeys) << waited.error().message;
     }
 }
 
@@ -294,6 +297,7 @@ TEST_F(BenchTest, AStuckStimulatorIsFoundWithoutReadBackToo) {
     EXPECT_FALSE(bench_->wait(Seconds(6)));
     EXPECT_EQ(state(), InterlockState::Faulted);
     EXPECT_LE(bench_->clock().now(), 2.7s);
+    EXPECT_EQ(bench_->telemetry().fault, FaultCause::StuckOn);
 }
 
 TEST_F(BenchTest, ADeviceWithoutReadBackArmsOnlyOnAConfirmedLoad) {

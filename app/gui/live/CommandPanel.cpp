@@ -67,7 +67,9 @@ void CommandPanel::show(const Telemetry& t, bool stale, const std::vector<Condit
     const bool byHand = t.driving == DriveSource::Manual;
     const bool felt = std::isfinite(t.roughness) || std::isfinite(t.pressure);
     const bool known = (!stale || byHand) && felt;
-    words_->setText(known ? feel : stale && !byHand ? tr("Not known: the samples are old") : tr("Nothing is felt"));
+    words_->setText(known              ? feel
+                    : stale && !byHand ? tr("Not known: the samples drive no train")
+                                       : tr("Nothing is felt"));
     near_->setText(known ? nearText(conditions, t.roughness, t.pressure) +
                                tr("R %1, P %2").arg(decimalText(t.roughness, 2), decimalText(t.pressure, 2))
                          : QString());
@@ -91,9 +93,17 @@ HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, std::uint64_
         health.stale = true;
     } else if (!std::isfinite(age)) {
         words << QObject::tr("No sample has come yet.");
+    } else if (telemetry.finger == FingerStanding::Implausible) {
+        words << QObject::tr("⚠ No readings: the samples are not numbers, or beyond a fingertip, and drive no train");
+        health.stale = true;
     } else if (age > StreamHealth::kStale_s) {
         words << QObject::tr("⚠ Old: the newest sample is %1 old and drives no train").arg(quantityText(age, "s", 2));
         health.stale = true;
+    } else if (telemetry.finger == FingerStanding::Stale) {
+        // At the start no frame has come; a stamp ahead of time says nothing of how old the samples are.
+        health.stale = age < 0;
+        words << (health.stale ? QObject::tr("⚠ Ahead of time: the samples drive no train")
+                               : QObject::tr("Samples come, and none is judged yet"));
     } else {
         words << (age < 1e-3 ? QObject::tr("Samples are fresh")
                              : QObject::tr("Samples are fresh: %1 old").arg(quantityText(age, "s", 2)));

@@ -34,6 +34,8 @@ QString nextStep(std::optional<FaultCause> cause) {
         case FaultCause::LimitBroken:
             return FaultBanner::tr(
                 "Run the safety check before you arm again: the stimulator delivered more than it may.");
+        case FaultCause::StuckOn:
+            return FaultBanner::tr("Switch it off at its own switch and take the load off, then reset.");
         case FaultCause::Internal:
             break;
     }
@@ -107,7 +109,9 @@ void FaultBanner::note(const Telemetry& telemetry, QTime now) {
 
 /// That limits were kept only where the gate judged every train, and the fault does not tell otherwise.
 QString FaultBanner::outputWords(const Telemetry& telemetry) const {
-    const auto off = tr("Output is off and stays off.");
+    const auto off = telemetry.fault == FaultCause::StuckOn
+                         ? tr("The program has switched off; the device may still deliver.")
+                         : tr("Output is off and stays off.");
     const auto trains = telemetry.trainsDelivered;
     if (trains == 0) return tr("%1 No train was delivered.").arg(off);
     const auto delivered = trains == 1 ? tr("1 train was delivered") : tr("%1 trains were delivered").arg(trains);

@@ -9,6 +9,21 @@ namespace tacto::gui {
 
 namespace {
 
+/// Why the fingertip drives no train; empty where it does.
+QString fingerHolds(const Telemetry& telemetry) {
+    switch (telemetry.finger) {
+        case FingerStanding::Stale:
+            return QObject::tr("No train: the fingertip’s samples are old. Space stops.");
+        case FingerStanding::Implausible:
+            return QObject::tr("No train: the fingertip gives no readings. Space stops.");
+        case FingerStanding::Fresh:
+            return QObject::tr("No train: the fingertip feels nothing. Space stops.");
+        case FingerStanding::None:
+            break;
+    }
+    return QObject::tr("From the fingertip. Space stops.");
+}
+
 QString deliveringWords(const Telemetry& telemetry) {
     const bool repeats = std::isfinite(telemetry.interval_s);
     const auto every = repeats ? quantityText(telemetry.interval_s, "s", 3) : QString();
@@ -18,7 +33,7 @@ QString deliveringWords(const Telemetry& telemetry) {
                            : QObject::tr("Set by hand. Space stops.");
         case DriveSource::Sensor:
             return repeats ? QObject::tr("From the fingertip, every %1. Space stops.").arg(every)
-                           : QObject::tr("From the fingertip. Space stops.");
+                           : fingerHolds(telemetry);
         case DriveSource::Off:
             break;
     }
@@ -51,18 +66,21 @@ QString stateWords(const Telemetry& telemetry, const QString& protocol) {
         case InterlockState::Disconnected:
             return QObject::tr("No stimulator is open.");
         case InterlockState::Faulted:
-            return QObject::tr("Output is off.");
+            return qtext(outputAfter(telemetry.fault));
         case InterlockState::Disarmed:
             return reason.isEmpty() ? QObject::tr("Output is off. “Arm…” asks before anything flows.")
                                     : QObject::tr("Output is off: %1. “Arm…” goes on.").arg(reason);
         case InterlockState::Checking:
             return QObject::tr("One small pulse measures the impedance.");
         case InterlockState::Delivering:
+            if (telemetry.driving == DriveSource::Sensor && telemetry.finger != FingerStanding::Fresh)
+                return fingerHolds(telemetry);
             return protocol.isEmpty() ? deliveringWords(telemetry)
                                       : QObject::tr("By the protocol %1. Space stops.").arg(protocol);
         case InterlockState::Paused:
             return QObject::tr("No train is delivered until you resume.");
         case InterlockState::Armed:
+            if (telemetry.paused) return QObject::tr("No train is delivered until you resume.");
             return protocol.isEmpty() ? armedWords(telemetry.driving)
                                       : QObject::tr("Armed by the protocol %1. Space stops.").arg(protocol);
     }

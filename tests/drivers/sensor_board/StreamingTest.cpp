@@ -215,7 +215,7 @@ TEST(SensorBoard, FeedsTheControlLoopAndASilentBoardIsStaleWithinATenthOfASecond
         bench.clock.advanceTo(bench.clock.now() + std::chrono::milliseconds(2));
         (void)(*session)->serve(bench.clock.now());
         (*input)->update();
-        return (*input)->fresh(toSeconds(bench.clock.now()));
+        return (*input)->standing(toSeconds(bench.clock.now())) == FingerStanding::Fresh;
     };
     int fresh = 0;
     for (int i = 0; i < 2000; ++i) fresh += step() ? 1 : 0;
@@ -227,7 +227,7 @@ TEST(SensorBoard, FeedsTheControlLoopAndASilentBoardIsStaleWithinATenthOfASecond
         return 0;
     });
     for (int i = 0; i < 60; ++i) (void)step();
-    EXPECT_FALSE((*input)->fresh(toSeconds(bench.clock.now())));
+    EXPECT_FALSE((*input)->standing(toSeconds(bench.clock.now())) == FingerStanding::Fresh);
     EXPECT_FALSE((*session)->failed()) << "silence is judged by its age";
 }
 

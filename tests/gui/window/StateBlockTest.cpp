@@ -41,9 +41,10 @@ TEST(StateWords, SayWhatIsDeliveredAndByWhom) {
     now.interval_s = 1.25;
     EXPECT_EQ(wordsOf(now), "A train every 1.25 s, set by hand. Space stops.") << "as it is commanded now";
     now.driving = DriveSource::Sensor;
+    now.finger = FingerStanding::Fresh;
     EXPECT_EQ(wordsOf(now), "From the fingertip, every 1.25 s. Space stops.");
     now.interval_s = NAN;
-    EXPECT_EQ(wordsOf(now), "From the fingertip. Space stops.") << "nothing is commanded: no interval is claimed";
+    EXPECT_EQ(wordsOf(now), "No train: the fingertip feels nothing. Space stops.") << "nothing is commanded";
     now.driving = DriveSource::Off;
     EXPECT_EQ(wordsOf(now), "The last train ends by itself. Space stops.");
     for (const auto drive : {DriveSource::Off, DriveSource::Manual}) {
