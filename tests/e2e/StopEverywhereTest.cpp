@@ -17,10 +17,12 @@
 #include <QTableView>
 #include <QTableWidget>
 #include <QToolButton>
+#include <QVBoxLayout>
 #include <algorithm>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <qcustomplot.h>
+#include <random>
 
 #include "app/gui/pilot/PilotWorkspace.h"
 #include "app/gui/runner/ScriptEditor.h"
@@ -28,6 +30,7 @@
 #include "app/gui/study/StudyForm.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/window/DockColumn.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/run/Shipped.h"
@@ -546,6 +549,103 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryMenuAndList) {
     }
     RecordProperty("stops", tried);
     RecordProperty("slowest_ms", int(slowest_ms));
+}
+
+/// A dock that is dropped on STOP, as a hand drops it, or put there by whatever means.
+TEST_F(StopEverywhere, DISABLED_UnderADockThatFloats) {
+    page(0, 0);
+    window.findChild<gui::DockColumn*>()->setCollapsed(false);
+    letLive(100);
+    const auto* bar = window.findChild<gui::SafetyBar*>();
+    std::mt19937 random(47);
+    const auto placeOf = [](const QWidget& widget) { return QRect(widget.mapToGlobal(QPoint()), widget.size()); };
+    for (auto* dock : window.findChild<gui::DockColumn*>()->docks()) {
+        SCOPED_TRACE(dock->objectName().toStdString());
+        dock->fold(false);
+        dock->setFloating(true);
+        ASSERT_IN_TIME(comesTrue([&] { return dock->windowHandle() != nullptr && dock->windowHandle()->isExposed(); }));
+        letLive(100);
+        const auto off = [&] { return !placeOf(*dock).intersects(placeOf(*bar)); };
+        for (int tries = 0; tries < 12; ++tries) {
+            const auto on = placeOf(*stop);
+            const QPoint to(on.x() - std::uniform_int_distribution(0, dock->width() - 1)(random),
+                            on.y() - std::uniform_int_distribution(0, dock->height() - 1)(random));
+            if (tries % 3 == 2) {
+                window.move(window.pos() + QPoint(tries, 3 * tries));
+            } else if (tries % 3 == 1) {
+                dock->move(to);
+            } else {  // by its header
+                const double scale = QGuiApplication::primaryScreen()->devicePixelRatio();
+                const auto at = [&](const QPoint& point) {
+                    return QStringList{"mousemove", QString::number(int(point.x() * scale)),
+                                       QString::number(int(point.y() * scale))};
+                };
+                const auto grip = dock->mapToGlobal(QPoint(dock->width() / 2, 8));
+                const auto end = stop->mapToGlobal(stop->rect().center());
+                QProcess::execute("xdotool", at(grip) + QStringList{"mousedown", "1"});
+                for (const double part : {0.3, 0.6, 0.9, 1.0}) {
+                    letLive(30);
+                    QProcess::execute("xdotool", at(grip + (end - grip) * part));
+                }
+                letLive(60);
+                QProcess::execute("xdotool", {"mouseup", "1"});
+            }
+            EXPECT_IN_TIME(comesTrue([&] { return off(); }))
+                << tries << ": " << placeOf(*dock).x() << ", " << placeOf(*dock).y() << " " << placeOf(*dock).width()
+                << " x " << placeOf(*dock).height();
+        }
+        EXPECT_TRUE(off());
+        ASSERT_NO_FATAL_FAILURE(deliver());
+        expectStop("a click on STOP", [this] { clickOn(*stop); });
+        dock->setFloating(false);
+    }
+}
+
+/// Whatever window of the program lies on STOP, a press within STOP's rectangle is STOP's alone.
+TEST_F(StopEverywhere, DISABLED_UnderAnotherWindowOfTheProgram) {
+    std::mt19937 random(4711);
+    const auto tryOn = [&](QWidget& cover, const char* what) {
+        int pressed = 0;
+        for (auto* button : cover.findChildren<QPushButton*>())
+            QObject::connect(button, &QPushButton::pressed, &cover, [&pressed] { ++pressed; });
+        for (const auto* button : {"1", "2", "3"}) {
+            ASSERT_NO_FATAL_FAILURE(deliver());
+            const QPoint in(std::uniform_int_distribution(0, stop->width() - 1)(random),
+                            std::uniform_int_distribution(0, stop->height() - 1)(random));
+            expectStop(what, [&] { clickAt(stop->mapToGlobal(in), button); });
+            EXPECT_EQ(pressed, 0) << what << ": the press went to what lies on top";
+        }
+    };
+    for (const auto flags : {Qt::Window, Qt::Dialog, Qt::Tool, Qt::ToolTip, Qt::Popup, Qt::SplashScreen}) {
+        SCOPED_TRACE(int(flags));
+        auto cover = std::make_unique<QWidget>(&window, flags | Qt::X11BypassWindowManagerHint);
+        (new QVBoxLayout(cover.get()))->addWidget(new QPushButton("By hand"));
+        cover->setGeometry(QRect(stop->mapToGlobal(QPoint()), stop->size()).adjusted(-40, -40, 40, 40));
+        for (const auto* button : cover->findChildren<QPushButton*>())
+            const_cast<QPushButton*>(button)->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+        cover->show();
+        cover->raise();
+        ASSERT_IN_TIME(comesTrue([&] { return cover->windowHandle()->isExposed(); }));
+        letLive(50);
+        if (flags != Qt::Popup) {
+            ASSERT_NO_FATAL_FAILURE(tryOn(*cover, "a window"));
+            continue;
+        }
+        ASSERT_NO_FATAL_FAILURE(deliver());
+        cover->show();
+        expectStop("a popup", [this] { clickOn(*stop); });
+    }
+    // In the window itself.
+    auto* child = new QPushButton("By hand", &window);
+    child->setGeometry(QRect(stop->mapTo(&window, QPoint()), stop->size()));
+    child->show();
+    child->raise();
+    int pressed = 0;
+    QObject::connect(child, &QPushButton::pressed, [&] { ++pressed; });
+    ASSERT_NO_FATAL_FAILURE(deliver());
+    expectStop("a child", [this] { clickOn(*stop); });
+    EXPECT_EQ(pressed, 0);
+    delete child;
 }
 
 /// Qt takes every key while it drags, and for itself.

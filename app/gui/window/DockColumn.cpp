@@ -1,6 +1,7 @@
 #include "app/gui/window/DockColumn.h"
 
 #include <QPainter>
+#include <QScreen>
 #include <QSettings>
 #include <QTimer>
 #include <QToolButton>
@@ -111,6 +112,7 @@ DockColumn::DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks)
     strip_->addWidget(open);
     for (auto* dock : docks_) {
         window_.addDockWidget(Qt::RightDockWidgetArea, dock);
+        dock->installEventFilter(this);
         auto* button = new StripButton(*dock, strip_);
         connect(button, &QToolButton::clicked, this, [this, dock] { show(*dock); });
         strip_->addWidget(button);
@@ -124,6 +126,8 @@ DockColumn::DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks)
     }
     window_.addToolBar(Qt::RightToolBarArea, strip_);
     window_.installEventFilter(this);
+    bar_ = window_.findChild<QWidget*>("safetyBar");
+    if (bar_ != nullptr) bar_->installEventFilter(this);
     strip_->installEventFilter(this);
     afterLookChange(*strip_, [this] {
         fitStrip();
@@ -260,7 +264,30 @@ void DockColumn::share() {
     window_.resizeDocks(open, heights, Qt::Vertical);
 }
 
+/// Moves a floating dock off the safety bar: to below it, or above, or, where the screen has no room, back into the
+/// column.
+void DockColumn::leaveBar(FoldingDock& dock) {
+    if (bar_ == nullptr || !dock.isFloating() || !dock.isVisible() || !window_.isVisible()) return;
+    const QRect kept(bar_->mapToGlobal(QPoint()), bar_->size()), at = dock.frameGeometry();
+    if (!kept.intersects(at)) return;
+    const auto screen = window_.screen()->availableGeometry();
+    const int below = kept.bottom() + 1, above = kept.top() - at.height();
+    if (below + at.height() > screen.bottom() + 1 && above < screen.top()) {
+        const int room = screen.bottom() + 1 - below - (at.height() - dock.height());
+        if (room < dock.minimumSizeHint().height()) return dock.setFloating(false);
+        dock.resize(dock.width(), std::min(dock.height(), room));
+    }
+    const bool fits = below + dock.frameGeometry().height() <= screen.bottom() + 1;
+    dock.move(at.left(), fits ? below : above);
+}
+
 bool DockColumn::eventFilter(QObject* watched, QEvent* event) {
+    const bool moves =
+        event->type() == QEvent::Move || event->type() == QEvent::Resize || event->type() == QEvent::Show;
+    if (moves) {
+        for (auto* dock : docks_)
+            if (watched == dock || watched == &window_ || watched == bar_) leaveBar(*dock);
+    }
     if (watched == &window_ && event->type() == QEvent::Resize) QTimer::singleShot(0, this, &DockColumn::share);
     if (watched == strip_ && event->type() == QEvent::Resize) fitStrip();
     return QObject::eventFilter(watched, event);

@@ -1,6 +1,7 @@
 // DockColumn.h - the docks at the right: open, or collapsed to a strip that keeps their names and key figures.
 //
-// Each workspace remembers which: live work shows the docks, everything else gives the room to its plot.
+// Each workspace remembers which: live work shows the docks, everything else gives the room to its plot. A dock that
+// floats never lies on the safety bar.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -55,6 +56,7 @@ protected:
 
 private:
     void apply();
+    void leaveBar(FoldingDock& dock);
     void fitStrip();
     void fitWidth();
     void foldAsLeft();
@@ -64,6 +66,7 @@ private:
     std::vector<FoldingDock*> docks_;
     std::vector<StripButton*> buttons_;
     QToolBar* strip_;
+    QWidget* bar_ = nullptr;  // the window's safety bar
     QAction* toggle_;
     View view_;
     bool entering_ = false;  // the view sets the folds, not the operator: they are not remembered

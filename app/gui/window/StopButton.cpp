@@ -4,6 +4,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWindow>
+#include <utility>
 
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
@@ -20,12 +21,10 @@ QFont wordFont() { return textFont(TextSize::Display, QFont::Bold); }
 
 QFont keysFont() { return textFont(TextSize::Small); }
 
-QString keys() { return StopButton::tr("Space · Esc · Pause"); }
-
 }  // namespace
 
 StopButton::StopButton(std::function<void()> stop, QWidget* parent)
-    : QPushButton(tr("STOP"), parent), stop_(std::move(stop)) {
+    : QPushButton(tr("STOP"), parent), stop_(std::move(stop)), hint_(tr("Space · Esc · Pause")) {
     setObjectName("stopButton");
     setAccessibleName(tr("STOP"));
     setAutoDefault(false);
@@ -36,21 +35,49 @@ StopButton::StopButton(std::function<void()> stop, QWidget* parent)
     onFontChange(*this, [this] { updateGeometry(); });
 }
 
+/// Where on the screen `event` puts a finger, a pen or a button of the mouse down.
+std::optional<QPoint> StopButton::pressedAt(const QEvent& event) {
+    switch (event.type()) {
+        case QEvent::MouseButtonPress:
+        case QEvent::MouseButtonDblClick:
+        case QEvent::TabletPress:
+        case QEvent::TouchBegin:
+            return static_cast<const QPointerEvent&>(event).points().first().globalPosition().toPoint();
+        default:
+            return std::nullopt;
+    }
+}
+
 bool StopButton::eventFilter(QObject* watched, QEvent* event) {
-    if (event->type() != QEvent::MouseButtonPress && event->type() != QEvent::MouseButtonDblClick) return false;
-    if (QApplication::activePopupWidget() == nullptr || !watched->isWindowType() || !isVisible()) return false;
-    const auto at = static_cast<QMouseEvent*>(event)->globalPosition().toPoint();
-    if (!QRect(mapToGlobal(QPoint(0, 0)), size()).contains(at)) return false;
-    // An entry of the popup that lies above the button is meant, not the button.
-    const auto* pressed = static_cast<QWindow*>(watched);
-    if (pressed != window()->windowHandle() && pressed->geometry().contains(at)) return false;
+    if (!watched->isWindowType()) return false;
+    if (event->type() == QEvent::MouseButtonRelease) return std::exchange(taken_, false);
+    const auto at = pressedAt(*event);
+    if (!at) return false;
+    taken_ = false;
+    auto* pressed = QWidget::find(static_cast<QWindow*>(watched)->winId());
+    // A participant has a STOP of their own, and answers where this one may lie below.
+    const bool theirs = pressed != nullptr && pressed->property("stopsAs").toString() == "participant";
+    if (!isVisible() || window()->isMinimized() || theirs || !rect().contains(mapFromGlobal(*at))) return false;
+    auto* popup = QApplication::activePopupWidget();
+    const bool plain = (event->type() == QEvent::MouseButtonPress || event->type() == QEvent::MouseButtonDblClick) &&
+                       static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton;
+    const bool comesHere = pressed == window() && popup == nullptr && QWidget::mouseGrabber() == nullptr &&
+                           window()->childAt(window()->mapFromGlobal(*at)) == this;
+    if (plain && comesHere) return false;  // goes down, and stops by that
     stop_();
-    return false;  // the popup closes
+    event->accept();
+    taken_ = true;  // the release that belongs to it, too: a list chooses with that
+    if (popup != nullptr) popup->close();
+    return true;
+}
+
+void StopButton::setHint(const QString& hint) {
+    if (std::exchange(hint_, hint) != hint) update();
 }
 
 QSize StopButton::sizeHint() const {
     const QFontMetrics word(wordFont()), small(keysFont());
-    const int words = std::max(word.horizontalAdvance(text()), small.horizontalAdvance(keys())) + 2 * kStopPadding;
+    const int words = std::max(word.horizontalAdvance(text()), small.horizontalAdvance(hint_)) + 2 * kStopPadding;
     return {std::max(scaledPx(kStopWidth), words), std::max(scaledPx(kStopHeight), word.height() + small.height())};
 }
 
@@ -64,7 +91,7 @@ void StopButton::paintEvent(QPaintEvent*) {
     painter.setFont(wordFont());
     painter.drawText(QRect(0, top, width(), word.height()), Qt::AlignCenter, text());
     painter.setFont(keysFont());
-    painter.drawText(QRect(0, top + word.height(), width(), small.height()), Qt::AlignCenter, keys());
+    painter.drawText(QRect(0, top + word.height(), width(), small.height()), Qt::AlignCenter, hint_);
     if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;
     painter.setPen(QPen(style.ink, 2));
     painter.drawRect(rect().adjusted(2, 2, -3, -3));

@@ -1,13 +1,16 @@
-// StopButton.h - STOP: calls `stop` the moment a press goes down on it, also while a menu or list is open.
+// StopButton.h - STOP: calls `stop` the moment a press goes down within its rectangle, whatever lies on top.
 //
-// Qt gives every press to the open popup, which only closes. So the button looks at each press of the program before
-// any widget does, and takes those that lie on it as its own.
+// Qt gives a press to what lies on top, a floating dock or a dialog, and every press to an open popup. So the button
+// looks at each press of the program before any widget does, and takes those that lie on it as its own: nothing else
+// sees them. Presses on a participant's window are not taken; it has a STOP of its own. Where the display does not say
+// how windows lie (Wayland), a press counts where Qt takes the windows to be.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QPushButton>
 #include <functional>
+#include <optional>
 
 namespace tacto::gui {
 
@@ -15,6 +18,8 @@ class StopButton final : public QPushButton {
     Q_OBJECT
 public:
     StopButton(std::function<void()> stop, QWidget* parent);
+    /// In place of the keys below the word.
+    void setHint(const QString& hint);
     /// Room for the word and the keys: never cut.
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
@@ -24,7 +29,10 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    [[nodiscard]] static std::optional<QPoint> pressedAt(const QEvent& event);
+    bool taken_ = false;  // the press of which the release comes next
     const std::function<void()> stop_;
+    QString hint_;
 };
 
 }  // namespace tacto::gui
