@@ -11,6 +11,7 @@
 
 #include "app/gui/theme/MnemonicStyle.h"
 #include "app/gui/theme/StyleSheet.h"
+#include "app/gui/theme/WheelGuard.h"
 
 namespace tacto::gui {
 
@@ -33,6 +34,7 @@ void setStyled(QWidget& widget, const char* name, const QString& value) {
 }  // namespace
 
 void applyTheme(Theme wanted) {
+    WheelGuard::install();
     if (applied == wanted) return;
     applied = wanted;
     qApp->setStyleSheet({});  // else it is laid on every widget with each of the three
