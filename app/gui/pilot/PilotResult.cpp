@@ -165,8 +165,8 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
     QStringList why;
     static const QRegularExpression place(R"(^\S*\.js:\d+: )");  // where in the script: not the operator's concern
     if (outcome.error)
-        why << sentence(qtext(outcome.error->message).remove(place)) +
-                   tr(" Output is off. What was answered is on disk.");
+        why << inThePast(sentence(qtext(outcome.error->message).remove(place))) +
+                   tr(" The output was switched off. What was answered is on disk.");
     for (const auto& reason : outcome.reasons) {
         const auto text = qtext(reason);
         if (!outcome.error && text != said) why << sentence(text);

@@ -323,7 +323,8 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     showButtons();
     if (watched) steps_->focusShown();  // the progress had the keys, and is gone
     if (!error) return;
-    if (run->result.session.empty()) panel_->say(tr("%1 Output is off.").arg(sentence(*error)));
+    if (run->result.session.empty())
+        panel_->say(tr("%1 The output was switched off.").arg(inThePast(sentence(*error))));
     if (editor_ != nullptr && editor_->isVisible() && run->result.outcome.line > 0)
         editor_->showError(run->result.outcome.line, QString::fromStdString(error->message));
 }

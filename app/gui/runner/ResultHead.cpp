@@ -93,9 +93,9 @@ void ResultHead::show(const FinishedRun& run) {
     verdict_->setVerdict(key);
     QStringList why;
     if (outcome.error) {
-        error_ = QString::fromStdString(outcome.error->message);
-        const bool saysSo = error_.contains("Output is off");
-        why << whyAndWhere(error_, saysSo ? QString() : tr(" Output is off."));
+        error_ = inThePast(QString::fromStdString(outcome.error->message));
+        const bool saysSo = error_.contains(tr("The output "));
+        why << whyAndWhere(error_, saysSo ? QString() : tr(" The output was switched off."));
     }
     // A run that was stopped gives its error as its reason too.
     for (const auto& reason : outcome.reasons) {

@@ -103,7 +103,7 @@ void ScopeAcquisition::fail(const QString& why) {
     emit stopped(
         tr("⚠ The oscilloscope stopped: %1. %2 The last capture stays. When the oscilloscope is back, press Run.")
             .arg(what, on ? tr("This does not switch the output off; it continues unmeasured. STOP ends it.")
-                          : tr("Output is off.")));
+                          : tr("The output was off.")));
 }
 
 /// In Auto (and Roll) the level is a fifth of what is commanded: above the noise, below the pulse.

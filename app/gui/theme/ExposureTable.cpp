@@ -83,15 +83,15 @@ QString shortRowTitle(const ExposureRow& row) {
     };
     static constexpr std::array<Short, kQuantityCount> kShort{{
         {QT_TRANSLATE_NOOP("QObject", "Voltage set"), QT_TRANSLATE_NOOP("QObject", "Set, 500 Ω")},
-        {QT_TRANSLATE_NOOP("QObject", "Peak"), QT_TRANSLATE_NOOP("QObject", "Peak into 500 Ω")},
-        {QT_TRANSLATE_NOOP("QObject", "Peak"), QT_TRANSLATE_NOOP("QObject", "Peak into 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Peak voltage"), QT_TRANSLATE_NOOP("QObject", "Peak V, 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "Peak current"), QT_TRANSLATE_NOOP("QObject", "Peak mA, 500 Ω")},
         {QT_TRANSLATE_NOOP("QObject", "Phase charge"), QT_TRANSLATE_NOOP("QObject", "Phase, 500 Ω")},
         {QT_TRANSLATE_NOOP("QObject", "Net charge"), QT_TRANSLATE_NOOP("QObject", "Net, 500 Ω")},
         {QT_TRANSLATE_NOOP("QObject", "Energy a pulse"), QT_TRANSLATE_NOOP("QObject", "Energy, 500 Ω")},
         {QT_TRANSLATE_NOOP("QObject", "RMS in train"), QT_TRANSLATE_NOOP("QObject", "Train, 500 Ω")},
         {QT_TRANSLATE_NOOP("QObject", "RMS over 1 s"), QT_TRANSLATE_NOOP("QObject", "1 s, 500 Ω")},
         {QT_TRANSLATE_NOOP("QObject", "RMS over 5 s"), QT_TRANSLATE_NOOP("QObject", "RMS into 500 Ω")},
-        {QT_TRANSLATE_NOOP("QObject", "RMS over 5 s"), QT_TRANSLATE_NOOP("QObject", "RMS into 500 Ω")},
+        {QT_TRANSLATE_NOOP("QObject", "RMS voltage"), QT_TRANSLATE_NOOP("QObject", "RMS V, 500 Ω")},
         {QT_TRANSLATE_NOOP("QObject", "Mean over 5 s"), QT_TRANSLATE_NOOP("QObject", "Mean into 500 Ω")},
         {QT_TRANSLATE_NOOP("QObject", "Current/cm²"), QT_TRANSLATE_NOOP("QObject", "I/cm², 500 Ω")},
         {QT_TRANSLATE_NOOP("QObject", "Power/cm²"), QT_TRANSLATE_NOOP("QObject", "P/cm², 500 Ω")},

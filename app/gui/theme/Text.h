@@ -75,6 +75,10 @@ namespace tacto::gui {
     const auto whole = titled(withOhmSigns(words));
     return whole.isEmpty() || whole.endsWith('.') ? whole : whole + '.';
 }
+/// What was said when something ended, to be read later: the output may be on again by then.
+[[nodiscard]] inline QString inThePast(QString words) {
+    return words.replace(QObject::tr("Output is off."), QObject::tr("The output was switched off."));
+}
 [[nodiscard]] inline QString sentence(const Error& error) { return sentence(qtext(error.message)); }
 
 }  // namespace tacto::gui

@@ -60,9 +60,10 @@ void CloseQuestion::closeUnasked() {
 }
 
 void CloseQuestion::askAboutRun() {
-    auto* box = question(tr("Output is off. The run was stopped before its end; what it measured until then is kept in "
-                            "its session. Close the window?"),
-                         QMessageBox::Close | QMessageBox::Cancel, window_);
+    auto* box = question(
+        tr("The output was switched off. The run was stopped before its end; what it measured until then is kept in "
+           "its session. Close the window?"),
+        QMessageBox::Close | QMessageBox::Cancel, window_);
     box->button(QMessageBox::Close)->setText(tr("&Close the window"));
     box->button(QMessageBox::Cancel)->setText(tr("&Keep it open"));
     box->setDefaultButton(QMessageBox::Cancel);
@@ -83,7 +84,7 @@ void CloseQuestion::askAboutScripts() {
     QStringList names;
     for (const auto* editor : unsaved()) names << editor->scriptName();
     auto* box =
-        question(tr("Output is off. Not saved: %1 %2. Save before the window closes?")
+        question(tr("The output was switched off. Not saved: %1 %2. Save before the window closes?")
                      .arg(names.size() == 1 ? tr("the protocol script") : tr("the protocol scripts"), names.join(", ")),
                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, window_);
     makePrimary(*qobject_cast<QPushButton*>(box->button(QMessageBox::Save)));

@@ -29,6 +29,7 @@ public:
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
     /// "0.82 of 10 mA", "not evaluated", "–": what is painted, and for screen readers.
+    [[nodiscard]] const QString& title() const { return title_; }
     [[nodiscard]] QString text() const { return text_; }
     /// What is painted of it: where it has no room, without what was measured, or only that where it is not as set;
     /// else the share in per cent.

@@ -9,6 +9,7 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/ExposureNow.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/StateWords.h"
 #include "app/report/NumberText.h"
@@ -70,6 +71,8 @@ void NoticeBanner::sayEnd(const std::shared_ptr<const FinishedRun>& run) {
 void NoticeBanner::refresh(const Telemetry& telemetry) {
     sayState(telemetry);
     sayFault(telemetry);
+    sayOn(telemetry.state);
+    if (holds_ && std::exchange(held_, holds_(telemetry)) && !held_) hide();
     if (isVisible()) lieDown();
 }
 
@@ -91,6 +94,13 @@ void NoticeBanner::sayState(const Telemetry& telemetry) {
         line_.say(reason.isEmpty() ? tr("Disarmed. Output is off.") : tr("Disarmed: %1. Output is off.").arg(reason));
 }
 
+/// No message that the output is off stands on the line while it is on; the log keeps it, with its time.
+void NoticeBanner::sayOn(InterlockState state) {
+    if (outputIsOff(state) || !line_.saysOff()) return;
+    if (state == InterlockState::Checking) return line_.say(tr("Checking the impedance."));
+    line_.say(controller_.activity() == Activity::Running ? tr("Armed by the run.") : tr("Armed."));
+}
+
 /// In the second frame: the state is there at once, its reason with the control loop's next step. The safety bar shows
 /// it as long as it lasts.
 void NoticeBanner::sayFault(const Telemetry& telemetry) {
@@ -99,15 +109,24 @@ void NoticeBanner::sayFault(const Telemetry& telemetry) {
         return;
     }
     if (++faultedFrames_ != 2) return;
-    line_.say(tr("Fault: %1 Output is off.").arg(sentence(QString::fromUtf8(telemetry.reason.c_str()))), true);
+    const auto why = sentence(QString::fromUtf8(telemetry.reason.c_str()));
+    line_.say(tr("Fault: %1 %2").arg(why, qtext(outputAfter(telemetry.fault))), true);
 }
 
 void NoticeBanner::complain(const QString& what) {
-    const auto state = controller_.telemetry().state;
-    const bool off =
-        state == InterlockState::Disconnected || state == InterlockState::Disarmed || state == InterlockState::Faulted;
+    const auto telemetry = controller_.telemetry();
     auto text = sentence(what);
-    if (off && !text.contains(tr("Output is off"))) text += tr(" Output is off.");
+    if (outputIsOff(telemetry.state) && telemetry.fault != FaultCause::StuckOn && !text.contains(tr("Output is off")))
+        text += tr(" Output is off.");
+    if (text.contains(tr("Output is off")))
+        sayWhile(text, [](const Telemetry& now) { return outputIsOff(now.state); });
+    else
+        sayWhile(text, {});
+}
+
+void NoticeBanner::sayWhile(const QString& text, std::function<bool(const Telemetry&)> holds) {
+    holds_ = std::move(holds);
+    held_ = false;
     text_->setText("⚠  " + text);
     show();
     raise();

@@ -1,5 +1,5 @@
-// NoticeBanner.h - what went wrong, until it is dismissed or over, with what it means for the output; the line at the
-// bottom says it too, and keeps it.
+// NoticeBanner.h - what went wrong, with what it means for the output, until it is dismissed or what it says of the
+// output is over; the line at the bottom says it too, and keeps it.
 //
 // It lies over the lower edge of the workspace, so that nothing moves, beside a procedure's path with its Run and above
 // what can be done with a result.
@@ -8,6 +8,7 @@
 #pragma once
 
 #include <QFrame>
+#include <functional>
 
 #include "app/gui/controller/BenchController.h"
 
@@ -23,6 +24,8 @@ public:
     /// All outlive this. Shows what the controller reports. `over`: the widget at whose lower edge it lies.
     NoticeBanner(BenchController& controller, RecordingLine& line, QWidget& over);
     void complain(const QString& what);
+    /// Until it is dismissed, or `holds` is true no longer after it was; empty: until it is dismissed.
+    void sayWhile(const QString& text, std::function<bool(const Telemetry&)> holds);
     /// As often as telemetry is read: states and faults, into the log.
     void refresh(const Telemetry& telemetry);
 
@@ -35,6 +38,7 @@ private:
     [[nodiscard]] QRect room() const;
     void lieDown();
     void sayState(const Telemetry& telemetry);
+    void sayOn(InterlockState state);
     void sayFault(const Telemetry& telemetry);
     void sayEnd(const std::shared_ptr<const FinishedRun>& run);
 
@@ -42,9 +46,11 @@ private:
     RecordingLine& line_;
     QWidget& over_;
     QLabel* text_;
-    bool saidArmed_ = false;       ///< and nothing since that it is over
-    int framesWithoutReason_ = 0;  ///< since the bench disarmed
-    int faultedFrames_ = 0;        ///< since the bench faulted
+    std::function<bool(const Telemetry&)> holds_;  ///< what is said of the output
+    bool held_ = false;                            ///< at the last refresh()
+    bool saidArmed_ = false;                       ///< and nothing since that it is over
+    int framesWithoutReason_ = 0;                  ///< since the bench disarmed
+    int faultedFrames_ = 0;                        ///< since the bench faulted
 };
 
 }  // namespace tacto::gui

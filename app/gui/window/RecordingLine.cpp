@@ -95,6 +95,8 @@ void RecordingLine::say(const QString& text, bool isError) {
     message_->setPalette(colour);
 }
 
+bool RecordingLine::saysOff() const { return said_.contains(tr("Output is off")) || said_.contains(tr("Disarmed")); }
+
 void RecordingLine::fitMessage() {
     if (said_.isEmpty()) return;
     const auto metrics = message_->fontMetrics();

@@ -21,6 +21,8 @@ public:
     void refresh();
     /// Shows a message and keeps it in the log.
     void say(const QString& text, bool isError = false);
+    /// Whether the message on the line says that the output is off.
+    [[nodiscard]] bool saysOff() const;
     void showLog();
     /// The message has the room that it needs; what is being recorded is elided before it.
     bool eventFilter(QObject* watched, QEvent* event) override;

@@ -29,8 +29,6 @@ constexpr const char* kUnmeasured = QT_TRANSLATE_NOOP("SafetyBar", "Impedance no
 constexpr const char* kActions[] = {QT_TRANSLATE_NOOP("SafetyBar", "&Arm…"), QT_TRANSLATE_NOOP("SafetyBar", "Dis&arm"),
                                     QT_TRANSLATE_NOOP("SafetyBar", "&Reset")};
 
-constexpr std::size_t kPeakBar = 0;
-
 struct Bar {
     const char* title;
     std::vector<Quantity> quantities;  ///< none: the measured net charge
@@ -149,6 +147,8 @@ void SafetyBar::setBlind(bool blind) {
     giveRoom();
 }
 
+void SafetyBar::addToStopTip(const QString& sentence) { stop_->setToolTip(stop_->toolTip() + ' ' + sentence); }
+
 void SafetyBar::setParticipantsStop(const QString& words) { participantsStop_->setText(words); }
 
 /// Whether a limit is broken, and nothing of how far it is.
@@ -245,10 +245,13 @@ void SafetyBar::showState(const Telemetry& telemetry) {
     // An empty presentation delivers nothing: while blind it looks as any other.
     const bool closed = state_ == InterlockState::Disconnected && controller_.activity() == Activity::Closed;
     const bool hidden = blind_ && (state_ == InterlockState::Delivering || state_ == InterlockState::Armed);
+    // Armed and held back: nothing begins either.
+    const bool waits = telemetry.state == InterlockState::Armed && telemetry.paused;
+    shown_ = hidden ? InterlockState::Armed : waits ? InterlockState::Paused : telemetry.state;
     if (hidden)
-        block_->show(InterlockState::Armed, tr("The session presents and asks. Space stops."), false);
+        block_->show(shown_, tr("The session presents and asks. Space stops."), false);
     else
-        block_->show(telemetry.state, closed ? closedWords() : stateWords(telemetry, protocol()), pulse_ > 0);
+        block_->show(shown_, closed ? closedWords() : stateWords(telemetry, protocol()), pulse_ > 0);
     if (pulse_ > 0) --pulse_;
 }
 
@@ -334,8 +337,8 @@ void SafetyBar::showExposure(const Telemetry& telemetry) {
         bars_->show(i, row, controller_.limits().sets);
         // It was measured, and stays that of the last pulse.
         if (quantities.empty()) bars_->setTitle(i, off && row ? tr("Last net charge") : tr(allBars()[i].title));
-        // The command against the profile's ceiling and the peak against the limit set's are two things.
-        if (i == kPeakBar) bars_->setTitle(i, row ? shortRowTitle(*row) : tr(allBars()[i].title));
+        // Named by the limit that it is beside, as in the dock: one name has one limit.
+        if (!quantities.empty()) bars_->setTitle(i, row ? shortRowTitle(*row) : tr(allBars()[i].title));
     }
     bars_->arrange();
 }
@@ -356,13 +359,18 @@ void SafetyBar::showButtons(InterlockState state) {
     }
     action_->setEnabled(live && state != InterlockState::Disconnected);
     const bool runs = controller_.activity() == Activity::Running;
-    paused_ =
-        pauseInstead_ ? pauseInstead_->paused() : state == InterlockState::Paused || (runs && controller_.paused());
+    paused_ = held(state);
     pause_->setMeaning(paused_ ? tr("Resume") : tr("&Pause"), paused_);
     pause_->setEnabled(pauseInstead_.has_value() || runs || state == InterlockState::Delivering || paused_);
     pause_->setVisible(state != InterlockState::Faulted);
     details_->setVisible(state == InterlockState::Faulted);
     makePrimary(*action_, state == InterlockState::Faulted);
+}
+
+bool SafetyBar::held(InterlockState state) const {
+    if (pauseInstead_) return pauseInstead_->paused();
+    const bool mayBegin = controller_.activity() == Activity::Running || isOn(state);
+    return state == InterlockState::Paused || (mayBegin && controller_.paused());
 }
 
 bool SafetyBar::canHold(bool hold) const { return pause_->isEnabled() && paused_ != hold; }
@@ -382,6 +390,7 @@ void SafetyBar::pressPause() {
 }
 
 void SafetyBar::holdOutput(bool hold) {
+    if (!hold) emit resumed();
     if (pauseInstead_) return pauseInstead_->pause(hold);
     if (hold)
         controller_.pause();

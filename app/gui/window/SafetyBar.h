@@ -41,6 +41,8 @@ public:
     void refresh(const Telemetry& telemetry);
     /// During a blind session nothing here shows levels or trains: a word in place of the bars, no pulse with trains.
     void setBlind(bool blind);
+    /// What this display does not tell, for STOP's tool tip.
+    void addToStopTip(const QString& sentence);
     void setParticipantsStop(const QString& words);
     /// A session holds itself back. Nothing: the bench's own.
     void setPauseInstead(std::optional<PauseInstead> instead) { pauseInstead_ = std::move(instead); }
@@ -48,11 +50,16 @@ public:
     void holdOutput(bool hold);
     /// Whether Pause (true) or Resume (false) would do something, as of the last refresh().
     [[nodiscard]] bool canHold(bool hold) const;
+    /// No train comes until Resume.
+    [[nodiscard]] bool held(InterlockState state) const;
+    /// The state as the bar shows it: while blind, as armed whether or not a train is delivered.
+    [[nodiscard]] InterlockState shownState() const { return shown_; }
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:
     void armRequested();
     void detailsRequested();  ///< of a fault
+    void resumed();           ///< by hand
 
 protected:
     void changeEvent(QEvent* event) override;
@@ -102,6 +109,7 @@ private:
     bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash that goes with each train
     InterlockState state_ = InterlockState::Disconnected;
+    InterlockState shown_ = InterlockState::Disconnected;
 };
 
 }  // namespace tacto::gui

@@ -405,7 +405,7 @@ TEST_F(Workspace, StopsAScriptThatLoopsForEver) {
     EXPECT_NE(controller.telemetry().state, InterlockState::Armed) << "before it returned";
     ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdict").toStdString(), HasSubstr("STOPPED"));
-    EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("Output is off"));
+    EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("The output was switched off"));
     EXPECT_EQ((says("verdictWhy") + says("verdictMore")).count("loop.js"), 1) << "said once";
     EXPECT_TRUE(the<QPushButton>("runButton").isEnabled());
 }
@@ -446,7 +446,7 @@ TEST_F(Workspace, AFolderThatCannotBeWrittenGivesASentenceAndLeavesTheWindowAliv
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("runTrouble").toStdString(), HasSubstr("/proc/nothing/here"));
-    EXPECT_THAT(says("runTrouble").toStdString(), HasSubstr("Output is off"));
+    EXPECT_THAT(says("runTrouble").toStdString(), HasSubstr("The output was switched off"));
     EXPECT_TRUE(the<QPushButton>("runButton").isEnabled());
     ended.reset();
     workspace->goTo(gui::kWiring);

@@ -93,7 +93,7 @@ TEST_F(Scope, AnOscilloscopeThatIsUnpluggedWhileItWaitsSaysWhatHappenedAndGoesOn
     ASSERT_IN_TIME(comes([&] { return scope.running(); }));
     ASSERT_IN_TIME(comes([&] { return !scope.running(); })) << status();
     EXPECT_THAT(status(), AllOf(HasSubstr("The oscilloscope stopped: the simulated oscilloscope is unplugged."),
-                                HasSubstr("Output is off."), HasSubstr("press Run")));
+                                HasSubstr("The output was off."), HasSubstr("press Run")));
     EXPECT_FALSE(complaints.isEmpty()) << "who looks elsewhere hears of it too";
     shot(scope, "unplugged");
     auto* run = find<QPushButton>(scope, "Run");

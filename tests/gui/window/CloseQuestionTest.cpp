@@ -71,7 +71,7 @@ TEST_F(Closing, DuringARunTheOutputIsOffBeforeTheQuestion) {
     EXPECT_NE(state(), InterlockState::Delivering);
     EXPECT_NE(state(), InterlockState::Armed);
     ASSERT_NE(asked(), nullptr);
-    EXPECT_THAT(asked()->text().toStdString(), HasSubstr("Output is off. The run was stopped"));
+    EXPECT_THAT(asked()->text().toStdString(), HasSubstr("The output was switched off. The run was stopped"));
     EXPECT_EQ(asked()->windowModality(), Qt::NonModal) << "STOP stays within reach";
     shot(*asked(), "close-run");
     EXPECT_EQ(faultsOf(*asked()), "");

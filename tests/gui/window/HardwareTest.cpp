@@ -197,12 +197,16 @@ TEST_F(HardwareWindow, AMinimisedWindowDeliversNothing) {
     arm();
     deliver();
     window.showMinimized();
-    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }, 1000));
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Paused; }, 2000));
+    letLive(100);  // a train that was under way ends
     const auto pulses = stimulator->pulses();
     letLive(700);
     EXPECT_EQ(stimulator->pulses(), pulses);
+    EXPECT_TRUE(banner().contains("minimised")) << banner().toStdString();
     window.showNormal();
-    EXPECT_EQ(state(), InterlockState::Disarmed) << "nothing comes back by itself";
+    letLive(300);
+    EXPECT_EQ(state(), InterlockState::Paused) << "nothing comes back by itself";
+    EXPECT_EQ(stimulator->pulses(), pulses);
     window.controller().close();
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
 }

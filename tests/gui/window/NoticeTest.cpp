@@ -1,0 +1,215 @@
+// A notice ends with the state that it describes, a name has one limit, and words of the output are true (H2, H7, H12).
+#include <QCheckBox>
+#include <QRegularExpression>
+#include <map>
+#include <random>
+#include <set>
+
+#include "app/gui/live/CommandPanel.h"
+#include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/window/ExposureDock.h"
+#include "app/gui/window/FaultBanner.h"
+#include "app/gui/window/LimitBarRow.h"
+#include "app/gui/window/SafetyBar.h"
+#include "app/gui/window/StateWords.h"
+#include "app/run/Shipped.h"
+#include "core/acquisition/StreamHealth.h"
+#include "tests/gui/window/WindowFixture.h"
+
+namespace tacto::test {
+namespace {
+
+/// Everything that is read in the program's windows now, but for the log, whose lines have their time.
+std::vector<std::string> textsInSight() {
+    std::vector<std::string> all;
+    for (auto* top : QApplication::topLevelWidgets()) {
+        if (!top->isVisible()) continue;
+        for (const auto* each : top->findChildren<QWidget*>()) {
+            if (!each->isVisible()) continue;
+            if (const auto* label = qobject_cast<const QLabel*>(each)) all.push_back(label->text().toStdString());
+            if (const auto* button = qobject_cast<const QAbstractButton*>(each))
+                all.push_back(button->text().toStdString() + ' ' + button->toolTip().toStdString());
+        }
+    }
+    return all;
+}
+
+std::string inSightWith(const std::string& words) {
+    for (const auto& text : textsInSight())
+        if (text.find(words) != text.npos) return text;
+    return {};
+}
+
+class Notices : public Window {
+protected:
+    Notices() { RecordProperty("hazard", "H12"); }
+    void stopAndWait() {
+        window.controller().stop("operator (STOP)");
+        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
+    }
+};
+
+TEST_F(Notices, ThatTheOutputIsOffIsNotReadWhileItIsOn) {
+    open();
+    std::mt19937 random(47);
+    const std::function<void()> complaints[] = {
+        [this] { window.openFile("/nowhere/at/all.xyz"); },
+        [this] { emit window.controller().failed("stopped: operator (Esc). Output is off."); },
+        [this] { emit window.controller().failed("the declared load is not confirmed"); },
+        [this] { stopAndWait(); },
+    };
+    for (int round = 0; round < 6; ++round) {
+        complaints[random() % std::size(complaints)]();
+        complaints[random() % std::size(complaints)]();
+        letLive(80);
+        EXPECT_NE(inSightWith("Output is off"), "") << "it is said while it is so";
+        ASSERT_NO_FATAL_FAILURE(arm());
+        if (random() % 2 == 0) ASSERT_NO_FATAL_FAILURE(deliver());
+        ASSERT_IN_TIME(comesTrue([] { return inSightWith("Output is off").empty(); }))
+            << nameOf(state()) << ": " << inSightWith("Output is off");
+        window.showWorkspace(int(random() % 7));
+        letLive(80);
+        EXPECT_EQ(inSightWith("Output is off"), "") << "on every page";
+        window.showWorkspace(0);
+        ASSERT_NO_FATAL_FAILURE(stopAndWait());
+    }
+}
+
+TEST_F(Notices, WhatARunEndedWithIsSaidOfThen) {
+    ASSERT_NO_FATAL_FAILURE(visit(3));
+    QPushButton* run = nullptr;
+    ASSERT_IN_TIME(comesTrue([&] {
+        run = find<QPushButton>(window, "runButton");
+        return run != nullptr && run->isEnabled();
+    }));
+    bool over = false;
+    QObject::connect(&window.controller(), &gui::BenchController::finished, &window, [&over] { over = true; });
+    click(*find<QAbstractButton>(window, "Wiring"));
+    find<QCheckBox>(window, "realtime")->setChecked(true);
+    click(*run);
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }, 30'000));
+    window.controller().stop("operator (STOP)");
+    ASSERT_IN_TIME(comesTrue([&] { return over; }, 30'000));
+    ASSERT_IN_TIME(comesTrue([] { return !inSightWith("was switched off").empty(); }));
+    window.openSimulatedBench();
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
+    ASSERT_NO_FATAL_FAILURE(arm());
+    EXPECT_IN_TIME(comesTrue([] { return inSightWith("Output is off").empty(); })) << inSightWith("Output is off");
+    EXPECT_NE(inSightWith("was switched off"), "") << "the result says it of its run";
+}
+
+TEST(WordsOfTheOutput, OfAStimulatorThatIsStuckOnNeitherSayThatItIsOffNorBlameTheCable) {
+    testing::Test::RecordProperty("hazard", "H2");
+    Telemetry telemetry;
+    telemetry.state = InterlockState::Faulted;
+    telemetry.reason = "the stimulator still delivers 50 ms after its train should have ended";
+    telemetry.fault = causeOf(TrainFinding::StuckOn);
+    gui::FaultBanner banner(nullptr);
+    for (int trains = 0; trains < 4; ++trains) {
+        telemetry.trainsDelivered = std::uint64_t(trains);
+        banner.refresh(telemetry, QTime(12, 0));
+        for (const auto& said : {banner.text(), gui::stateWords(telemetry, {})}) {
+            EXPECT_FALSE(said.contains("output is off", Qt::CaseInsensitive)) << said.toStdString();
+            EXPECT_FALSE(said.contains("cable", Qt::CaseInsensitive)) << said.toStdString();
+        }
+        EXPECT_TRUE(banner.text().contains("its own switch")) << banner.text().toStdString();
+    }
+    // Every other cause: it is off.
+    for (int cause = 0; cause < kFaultCauseCount; ++cause) {
+        if (FaultCause(cause) == FaultCause::StuckOn) continue;
+        telemetry.fault = FaultCause(cause);
+        banner.refresh(telemetry, QTime(12, 0));
+        EXPECT_TRUE(banner.text().contains("Output is off")) << nameOf(FaultCause(cause));
+    }
+}
+
+TEST(WordsOfTheOutput, WhatTheFingertipDoesNotDriveIsNotCalledFreshOrDriven) {
+    testing::Test::RecordProperty("hazard", "H7");
+    std::mt19937 random(7);
+    for (int i = 0; i < 400; ++i) {
+        Telemetry telemetry;
+        telemetry.state = random() % 2 == 0 ? InterlockState::Delivering : InterlockState::Armed;
+        telemetry.driving = DriveSource::Sensor;
+        telemetry.finger = FingerStanding(1 + random() % 3);
+        telemetry.sensorAge_s = std::uniform_real_distribution(-0.3, 0.3)(random);
+        const bool commanded = telemetry.finger == FingerStanding::Fresh && random() % 2 == 0;
+        telemetry.interval_s = commanded ? 0.5 : NAN;
+        const auto health = gui::healthWords(telemetry, true, 0);
+        const bool drives =
+            telemetry.finger == FingerStanding::Fresh && telemetry.sensorAge_s <= StreamHealth::kStale_s;
+        if (telemetry.finger == FingerStanding::Fresh && !drives) continue;  // the loop calls none of these fresh
+        EXPECT_EQ(health.text.contains("fresh"), drives) << health.text.toStdString();
+        const bool warns = telemetry.finger == FingerStanding::Implausible ||
+                           telemetry.sensorAge_s > StreamHealth::kStale_s || telemetry.sensorAge_s < 0;
+        if (!drives) EXPECT_EQ(health.stale, warns) << health.text.toStdString();
+        if (telemetry.state != InterlockState::Delivering) continue;
+        for (const auto* protocol : {"", "Separability"}) {
+            const auto words = gui::stateWords(telemetry, protocol);
+            if (telemetry.finger == FingerStanding::Fresh && *protocol != '\0') continue;
+            EXPECT_EQ(words.startsWith("No train"), !commanded) << words.toStdString();
+        }
+    }
+}
+
+/// A fingertip that gives no numbers, on the bench: what is read while nothing is sent.
+TEST_F(Notices, AFingertipWithoutReadingsIsSaidWhereTheStateStands) {
+    RecordProperty("hazard", "H7");
+    gui::LiveOrder order;
+    order.uris.push_back(*DeviceUri::parse("sim:finger?fault=nan@6s"));
+    order.uris.push_back(*DeviceUri::parse("sim:"));
+    order.profile = window.controller().profile();
+    window.controller().openLive(order);
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
+    window.controller().present("P120", 50, 1);
+    window.showWorkspace(0);
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
+    ASSERT_NO_FATAL_FAILURE(arm());
+    window.controller().drive(DriveSource::Sensor);
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
+    ASSERT_IN_TIME(
+        comesTrue([this] { return window.controller().telemetry().finger == FingerStanding::Implausible; }, 15'000));
+    ASSERT_IN_TIME(comesTrue([] { return !inSightWith("No train: the fingertip").empty(); }));
+    const auto trains = window.controller().telemetry().trainsDelivered;
+    letLive(1200);
+    EXPECT_LE(window.controller().telemetry().trainsDelivered, trains + 1) << "none is sent";
+    EXPECT_EQ(inSightWith("Samples are fresh"), "");
+    EXPECT_NE(inSightWith("No readings"), "");
+}
+
+/// In the bar and in the dock: whatever is judged, one name stands beside one limit.
+TEST(NamesOfLimits, EachHasOneLimit) {
+    testing::Test::RecordProperty("hazard", "H12");
+    std::map<QString, std::pair<Quantity, JudgedAt>> named;
+    for (std::size_t i = 0; i < kQuantityCount; ++i) {
+        for (const auto judged : {JudgedAt::LoadRange, JudgedAt::Ohm500}) {
+            ExposureRow row;
+            row.quantity = Quantity(i);
+            row.judged = judged;
+            const auto [at, isNew] = named.try_emplace(gui::shortRowTitle(row), row.quantity, judged);
+            EXPECT_TRUE(isNew) << at->first.toStdString() << " is of two quantities";
+        }
+    }
+}
+
+TEST_F(Notices, ALimitIsNamedAboveAsInTheDock) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    ASSERT_NO_FATAL_FAILURE(arm());
+    static const QRegularExpression limit(QString::fromUtf8(R"(of\s(.+)$)"));
+    std::map<std::string, std::set<std::string>> limits;  // by the name that stands beside them
+    std::mt19937 random(47);
+    for (int i = 0; i < 8; ++i) {
+        window.controller().drive(DriveSource::Manual, std::uniform_real_distribution(0.0, 1.0)(random), 1);
+        letLive(300);
+        for (const auto* bar : window.findChildren<gui::LimitBar*>()) {
+            const auto found = limit.match(bar->text());
+            if (!found.hasMatch()) continue;
+            limits[bar->title().toStdString()].insert(found.captured(1).toStdString());
+        }
+    }
+    EXPECT_GE(limits.size(), 4U);
+    for (const auto& [name, its] : limits) EXPECT_EQ(its.size(), 1U) << name << ": " << testing::PrintToString(its);
+}
+
+}  // namespace
+}  // namespace tacto::test
