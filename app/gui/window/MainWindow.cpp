@@ -15,12 +15,14 @@
 #include <algorithm>
 
 #include "app/gui/live/LiveWorkspace.h"
+#include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/PilotWorkspace.h"
 #include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/ScopeFiles.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/window/ArmQuestion.h"
+#include "app/gui/window/Attendance.h"
 #include "app/gui/window/CloseQuestion.h"
 #include "app/gui/window/DayDialog.h"
 #include "app/gui/window/DeviceDock.h"
@@ -33,6 +35,8 @@
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/gui/window/SimulatedBenchDialog.h"
+#include "app/gui/window/SmallStop.h"
+#include "app/gui/window/StateWords.h"
 #include "app/gui/window/StopKeys.h"
 #include "app/gui/window/WelcomeTour.h"
 #include "app/gui/window/WindowPlace.h"
@@ -77,6 +81,12 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     top->addWidget(safety_);
     addToolBar(Qt::TopToolBarArea, top);
     setContextMenuPolicy(Qt::NoContextMenu);
+    attendance_ = new Attendance(*this, *safety_->findChild<QWidget*>("stopButton"));
+    connect(safety_, &SafetyBar::resumed, attendance_, &Attendance::noteHand);
+    if (!attendance_->displayTells())
+        safety_->addToStopTip(
+            tr("This display does not tell which desktop the window is on, or who holds keyboard and mouse: keep it in "
+               "sight while output is on."));
 
     auto* centre = new QWidget(this);
     centre->setObjectName("centre");
@@ -119,14 +129,14 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     connect(arming_, &ArmQuestion::refused, banner_, &NoticeBanner::complain);
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
     connect(safety_, &SafetyBar::detailsRequested, line_, &RecordingLine::showLog);
-    connect(&controller_, &BenchController::changed, this, &MainWindow::noteChange);
+    connect(&controller_, &BenchController::changed, this, &MainWindow::showTitle);
     closing_ = new CloseQuestion(
         controller_, *this, [this] { return workspaces_->runners(); },
         [this] { return workspaces_->pilot() != nullptr && workspaces_->pilot()->running(); });
     restore();
     connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
     frame_.start(kFrame_ms);
-    noteChange();
+    showTitle();
 }
 
 MainWindow::~MainWindow() {
@@ -180,6 +190,13 @@ void MainWindow::tick() {
     }
     const auto telemetry = controller_.telemetry();
     safety_->refresh(telemetry);
+    attend(telemetry);
+    showTitle();
+    if (smallStop_) smallStop_->showState(safety_->shownState());
+    if (smallStop_ && smallStop_->isHidden()) {  // closed by its frame
+        smallStop_.reset();
+        findChild<QAction*>("smallStopShown")->setChecked(false);
+    }
     const auto* pilot = workspaces_->pilot();
     if (pilot != nullptr && pilot->blind()) safety_->setParticipantsStop(pilot->stopWords());
     banner_->refresh(telemetry);
@@ -230,10 +247,23 @@ void MainWindow::resetLayout() {
     line_->say(tr("Docks and columns are where they were at first."));
 }
 
-void MainWindow::noteChange() {
+/// So that the state is read in the bar of tasks, too, where another window lies on this one.
+void MainWindow::showTitle() {
     const auto open = controller_.open();
+    const bool simulated = open && open->simulated();
+    const auto state = safety_->shownState();
+    QString title = simulated ? tr("Simulated") : QString();
+    if (isOn(state) || state == InterlockState::Faulted)
+        title = simulated ? tr("%1, simulated").arg(stateStyle(state).word) : stateStyle(state).word;
     // The program's name comes last: Qt adds it to a title that ends otherwise.
-    setWindowTitle(open && open->simulated() ? tr("Simulated – Tactoscope") : tr("Tactoscope"));
+    const auto whole = title.isEmpty() ? tr("Tactoscope") : tr("%1 – Tactoscope").arg(title);
+    if (windowTitle() != whole) setWindowTitle(whole);
+}
+
+void MainWindow::showSmallStop(bool shown) {
+    if (!shown) return smallStop_.reset();
+    smallStop_ = std::make_unique<SmallStop>([this] { controller_.stop("operator (STOP)"); }, *this);
+    smallStop_->show();
 }
 
 void MainWindow::askToArm() { arming_->ask(ArmDialog::Purpose::Arm); }
@@ -338,13 +368,18 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
     if (docks_ != nullptr && changed) enterDocks();
 }
 
-void MainWindow::changeEvent(QEvent* event) {
-    QMainWindow::changeEvent(event);
-    if (event->type() != QEvent::WindowStateChange || !isMinimized()) return;
-    // A STOP that is off the screen is out of reach. A simulated output may go on.
-    const auto open = controller_.open();
-    const bool virtualOutput = open && (!open->output || open->output->simulated);
-    if (controller_.activity() != Activity::Closed && !virtualOutput) controller_.stop("the window was minimised");
+void MainWindow::attend(const Telemetry& telemetry) {
+    const auto* pilot = workspaces_->pilot();
+    const QWidget* theirs = pilot == nullptr ? nullptr : pilot->participantWindow();
+    // On the only screen the participant's window covers this one.
+    const bool covers = theirs != nullptr && theirs->isVisible() && theirs->screen() == screen();
+    const bool on = isOn(telemetry.state);
+    const auto why = attendance_->absence(covers ? *theirs : *this, on);
+    if (why.isEmpty() || !on || safety_->held(telemetry.state)) return;
+    safety_->holdOutput(true);
+    static_cast<void>(controller_.markMoment(telemetry.at, tr("output paused: %1").arg(why)));
+    banner_->sayWhile(tr("Output is paused: %1, and STOP is out of reach. It goes on when you press Resume.").arg(why),
+                      [this](const Telemetry& now) { return safety_->held(now.state); });
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
@@ -355,6 +390,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     settings.setValue("geometry", saveGeometry());
     settings.setValue("state", saveState());
     settings.setValue("workspace", workspace());
+    smallStop_.reset();
     event->accept();
 }
 

@@ -8,6 +8,7 @@
 #include <QMainWindow>
 #include <QTimer>
 #include <functional>
+#include <memory>
 
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/controller/BenchController.h"
@@ -16,6 +17,7 @@
 namespace tacto::gui {
 
 class ArmQuestion;
+class Attendance;
 class CloseQuestion;
 class DeviceDock;
 class DockColumn;
@@ -27,6 +29,7 @@ class MeasurementSummary;
 class NoticeBanner;
 class RecordingLine;
 class SafetyBar;
+class SmallStop;
 class WelcomeTour;
 class WorkspaceRail;
 class Workspaces;
@@ -67,13 +70,14 @@ public:
     void setTheme(Theme theme);
     /// Safety bar and plot alone, without menus, tools and paths; STOP and the menus' keys stay.
     void showPlotOnly(bool only);
+    /// STOP by itself, above the windows of other programs.
+    void showSmallStop(bool shown);
     void resetLayout();
 
 protected:
     void showEvent(QShowEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
-    void changeEvent(QEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
 
@@ -82,14 +86,18 @@ private:
     void buildDocks();
     void restore();
     void tick();
-    void noteChange();
+    /// Output pauses while the operator cannot see STOP and reach it.
+    void attend(const Telemetry& telemetry);
+    void showTitle();
     /// While a pilot session hides what is delivered: this workspace alone, no docks, no bars.
     void noteBlind();
     void enterDocks();
 
     BenchController controller_;
     CalibrationBook calibrations_{controller_};
+    Attendance* attendance_ = nullptr;
     SafetyBar* safety_ = nullptr;
+    std::unique_ptr<SmallStop> smallStop_;
     NoticeBanner* banner_ = nullptr;
     Workspaces* workspaces_ = nullptr;
     DeviceDock* devices_ = nullptr;

@@ -13,6 +13,7 @@
 #include "app/gui/window/RecentFiles.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
+#include "app/gui/window/SmallStop.h"
 #include "app/gui/window/StateWords.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
@@ -129,6 +130,13 @@ void Menus::addView(const QActionGroup& workspaces, DockColumn& docks) {
     plotOnly->setObjectName("plotOnly");
     view->addAction(tr("&Full screen"), QKeySequence(Qt::SHIFT | Qt::Key_F11), &window_,
                     [this] { window_.setWindowState(window_.windowState() ^ Qt::WindowFullScreen); });
+    auto* above = view->addAction(tr("STOP above other windows"), &window_, &MainWindow::showSmallStop);
+    above->setObjectName("smallStopShown");
+    above->setCheckable(true);
+    if (!SmallStop::staysAbove()) {
+        above->setEnabled(false);
+        above->setText(tr("STOP above other windows (not on Wayland)"));
+    }
     view->addAction(tr("Reset la&yout"), &window_, &MainWindow::resetLayout);
 }
 

@@ -369,7 +369,9 @@ void SafetyBar::showButtons(InterlockState state) {
 
 bool SafetyBar::held(InterlockState state) const {
     if (pauseInstead_) return pauseInstead_->paused();
-    const bool mayBegin = controller_.activity() == Activity::Running || isOn(state);
+    // While it delivers the state alone says so: it is there before the loop's next step.
+    const bool mayBegin = controller_.activity() == Activity::Running || state == InterlockState::Checking ||
+                          state == InterlockState::Armed;
     return state == InterlockState::Paused || (mayBegin && controller_.paused());
 }
 

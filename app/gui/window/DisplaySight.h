@@ -1,0 +1,36 @@
+// DisplaySight.h - what an X server says of a window beside what Qt knows: which desktop it is on, and whether another
+// program holds keyboard and mouse.
+//
+// Where the display is not X (Wayland, offscreen) it says nothing of either: those functions return false, and whether
+// a window is on the screen is what QWindow::isExposed() says.
+//
+// Thread-safety: the GUI thread. Each call takes a few exchanges with the server.
+#pragma once
+
+#include <memory>
+
+class QWidget;
+
+namespace tacto::gui {
+
+class DisplaySight {
+public:
+    DisplaySight();
+    ~DisplaySight();
+    DisplaySight(const DisplaySight&) = delete;
+    DisplaySight& operator=(const DisplaySight&) = delete;
+
+    /// Whether there is a server to ask.
+    [[nodiscard]] bool tells() const { return own_ != nullptr; }
+    /// The window manager has the window on a desktop that is not shown (EWMH _NET_WM_DESKTOP).
+    [[nodiscard]] bool onAnotherDesktop(const QWidget& window) const;
+    /// Neither a press nor a key reaches any window of this program. Asked by trying to take both, on a connection of
+    /// its own, and giving them back at once; what this program itself holds (an open menu, a drag) does not count.
+    [[nodiscard]] bool grabbedByAnother() const;
+
+private:
+    struct Server;
+    std::unique_ptr<Server> own_;
+};
+
+}  // namespace tacto::gui

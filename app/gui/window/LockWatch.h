@@ -1,0 +1,39 @@
+// LockWatch.h - whether the screen is locked, or another session has it: what the desktop (org.freedesktop.ScreenSaver
+// and the names that desktops have for it) and logind say over D-Bus.
+//
+// Where neither bus nor service is there, nothing is said, and says() is empty. A lock program without D-Bus (i3lock)
+// takes keyboard and mouse: see DisplaySight.
+//
+// Thread-safety: the GUI thread. Nothing here waits for an answer.
+#pragma once
+
+#include <QDBusMessage>
+#include <QObject>
+#include <QSet>
+
+namespace tacto::gui {
+
+class LockWatch final : public QObject {
+    Q_OBJECT
+public:
+    explicit LockWatch(QObject* parent);
+    /// "the screen is locked"; empty while it is not, or where it is not known.
+    [[nodiscard]] QString says() const;
+    /// The operator is there after all: what was said before counts no more.
+    void forget();
+
+private slots:
+    void saverChanged(bool active, const QDBusMessage& message);
+    void sessionChanged(const QString& interface, const QVariantMap& changed, const QStringList& invalidated);
+
+private:
+    void readSession(const QVariantMap& properties);
+    void askSession();
+
+    QSet<QString> lockedBy_;  // screen savers that are active
+    bool locked_ = false;     // as logind has it
+    bool elsewhere_ = false;  // another session is at the seat
+    QString session_;         // its path at logind; empty where there is none
+};
+
+}  // namespace tacto::gui
