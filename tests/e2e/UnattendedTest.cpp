@@ -207,7 +207,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([this] { return held(); }, kPauseLimit_ms)) << nameOf(now().state);
         slowest_ms = std::max(slowest_ms, int(since.elapsed()));
         EXPECT_TRUE(notice().contains(absence.says)) << notice().toStdString();
-        letLive(100);  // a train that was under way ends
+        letLive(500);  // a train that was under way ends
         const auto trains = now().trainsDelivered;
         letLive(400);
         EXPECT_EQ(now().trainsDelivered, trains) << "nothing is delivered";

@@ -105,6 +105,7 @@ void RecordingLine::fitMessage() {
     for (const auto* part : bar_.findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
         if (part != message_ && part != recording_ && !part->isHidden()) room -= part->sizeHint().width();
     message_->setText(metrics.elidedText(said_, Qt::ElideRight, room));
+    if (auto* layout = bar_.layout()) layout->activate();  // not cut until the next turn, after a shorter one
 }
 
 bool RecordingLine::eventFilter(QObject* watched, QEvent* event) {

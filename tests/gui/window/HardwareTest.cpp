@@ -198,7 +198,7 @@ TEST_F(HardwareWindow, AMinimisedWindowDeliversNothing) {
     deliver();
     window.showMinimized();
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Paused; }, 2000));
-    letLive(100);  // a train that was under way ends
+    letLive(500);  // a train that was under way ends
     const auto pulses = stimulator->pulses();
     letLive(700);
     EXPECT_EQ(stimulator->pulses(), pulses);
