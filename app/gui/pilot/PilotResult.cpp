@@ -224,10 +224,11 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
     const bool there = labels.is_array() && columns.is_array() && counts.is_array() && counts.size() == labels.size();
     matrix_->setVisible(there);
     matrixTitle_->setVisible(there);
+    // clear() takes the headers and keeps the columns.
     matrix_->clear();
+    matrix_->setRowCount(there ? int(labels.size()) : 0);
+    matrix_->setColumnCount(there ? int(columns.size()) + 1 : 0);
     if (!there) return;
-    matrix_->setRowCount(int(labels.size()));
-    matrix_->setColumnCount(int(columns.size()) + 1);
     QStringList heads{tr("stimulus")};
     for (const auto& column : columns)
         heads << (column.is_string() ? qtext(answerWords(column.get<std::string>())).replace(' ', '\n') : QString());

@@ -181,8 +181,10 @@ void fitHeader(QTableWidget& table) {
     auto* header = table.horizontalHeader();
     setTextSize(*header, TextSize::Small);
     int lines = 1;
-    for (int c = 0; c < table.columnCount(); ++c)
-        lines = std::max(lines, int(table.horizontalHeaderItem(c)->text().count('\n')) + 1);
+    for (int c = 0; c < table.columnCount(); ++c) {
+        const auto* item = table.horizontalHeaderItem(c);  // null: it has no title
+        if (item != nullptr) lines = std::max(lines, int(item->text().count('\n')) + 1);
+    }
     header->setFixedHeight(lines * QFontMetrics(textFont(TextSize::Small)).height() + kHeaderPad);
 }
 

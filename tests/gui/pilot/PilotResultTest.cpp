@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/pilot/PilotResult.h"
+#include "app/gui/theme/RecordColumns.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
@@ -115,6 +116,76 @@ TEST(PilotResult, AnEarlyEndSaysWhyAndOffersToGoOn) {
     ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&view));
     EXPECT_NE(find<QPushButton>(view, "Go on with the session"), nullptr);
     EXPECT_FALSE(view.findChild<QTableWidget*>("confusion")->isVisible());
+}
+
+RunResult withResults(nlohmann::json results) {
+    RunResult run;
+    run.outcome.results = std::move(results);
+    return run;
+}
+
+RunResult endedBy(ErrorCode code, const char* why, nlohmann::json results = nullptr) {
+    auto run = withResults(std::move(results));
+    run.outcome.error = Error{code, why};
+    return run;
+}
+
+/// Every page that there is: of each kind of result and each end.
+std::vector<std::pair<const char*, RunResult>> allPages() {
+    auto massager = someResults();
+    massager["modality"] = "massager";
+    massager["range"] = {{"min_intensity", 0.3}, {"max_intensity", 0.55}};
+    massager["vibration"] = {{"reasons", {"the motor moved in 70 of 70 presentations"}}};
+    auto two = someResults();
+    two["labels"] = {"rough-high", "smooth-low"};
+    two["columns"] = {"rough-high", "smooth-low", "none", "not-sure"};
+    two["confusion"] = {{18, 2, 0, 0}, {3, 16, 0, 1}};
+    auto odd = someResults();
+    odd["confusion"] = {{18, 2}, nullptr, "x", {nullptr, 1, 2, 3, 4, 5, 6, 7}};
+    const nlohmann::json thresholds{{"kind", "pilot-thresholds"},
+                                    {"participant", {{"code", "P-7K3M"}}},
+                                    {"detection", {{"estimate_ma", {{"value", 4.1}, {"low", 3.9}, {"high", 4.4}}}}},
+                                    {"range", {{"min_ma", 4.0}, {"max_ma", 6.5}}}};
+    auto none = thresholds;
+    none["range"] = {{"usable", false}, {"reason", "too narrow"}};
+    return {{"identification", withResults(someResults())},
+            {"identification with a massager", withResults(massager)},
+            {"two labels", withResults(two)},
+            {"rows that are none", withResults(odd)},
+            {"thresholds", withResults(thresholds)},
+            {"no usable range", withResults(none)},
+            {"nothing", withResults(nullptr)},
+            {"the operator's STOP", endedBy(ErrorCode::Stopped, "the operator stopped")},
+            {"a fault", endedBy(ErrorCode::Device, "the stimulator does not answer")},
+            {"a fault with results", endedBy(ErrorCode::Device, "the stimulator is gone", someResults())}};
+}
+
+// The operator's STOP ended the program where a session with a matrix had been shown before.
+TEST(PilotResult, EveryPageIsShownAfterEveryOther) {
+    RecordProperty("hazard", "H2");
+    const auto pages = allPages();
+    gui::PilotResult view;
+    static_cast<QWidget&>(view).show();
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&view));
+    const auto* matrix = view.findChild<QTableWidget*>("confusion");
+    int width = 900;
+    const auto look = [&](const std::pair<const char*, RunResult>& page, bool ofStudy) {
+        view.show(page.second, "/home/lab/study-1", ofStudy);
+        view.resize(width = width == 900 ? 700 : 900, 700);  // it lays the page out again
+        QCoreApplication::sendPostedEvents();
+        view.grab();
+        const auto& labels = gui::memberAt(page.second.outcome.results, "labels");
+        EXPECT_EQ(matrix->isVisible(), labels.is_array()) << page.first;
+        EXPECT_EQ(std::size_t(matrix->rowCount()), labels.is_array() ? labels.size() : 0U) << page.first;
+        EXPECT_FALSE(view.findChild<QLabel*>("pilotHeadline")->text().isEmpty()) << page.first;
+    };
+    for (const auto& first : pages) {
+        for (const auto& then : pages) {
+            SCOPED_TRACE(std::string(first.first) + ", then " + then.first);
+            look(first, false);
+            look(then, true);
+        }
+    }
 }
 
 }  // namespace
