@@ -11,6 +11,7 @@
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/base/QuantityText.h"
+#include "core/study/SessionBasis.h"
 
 namespace tacto::cli {
 
@@ -93,9 +94,8 @@ void addThresholds(TextTable& table, const json& results, const LevelText& level
 }
 
 void addParticipant(TextTable& table, const json& results) {
-    const auto participant = resultObject(results, "participant");
-    const bool isVirtual = participant.value("virtual", json()) == json(true);
-    table.add({"participant", resultText(participant, "code") + (isVirtual ? " (virtual)" : "")});
+    const auto code = resultText(resultObject(results, "participant"), "code");
+    table.add({"participant", namedWith(basisIn(results), code)});
     if (const auto parts = resultValue(results, "parts"); parts > 1)
         table.add({"parts", fmt::format("{:.0f}: the session was interrupted and went on", parts)});
 }

@@ -17,6 +17,7 @@ Json sessionJson(const StudySession& session) {
             {"code", session.code.empty() ? Json() : Json(session.code)},
             {"number", session.number},
             {"protocol", session.protocol},
+            {"basis", nameOf(session.basis)},
             {"state", nameOf(session.state)},
             {"answered", session.answered}};
 }
@@ -126,8 +127,8 @@ void sayStudy(const Study& study) {
     if (withdrawn > 0) say("  withdrawn: {}\n", withdrawn);
     for (const auto& session : study.sessions()) {
         say("  session {} of {}: {}, {}, answered {}\n", session.number,
-            session.code.empty() ? std::string("(sealed)") : session.code, session.protocol, nameOf(session.state),
-            session.answered);
+            namedWith(session.basis, session.code.empty() ? "(sealed)" : session.code), session.protocol,
+            nameOf(session.state), session.answered);
     }
     if (const auto events = study.adverseEventCount(); events > 0) say("  adverse events: {}\n", events);
     say("  ledger head {}\n", study.ledgerHead());

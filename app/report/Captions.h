@@ -9,7 +9,9 @@ namespace tacto {
 
 class Captions {
 public:
-    explicit Captions(bool simulated) : simulated_(simulated) {}
+    explicit Captions(bool simulated = false) : simulated_(simulated) {}
+    /// Whether the tables that follow are of what is simulated.
+    void setSimulated(bool simulated) { simulated_ = simulated; }
     QString figure(const QString& text, bool simulated) { return numbered("Figure", ++figures_, text, simulated); }
     QString table(const QString& text) { return numbered("Table", ++tables_, text, simulated_); }
     HeadingBlock heading(const QString& text) { return {QString("%1  %2").arg(++headings_).arg(text)}; }

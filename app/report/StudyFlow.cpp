@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "app/report/StudyText.h"
 #include "core/base/JsonFields.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/sharing/BidsFiles.h"
@@ -46,8 +47,11 @@ double highestLevel(const SessionRecord& session, const char* key) {
     return most;
 }
 
-std::string labelOf(const BidsStudy& shared, const Participant& participant) {
-    return bidsLabel(shared, static_cast<std::size_t>(std::max(0, participant.enrolled))).value_or("–");
+/// Which participant a row is of, and on what it rests.
+QString rowName(const BidsStudy& shared, const ParticipantRecord& participant, ShownName name = ShownName::Label) {
+    const auto enrolled = static_cast<std::size_t>(std::max(0, participant.about.enrolled));
+    return shown(namedWith(participant.basis, name == ShownName::Code ? participant.about.code
+                                                                      : bidsLabel(shared, enrolled).value_or("–")));
 }
 
 /// What the records that are kept say where none says that a check did not hold.
@@ -68,15 +72,17 @@ QString noRefusalText(const StudyRecord& study) {
 
 FactsBlock approvalFacts(const StudyRecord& study) {
     const auto& approval = study.settings.approval;
-    std::map<std::string, std::size_t> consents;
+    std::map<std::string, std::map<SessionBasis, std::size_t>> consents;
+    std::map<SessionBasis, std::size_t> enrolled;
     for (const auto& participant : study.participants) {
         std::set<std::string> versions;
         for (const auto& consent : participant.about.consents) versions.insert(consent.version);
-        for (const auto& version : versions) ++consents[version];
+        for (const auto& version : versions) ++consents[version][participant.basis];
+        ++enrolled[participant.basis];
     }
     QStringList given;
     for (const auto& [version, people] : consents)
-        given << QString("version %1: %2 participant(s)").arg(shown(version)).arg(people);
+        given << QString("version %1: %2").arg(shown(version), shown(countsText(people)));
     QStringList amended;
     for (const auto& amendment : study.amendments) {
         QStringList changed;
@@ -101,7 +107,7 @@ FactsBlock approvalFacts(const StudyRecord& study) {
         {"Consent form in force", shown(study.settings.consentVersion)},
         {"Consents", given.isEmpty() ? QString("none") : given.join("; ")},
         {"Participants",
-         QString("%1 enrolled of at most %2").arg(study.participants.size()).arg(study.settings.participantsMax)},
+         QString("%1 enrolled of at most %2").arg(shown(countsText(enrolled))).arg(study.settings.participantsMax)},
         massager ? ReportFact{"Highest strength permitted", "1, the whole of the massager's"}
                  : ReportFact{"Highest current permitted", QString("%1 mA").arg(study.settings.cap_mA)}};
     return block;
@@ -115,7 +121,7 @@ FactsBlock procedureFacts(const StudyRecord& study) {
     return block;
 }
 
-TableBlock flowTable(const StudyRecord& study, const QString& caption) {
+TableBlock flowTable(const StudyRecord& study, SessionBasis basis, const QString& caption) {
     std::size_t consented = 0, begun = 0, usable = 0, tested = 0, complete = 0, left = 0, withdrawn = 0;
     for (const auto& participant : study.participants) {
         const auto& about = participant.about;
@@ -135,7 +141,7 @@ TableBlock flowTable(const StudyRecord& study, const QString& caption) {
     }
     TableBlock table;
     table.caption = caption;
-    table.columns = {{"Step"}, {"Participants", true}};
+    table.columns = {{"Step"}, {peopleHeading(basis), true}};
     for (const auto& [step, people] : {std::pair<const char*, std::size_t>{"Enrolled", study.participants.size()},
                                        {"Consented", consented},
                                        {"Began a session", begun},
@@ -160,7 +166,6 @@ TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& 
                      {"Stimulated (min)", true}};
     if (!massager) table.columns.push_back({"Charge of leading phases (µC)", true});
     for (const auto& participant : study.participants) {
-        const auto& about = participant.about;
         for (const auto& session : participant.sessions) {
             QStringList drift;
             for (const auto& each : session.results.drift) {
@@ -170,9 +175,8 @@ TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& 
                              .arg(std::isfinite(ratio) ? QString::number(ratio, 'f', 2) : QString("–"),
                                   each.adapted ? ", adapted" : "");
             }
-            table.rows.push_back({shown(name == ShownName::Code ? about.code : labelOf(shared, about)),
-                                  QString::number(session.about.number), drift.isEmpty() ? "–" : drift.join("; "),
-                                  QString::number(session.exposure.trains),
+            table.rows.push_back({rowName(shared, participant, name), QString::number(session.about.number),
+                                  drift.isEmpty() ? "–" : drift.join("; "), QString::number(session.exposure.trains),
                                   QString::number(session.exposure.stimulated_s / 60, 'f', 1)});
             if (!massager) table.rows.back() << QString::number(session.exposure.charge_uC, 'f', 1);
         }
@@ -193,7 +197,7 @@ TableBlock careTable(const StudyRecord& study, const QString& caption) {
     for (const auto& participant : study.participants) {
         for (const auto& session : participant.sessions) {
             const double most = highestLevel(session, massager ? "intensity" : "current_ma");
-            table.rows.push_back({shown(labelOf(shared, participant.about)), QString::number(session.about.number),
+            table.rows.push_back({rowName(shared, participant), QString::number(session.about.number),
                                   shown(std::string(nameOf(session.about.state))),
                                   std::isfinite(most) ? QString::number(most, 'f', massager ? 2 : 1) : QString("–"),
                                   QString::number(rowsOf(session, row::kTrialBegin)),
@@ -225,12 +229,10 @@ TableBlock sideEffectsTable(const StudyRecord& study, ShownName name, const QStr
         return all.isEmpty() ? QString("nothing") : all.join("; ");
     };
     for (const auto& participant : study.participants) {
-        const auto& about = participant.about;
         for (const auto& session : participant.sessions) {
             const auto& results = session.results;
-            table.rows.push_back({shown(name == ShownName::Code ? about.code : labelOf(shared, about)),
-                                  QString::number(session.about.number), said(results, "before"),
-                                  said(results, "after"), said(results, kNextDayMoment),
+            table.rows.push_back({rowName(shared, participant, name), QString::number(session.about.number),
+                                  said(results, "before"), said(results, "after"), said(results, kNextDayMoment),
                                   results.skinNextDay ? score(results.skinNextDay) : QString("not asked")});
         }
     }
@@ -246,7 +248,7 @@ TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
         for (const auto& session : participant.sessions) {
             for (const auto& each : session.rows) {
                 if (each.name != row::kGate || !each.body.contains("holds") || flagOr(each.body, "holds")) continue;
-                table.rows.push_back({shown(labelOf(shared, participant.about)), QString::number(session.about.number),
+                table.rows.push_back({rowName(shared, participant), QString::number(session.about.number),
                                       shown(textOr(each.body, "name")), shown(textOr(each.body, "said"))});
             }
         }
@@ -261,10 +263,12 @@ TableBlock eventsTable(const StudyRecord& study, const QString& caption) {
     table.columns = {{"Session"},  {"What"},   {"Severity"}, {"Serious"},
                      {"Relation"}, {"Action"}, {"Outcome"},  {"Reported"}};
     for (const auto& [session, event] : study.events) {
-        table.rows.push_back(
-            {shown(session), shown(event.what), QString::fromStdString(scoreText(kEventSeverities, event.severity)),
-             event.serious ? "yes" : "no", QString::fromStdString(scoreText(kRelations, event.relation)),
-             shown(event.action), shown(event.outcome), event.reported ? "yes" : "no"});
+        const auto basis = study.bases.find(session);
+        table.rows.push_back({shown(basis == study.bases.end() ? session : namedWith(basis->second, session)),
+                              shown(event.what), QString::fromStdString(scoreText(kEventSeverities, event.severity)),
+                              event.serious ? "yes" : "no",
+                              QString::fromStdString(scoreText(kRelations, event.relation)), shown(event.action),
+                              shown(event.outcome), event.reported ? "yes" : "no"});
     }
     return table;
 }

@@ -12,7 +12,7 @@ namespace tacto {
 [[nodiscard]] FactsBlock approvalFacts(const StudyRecord& study);
 [[nodiscard]] FactsBlock procedureFacts(const StudyRecord& study);
 /// Every enrolled participant is in it, withdrawn ones as a number alone.
-[[nodiscard]] TableBlock flowTable(const StudyRecord& study, const QString& caption);
+[[nodiscard]] TableBlock flowTable(const StudyRecord& study, SessionBasis basis, const QString& caption);
 /// Drift of the detection threshold over the blocks, and exposure, a row a session.
 enum class ShownName { Code, Label };
 [[nodiscard]] TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& caption);

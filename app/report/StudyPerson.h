@@ -35,7 +35,8 @@ private:
     explicit StudyPerson(const ParticipantRecord& participant) : participant_(&participant) {}
     [[nodiscard]] Result<void> addSession(std::vector<ReportBlock>& blocks, Captions& captions,
                                           const AnalysedSession& one, bool massager, bool simulated) const;
-    [[nodiscard]] const std::string& name() const noexcept { return participant_->about.code; }
+    /// With what their figures rest on, where that is not a person on real devices.
+    [[nodiscard]] std::string name() const { return namedWith(participant_->basis, participant_->about.code); }
 
     const ParticipantRecord* participant_;
     std::vector<AnalysedSession> sessions_;

@@ -1,5 +1,8 @@
 #include "app/report/StudyReport.h"
 
+#include <algorithm>
+#include <map>
+
 #include "app/report/Captions.h"
 #include "app/report/StudyFlow.h"
 #include "app/report/StudyPerson.h"
@@ -13,12 +16,32 @@ namespace tacto {
 
 namespace {
 
-ReportContent begun(const StudyRecord& study, const QString& title, const QString& subtitle) {
+/// What is said before all else of figures that do not rest on people and real devices; empty of those that do.
+QString warningOf(SessionBasis basis) {
+    switch (basis) {
+        case SessionBasis::Person:
+            return {};
+        case SessionBasis::PersonSimulated:
+            return "SIMULATED DEVICES: people answered, and nothing was felt. These numbers say nothing of what people "
+                   "feel.";
+        case SessionBasis::Virtual:
+            break;
+    }
+    return "SIMULATED: the participants are a model of people. These numbers say what the program does, not what "
+           "people do.";
+}
+
+/// `parts` as of byBasis(): those that the report is of.
+ReportContent begun(const StudyRecord& study, std::vector<SessionBasis> parts, const QString& title,
+                    const QString& subtitle) {
     ReportContent content;
-    content.simulated = sharedStudy(study).simulated;
+    const auto simulated = std::ranges::count_if(parts, isSimulatedBasis);
+    content.simulated = simulated == std::ssize(parts);
     content.documentTitle = title;
-    content.header =
-        QString("Tactoscope " TACTOSCOPE_VERSION "  ·  %1%2").arg(title, content.simulated ? "  ·  simulated" : "");
+    content.header = QString("Tactoscope " TACTOSCOPE_VERSION "  ·  %1%2")
+                         .arg(title, content.simulated ? "  ·  simulated"
+                                     : simulated > 0   ? "  ·  simulated in part"
+                                                       : "");
     content.footer =
         QString("Study %1  ·  ledger head %2…").arg(qtext(study.settings.id), qtext(study.ledgerHead).left(12));
     content.blocks.emplace_back(TitleBlock{title, subtitle});
@@ -26,17 +49,35 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
         content.blocks.emplace_back(ParagraphBlock{
             "Modality: massager. What was felt was the vibration of a motor; levels are its strength, from 0 to 1."});
     for (const auto& back : study.goingsBack) content.blocks.emplace_back(ParagraphBlock{qtext(goingBackText(back))});
-    if (content.simulated) {
+    if (parts.size() > 1) {
+        std::map<SessionBasis, std::size_t> counts;
+        for (const auto& participant : study.participants) ++counts[participant.basis];
         content.blocks.emplace_back(ParagraphBlock{
-            "SIMULATED: the participants are a model of people. These numbers say what the program does, "
-            "not what people do."});
+            QString("SIMULATED IN PART: %1. Each kind has its own part of this report; no figure is of both.")
+                .arg(qtext(countsText(counts)))});
+    } else if (const auto warning = warningOf(parts.front()); !warning.isEmpty()) {
+        content.blocks.emplace_back(ParagraphBlock{warning});
     }
     return content;
 }
 
-void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vector<PersonResult> people) {
+std::vector<SessionBasis> basesOf(const std::vector<std::pair<SessionBasis, StudyRecord>>& parts) {
+    std::vector<SessionBasis> all;
+    for (const auto& [basis, part] : parts) all.push_back(basis);
+    return all;
+}
+
+/// Heads what follows of one kind where there are several.
+void beginPart(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis) {
+    blocks.emplace_back(captions.heading(peopleHeading(basis)));
+    if (const auto warning = warningOf(basis); !warning.isEmpty()) blocks.emplace_back(ParagraphBlock{warning});
+}
+
+void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis,
+                 std::vector<PersonResult> people) {
     blocks.emplace_back(captions.heading("All participants"));
-    const auto together = judgeFewPeople(std::move(people));
+    auto together = judgeFewPeople(std::move(people));
+    together.who = peopleOf(basis);
     TableBlock table;
     table.caption = captions.table("Each participant's first session with test trials, else the last");
     table.columns = {{"Participant"},          {"Usable range"},      {"Right", true},
@@ -65,19 +106,9 @@ void addApproval(std::vector<ReportBlock>& blocks, Captions& captions, const Stu
     blocks.emplace_back(procedureFacts(study));
 }
 
-const ParticipantRecord* withCode(const StudyRecord& study, const std::string& code) {
-    for (const auto& participant : study.participants) {
-        if (!participant.about.code.empty() && participant.about.code == code) return &participant;
-    }
-    return nullptr;
-}
-
-}  // namespace
-
-Result<ReportContent> studyReport(const StudyRecord& study) {
-    auto content = begun(study, qtext(study.settings.title), "Pilot study  ·  for those who run it: names codes");
-    auto& blocks = content.blocks;
-    Captions captions(content.simulated);
+/// All that is found of the participants of one kind.
+Result<void> addResults(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis,
+                        const StudyRecord& study) {
     std::vector<StudyPerson> persons;
     std::vector<PersonResult> people;
     for (const auto& participant : study.participants) {
@@ -88,10 +119,10 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
         persons.push_back(std::move(*person));
     }
     for (const auto& person : persons) person.addHeadlines(blocks);
-    addTogether(blocks, captions, std::move(people));
+    addTogether(blocks, captions, basis, std::move(people));
     for (const auto& person : persons) {
-        if (auto added = person.add(blocks, captions, study.settings.modality, content.simulated); !added)
-            return failure(added);
+        if (auto added = person.add(blocks, captions, study.settings.modality, isSimulatedBasis(basis)); !added)
+            return added;
     }
     if (auto table = preferencesTable(study)) {
         blocks.emplace_back(captions.heading("Preferred encodings"));
@@ -104,19 +135,14 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
     blocks.emplace_back(captions.heading("Side effects"));
     blocks.emplace_back(sideEffectsTable(study, ShownName::Code, captions.table("Side effects, a row a session")));
     blocks.emplace_back(captions.heading("Flow of participants"));
-    blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
-    addApproval(blocks, captions, study);
-    sharePrefixes(blocks);
-    return content;
+    blocks.emplace_back(flowTable(study, basis, captions.table("From enrolment to result")));
+    return {};
 }
 
-ReportContent committeeReport(const StudyRecord& study) {
-    auto content = begun(study, qtext(study.settings.title), "Report to the ethics committee  ·  names no participant");
-    auto& blocks = content.blocks;
-    Captions captions(content.simulated);
-    addApproval(blocks, captions, study);
+/// Who took part, and what happened to the participants of one kind.
+void addCare(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis, const StudyRecord& study) {
     blocks.emplace_back(captions.heading("Flow of participants"));
-    blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
+    blocks.emplace_back(flowTable(study, basis, captions.table("From enrolment to result")));
     blocks.emplace_back(captions.heading("Sessions"));
     blocks.emplace_back(careTable(study, captions.table("Stimulation, stops and skin, a row a session")));
     blocks.emplace_back(courseTable(study, ShownName::Label, captions.table("Drift and exposure, a row a session")));
@@ -129,6 +155,46 @@ ReportContent committeeReport(const StudyRecord& study) {
     } else {
         blocks.emplace_back(eventsTable(study, captions.table("Adverse events")));
     }
+}
+
+const ParticipantRecord* withCode(const StudyRecord& study, const std::string& code) {
+    for (const auto& participant : study.participants) {
+        if (!participant.about.code.empty() && participant.about.code == code) return &participant;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+Result<ReportContent> studyReport(const StudyRecord& study) {
+    const auto parts = byBasis(study);
+    auto content =
+        begun(study, basesOf(parts), qtext(study.settings.title), "Pilot study  ·  for those who run it: names codes");
+    auto& blocks = content.blocks;
+    Captions captions;
+    for (const auto& [basis, part] : parts) {
+        captions.setSimulated(isSimulatedBasis(basis));
+        if (parts.size() > 1) beginPart(blocks, captions, basis);
+        if (auto added = addResults(blocks, captions, basis, part); !added) return failure(added);
+    }
+    captions.setSimulated(false);
+    addApproval(blocks, captions, study);
+    sharePrefixes(blocks);
+    return content;
+}
+
+ReportContent committeeReport(const StudyRecord& study) {
+    const auto parts = byBasis(study);
+    auto content = begun(study, basesOf(parts), qtext(study.settings.title),
+                         "Report to the ethics committee  ·  names no participant");
+    auto& blocks = content.blocks;
+    Captions captions;
+    addApproval(blocks, captions, study);
+    for (const auto& [basis, part] : parts) {
+        captions.setSimulated(isSimulatedBasis(basis));
+        if (parts.size() > 1) beginPart(blocks, captions, basis);
+        addCare(blocks, captions, basis, part);
+    }
     blocks.emplace_back(SignaturesBlock{{"Principal investigator"}, {"Name", "Date", "Signature"}, {QString()}});
     sharePrefixes(blocks);
     return content;
@@ -140,7 +206,8 @@ Result<ReportContent> participantReport(const StudyRecord& study, const std::str
     const auto person = StudyPerson::analysed(*participant);
     if (!person) return failure(person);
     const auto sessions = person->tested();
-    auto content = begun(study, qtext(study.settings.title), "What you felt  ·  for the participant");
+    auto content =
+        begun(study, {participant->basis}, qtext(study.settings.title), "What you felt  ·  for the participant");
     auto& blocks = content.blocks;
     const bool massager = study.settings.modality == Modality::Massager;
     blocks.emplace_back(ParagraphBlock{

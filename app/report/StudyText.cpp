@@ -4,6 +4,12 @@
 
 namespace tacto {
 
+QString peopleHeading(SessionBasis basis) {
+    const auto words = peopleOf(basis);
+    auto text = QString::fromUtf8(words.data(), qsizetype(words.size()));
+    return text.replace(0, 1, text.at(0).toUpper());
+}
+
 QString figureText(double value, int decimals) {
     return std::isfinite(value) ? QString::number(value, 'f', decimals) : QString("–");
 }

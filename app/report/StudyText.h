@@ -7,10 +7,13 @@
 #include <string>
 
 #include "core/analysis/statistics/Estimate.h"
+#include "core/study/SessionBasis.h"
 
 namespace tacto {
 
 [[nodiscard]] inline QString qtext(const std::string& value) { return QString::fromStdString(value); }
+/// "People", "Virtual participants".
+[[nodiscard]] QString peopleHeading(SessionBasis basis);
 /// "–" for what is not known.
 [[nodiscard]] QString figureText(double value, int decimals);
 /// "85 % (76 to 91)"; "–" for what is not known.

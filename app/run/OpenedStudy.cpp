@@ -71,7 +71,7 @@ Result<OpenedStudy> openStudyFor(const RunOrder& order, const PilotOrder& pilot)
     OpenedStudy opened{std::move(*study), {}, {}};
     if (!isThere)
         opened.remarks.push_back("A rehearsal was made in " + pilot.study.string() +
-                                 "; its participants are simulated.");
+                                 (pilot.people == nullptr ? "; its participants are simulated." : "."));
     const auto modality = opened.study.settings().modality;
     if (const auto wanted = wantedModality(order); wanted && *wanted != modality)
         return fail(kGateRefused, "modality is {}; {}, that of the study in {}, is expected", nameOf(*wanted),

@@ -92,7 +92,6 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
 
     settings_.code = who_.code;
     settings_.runSha256 = runHash(study, request_.procedure);
-    settings_.isVirtual = who_.virtualSeed.has_value();
     const auto& continued = unfinished_.continued();
     settings_.session = continued ? continued->number : who_.sessions + 1;
     if (const auto& seed = unfinished_.earlier().seed) order.seed = *seed;  // The session's replaces the command's
@@ -116,7 +115,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
 
     order.mode = OutputMode::Person;
     order.person = massager ? vibrated(who_) : stimulated(who_, study, profile);
-    order.virtualParticipant = settings_.isVirtual;
+    order.virtualParticipant = who_.isVirtual();
     order.rehearsal = study_.isRehearsal();
     order.realtime = order.realtime || pilot.people != nullptr;
     if (order.uris.empty()) order.uris.push_back({"sim", "", {}});
@@ -136,17 +135,24 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     request_.code = who_.code;
     request_.script = {order.script.name, order.script.sha256};
     request_.encoding = settings_.encoding;
-    request_.codeConfirmed = pilot.codeConfirmed || settings_.isVirtual;
+    request_.codeConfirmed = pilot.codeConfirmed || who_.isVirtual();
+    request_.personAnswers = pilot.people != nullptr;
     request_.exclusions = pilot.exclusions;
-    if (!settings_.isVirtual) return;
+    if (!who_.isVirtual()) return;
     if (auto answers = virtualAnswers(order.settings.parameters)) request_.exclusions = std::move(*answers);
 }
 
 Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, const DeviceSet& devices) {
-    request_.devicesSimulated = std::ranges::all_of(devices.identities(), &DeviceIdentity::simulated);
+    const auto identities = devices.identities();
+    request_.devicesSimulated = std::ranges::all_of(identities, &DeviceIdentity::simulated);
+    if (!request_.devicesSimulated && std::ranges::any_of(identities, &DeviceIdentity::simulated))
+        return fail(kGateRefused,
+                    "some of the devices are simulated and others are not; a session takes simulated devices or real "
+                    "ones");
     auto begun = unfinished_.begin(study_, request_, remarks_);
     if (!begun) return failure(begun);
     begun_ = std::move(*begun);
+    settings_.basis = begun_->session.basis;
     auto writer = SessionWriter::create(begun_->path, about, clock, begun_->seal);
     if (!writer) return failure(writer);
     auto noted =
@@ -186,7 +192,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     made->fitOrder(order, pilot);
     const VirtualObserver* truth = nullptr;
     PilotParticipant* people = pilot.people;
-    if (made->settings_.isVirtual) {
+    if (made->who_.isVirtual()) {
         auto observer = virtualObserver(order.settings.parameters, made->study_.settings(), *made->who_.virtualSeed,
                                         made->settings_.unit);
         if (!observer) return failure(observer);
@@ -194,8 +200,10 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         std::vector<std::string> names;
         for (const auto& each : made->settings_.conditions) names.push_back(each.name);
         made->virtual_ = std::make_unique<VirtualPilotParticipant>(*observer, std::move(names));
-        truth = &made->virtual_->observer();
-        if (people == nullptr) people = made->virtual_.get();
+        if (people == nullptr) {
+            truth = &made->virtual_->observer();
+            people = made->virtual_.get();
+        }
     }
     auto run = ProtocolRun::prepare(std::move(order), registry, std::move(tap));
     if (!run) {

@@ -72,7 +72,9 @@ Result<void> PilotSession::beforeBlock(int block) {
 
 nlohmann::json PilotSession::participantJson() const {
     const auto& settings = stage_.settings();
-    return {{"code", settings.code}, {"virtual", settings.isVirtual}};
+    return {{"code", settings.code},
+            {"virtual", settings.basis == SessionBasis::Virtual},
+            {"basis", nameOf(settings.basis)}};
 }
 
 nlohmann::json PilotSession::truthJson() const {
@@ -127,6 +129,8 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
     }
     for (const char* key : {"predicted", "fit", "truth", "plan", "trials"}) results[key] = nullptr;
     results["notes"] = nlohmann::json::array();
+    if (stage_.settings().basis == SessionBasis::PersonSimulated)
+        results["notes"] = {"A person answered, and the devices are simulated: nothing was felt."};
     if (truth_ == nullptr) return results;
     results["notes"] = {"The participant, the operator, their checklist and the skin are simulated.",
                         "Response times of a virtual participant are drawn and have no source."};
@@ -188,7 +192,7 @@ Result<std::string> PilotSession::headlineText() const {
         range.lowIntensity = row.min;
         range.highIntensity = row.max;
     }
-    return headline(stage_.settings().code, *all, range);
+    return headline(namedWith(stage_.settings().basis, stage_.settings().code), *all, range);
 }
 
 }  // namespace tacto

@@ -11,13 +11,14 @@
 #include "core/base/Units.h"
 #include "core/encoding/EncodingProfile.h"
 #include "core/pilot/PilotHold.h"
+#include "core/study/SessionBasis.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto {
 
 struct PilotSettings {
     std::string code;  ///< of the participant
-    bool isVirtual = false;
+    SessionBasis basis = SessionBasis::Person;
     int session = 1;         ///< number of the participant's session
     std::uint64_t seed = 1;  ///< of order, plan and pauses; a session that is resumed has that of its plan
     std::string encoding = "standard";

@@ -1,6 +1,7 @@
 #include "core/sharing/BidsFiles.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "core/base/GivenOnce.h"
@@ -29,8 +30,60 @@ void addTable(std::vector<BidsFile>& files, const std::string& stem, const BidsT
     files.push_back({stem + ".json", textOf(about)});
 }
 
+/// How many participants and sessions there are of each kind.
+struct Basis {
+    explicit Basis(const BidsStudy& study) {
+        for (const auto& participant : study.participants) {
+            ++participants[participant.basis];
+            sessions[participant.basis] += participant.sessions.size();
+        }
+    }
+    [[nodiscard]] bool isAll(SessionBasis one) const { return participants.size() == 1 && participants.contains(one); }
+    [[nodiscard]] std::size_t of(SessionBasis one) const {
+        const auto found = sessions.find(one);
+        return found == sessions.end() ? 0 : found->second;
+    }
+    /// "SIMULATED", "SIMULATED IN PART"; of nothing but people on real devices empty.
+    [[nodiscard]] std::string word() const {
+        if (participants.empty() || isAll(SessionBasis::Person)) return {};
+        return participants.contains(SessionBasis::Person) ? "SIMULATED IN PART" : "SIMULATED";
+    }
+    std::map<SessionBasis, std::size_t> participants, sessions;
+};
+
+/// No name of what is simulated, wholly or in part, is one that a study of people could have.
 std::string titleOf(const BidsStudy& study) {
-    return study.simulated ? study.title + " (simulated participants)" : study.title;
+    const Basis basis(study);
+    if (basis.word().empty()) return study.rehearsal ? study.title + " (rehearsal)" : study.title;
+    const auto who = basis.isAll(SessionBasis::Virtual)           ? std::string("simulated participants")
+                     : basis.isAll(SessionBasis::PersonSimulated) ? std::string("people on simulated devices")
+                                                                  : countsText(basis.participants);
+    return fmt::format("{} ({}{})", study.title, study.rehearsal ? "rehearsal, " : "", who);
+}
+
+/// Approved is what people took part in.
+json approvalsOf(const BidsStudy& study) {
+    const Basis basis(study);
+    if (study.rehearsal) return json::array({"none: a rehearsal"});
+    if (!basis.participants.empty() && !basis.participants.contains(SessionBasis::Person))
+        return json::array({"none: no person took part"});
+    return study.approval.empty() ? json::array() : json::array({study.approval});
+}
+
+std::string simulatedText(const BidsStudy& study) {
+    const Basis basis(study);
+    if (basis.word().empty()) return {};
+    auto text = fmt::format("{}: basis in participants.tsv and in the tables of sessions says which.", basis.word());
+    if (const auto n = basis.of(SessionBasis::Virtual); basis.participants.contains(SessionBasis::Virtual))
+        text += fmt::format(
+            " {} session(s) are of virtual participants, a model of people, and so is what they felt: "
+            "they say what the program does, not what people do.",
+            n);
+    if (const auto n = basis.of(SessionBasis::PersonSimulated); n > 0)
+        text += fmt::format(" {} session(s) were answered by people on simulated devices: nothing was felt.", n);
+    if (const auto n = basis.of(SessionBasis::Person); n > 0)
+        text += fmt::format(" {} session(s) were answered by people on real devices.", n);
+    return text + "\n\n";
 }
 
 BidsFile description(const BidsStudy& study, std::string_view version) {
@@ -39,29 +92,24 @@ BidsFile description(const BidsStudy& study, std::string_view version) {
                {"DatasetType", "raw"},
                {"License", study.license.empty() ? "n/a" : study.license},
                {"GeneratedBy", json::array({{{"Name", "Tactoscope"}, {"Version", version}}})}};
-    about["EthicsApprovals"] =
-        json::array({study.simulated || study.approval.empty() ? "none: no person took part" : study.approval});
-    if (!study.simulated && study.approval.empty()) about["EthicsApprovals"] = json::array();
+    about["EthicsApprovals"] = approvalsOf(study);
     return {"dataset_description.json", textOf(about)};
 }
 
 BidsFile readme(const BidsStudy& study) {
+    const Basis basis(study);
     std::size_t sessions = 0;
-    for (const auto& participant : study.participants) sessions += participant.sessions.size();
-    std::string text = fmt::format(
-        "{}\n\nWhether people tell four conditions of tactile stimulation apart: {} participant(s), {} session(s).\n\n",
-        titleOf(study), study.participants.size(), sessions);
+    for (const auto& [one, n] : basis.sessions) sessions += n;
+    std::string text =
+        fmt::format("{}\n\nWhether people tell four conditions of tactile stimulation apart: {}, {} session(s).\n\n",
+                    titleOf(study), countsText(basis.participants), sessions);
     if (study.massager) {
         text +=
             "Modality: massager. What was felt was the vibration of a motor; levels are its strength, from 0 to 1. "
             "acceleration_m_s2 and the columns after it are what an accelerometer on the motor measured, and n/a where "
             "none was there.\n\n";
     }
-    if (study.simulated) {
-        text +=
-            "SIMULATED: the participants are a model of people, and so is what they felt. These data say what the "
-            "program does, not what people do.\n\n";
-    }
+    text += simulatedText(study);
     text +=
         "task-thresholds: ascending limits, detection of one train in one of two intervals, and the personal range.\n"
         "task-identification: which of the conditions was presented; trial_type catch is a presentation of nothing.\n"
@@ -78,6 +126,16 @@ std::string sharedAge(const std::string& age) {
     return years && *years >= kOldestShared ? "89+" : age;
 }
 
+BidsColumn basisColumn() {
+    return {"basis",
+            "On whom and what the figures rest",
+            "",
+            {{std::string(nameOf(SessionBasis::Person)), "a person, on real devices"},
+             {std::string(nameOf(SessionBasis::PersonSimulated)),
+              "a person answered; the devices were simulated, and nothing was felt"},
+             {std::string(nameOf(SessionBasis::Virtual)), "a model of a person, on simulated devices"}}};
+}
+
 BidsTable participantsTable(const BidsWith& with,
                             const std::vector<std::pair<std::string, const BidsParticipant*>>& labelled) {
     std::vector<BidsColumn> columns = {{"participant_id", "Label of the participant, in random order"},
@@ -88,15 +146,17 @@ BidsTable participantsTable(const BidsWith& with,
                                         {{"intact", "no limb difference"},
                                          {"limb difference", "a limb was lost or never formed"},
                                          {"virtual", "simulated by the program"}}},
-                                       {"sessions", "Sessions begun"}};
+                                       {"sessions", "Sessions begun"},
+                                       basisColumn()};
     if (with.age) columns.push_back({"age", "Age in years; 89+ from 89 on"});
     if (with.sex) columns.push_back({"sex", "female, male or other"});
     if (with.handedness) columns.push_back({"handedness", "right, left or ambidextrous"});
     BidsTable table(std::move(columns));
     for (const auto& [label, participant] : labelled) {
-        std::vector<BidsCell> cells = {"sub-" + label, participant->isVirtual ? "" : "homo sapiens",
-                                       participant->isVirtual ? "virtual" : participant->group,
-                                       participant->sessions.size()};
+        const bool isVirtual = participant->basis == SessionBasis::Virtual;
+        std::vector<BidsCell> cells = {"sub-" + label, isVirtual ? "" : "homo sapiens",
+                                       isVirtual ? "virtual" : participant->group, participant->sessions.size(),
+                                       nameOf(participant->basis)};
         if (with.age) cells.emplace_back(sharedAge(participant->age));
         if (with.sex) cells.emplace_back(participant->sex);
         if (with.handedness) cells.emplace_back(participant->handedness);
@@ -159,7 +219,8 @@ BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participa
          "Severity: " +
              scaleText(kSideEffectSeverities) + ". Relation to the stimulation: " + scaleText(kRelations)},
         {"complete", "Whether the session came to its end", "", {{"true", "yes"}, {"false", "no"}}},
-        {"parts", "1, and one more for each time it was interrupted and gone on with"}};
+        {"parts", "1, and one more for each time it was interrupted and gone on with"},
+        basisColumn()};
     columns.insert(columns.end(), more.begin(), more.end());
     BidsTable table(std::move(columns));
     for (const auto& session : participant.sessions) {
@@ -167,7 +228,8 @@ BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participa
         std::ranges::move(feltCells(study, session), std::back_inserter(cells));
         for (const BidsCell& cell :
              {BidsCell(session.skinBefore), BidsCell(session.skinAfter), BidsCell(session.skinNextDay),
-              BidsCell(sideEffectsNextDay(session)), BidsCell(session.complete), BidsCell(session.parts)})
+              BidsCell(sideEffectsNextDay(session)), BidsCell(session.complete), BidsCell(session.parts),
+              BidsCell(nameOf(session.basis))})
             cells.push_back(cell);
         table.add(std::move(cells));
     }
@@ -190,7 +252,9 @@ void addSession(std::vector<BidsFile>& files, const std::string& subject, const 
           Task{"sideeffects", "Say what is noticed at the skin and otherwise", sideEffectsTable(session, massager)}}) {
         if (task.table.isEmpty()) continue;
         addTable(files, fmt::format("{}{}_beh", stem, task.name), task.table,
-                 {{"TaskName", task.name}, {"TaskDescription", task.description}});
+                 {{"TaskName", task.name},
+                  {"TaskDescription", task.description},
+                  {"Basis", std::string(nameOf(session.basis))}});
     }
 }
 
@@ -234,9 +298,14 @@ Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& 
         if (!label) return failure(label);
         labelled.emplace_back(*label, &participant);
         for (const auto& session : participant.sessions) {
-            if (session.number >= 1) continue;
-            return fail(ErrorCode::InvalidArgument, "session {} of participant {}; a number from 1 is expected",
-                        session.number, participant.enrolled);
+            if (session.number < 1)
+                return fail(ErrorCode::InvalidArgument, "session {} of participant {}; a number from 1 is expected",
+                            session.number, participant.enrolled);
+            if (session.basis != participant.basis)
+                return fail(ErrorCode::InvalidArgument,
+                            "session {} of participant {} rests on a {}, and other sessions of theirs on a {}; one "
+                            "basis for a participant is expected",
+                            session.number, participant.enrolled, nameOf(session.basis), nameOf(participant.basis));
         }
         if (const auto* second = secondIn(participant.sessions, &BidsSession::number)) {
             return fail(ErrorCode::InvalidArgument, "{}",

@@ -17,6 +17,7 @@
 #include "core/analysis/vibration/BurstFigures.h"
 #include "core/base/NaN.h"
 #include "core/base/Units.h"
+#include "core/study/SessionBasis.h"
 
 namespace tacto {
 
@@ -70,6 +71,7 @@ struct BidsDrift {
 
 struct BidsSession {
     std::size_t number = 0;
+    SessionBasis basis = SessionBasis::Person;
     double days = kNaN;  ///< since the person's first, whole days
     std::string encoding;
     Ohms impedance{kNaN};
@@ -100,16 +102,16 @@ struct BidsSession {
 }
 
 struct BidsParticipant {
-    std::size_t enrolled = 0;  ///< 1, 2, ...: decides the label together with BidsStudy::labelSeed
-    std::string group;         ///< "intact", "limb difference"
-    bool isVirtual = false;
-    std::string age, sex, handedness;  ///< empty where they were not asked for
+    std::size_t enrolled = 0;                   ///< 1, 2, ...: decides the label together with BidsStudy::labelSeed
+    std::string group;                          ///< "intact", "limb difference"
+    SessionBasis basis = SessionBasis::Person;  ///< of all their sessions
+    std::string age, sex, handedness;           ///< empty where they were not asked for
     std::vector<BidsSession> sessions;
 };
 
 struct BidsStudy {
     std::string title;
-    bool simulated = false;  ///< rehearsal, or every participant is virtual
+    bool rehearsal = false;  ///< which no committee has approved
     std::string approval;    ///< reference and committee; empty: none
     std::string license;     ///< under which the data may be used; empty: not decided
     bool massager = false;   ///< felt through one: levels are intensities, and there are no electrodes

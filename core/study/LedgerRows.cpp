@@ -103,7 +103,7 @@ public:
             return {};
         }
         if (row.name == ledger::kWithdrawn) {
-            withdrawn(*participant);
+            withdrawn(*participant, flagOr(row.body, "virtual"));
             return {};
         }
         if (row.name == ledger::kSessionBegun) return sessionBegun(row, *participant);
@@ -220,8 +220,9 @@ private:
     }
 
     /// What the key may still open, until it is destroyed, is shown no more.
-    void withdrawn(Participant& participant) {
+    void withdrawn(Participant& participant, bool isVirtual) {
         Participant left;
+        left.virtualGone = isVirtual;
         left.id = participant.id;
         left.enrolled = participant.enrolled;
         left.sessions = participant.sessions;
@@ -249,6 +250,10 @@ private:
         session.code = participant.code;
         session.number = ++participant.sessions;
         session.protocol = textOr(row.body, "protocol");
+        // A row of before it was noted: people took part in studies, and virtual participants in rehearsals.
+        const bool rehearsal = textOr(state.settings, "kind") == nameOf(StudyKind::Rehearsal);
+        const auto usual = participant.isVirtual() || rehearsal ? SessionBasis::Virtual : SessionBasis::Person;
+        session.basis = valueFor(kSessionBases, textOr(row.body, "basis")).value_or(usual);
         session.parts.push_back({textOr(row.body, "file"), std::chrono::sys_seconds(wholeSeconds(row.at))});
         state.sessions.push_back(std::move(session));
         return {};

@@ -2,8 +2,8 @@
 // their replay gives. What a row says of a person is sealed under that person's key.
 //
 //   study, amendment      {settings, sha256, reference}      enrolled  {participant, sealed}
-//   consent               {participant, sealed}              left, withdrawn  {participant, sessions}
-//   session-begun         {session, file, participant, number, protocol, script_sha256, sealed}
+//   consent               {participant, sealed}              left, withdrawn  {participant, sessions}; withdrawn:
+//   virtual session-begun         {session, file, participant, number, protocol, basis, script_sha256, sealed}
 //   session-part          {session, file, participant, after, head}
 //   session-ended         {session, participant, state, file, head}, "opened": false where its bench could not be
 //   excluded              {participant, sealed}              of that day

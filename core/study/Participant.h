@@ -44,10 +44,12 @@ struct Participant {
     std::string age, sex, handedness;          ///< only where the approval asks for them, whole years; else empty
     std::vector<Consent> consents;
     ParticipantState state = ParticipantState::Active;
-    int sessions = 0;      ///< begun
-    int enrolled = 0;      ///< 1, 2, ... in the order of enrolment: what an order of encodings goes by
-    bool readable = true;  ///< false: all but id, state, sessions and enrolled is sealed and there is no key
+    int sessions = 0;          ///< begun
+    int enrolled = 0;          ///< 1, 2, ... in the order of enrolment: what an order of encodings goes by
+    bool virtualGone = false;  ///< a virtual participant's who withdrew: the seed is gone
+    bool readable = true;      ///< false: all but id, state, sessions and enrolled is sealed and there is no key
     bool operator==(const Participant&) const = default;
+    [[nodiscard]] bool isVirtual() const noexcept { return virtualSeed.has_value() || virtualGone; }
 };
 
 /// What names a virtual participant before a code does: "virtual:SEED".

@@ -220,8 +220,9 @@ Result<void> Study::withdraw(std::string_view code) {
             participant->code);
     }
     // The note first: a key that is gone without it would look like damage. open() finishes what a crash leaves.
-    auto noted =
-        state_->append(ledger::kWithdrawn, {{"participant", participant->id}, {"sessions", participant->sessions}});
+    auto noted = state_->append(
+        ledger::kWithdrawn,
+        {{"participant", participant->id}, {"sessions", participant->sessions}, {"virtual", participant->isVirtual()}});
     if (!noted) return noted;
     if (auto destroyed = state_->keys->destroy(participant->id); !destroyed) return destroyed;
     return state_->read();
@@ -249,6 +250,19 @@ Result<void> Study::noteExclusions(const SessionRequest& request) {
     return state_->appendOf(*participant, ledger::kExcluded, nlohmann::json::object(), {{"items", std::move(items)}});
 }
 
+SessionBasis Study::basisOf(const SessionRequest& request, const Participant& who) noexcept {
+    if (who.isVirtual() && !request.personAnswers) return SessionBasis::Virtual;
+    return request.devicesSimulated ? SessionBasis::PersonSimulated : SessionBasis::Person;
+}
+
+SessionBasis Study::basisOf(const Participant& who) const {
+    for (const auto& session : state_->known.sessions) {
+        if (session.participant == who.id && session.opened) return session.basis;
+    }
+    const bool simulated = isRehearsal() && settings().modality == Modality::Electrodes;
+    return basisOf({.code = {}, .script = {}, .encoding = {}, .devicesSimulated = simulated, .exclusions = {}}, who);
+}
+
 Result<void> Study::mayBegin(const SessionRequest& request) const {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(request.code);
@@ -270,6 +284,7 @@ Result<BegunSession> Study::beginSession(const SessionRequest& request) {
                                    {"file", id},
                                    {"number", participant->sessions + 1},
                                    {"protocol", request.script.name},
+                                   {"basis", nameOf(basisOf(request, *participant))},
                                    {"script_sha256", request.script.sha256}},
                                   {{"encoding", request.encoding}});
     if (!noted) return failure(noted);

@@ -33,6 +33,7 @@
 #include "core/study/NextDay.h"
 #include "core/study/Participant.h"
 #include "core/study/ScoreWords.h"
+#include "core/study/SessionBasis.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto {
@@ -61,6 +62,7 @@ struct StudySession {
     std::string protocol;
     std::string encoding;
     StudySessionState state = StudySessionState::Unfinished;
+    SessionBasis basis = SessionBasis::Person;
     bool opened = true;            ///< false where the program noted that its bench could not be opened
     std::vector<StudyPart> parts;  ///< in the order begun, at least one
     int answered = 0;              ///< rows "answer" in its files
@@ -94,6 +96,7 @@ struct SessionRequest {
     std::string encoding;
     bool codeConfirmed = false;  ///< the participant read the code on their own screen and said that it is theirs
     bool devicesSimulated = false;
+    bool personAnswers = false;  ///< in a rehearsal: for a virtual participant
     std::vector<ExclusionAnswer> exclusions;
 };
 
@@ -177,6 +180,10 @@ public:
     [[nodiscard]] bool hasKey() const noexcept;
     /// 64 hexadecimal digits.
     [[nodiscard]] std::string ledgerHead() const;
+    /// On whom and what the figures of such a session would rest.
+    [[nodiscard]] static SessionBasis basisOf(const SessionRequest& request, const Participant& who) noexcept;
+    /// On whom and what those of this participant rest: all their sessions, or the one that they would begin.
+    [[nodiscard]] SessionBasis basisOf(const Participant& who) const;
     /// Today in UTC, by the clock of the ledger's rows.
     [[nodiscard]] CalibrationDate today() const;
     /// The record and approval gates, now: before each block, and for what the window shows.

@@ -67,6 +67,24 @@ Result<void> StudyGates::stillApproved() const {
     return approvalGate(book_.settings, book_.today());
 }
 
+/// What a person answered and what a virtual participant did are never one participant's.
+Result<void> StudyGates::basisGate(const SessionRequest& request, const Participant& participant) const {
+    if (request.personAnswers && participant.isVirtual() && book_.settings.kind == StudyKind::Study)
+        return fail(kGateRefused,
+                    "{} is a virtual participant and answers by itself; a person answers for it in a "
+                    "rehearsal only",
+                    participant.code);
+    const auto now = Study::basisOf(request, participant);
+    for (const auto& session : book_.known.sessions) {
+        if (session.participant != participant.id || !session.opened || session.basis == now) continue;
+        return fail(kGateRefused,
+                    "session {} of {} rests on a {}, and this one would rest on a {}; another participant, or another "
+                    "seed, is expected",
+                    session.number, participant.code, nameOf(session.basis), nameOf(now));
+    }
+    return {};
+}
+
 Result<void> StudyGates::session(const SessionRequest& request, Participant participant, bool again) const {
     if (auto holds = stillApproved(); !holds) return holds;
     if (auto holds = scriptGate(book_.settings, request.script); !holds) return holds;
@@ -97,7 +115,8 @@ Result<void> StudyGates::session(const SessionRequest& request, Participant part
                     participant.code);
     }
     if (auto holds = exclusionGate(request.exclusions); !holds) return holds;
-    return simulationGate(book_.settings, participant, request.devicesSimulated);
+    if (auto holds = simulationGate(book_.settings, participant, request.devicesSimulated); !holds) return holds;
+    return basisGate(request, participant);
 }
 
 }  // namespace tacto

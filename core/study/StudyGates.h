@@ -28,6 +28,7 @@ public:
     [[nodiscard]] Result<void> session(const SessionRequest& request, Participant participant, bool again) const;
 
 private:
+    [[nodiscard]] Result<void> basisGate(const SessionRequest& request, const Participant& participant) const;
     const StudyBook& book_;
 };
 

@@ -48,7 +48,7 @@ TEST_F(PilotStageTest, NoDriftTrialLiesAboveTheTopOfTheRange) {
     who.adaptation = 3;
     PilotSettings settings;
     settings.code = "P-7K3M";
-    settings.isVirtual = true;
+    settings.basis = SessionBasis::Virtual;
     settings.blocks = 2;
     std::vector<std::string> names;
     for (const auto& each : settings.conditions) names.push_back(each.name);

@@ -26,7 +26,7 @@ protected:
         record_ = std::make_unique<PilotRecord>(*writer_, *clock_, earlier);
         PilotSettings settings;
         settings.code = "P-7K3M";
-        settings.isVirtual = true;
+        settings.basis = SessionBasis::Virtual;
         settings.unit = LevelUnit::Intensity;
         settings.cap = 1;
         stage_ = std::make_unique<PilotStage>(*bench_, someone_, *record_, settings);

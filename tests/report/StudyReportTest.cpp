@@ -7,8 +7,10 @@
 #include "app/report/Report.h"
 #include "app/report/StudyReport.h"
 #include "core/base/Csv.h"
+#include "core/base/Random.h"
 #include "core/pilot/PilotRecord.h"
 #include "tests/support/Support.h"
+#include "tests/support/Trials.h"
 
 namespace tacto {
 namespace {
@@ -293,7 +295,7 @@ TEST(StudyReport, TheCommitteesNamesNoCodeAndNoAnswer) {
     EXPECT_THAT(said, Not(HasSubstr("P-AAAA")));
     EXPECT_THAT(said, Not(HasSubstr("85 %")));
     EXPECT_THAT(said, HasSubstr("EK 2026/117"));
-    EXPECT_THAT(said, HasSubstr("version 2: 3 participant(s)"));
+    EXPECT_THAT(said, HasSubstr("version 2: 3 people"));
     EXPECT_THAT(said, HasSubstr("the skin scores 2"));
     EXPECT_THAT(said, HasSubstr("redness | 2 moderate | no | 5 definite"));
     EXPECT_THAT(said, HasSubstr("Enrolled | 3"));
@@ -316,10 +318,117 @@ TEST(StudyReport, SimulatedParticipantsAreCalledSo) {
     RecordProperty("hazard", "H9");
     auto study = studyOfThree();
     study.rehearsal = true;
+    for (auto& participant : study.participants) participant.basis = SessionBasis::Virtual;
     const auto content = studyReport(study);
     ASSERT_TRUE(content);
     EXPECT_TRUE(content->simulated);
     EXPECT_THAT(textOf(*content), HasSubstr("SIMULATED"));
+}
+
+/// A study of people, people on simulated devices and virtual participants in an order drawn at random, with and
+/// without sessions, consent and a part in it still. Codes say which is which: P-P…, P-S…, P-V….
+StudyRecord mixedStudy(Random& random) {
+    auto study = studyOfThree();
+    study.participants.clear();
+    study.events.clear();
+    const auto all = 1 + random.below(9);
+    for (std::size_t i = 1; i <= all; ++i) {
+        const auto basis = kSessionBases[random.below(3)].value;
+        std::vector<SessionRecord> sessions;
+        const auto count = random.below(3);
+        for (std::size_t number = 1; number <= count; ++number) {
+            sessions.push_back(sessionWith(20 + random.below(60), int(number), number == 1 ? "standard" : "swapped",
+                                           double(7 * number)));
+            sessions.back().about.id = fmt::format("{:016x}", 16 * i + number);
+            sessions.back().about.basis = sessions.back().results.basis = basis;
+            study.bases.emplace(sessions.back().about.id, basis);
+            AdverseEvent event;
+            event.what = fmt::format("event of {}", "PSV"[std::size_t(basis)]);
+            study.events.emplace_back(sessions.back().about.id, event);
+        }
+        auto one = participantWith(fmt::format("P-{}{:03}", "PSV"[std::size_t(basis)], i), int(i), sessions);
+        one.basis = basis;
+        if (random.below(3) == 0) one.about.consents.clear();
+        if (random.below(4) == 0) one.about.state = ParticipantState::Left;
+        if (basis == SessionBasis::Virtual) one.about.virtualSeed = i;
+        study.participants.push_back(one);
+    }
+    return study;
+}
+
+/// Which kinds a text names: by the codes and events of mixedStudy().
+std::set<char> kindsIn(const std::string& text) {
+    std::set<char> all;
+    static const std::regex named("P-([PSV])\\d{3}|event of ([PSV])");
+    for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at)
+        all.insert(((*at)[1].matched ? (*at)[1] : (*at)[2]).str().front());
+    return all;
+}
+
+TEST(StudyReport, NoFigureOrTableIsOfPeopleAndOfSimulatedOnesTogether) {
+    RecordProperty("hazard", "H8");
+    Random random(1847, "mixed studies");
+    for (int trial = 0; trial < test::trials<int>({.local = 40, .ci = 200, .campaign = 2000}); ++trial) {
+        const auto study = mixedStudy(random);
+        std::map<char, std::size_t> enrolled, consented, begun;
+        for (const auto& one : study.participants) {
+            const char kind = one.about.code.at(2);
+            ++enrolled[kind];
+            consented[kind] += one.about.consents.empty() ? 0 : 1;
+            begun[kind] += one.sessions.empty() ? 0 : 1;
+        }
+        const auto whole = studyReport(study);
+        ASSERT_TRUE(whole) << whole.error().message;
+        const auto committee = committeeReport(study);
+        for (const auto* content : {&*whole, &committee}) {
+            SCOPED_TRACE(textOf(*content));
+            EXPECT_EQ(content->simulated, !enrolled.contains('P'));
+            EXPECT_EQ(textOf(*content).find("SIMULATED") != std::string::npos, enrolled.size() > enrolled.count('P'));
+            for (const auto& block : content->blocks) {
+                const auto* table = std::get_if<TableBlock>(&block);
+                const auto* said = std::get_if<ParagraphBlock>(&block);
+                const auto* figure = std::get_if<FigureBlock>(&block);
+                auto text = (table != nullptr    ? table->caption
+                             : said != nullptr   ? said->text
+                             : figure != nullptr ? figure->caption
+                                                 : QString())
+                                .toStdString();
+                for (const auto& row : table != nullptr ? table->rows : std::vector<QStringList>())
+                    text += '\n' + row.join(" | ").toStdString();
+                const auto kinds = kindsIn(text);
+                ASSERT_LE(kinds.size(), 1U) << text;
+                if (kinds.empty()) continue;
+                EXPECT_EQ(kinds.contains('V'), text.find("(virtual)") != std::string::npos) << text;
+                EXPECT_EQ(kinds.contains('S'), text.find("(simulated devices)") != std::string::npos) << text;
+                if (table == nullptr && figure == nullptr) continue;
+                const bool marked = text.find("(simulated)") != std::string::npos;
+                EXPECT_EQ(marked, !kinds.contains('P')) << text;
+            }
+            // Each kind's own flow, by the heading of its column.
+            std::map<std::string, std::size_t> shown;
+            for (const auto& block : content->blocks) {
+                const auto* table = std::get_if<TableBlock>(&block);
+                if (table == nullptr || table->columns.front().title != "Step") continue;
+                const auto who = table->columns.at(1).title;
+                const char kind = who == "People" ? 'P' : who == "Virtual participants" ? 'V' : 'S';
+                EXPECT_EQ(table->rows.at(0).at(1).toULong(), enrolled[kind]) << who.toStdString();
+                EXPECT_EQ(table->rows.at(1).at(1).toULong(), consented[kind]) << who.toStdString();
+                EXPECT_EQ(table->rows.at(2).at(1).toULong(), begun[kind]) << who.toStdString();
+                ++shown[who.toStdString()];
+            }
+            std::size_t kinds = 0;
+            for (const auto& [kind, n] : enrolled) kinds += n > 0 ? 1 : 0;
+            EXPECT_EQ(shown.size(), kinds);
+        }
+        const auto said = textOf(*whole);
+        EXPECT_EQ(said.find("of such people can") != std::string::npos, begun['P'] > 0) << said;
+        EXPECT_EQ(said.find("of such virtual participants can") != std::string::npos, begun['V'] > 0) << said;
+        for (const auto& one : study.participants) {
+            const auto own = participantReport(study, one.about.code);
+            ASSERT_TRUE(own) << own.error().message;
+            EXPECT_EQ(own->simulated, one.about.code.at(2) != 'P') << one.about.code;
+        }
+    }
 }
 
 TEST(StudyReport, AStudyWithoutSessionsHasAReportToo) {

@@ -8,10 +8,12 @@
 
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
+#include "core/base/Random.h"
 #include "core/base/Text.h"
 #include "core/sharing/BidsFiles.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/Support.h"
+#include "tests/support/Trials.h"
 
 namespace tacto {
 namespace {
@@ -86,6 +88,11 @@ BidsStudy studyOfThree() {
         study.participants.push_back(std::move(participant));
     }
     return study;
+}
+
+void restOn(BidsParticipant& participant, SessionBasis basis) {
+    participant.basis = basis;
+    for (auto& session : participant.sessions) session.basis = basis;
 }
 
 std::map<std::string, std::string> filesOf(const BidsStudy& study, const BidsWith& with = {}) {
@@ -168,7 +175,7 @@ TEST(BidsFiles, NothingIsDatedAndOnlyWhatIsAskedForIsIdentifying) {
     static const std::regex date(R"((19|20)\d\d-\d\d|\d\d:\d\d)");
     for (const auto& [path, text] : filesOf(studyOfThree())) EXPECT_FALSE(std::regex_search(text, date)) << path;
     EXPECT_EQ(tableOf(filesOf(studyOfThree()).at("participants.tsv"))[0],
-              (std::vector<std::string>{"participant_id", "species", "group", "sessions"}));
+              (std::vector<std::string>{"participant_id", "species", "group", "sessions", "basis"}));
     const auto with = tableOf(filesOf(studyOfThree(), {.age = true}).at("participants.tsv"));
     EXPECT_EQ(with[0].back(), "age");
     EXPECT_EQ(with[1].back(), "34");
@@ -204,14 +211,84 @@ TEST(BidsFiles, MoreParticipantsThanTheFirstApprovalAllowedChangeNoLabel) {
 TEST(BidsFiles, SimulatedParticipantsAreCalledSo) {
     RecordProperty("hazard", "H9");
     auto study = studyOfThree();
-    study.simulated = true;
-    for (auto& participant : study.participants) participant.isVirtual = true;
+    for (auto& participant : study.participants) restOn(participant, SessionBasis::Virtual);
     const auto files = filesOf(study);
     EXPECT_THAT(files.at("dataset_description.json"), HasSubstr("simulated"));
     EXPECT_THAT(files.at("README"), HasSubstr("SIMULATED"));
     const auto rows = tableOf(files.at("participants.tsv"));
     EXPECT_EQ(rows[1][1], "n/a");
     EXPECT_EQ(rows[1][2], "virtual");
+}
+
+TEST(BidsFiles, WhatIsSimulatedSaysSoInEachNameCountAndRow) {
+    RecordProperty("hazard", "H8");
+    Random random(1848, "mixed exports");
+    for (int trial = 0; trial < test::trials<int>({.local = 200, .ci = 1000, .campaign = 10'000}); ++trial) {
+        auto study = studyOfThree();
+        study.rehearsal = random.below(3) == 0;
+        study.participants.clear();
+        study.places = 9;
+        std::map<SessionBasis, std::size_t> people, sessions;
+        const auto all = 1 + random.below(9);
+        for (std::size_t i = 1; i <= all; ++i) {
+            BidsParticipant one;
+            one.enrolled = i;
+            one.group = "intact";
+            const auto count = random.below(3);  // who is enrolled and had no session is of their kind too
+            for (std::size_t number = 1; number <= count; ++number) one.sessions.push_back(sessionOf(number, 0));
+            restOn(one, kSessionBases[random.below(3)].value);
+            ++people[one.basis];
+            sessions[one.basis] += count;
+            study.participants.push_back(std::move(one));
+        }
+        const auto files = filesOf(study);
+        const auto& readme = files.at("README");
+        SCOPED_TRACE(readme);
+        const auto about = *parseJson(files.at("dataset_description.json"), "description");
+        const auto name = about.at("Name").get<std::string>();
+        const bool only = people.size() == 1 && people.contains(SessionBasis::Person);
+        EXPECT_EQ(name == study.title, only && !study.rehearsal) << name;
+        EXPECT_EQ(name.find("rehearsal") != std::string::npos, study.rehearsal) << name;
+        EXPECT_EQ(readme.find("SIMULATED") != std::string::npos, !only);
+        EXPECT_EQ(about.at("EthicsApprovals") == json::array({study.approval}),
+                  people.contains(SessionBasis::Person) && !study.rehearsal);
+        for (const auto& [basis, n] : people) {
+            const auto counted = fmt::format("{} {}", n, peopleOf(basis, n));
+            EXPECT_THAT(readme, HasSubstr(counted));
+            if (people.size() > 1) {
+                EXPECT_THAT(name, HasSubstr(counted));
+            }
+            if (!only && sessions[basis] > 0) {
+                EXPECT_THAT(readme, HasSubstr(fmt::format("{} session(s)", sessions[basis])));
+            }
+        }
+        const auto rows = tableOf(files.at("participants.tsv"));
+        ASSERT_EQ(rows[0][4], "basis");
+        for (std::size_t i = 1; i <= all; ++i) {
+            const auto label = rows[i][0];
+            const auto one = std::ranges::find_if(study.participants, [&](const BidsParticipant& each) {
+                return "sub-" + *bidsLabel(study, each.enrolled) == label;
+            });
+            EXPECT_EQ(rows[i][4], nameOf(one->basis));
+            EXPECT_EQ(rows[i][1] == "homo sapiens", one->basis != SessionBasis::Virtual);
+            if (one->sessions.empty()) continue;
+            const auto each = tableOf(files.at(fmt::format("{0}/{0}_sessions.tsv", label)));
+            ASSERT_EQ(each[0].back(), "basis");
+            for (std::size_t row = 1; row < each.size(); ++row) EXPECT_EQ(each[row].back(), nameOf(one->basis));
+            const auto task = fmt::format("{0}/ses-01/beh/{0}_ses-01_task-identification_beh.json", label);
+            EXPECT_EQ(parseJson(files.at(task), task)->at("Basis"), nameOf(one->basis));
+        }
+    }
+}
+
+TEST(BidsFiles, AParticipantOfTwoBasesIsRefused) {
+    RecordProperty("hazard", "H8");
+    auto study = studyOfThree();
+    study.participants[1].sessions[1].basis = SessionBasis::Virtual;
+    EXPECT_EQ(
+        bidsFiles(study, {}, "1.2.3").error().message,
+        "session 2 of participant 2 rests on a virtual participant, and other sessions of theirs on a person; one "
+        "basis for a participant is expected");
 }
 
 TEST(BidsFiles, DescriptionHasTheFieldsOfTheDesign) {

@@ -1,4 +1,6 @@
 // The participants of a study: enrolled, consented, asked the day after, left and withdrawn.
+#include <gmock/gmock.h>
+
 #include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
 
@@ -37,6 +39,63 @@ TEST_F(Desk, AWithdrawnParticipantLeavesNothingThatOpens) {
     EXPECT_TRUE(SessionReader::open(path)->locked());
     EXPECT_TRUE(study->stillApproved());  // the chains stay whole
     EXPECT_EQ(everythingBelow(scratch.path() / "home").find(code), std::string::npos);
+}
+
+TEST_F(Desk, ASessionSaysOnWhomAndWhatItRestsForAsLongAsThereIsALedger) {
+    RecordProperty("hazard", "H8");
+    std::string gone;
+    {
+        auto study = make();
+        const auto code = enrolled(study, 1);
+        gone = enrolled(study, 2);
+        auto asPerson = test::someRequest(code);
+        asPerson.personAnswers = true;
+        EXPECT_THAT(study.beginSession(asPerson).error().message,
+                    testing::HasSubstr("is a virtual participant and answers by itself"));
+        const auto begun = study.beginSession(test::someRequest(code)).value();
+        EXPECT_EQ(begun.session.basis, SessionBasis::Virtual);
+        ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+        Participant person;
+        const auto other = study.enrol(person).value();
+        EXPECT_EQ(study.basisOf(other), SessionBasis::Person) << "also without consent or session";
+        ASSERT_TRUE(study.withdraw(code));
+        ASSERT_TRUE(study.withdraw(gone));
+    }
+    const auto sealed = openWithoutKey();
+    ASSERT_TRUE(sealed) << sealed.error().message;
+    EXPECT_EQ(sealed->sessions().at(0).basis, SessionBasis::Virtual);
+    const auto study = open();
+    ASSERT_TRUE(study) << study.error().message;
+    EXPECT_EQ(study->basisOf(study->participants().at(0)), SessionBasis::Virtual);
+    EXPECT_EQ(study->basisOf(study->participants().at(1)), SessionBasis::Virtual) << "withdrawn without a session";
+}
+
+TEST_F(Desk, APersonAndAVirtualParticipantAreNeverOneParticipantOfARehearsal) {
+    RecordProperty("hazard", "H8");
+    auto study = Study::createRehearsal(folder(), {}, around()).value();
+    for (const bool personFirst : {true, false}) {
+        Participant made;
+        made.virtualSeed = personFirst ? 1 : 2;
+        const auto code = study.enrol(made).value().code;
+        ASSERT_TRUE(study.consent(code, {study.settings().consentVersion, study.today(), "KL"}));
+        auto request = test::someRequest(code);
+        request.personAnswers = personFirst;
+        const auto begun = study.beginSession(request).value();
+        EXPECT_EQ(begun.session.basis, personFirst ? SessionBasis::PersonSimulated : SessionBasis::Virtual);
+        const auto chain = record(begun);
+        request.personAnswers = !personFirst;
+        const auto resumed = study.continueSession(begun.session.id, request);
+        ASSERT_FALSE(resumed);
+        ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, chain));
+        const auto refused = study.beginSession(request);
+        ASSERT_FALSE(refused);
+        for (const auto& why : {resumed.error(), refused.error()}) {
+            EXPECT_EQ(why.code, kGateRefused);
+            EXPECT_THAT(why.message, testing::HasSubstr("another seed, is expected"));
+        }
+        request.personAnswers = personFirst;
+        EXPECT_TRUE(study.beginSession(request));
+    }
 }
 
 TEST_F(Desk, WhoLeavesKeepsTheirData) {

@@ -17,6 +17,7 @@
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/base/JsonFields.h"
 #include "core/session/ResultKind.h"
+#include "core/study/SessionBasis.h"
 
 namespace tacto::gui {
 
@@ -54,10 +55,26 @@ QString orBeyond(const nlohmann::json& results, const char* atEdge) {
     return memberAt(results, atEdge) == true ? QObject::tr(", or beyond") : QString();
 }
 
+/// On whom and what the figures rest, where that is not a person on real devices.
+QString basisWords(const RunResult& result) {
+    if (memberAt(result.outcome.results, "participant").is_object()) {
+        switch (basisIn(result.outcome.results)) {
+            case SessionBasis::Person:
+                break;
+            case SessionBasis::PersonSimulated:
+                return QObject::tr("Answered by a person, on simulated devices: nothing was felt. ");
+            case SessionBasis::Virtual:
+                return QObject::tr("Simulated: answered by a virtual participant. ");
+        }
+    }
+    return result.simulated ? QObject::tr("Simulated. ") : QString();
+}
+
 /// The headline of a session that measured thresholds only.
 QString thresholdSentence(const nlohmann::json& results) {
     auto who = textIn(results, "participant.code");
     if (who.isEmpty()) who = QObject::tr("The participant");
+    who = qtext(namedWith(basisIn(results), who.toStdString()));
     const bool massager = isMassager(results);
     const auto& estimate = memberAt(results, massager ? "detection.estimate_intensity" : "detection.estimate_ma");
     const double value = numberIn(estimate, "value");
@@ -207,7 +224,7 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
     }
     blocks_->setText(blocks.isEmpty() ? QString() : tr("Right in ") + blocks.join(", ") + '.');
     blocks_->setVisible(!blocks.isEmpty());
-    note_->setText((result.simulated ? tr("Simulated. ") : QString()) +
+    note_->setText(basisWords(result) +
                    (ofStudy ? tr("In the study at %1.") : tr("In the rehearsal at %1.")).arg(folder) +
                    (result.markers ? ' ' + qtext(markersSentence(*result.markers)) : QString()));
     goOn_->setVisible(outcome.error.has_value() && !ofStudy);

@@ -47,7 +47,7 @@ std::string localText(std::chrono::sys_seconds at) {
 json sessionRows(const std::vector<StudySession>& sessions) {
     auto rows = json::array();
     for (const auto& one : sessions)
-        rows.push_back({{"code", one.code.empty() ? json() : json(one.code)},
+        rows.push_back({{"code", one.code.empty() ? json() : json(namedWith(one.basis, one.code))},
                         {"number", one.number},
                         {"protocol", protocolWords(one.protocol).toStdString()},
                         {"state", stateWords(one.state).toStdString()},

@@ -42,7 +42,7 @@ std::string fewPeopleSentence(const FewPeople& found) {
     text += found.aboveChance == n
                 ? fmt::format("at least {:.0f} %", 100 * found.prevalence.low)
                 : fmt::format("{:.0f} to {:.0f} %", 100 * found.prevalence.low, 100 * found.prevalence.high);
-    text += " of such people can tell them apart (95 %).";
+    text += fmt::format(" of such {} can tell them apart (95 %).", found.who);
     if (left > 0) {
         text += fmt::format(" {} of {} participants {} left out: {}", left, n + left, left == 1 ? "was" : "were",
                             leftOutText(found.leftOut));

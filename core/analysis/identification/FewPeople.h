@@ -33,6 +33,7 @@ struct PersonLeftOut {
 struct FewPeople {
     std::vector<PersonResult> people;
     std::vector<PersonLeftOut> leftOut;  ///< in none of the figures
+    std::string who = "people";          ///< of whom this says something: "virtual participants"
     Statistics accuracy;                 ///< over those who answered test trials
     Statistics itCorrected_bits;         ///< the same
     std::size_t aboveChance = 0;         ///< p < 0.05 each by themselves

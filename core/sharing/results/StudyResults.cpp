@@ -42,6 +42,7 @@ Result<SessionRecord> readSession(const Study& study, const StudySession& about)
         for (const auto& each : said->sideEffects)
             record.results.sideEffects.push_back({kNextDayMoment, each.item, each.severity, each.relation});
     }
+    record.results.basis = about.basis;
     record.results.number = static_cast<std::size_t>(about.number);
     record.results.complete = about.state == StudySessionState::Complete;
     record.results.parts = about.parts.size();
@@ -89,8 +90,9 @@ Result<StudyRecord> readStudyRecord(const Study& study) {
     out.amendments = study.amendments();
     out.goingsBack = study.goingsBack();
     const auto sessions = study.sessions();
+    for (const auto& session : sessions) out.bases.emplace(session.id, session.basis);
     for (const auto& participant : study.participants()) {
-        ParticipantRecord record{participant, {}};
+        ParticipantRecord record{participant, study.basisOf(participant), {}};
         for (const auto& session : sessions) {
             if (session.participant != participant.id || participant.state == ParticipantState::Withdrawn) continue;
             auto read = readSession(study, session);
@@ -109,10 +111,27 @@ Result<StudyRecord> readStudyRecord(const Study& study) {
     return out;
 }
 
+std::vector<std::pair<SessionBasis, StudyRecord>> byBasis(const StudyRecord& study) {
+    std::vector<std::pair<SessionBasis, StudyRecord>> all;
+    for (const auto& [word, basis] : kSessionBases) {
+        const auto isOf = [&, one = basis](const ParticipantRecord& participant) { return participant.basis == one; };
+        if (std::ranges::none_of(study.participants, isOf)) continue;
+        auto& part = all.emplace_back(basis, study).second;
+        std::erase_if(part.participants, std::not_fn(isOf));
+        std::erase_if(part.events, [&, one = basis](const auto& event) {
+            const auto found = study.bases.find(event.first);
+            return found != study.bases.end() && found->second != one;
+        });
+    }
+    if (all.empty()) all.emplace_back(study.rehearsal ? SessionBasis::Virtual : SessionBasis::Person, study);
+    return all;
+}
+
 BidsStudy sharedStudy(const StudyRecord& record) {
     const auto& settings = record.settings;
     BidsStudy out;
     out.title = settings.title;
+    out.rehearsal = record.rehearsal;
     out.approval = settings.approval.committee.empty()
                        ? settings.approval.reference
                        : fmt::format("{}, {}", settings.approval.reference, settings.approval.committee);
@@ -123,22 +142,19 @@ BidsStudy sharedStudy(const StudyRecord& record) {
     out.license = settings.license;
     out.labelSeed = record.labelSeed;
     out.places = static_cast<std::size_t>(std::max(1, record.places > 0 ? record.places : settings.participantsMax));
-    bool anyPerson = false;
     for (const auto& participant : record.participants) {
         const auto& about = participant.about;
         if (about.state == ParticipantState::Withdrawn) continue;
-        anyPerson = anyPerson || !about.virtualSeed;
         BidsParticipant shared;
         shared.enrolled = static_cast<std::size_t>(std::max(0, about.enrolled));
         shared.group = std::string(wordFor<ParticipantGroup>(kParticipantGroups, about.group));
-        shared.isVirtual = about.virtualSeed.has_value();
+        shared.basis = participant.basis;
         shared.age = about.age;
         shared.sex = about.sex;
         shared.handedness = about.handedness;
         for (const auto& session : participant.sessions) shared.sessions.push_back(session.results);
         out.participants.push_back(std::move(shared));
     }
-    out.simulated = record.rehearsal || (!out.participants.empty() && !anyPerson);
     return out;
 }
 

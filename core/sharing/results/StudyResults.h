@@ -4,7 +4,9 @@
 // Thread-safety: one caller of the study at a time.
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/sharing/BidsStudy.h"
@@ -31,6 +33,7 @@ struct SessionRecord {
 
 struct ParticipantRecord {
     Participant about;
+    SessionBasis basis = SessionBasis::Person;  ///< of all their sessions; without one, of the one that would begin
     std::vector<SessionRecord> sessions;
 };
 
@@ -44,10 +47,15 @@ struct StudyRecord {
     std::vector<StudyGoingBack> goingsBack;
     std::vector<ParticipantRecord> participants;  ///< in the order of enrolment; of a withdrawn one no sessions
     std::vector<std::pair<std::string, AdverseEvent>> events;  ///< session id, event
+    std::map<std::string, SessionBasis> bases;  ///< by session id; also those of participants who withdrew
 };
 
 /// Errors: Unsupported for a study that was opened without its key; as SessionReader.
 [[nodiscard]] Result<StudyRecord> readStudyRecord(const Study& study);
+
+/// The same study with the participants of one kind only, for each kind that there is, people first. What is counted
+/// or shown is of one of these: people and virtual participants are never counted together.
+[[nodiscard]] std::vector<std::pair<SessionBasis, StudyRecord>> byBasis(const StudyRecord& study);
 
 /// What may leave the study: participants who are active or left.
 [[nodiscard]] BidsStudy sharedStudy(const StudyRecord& record);
