@@ -108,7 +108,7 @@ Result<double> PilotOutput::measureImpedance(const std::string& name) {
         const double ohm = *found ? (*found)->value() : kNaN;
         if (auto kept = stage_.record().write(row::kImpedance, name, {{"impedance_ohm", ohm}}); !kept)
             return failure(kept);
-        impedance_ = ohm;
+        impedance_ = checked_ = ohm;
         unmeasured_ = false;
         return ohm;
     }

@@ -56,6 +56,8 @@ public:
     [[nodiscard]] LevelRamp& ramp() noexcept { return ramp_; }
     [[nodiscard]] double impedance() const noexcept { return impedance_; }
     void setImpedance(double ohm) noexcept { impedance_ = ohm; }
+    /// As measureImpedance() found it last: the same for whatever is presented.
+    [[nodiscard]] double checkedImpedance() const noexcept { return checked_; }
 
     /// Waits until nothing is in the way of `trial`; a break of the operator's is taken meanwhile.
     [[nodiscard]] Result<void> clearTheWay(const StageTrial& trial);
@@ -108,6 +110,7 @@ private:
     bool unmeasured_ = false;  // Since electrodes may have been touched
     Seconds keysGone_{0};      // While a question waits
     double impedance_ = kNaN;
+    double checked_ = kNaN;
 };
 
 }  // namespace tacto

@@ -191,13 +191,15 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     if (auto kept = record_.write(row::kTrialBegin, trial.name, about); !kept) return failure(kept);
 
     auto screen = trial.screen;
+    screen.impedance_ohm = output_.checkedImpedance();
     screen.state = ScreenState::Dot;
     participant_.show(screen);
     auto presentation = trial.presentation;
     Random pauses(settings_.seed, "pause before " + trial.name);
     const auto earliest = lastAnswer_ + toInstant(kMinPause) + toInstant(pauses.uniform());
     presentation.notBefore = std::max(earliest, bench_.clock().now() + toInstant(kDot));
-    if (trial.screen.state != ScreenState::Rest) participant_.show(trial.screen);
+    screen.state = trial.screen.state;
+    if (screen.state != ScreenState::Rest) participant_.show(screen);
     auto presented = present(presentation, trial);
     if (!presented) {  // paused before it began, or something is wrong
         if (presented.error().code != ErrorCode::NotArmed || !output_.isPaused()) return failure(presented);

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/NaN.h"
 #include "core/base/Units.h"
 
 namespace tacto {
@@ -92,6 +93,7 @@ struct PilotScreen {
     int blocks = 0;     ///< of the test
     int trial = 0;      ///< of the phase, for the operator; 0: none
     int trials = 0;
+    double impedance_ohm = kNaN;   ///< |Z| as measured by itself before the block, not by a train; NaN: not measured
     int interval = 0;              ///< with Interval: 1 or 2; 0: neither, yet or between
     std::string named;             ///< Named: the name of what is or was felt
     std::optional<bool> right;     ///< training: whether the answer was right

@@ -1,6 +1,10 @@
 // What a recorder is told of a session: rows that are on disk, at the times that they state, and nothing that depends
 // on what is presented or answered.
+#include <map>
+
+#include "core/base/Random.h"
 #include "tests/pilot/StageFixture.h"
+#include "tests/support/Trials.h"
 
 namespace tacto::test {
 namespace {
@@ -93,6 +97,32 @@ TEST_F(PilotMarkers, SayNothingOfTheIntervalThatHoldsTheTrain) {
     }
     EXPECT_NEAR(toSeconds(lengths[0]), toSeconds(lengths[1]), 0.006)
         << "the time follows the presentation's beginning, not the train";
+}
+
+TEST_F(PilotMarkers, TargetsComeTheSameTimeAfterAnyPresentation) {
+    RecordProperty("hazard", "H9");
+    Random random(20, "times of trials");
+    std::map<std::string, std::pair<double, double>> times;  // least and most, of the kinds of trials
+    Instant began{0}, targets{0};
+    record_->onMarker = [&](const PilotMarker& marker) {
+        if (marker.name == row::kPresentation) began = marker.at;
+    };
+    someone_.onAsk = [&](const PilotPrompt& prompt) { targets = prompt.targetsAt; };
+    for (int i = 0; i < trials<int>({.local = 200, .ci = 200, .campaign = 2000}); ++i) {
+        const double level = 0.5 * double(random.below(3));
+        auto made = trial(fmt::format("test {}", i + 1), level);
+        const bool detects = level > 0 && random.below(3) == 0;
+        made.presentation =
+            detects ? detectionPresentation(Milliamps(level), random.below(2) == 1, Seconds(0.01), Seconds(0.5))
+                    : testPresentation(Milliamps(level), Seconds(random.below(2) == 1 ? 0.5 : 2));
+        ASSERT_TRUE(stage_->trial(made));
+        const double after = toSeconds(targets - began);
+        auto& [least, most] = times.try_emplace(detects ? "detection" : "test", after, after).first->second;
+        least = std::min(least, after);
+        most = std::max(most, after);
+    }
+    ASSERT_EQ(times.size(), 2U);
+    for (const auto& [kind, each] : times) EXPECT_LE(each.second - each.first, 0.006) << kind << ": the loop's period";
 }
 
 TEST_F(PilotMarkers, TellOfAStopAndNothingOfAPersonsState) {

@@ -188,6 +188,7 @@ void OperatorPage::show(const PilotScreen& screen) {
         seenTrial_ = screen.trial;
         seenBlock_ = screen.block;
         if (screen.trials > 0) trend_->setPlan(screen.trials, std::max(1, screen.blocks));
+        if (blind_) trend_->note(screen.trial, screen.impedance_ohm);
     }
     if (screen.state != screen_.state || screen.trial != screen_.trial) phaseSince_.start();
     if (screen.phase != screen_.phase) asked_.clear();
@@ -240,8 +241,8 @@ void OperatorPage::closeQuestion(quint64 id) {
 }
 
 void OperatorPage::refresh(const Telemetry& telemetry) {
-    // Once it is over: a figure that changes with each train tells an operator who is blind how they come.
-    if (screen_.phase == "test" && theirs_) trend_->note(screen_.trial, telemetry.impedance_ohm);
+    // A reading of a train tells what was given, and its absence that nothing was.
+    if (!blind_ && screen_.phase == "test" && theirs_) trend_->note(screen_.trial, telemetry.impedance_ohm);
     const double gone = double(phaseSince_.nsecsElapsed()) * 1e-9;
     if (theirs_) {
         if (!theirs_->within) return phase_->setPhase(PhaseBar::kAnswer);

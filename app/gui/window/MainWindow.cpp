@@ -42,6 +42,7 @@
 #include "app/gui/window/WindowPlace.h"
 #include "app/gui/window/WorkspaceRail.h"
 #include "app/gui/window/Workspaces.h"
+#include "core/bench/BlindTelemetry.h"
 
 namespace tacto::gui {
 
@@ -188,17 +189,19 @@ void MainWindow::tick() {
         awaitsFrame_ = false;
         keepOnScreen(*this);
     }
-    const auto telemetry = controller_.telemetry();
+    const auto* pilot = workspaces_->pilot();
+    const bool blind = pilot != nullptr && pilot->blind();
+    const auto seen = controller_.telemetry();
+    const auto telemetry = blind ? blinded(seen) : seen;
     safety_->refresh(telemetry);
-    attend(telemetry);
+    attend(seen);
     showTitle();
     if (smallStop_) smallStop_->showState(safety_->shownState());
     if (smallStop_ && smallStop_->isHidden()) {  // closed by its frame
         smallStop_.reset();
         findChild<QAction*>("smallStopShown")->setChecked(false);
     }
-    const auto* pilot = workspaces_->pilot();
-    if (pilot != nullptr && pilot->blind()) safety_->setParticipantsStop(pilot->stopWords());
+    if (blind) safety_->setParticipantsStop(pilot->stopWords());
     banner_->refresh(telemetry);
     devices_->refresh(telemetry);
     drive_->refresh(telemetry);
@@ -282,6 +285,7 @@ void MainWindow::noteBlind() {
     safety_->setPauseInstead(std::move(instead));
     docks_->setHidden(DockColumn::Hidden::Blind, blind);
     safety_->setBlind(blind);
+    line_->setBlind(blind);
 }
 
 void MainWindow::checkImpedance() { arming_->ask(ArmDialog::Purpose::CheckImpedance); }

@@ -59,13 +59,22 @@ void RecordingLine::refresh() {
     const auto seconds = since_.elapsed() / 1000;
     const auto savedAt = wal.exists() ? std::max(wal.lastModified(), file.lastModified()) : file.lastModified();
     const double age = double(savedAt.msecsTo(QDateTime::currentDateTime())) / 1000;
-    sayRecording(tr("● recording %1:%2:%3 · %4 MB · saved %5 s ago")
-                     .arg(seconds / 3600, 2, 10, QChar('0'))
-                     .arg(seconds / 60 % 60, 2, 10, QChar('0'))
-                     .arg(seconds % 60, 2, 10, QChar('0'))
+    const auto lasts = tr("● recording %1:%2:%3")
+                           .arg(seconds / 3600, 2, 10, QChar('0'))
+                           .arg(seconds / 60 % 60, 2, 10, QChar('0'))
+                           .arg(seconds % 60, 2, 10, QChar('0'));
+    recording_->setAccessibleDescription(QString::fromStdString(session_.string()));
+    if (blind_) return sayRecording(lasts);
+    sayRecording(tr("%1 · %2 MB · saved %3 s ago")
+                     .arg(lasts)
                      .arg(double(file.size() + wal.size()) / 1e6, 0, 'f', 1)
                      .arg(std::max(0.0, age), 0, 'f', 1));
-    recording_->setAccessibleDescription(QString::fromStdString(session_.string()));
+}
+
+void RecordingLine::setBlind(bool blind) {
+    blind_ = blind;
+    looked_.invalidate();
+    refresh();
 }
 
 void RecordingLine::sayRecording(const QString& text) {

@@ -19,6 +19,8 @@ class RecordingLine final : public QObject {
 public:
     RecordingLine(BenchController& controller, QStatusBar& bar);
     void refresh();
+    /// While blind it says neither how much is written nor when: both come with each train.
+    void setBlind(bool blind);
     /// Shows a message and keeps it in the log.
     void say(const QString& text, bool isError = false);
     /// Whether the message on the line says that the output is off.
@@ -42,6 +44,7 @@ private:
     QElapsedTimer since_;
     QElapsedTimer looked_;
     std::filesystem::path session_;
+    bool blind_ = false;
 };
 
 }  // namespace tacto::gui

@@ -285,13 +285,16 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     device_->setText(text);
     device_->setToolTip(text);
     const double age_s = noteImpedance(telemetry);
-    load_->setText(!open->source ? QString()  // a massager has no impedance
+    // When it was measured last tells when a train came, and the reading itself which.
+    load_->setText(!open->source || blind_ ? QString()  // a massager has no impedance
                    : std::isfinite(measured_ohm_)
                        ? QString("%1 · %2").arg(quantityText(measured_ohm_, "ohm", 3), ageText(age_s))
                        : tr(kUnmeasured));
-    load_->setToolTip(tr("%1\nImpedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
-                         "measured again before the next train; after a stop, before the output is armed.")
-                          .arg(load_->text()));
+    load_->setToolTip(
+        blind_ ? QString()
+               : tr("%1\nImpedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
+                    "measured again before the next train; after a stop, before the output is armed.")
+                     .arg(load_->text()));
     showCalibration();
 }
 

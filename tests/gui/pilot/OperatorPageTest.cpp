@@ -37,8 +37,10 @@ protected:
     void runTo(int trial) {
         Telemetry telemetry;
         for (int i = 1; i <= trial; ++i) {
-            telemetry.impedance_ohm = 3400 + 6 * i + (i % 3) * 12;
-            page.show(testScreen(ScreenState::Feel, i));
+            telemetry.impedance_ohm = 1e6;  // of a train: it would tell which
+            auto screen = testScreen(ScreenState::Feel, i);
+            screen.impedance_ohm = 3400 + 6 * i + (i % 3) * 12;
+            page.show(screen);
             page.refresh(telemetry);
             auto prompt = conditionPrompt(kFour);
             prompt.within = Seconds(10);
