@@ -1,11 +1,15 @@
 #include "app/run/EncodingTurn.h"
 
 #include <algorithm>
-#include <vector>
+#include <array>
+#include <numeric>
+#include <utility>
 
 #include "app/run/PilotRows.h"
 #include "core/analysis/identification/Encodings.h"
+#include "core/base/Random.h"
 #include "core/pilot/PilotRecord.h"
+#include "core/pilot/Prompt.h"
 #include "core/session/ResultKind.h"
 
 namespace tacto {
@@ -39,6 +43,15 @@ EncodingTurn encodingTurn(const Study& study, const Participant& who, const std:
         if (each != turn.encoding) turn.earlier = each;
     }
     return turn;
+}
+
+std::vector<std::string> answersOf(const Study& study, const Participant& who) {
+    const auto place = static_cast<std::size_t>(std::max(1, who.enrolled) - 1);
+    std::array<std::size_t, kAnswerWays> ways{};
+    std::iota(ways.begin(), ways.end(), 0U);
+    Random random(study.labelSeed().value_or(0), fmt::format("places of answers {}", place / kAnswerWays));
+    for (std::size_t i = kAnswerWays; i > 1; --i) std::swap(ways[i - 1], ways[random.below(i)]);
+    return answersIn(ways[place % kAnswerWays]);
 }
 
 }  // namespace tacto

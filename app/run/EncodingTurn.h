@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/study/Study.h"
 
@@ -19,5 +20,9 @@ struct EncodingTurn {
 /// `continued`: the session that goes on, with the encoding that it began with.
 [[nodiscard]] EncodingTurn encodingTurn(const Study& study, const Participant& who,
                                         const std::optional<StudySession>& continued);
+
+/// The four answers at their places: one way for a participant in all sessions, drawn from the study's secret, and each
+/// of the kAnswerWays once among as many who are enrolled one after the other.
+[[nodiscard]] std::vector<std::string> answersOf(const Study& study, const Participant& who);
 
 }  // namespace tacto

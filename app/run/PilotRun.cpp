@@ -101,6 +101,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     auto turn = encodingTurn(study_, who_, continued);
     settings_.encoding = std::move(turn.encoding);
     settings_.earlierEncoding = std::move(turn.earlier);
+    settings_.answers = answersOf(study_, who_);
     settings_.unit = massager ? LevelUnit::Intensity : LevelUnit::Current;
     settings_.cap = massager ? 1 : study.cap_mA;
     settings_.shortest = profile.encoding.intervalMin;

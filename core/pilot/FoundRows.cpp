@@ -17,7 +17,7 @@ RecordFields<PlanRow> buildPlanFields() {
     all.number("seed", &P::seed);
     all.text("encoding", &P::encoding, {.mayBeEmpty = true});
     all.number("blocks", &P::blocks);
-    all.text("run_sha256", &P::runSha256, {.mayBeEmpty = true});
+    all.texts({{"run_sha256", &P::runSha256}, {"answers", &P::answers}}, {.mayBeEmpty = true});
     return all;
 }
 const RecordFields<PlanRow>& planFields() {

@@ -23,6 +23,7 @@ struct PlanRow {
     std::string encoding;
     std::uint64_t blocks = 0;
     std::string runSha256;
+    std::string answers;  ///< conditions by their place and key, with commas between; empty: kAnswerPlaces
 };
 [[nodiscard]] nlohmann::json toJson(const PlanRow& row);
 /// What cannot be read stays as it is in a new one; so for the others.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/ranges.h>
 #include <map>
 
 #include "core/analysis/psychophysics/TrainingRule.h"
 #include "core/base/JsonFields.h"
+#include "core/base/Text.h"
 #include "core/pilot/FoundRows.h"
 
 namespace tacto {
@@ -36,11 +38,19 @@ std::vector<std::string> PilotIdentification::labels() const {
     return names;
 }
 
+std::vector<std::string> PilotIdentification::places() const {
+    auto names = labels();
+    auto placed = stage_.settings().answers.empty() ? answersIn(0) : stage_.settings().answers;
+    const bool same = std::ranges::is_permutation(placed, names);
+    return same ? placed : names;  // a profile may name its conditions otherwise
+}
+
 Result<void> PilotIdentification::plan(bool withTrials) {
     auto& settings = stage_.settings();
     const auto stored = stage_.record().once(row::kPlan, "plan", [&]() -> Result<nlohmann::json> {
-        nlohmann::json body = toJson(
-            PlanRow{settings.seed, settings.encoding, static_cast<std::uint64_t>(settings.blocks), settings.runSha256});
+        nlohmann::json body =
+            toJson(PlanRow{settings.seed, settings.encoding, static_cast<std::uint64_t>(settings.blocks),
+                           settings.runSha256, fmt::format("{}", fmt::join(places(), ","))});
         body["trials"] = nullptr;
         if (!withTrials) return body;
         auto planned = drawn();
@@ -55,6 +65,10 @@ Result<void> PilotIdentification::plan(bool withTrials) {
                     "the stored plan is of the encoding \"{}\" and {} blocks, and the session of {} and up to {}: it "
                     "cannot be gone on with",
                     row.encoding, row.blocks, settings.encoding, kMaxBlocks);
+    settings.answers.clear();
+    for (const auto each : split(row.answers, ',')) {
+        if (!each.empty()) settings.answers.emplace_back(each);
+    }
     settings.seed = row.seed;
     settings.blocks = static_cast<int>(row.blocks);
     plan_ = valueOr(*stored, "trials");
@@ -110,7 +124,7 @@ StageTrial PilotIdentification::stageTrial(const PlannedTrial& planned) const {
     const auto interval = planned.condition ? presented_[*planned.condition].interval : stage_.settings().longest;
     trial.level = planned.condition ? presented_[*planned.condition].level : 0;
     trial.presentation = testPresentation(stage_.levelOf(trial.level), interval, stage_.settings().window);
-    trial.prompt = conditionPrompt(labels());
+    trial.prompt = conditionPrompt(places());
     trial.prompt.within = kTargetsTimeout;
     trial.screen.state = ScreenState::Feel;
     trial.screen.phase = nameOf(planned.phase);
@@ -162,17 +176,20 @@ Result<void> PilotIdentification::familiarise() {
         const auto felt = present(planned, trial);
         if (!felt) return failure(felt);
     }
-    std::vector<PromptTarget> offered = conditionPrompt(labels()).targets;
+    // At the places and keys of the answers, so none is taken away.
+    std::vector<PromptTarget> offered = conditionPrompt(places()).targets;
     offered.resize(labels().size());
-    offered.insert(offered.begin(), {"go-on", "Go on"});
+    offered.push_back({"go-on", "Go on"});
     std::map<std::string, int> onDemand;
-    for (int n = 1; offered.size() > 1; ++n) {
+    const auto isLeft = [&](const PresentedCondition& each) { return onDemand[each.name] < kMaxOnDemand; };
+    for (int n = 1; std::ranges::any_of(presented_, isLeft); ++n) {
         const auto wanted = stage_.ask(row::kPhase, fmt::format("on demand {}", n),
                                        choicePrompt("on-demand", "Feel one again, or go on?", offered));
         if (!wanted) return failure(wanted);
         const auto key = textOr(*wanted, "key");
         const auto at = std::ranges::find(presented_, key, &PresentedCondition::name);
         if (at == presented_.end()) break;
+        if (onDemand[key] == kMaxOnDemand) continue;
         PlannedTrial again;
         again.phase = TrialPhase::Familiarisation;
         again.condition = static_cast<std::size_t>(at - presented_.begin());
@@ -184,7 +201,7 @@ Result<void> PilotIdentification::familiarise() {
         const auto felt = stage_.trial(trial);
         if (!felt) return failure(felt);
         if (++onDemand[key] == kMaxOnDemand)
-            std::erase_if(offered, [&key](const PromptTarget& each) { return each.key == key; });
+            std::ranges::find(offered, key, &PromptTarget::key)->text += fmt::format(" (felt {} times)", kMaxOnDemand);
     }
     return {};
 }

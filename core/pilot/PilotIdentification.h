@@ -39,6 +39,8 @@ public:
 
     [[nodiscard]] const std::vector<PresentedCondition>& presented() const noexcept { return presented_; }
     [[nodiscard]] std::vector<std::string> labels() const;
+    /// The same at their places in every question about them.
+    [[nodiscard]] std::vector<std::string> places() const;
     [[nodiscard]] nlohmann::json planJson() const { return plan_; }
     /// Answered trials of the plan, in order, those of earlier parts too.
     [[nodiscard]] const std::vector<IdentificationTrial>& trials() const noexcept { return trials_; }

@@ -30,6 +30,7 @@ struct PilotSettings {
     Seconds window{4};      ///< of a presentation, 2 T_max
     Assignment assignment = Assignment::TextureToAmplitude;
     std::vector<Condition> conditions = EncodingProfile::fourConditions(0, 1);
+    std::vector<std::string> answers;  ///< conditions by their place and key, in every phase; empty: as kAnswerPlaces
     int blocks = 5;
     int perCondition = 4;   ///< of a block
     int catchTrials = 2;    ///< of a block

@@ -62,6 +62,18 @@ PilotPrompt comparisonPrompt() {
     return made;
 }
 
+std::vector<std::string> answersIn(std::size_t way) {
+    std::vector<std::string> answers;
+    for (std::size_t place = 0; place < kAnswerPlaces.size(); ++place) {
+        std::size_t row = place / 2, column = place % 2;
+        if ((way & 4) != 0) std::swap(row, column);
+        if ((way & 2) != 0) row = 1 - row;
+        if ((way & 1) != 0) column = 1 - column;
+        answers.emplace_back(kAnswerPlaces[2 * row + column]);
+    }
+    return answers;
+}
+
 PilotPrompt conditionPrompt(const std::vector<std::string>& names) {
     std::vector<PromptTarget> targets;
     std::vector<std::string> answers = names;

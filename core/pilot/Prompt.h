@@ -6,6 +6,8 @@
 // Thread-safety: values and pure functions.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -107,12 +109,19 @@ struct PilotScreen {
 inline constexpr const char* kScreenPrompt = "screen-gone";
 inline constexpr const char* kReasonPrompt = "abort-reason";
 
+/// The four answers in their field of two rows and two columns, in the first of kAnswerWays ways; the places are those
+/// of keys and buttons 1 to 4. The others turn it and swap its rows and columns: what lay in a line does so still.
+inline constexpr std::array<std::string_view, 4> kAnswerPlaces{"smooth-high", "rough-high", "smooth-low", "rough-low"};
+inline constexpr std::size_t kAnswerWays = 8;
+/// `way` below kAnswerWays.
+[[nodiscard]] std::vector<std::string> answersIn(std::size_t way);
+
 // Prompts that are the same wherever they are put. Texts are the ones shown.
 [[nodiscard]] PilotPrompt holdPrompt();
 [[nodiscard]] PilotPrompt strengthPrompt();
 [[nodiscard]] PilotPrompt intervalPrompt();
 [[nodiscard]] PilotPrompt comparisonPrompt();
-/// `names`: keys of the four conditions in the study's order.
+/// `names`: keys of the conditions, each at its place.
 [[nodiscard]] PilotPrompt conditionPrompt(const std::vector<std::string>& names);
 [[nodiscard]] PilotPrompt yesNoPrompt(std::string name, std::string text, PromptTo to = PromptTo::Participant);
 [[nodiscard]] PilotPrompt goOnPrompt(std::string text, PromptTo to = PromptTo::Both);

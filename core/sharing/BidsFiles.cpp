@@ -220,6 +220,7 @@ BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participa
              scaleText(kSideEffectSeverities) + ". Relation to the stimulation: " + scaleText(kRelations)},
         {"complete", "Whether the session came to its end", "", {{"true", "yes"}, {"false", "no"}}},
         {"parts", "1, and one more for each time it was interrupted and gone on with"},
+        {"answers", "The answers at places, keys and buttons 1 to 4, with commas between, in all phases"},
         basisColumn()};
     columns.insert(columns.end(), more.begin(), more.end());
     BidsTable table(std::move(columns));
@@ -229,7 +230,7 @@ BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participa
         for (const BidsCell& cell :
              {BidsCell(session.skinBefore), BidsCell(session.skinAfter), BidsCell(session.skinNextDay),
               BidsCell(sideEffectsNextDay(session)), BidsCell(session.complete), BidsCell(session.parts),
-              BidsCell(nameOf(session.basis))})
+              BidsCell(session.answers), BidsCell(nameOf(session.basis))})
             cells.push_back(cell);
         table.add(std::move(cells));
     }

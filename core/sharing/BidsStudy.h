@@ -74,6 +74,7 @@ struct BidsSession {
     SessionBasis basis = SessionBasis::Person;
     double days = kNaN;  ///< since the person's first, whole days
     std::string encoding;
+    std::string answers;  ///< the conditions by their place and key, with commas between
     Ohms impedance{kNaN};
     Milliamps low{kNaN}, high{kNaN};  ///< range
     double lowIntensity = kNaN, highIntensity = kNaN;

@@ -2,6 +2,7 @@
 // describe.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/run/EncodingTurn.h"
@@ -49,6 +50,31 @@ protected:
     SessionRequest request_;
     std::vector<std::string> remarks_;
 };
+
+TEST_F(UnfinishedSessionTest, AnswersLieInOneWayForAParticipantAndInEachWayEquallyOftenInTheStudy) {
+    RecordProperty("hazard", "H12");
+    std::map<std::vector<std::string>, int> ways;
+    for (int enrolled = 1; enrolled <= 24; ++enrolled) {
+        Participant who;
+        who.enrolled = enrolled;
+        const auto answers = answersOf(*study_, who);
+        EXPECT_EQ(answers, answersOf(*study_, who));
+        ASSERT_EQ(answers.size(), 4U);
+        // What differs in one feature lies side by side or above each other, never across.
+        const auto differ = [](const std::string& a, const std::string& b) {
+            return int(a.starts_with("rough") != b.starts_with("rough")) +
+                   int(a.ends_with("high") != b.ends_with("high"));
+        };
+        EXPECT_EQ(differ(answers[0], answers[1]), 1);
+        EXPECT_EQ(differ(answers[0], answers[2]), 1);
+        EXPECT_EQ(differ(answers[1], answers[3]), 1);
+        EXPECT_EQ(differ(answers[0], answers[3]), 2);
+        ++ways[answers];
+        if (enrolled % 8 != 0) continue;
+        EXPECT_EQ(ways.size(), 8U);
+        for (const auto& [one, n] : ways) EXPECT_EQ(n, enrolled / 8);
+    }
+}
 
 TEST_F(UnfinishedSessionTest, WhereThereIsNoneASessionBegins) {
     const auto none = choose("").value();

@@ -4,7 +4,6 @@
 #include <QPainter>
 #include <QScreen>
 #include <algorithm>
-#include <array>
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Text.h"
@@ -15,7 +14,6 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kInch_mm = 25.4, kUsualDpi = 96;
-constexpr std::array kPlaces{"smooth-high", "rough-high", "smooth-low", "rough-low"};  // firm above light
 constexpr double kLowRow = 0.54;  // of the others: "nothing" and "not sure"
 constexpr int kTallestTarget_mm = 60;
 
@@ -36,17 +34,6 @@ QStringList iconsOf(const std::string& key) {
     if (has("smooth") || has("rough")) icons << (has("smooth") ? "smooth" : "rough");
     if (has("low") || has("high")) icons << (has("high") ? "firm" : "light");
     return icons.size() == 2 ? icons : QStringList();
-}
-
-PilotPrompt asItStands(PilotPrompt prompt) {
-    if (prompt.kind != PromptKind::Condition || prompt.targets.size() < kPlaces.size()) return prompt;
-    const auto placeOf = [](const PromptTarget& target) { return std::ranges::find(kPlaces, target.key); };
-    const auto end = prompt.targets.begin() + std::ptrdiff_t(kPlaces.size());
-    const bool known = std::all_of(prompt.targets.begin(), end,
-                                   [&](const PromptTarget& target) { return placeOf(target) != kPlaces.end(); });
-    if (known)
-        std::sort(prompt.targets.begin(), end, [&](const auto& a, const auto& b) { return placeOf(a) < placeOf(b); });
-    return prompt;
 }
 
 int fieldColumns(int count) { return count <= 3 ? std::max(1, count) : count <= 8 ? 2 : count <= 12 ? 3 : 4; }

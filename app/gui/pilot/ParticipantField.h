@@ -23,10 +23,6 @@ constexpr double kTarget_mm = 20;
 
 /// What is drawn beside a condition's words; nothing for a condition of another name.
 [[nodiscard]] QStringList iconsOf(const std::string& key);
-/// The prompt with its targets in the order in which they stand: firm above light, smooth left of rough; as it is where
-/// its conditions have other names.
-[[nodiscard]] PilotPrompt asItStands(PilotPrompt prompt);
-
 /// In how many columns so many targets stand, unless they are a scale.
 [[nodiscard]] int fieldColumns(int count);
 

@@ -133,7 +133,7 @@ void ParticipantWindow::ask(const PilotPrompt& prompt, quint64 id) {
         emit changed();
         return;
     }
-    prompt_ = asItStands(prompt);
+    prompt_ = prompt;
     if (prompt.kind == PromptKind::Several) prompt_.targets.push_back({kDone, tr("Done").toStdString()});
     keys_ = AnswerKeys(set_, prompt_);
     id_ = id;

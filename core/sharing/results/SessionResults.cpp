@@ -41,7 +41,9 @@ public:
         const auto& body = each.body;
         const auto name = textOr(body, "name");
         if (each.name == row::kPlan) {
-            out_.encoding = planRowFrom(body).encoding;
+            auto plan = planRowFrom(body);
+            out_.encoding = std::move(plan.encoding);
+            out_.answers = std::move(plan.answers);
         } else if (each.name == row::kImpedance) {
             impedance_ = numberOr(body, "impedance_ohm");
             if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);

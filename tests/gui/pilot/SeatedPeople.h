@@ -17,7 +17,7 @@
 
 namespace tacto::test {
 
-inline const std::vector<std::string> kFour{"rough-high", "rough-low", "smooth-high", "smooth-low"};
+inline const std::vector<std::string> kFour{"smooth-high", "rough-high", "smooth-low", "rough-low"};
 
 inline PilotScreen testScreen(ScreenState state, int trial = 27) {
     PilotScreen screen;

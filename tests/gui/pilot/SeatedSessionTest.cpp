@@ -49,7 +49,7 @@ protected:
     }
     /// The key of a target; the mouse on one without a key.
     void pressTarget(std::size_t at) {
-        const gui::AnswerKeys theirs(gui::KeySet::Figures, gui::asItStands(asked));
+        const gui::AnswerKeys theirs(gui::KeySet::Figures, asked);
         for (int each = Qt::Key_0; each <= Qt::Key_Z; ++each) {
             if (theirs.targetOf(each) == static_cast<int>(at)) return key(static_cast<Qt::Key>(each));
         }
