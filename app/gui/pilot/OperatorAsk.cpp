@@ -18,6 +18,9 @@ namespace {
 constexpr int kAskStripe = 5;  // pixels of amber at the left: the session waits
 constexpr int kInRow = 6;      // choices
 
+/// Keys that stop count there as the participant's (StopKeys.h).
+bool onTheirScreen(const QWidget& widget) { return widget.window()->property("stopsAs") == "participant"; }
+
 }  // namespace
 
 OperatorAsk::OperatorAsk(QWidget* parent) : QFrame(parent) {
@@ -51,7 +54,11 @@ void OperatorAsk::ask(const PilotPrompt& prompt, quint64 id) {
     if (prompt.to == PromptTo::Both)
         column_->addWidget(explanation(tr("The participant has to press it as well."), body_));
     if (prompt.name == "stop-test")
-        column_->addWidget(explanation(tr("Press the red STOP button or Esc."), body_));
+        column_->addWidget(explanation(onTheirScreen(*this)
+                                           ? tr("Press the red STOP beside this. Esc on this screen is the "
+                                                "participant’s, and would test nothing.")
+                                           : tr("Press the red STOP button, or Esc while this window has the keys."),
+                                       body_));
     else if (prompt.kind == PromptKind::Text)
         addLine(prompt);
     else if (prompt.kind == PromptKind::Several)

@@ -10,6 +10,7 @@
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -84,6 +85,11 @@ OperatorPage::OperatorPage(QWidget* parent)
     keys->setToolTip(tr("Brings the participant’s window to the front."));
     connect(keys, &QPushButton::clicked, this, &OperatorPage::keysWanted);
     row->addWidget(keys);
+    // It comes and goes with the keys, often as a button below it is about to be pressed: its room is always kept.
+    auto kept = obstacle_->sizePolicy();
+    kept.setRetainSizeWhenHidden(true);
+    obstacle_->setSizePolicy(kept);
+    onFontChange(*this, [this] { keepRoomForObstacle(); });
     obstacle_->hide();
     column->addWidget(obstacle_);
     column->addWidget(ask_);
@@ -270,6 +276,12 @@ void OperatorPage::setObstacle(const QString& why) {
     obstacle_->setVisible(!why.isEmpty());
 }
 
+void OperatorPage::keepRoomForObstacle() {
+    auto* keys = obstacle_->findChild<QPushButton*>();
+    for (auto* each : {static_cast<QWidget*>(keys), static_cast<QWidget*>(obstacleText_)}) each->ensurePolished();
+    obstacle_->setFixedHeight(std::max(keys->sizeHint().height(), 2 * obstacleText_->fontMetrics().lineSpacing()));
+}
+
 void OperatorPage::setBreakDue(bool due) {
     breakDue_ = due;
     after_->setText(due ? tr("End the break") : tr("Break after this trial"));
@@ -282,6 +294,7 @@ void OperatorPage::setProgress(const QString& what, int done, int total) {
 
 void OperatorPage::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
+    keepRoomForObstacle();
     showTrend();
 }
 

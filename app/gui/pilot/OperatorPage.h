@@ -56,6 +56,7 @@ private:
     void showWhere();
     void showCounts();
     void showTrend();
+    void keepRoomForObstacle();
 
     QLabel* where_;
     QLabel* counts_;

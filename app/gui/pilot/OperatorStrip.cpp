@@ -31,6 +31,7 @@ OperatorStrip::OperatorStrip(QWidget* parent)
     both->addLayout(column, 1);
     auto* stop = new ParticipantStop([this] { emit stopWanted(); }, this);
     stop->setObjectName("operatorStop");
+    stop->setOperators();
     stop->setType(scaledPx(kStripStop_px), scaledPx(kStripKeys_px));
     fixWidth(*stop, kStripStopWide);
     both->addWidget(stop);

@@ -108,6 +108,8 @@ void ParticipantFace::setNote(const QString& note) {
 
 void ParticipantFace::setStopButtons(const QStringList& buttons) { stopTarget_->setButtons(buttons); }
 
+void ParticipantFace::setStopsLeft(int left) { stopTarget_->setLeft(left); }
+
 QString ParticipantFace::title() const { return title_->text(); }
 
 void ParticipantFace::setTimeLeft(double share) { time_->setShares({share}); }

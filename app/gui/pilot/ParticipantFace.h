@@ -48,6 +48,7 @@ public:
     void say(const QString& title, const QString& below);
     void setNote(const QString& note);
     void setStopButtons(const QStringList& buttons);
+    void setStopsLeft(int left);
     void setTimeLeft(double share);
     /// At the lower edge while it is open. Takes the widget.
     void setStrip(QWidget* strip);

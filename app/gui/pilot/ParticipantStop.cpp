@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/gui/theme/Theme.h"
+#include "core/pilot/PilotEnding.h"
 
 namespace tacto::gui {
 
@@ -28,7 +29,7 @@ ParticipantStop::ParticipantStop(std::function<void()> stop, QWidget* parent)
     : QAbstractButton(parent), stop_(std::move(stop)) {
     setObjectName("participantStop");
     setText(tr("STOP"));
-    setAccessibleName(tr("STOP"));
+    sayIt();
     setFocusPolicy(Qt::NoFocus);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);  // in a row it is as high as the row
     setAttribute(Qt::WA_AcceptTouchEvents);
@@ -44,7 +45,25 @@ void ParticipantStop::setButtons(const QStringList& buttons) {
     buttons_ = buttons.isEmpty()           ? QString()
                : buttons.first().isEmpty() ? tr(" · pedal")
                                            : tr(" · button %1").arg(buttons.join(tr(" or ")));
-    setAccessibleName(text() + buttons_);
+    sayIt();
+}
+
+void ParticipantStop::setLeft(int left) {
+    if (std::exchange(left_, left) != left) sayIt();
+}
+
+void ParticipantStop::setOperators() {
+    operators_ = true;
+    setToolTip(
+        tr("The operator’s: the output is off at once, and the session is interrupted. It can go on within 2 h."));
+    sayIt();
+}
+
+void ParticipantStop::sayIt() {
+    const auto whose = operators_ ? tr("STOP, the operator’s: interrupts the session")
+                                  : tr("STOP%1, %2 of %3 left").arg(buttons_).arg(left_).arg(kMaxParticipantStops);
+    setAccessibleName(whose);
+    drawnFor_ = {};
     update();
 }
 
@@ -87,15 +106,21 @@ QPixmap ParticipantStop::draw(const QColor& ground) const {
     painter.drawRoundedRect(rect(), kStopRadius, kStopRadius);
     painter.setPen(stateStyle(InterlockState::Faulted).ink);
     const int room = width() * 9 / 10;
-    const auto keys = tr("Space · Esc · Pause") + buttons_;
-    const auto foot = tr("It stops immediately. You do not have to say why.\nIt goes on only when you say so.");
+    const auto leftText = tr("%1 of %2 left").arg(left_).arg(kMaxParticipantStops);
+    auto keys = operators_ ? tr("interrupts the session") : tr("Space · Esc · Pause") + buttons_;
+    const auto foot = operators_ ? QString()
+                                 : tr("It stops immediately. You do not have to say why.\n"
+                                      "You say when it goes on. STOPs: %1.")
+                                       .arg(leftText);
     const auto longest = tr("It stops immediately. You do not have to say why.");
     const auto word = fitted(text(), textFont(TextSize::Display, QFont::Bold), word_px_, room);
     auto lines = fitted(longest, textFont(TextSize::Body), lines_px_, room);
     const int footHigh = QFontMetrics(lines).lineSpacing() * 2 + QFontMetrics(lines).descent();
     const QFontMetrics above(word);
-    const bool hasFoot = QFontMetrics(lines).horizontalAdvance(longest) <= room && lines.pixelSize() >= kMinFoot_px &&
+    const bool hasFoot = !operators_ && QFontMetrics(lines).horizontalAdvance(longest) <= room &&
+                         lines.pixelSize() >= kMinFoot_px &&
                          height() > above.height() + 3 * footHigh + lines.pixelSize() * 2;
+    if (!hasFoot && !operators_) keys += " · " + leftText;
     if (!hasFoot) lines = fitted(keys, lines, lines_px_, room);
     const QFontMetrics below(lines);
     const int top = int((height() - above.height() - below.height()) * 0.43);

@@ -18,6 +18,10 @@ public:
     void setType(int word_px, int lines_px);
     /// Buttons of a pad, or a pedal, that stop as the keys do: see ButtonLabels::stops.
     void setButtons(const QStringList& buttons);
+    /// How many of theirs are left before the session ends.
+    void setLeft(int left);
+    /// The operator's on the participant's screen, whose keys are the participant's.
+    void setOperators();
 
 protected:
     bool event(QEvent* event) override;
@@ -28,9 +32,12 @@ private:
     /// What the picture depends on: size, ratio of pixels, ground, and the words with their sizes.
     using Looks = std::tuple<QSize, double, QRgb, QString, int, int>;
     void press();
+    void sayIt();
     [[nodiscard]] QPixmap draw(const QColor& ground) const;
     const std::function<void()> stop_;
     QString buttons_;
+    int left_ = 3;
+    bool operators_ = false;
     int word_px_ = 92;
     int lines_px_ = 20;
     QPixmap drawn_;  // kept, for the same pixels in each paint: Qt draws edges of large letters not always alike

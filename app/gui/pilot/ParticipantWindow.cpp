@@ -99,6 +99,8 @@ void ParticipantWindow::noteStop() {
     repaint();
 }
 
+void ParticipantWindow::setStopsLeft(int left) { face_->setStopsLeft(left); }
+
 void ParticipantWindow::showBreak(bool on) {
     break_ = on;
     if (!asking_ && !stopped_) showState();

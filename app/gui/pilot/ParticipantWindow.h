@@ -52,6 +52,8 @@ public:
     void openStrip(bool open);
     /// A stop of the output by anyone: the targets go at once.
     void noteStop();
+    /// How many of their stops are left before the session ends: said where they press it.
+    void setStopsLeft(int left);
     /// The operator's break: what the screen says between two trials meanwhile.
     void showBreak(bool on);
     [[nodiscard]] const ParticipantField& field() const;

@@ -39,6 +39,9 @@ SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, 
     connect(&desk_, &ParticipantDesk::obstacleChanged, this,
             [this](const QString& why) { page_.setObstacle(running_ && start_.person ? why : QString()); });
     connect(&controller_, &BenchController::finished, this, &SessionConduct::finish);
+    connect(this, &SessionConduct::changed, this, [this] {
+        if (window_) window_->setStopsLeft(std::max(0, int(kMaxParticipantStops) - participantStops_));
+    });
 }
 
 SessionConduct::~SessionConduct() {

@@ -84,7 +84,7 @@ SafetyBar::SafetyBar(BenchController& controller, const CalibrationBook& calibra
     bars_ = new LimitBarRow(titles, this);
     buttons_ = buildButtons();
     stop_ = new StopButton([this] { controller_.stop("operator (STOP)"); }, this);
-    stop_->setToolTip(tr("Output off, now. Esc and Pause do the same from anywhere, Space outside text fields."));
+    setPauseInstead({});
     fault_ = new FaultBanner(this);
     fault_->hide();
     row->addWidget(block_);
@@ -147,7 +147,21 @@ void SafetyBar::setBlind(bool blind) {
     giveRoom();
 }
 
-void SafetyBar::addToStopTip(const QString& sentence) { stop_->setToolTip(stop_->toolTip() + ' ' + sentence); }
+void SafetyBar::addToStopTip(const QString& sentence) {
+    moreOfStop_ = ' ' + sentence;
+    stop_->setToolTip(stop_->toolTip() + moreOfStop_);
+}
+
+void SafetyBar::setPauseInstead(std::optional<PauseInstead> instead) {
+    pauseInstead_ = std::move(instead);
+    stop_->setToolTip(
+        (pauseInstead_
+             ? tr("The operator’s: output off, now, and the session is interrupted; it can go on within 2 h. Esc and "
+                  "Pause do the same while this window has the keys; in the participant’s window they are the "
+                  "participant’s STOP.")
+             : tr("Output off, now. Esc and Pause do the same from anywhere, Space outside text fields.")) +
+        moreOfStop_);
+}
 
 void SafetyBar::setParticipantsStop(const QString& words) { participantsStop_->setText(words); }
 

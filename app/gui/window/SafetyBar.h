@@ -45,7 +45,7 @@ public:
     void addToStopTip(const QString& sentence);
     void setParticipantsStop(const QString& words);
     /// A session holds itself back. Nothing: the bench's own.
-    void setPauseInstead(std::optional<PauseInstead> instead) { pauseInstead_ = std::move(instead); }
+    void setPauseInstead(std::optional<PauseInstead> instead);
     /// As the button Pause or Resume.
     void holdOutput(bool hold);
     /// Whether Pause (true) or Resume (false) would do something, as of the last refresh().
@@ -95,6 +95,7 @@ private:
     QLabel* within_ = nullptr;
     QLabel* participantsStop_ = nullptr;
     bool blind_ = false;
+    QString moreOfStop_;  // of its tip
     std::optional<PauseInstead> pauseInstead_;
     bool paused_ = false;  ///< as shown
     QWidget* buttons_ = nullptr;

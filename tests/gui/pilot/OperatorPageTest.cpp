@@ -3,10 +3,14 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <gmock/gmock.h>
+#include <set>
 
 #include "app/gui/pilot/OperatorPage.h"
+#include "app/gui/pilot/OperatorStrip.h"
+#include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/RehearsalPage.h"
 #include "app/gui/pilot/ShareBars.h"
+#include "core/base/Random.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/pilot/SeatedPeople.h"
@@ -51,6 +55,67 @@ protected:
     gui::PilotStart start;
     gui::OperatorPage page;
 };
+
+TEST_F(Operator8b, NothingMovesUnderAPointerWhateverIsInTheWay) {
+    RecordProperty("hazard", "H12");
+    Random random(21, "obstacles");
+    for (const QSize size : {QSize(880, 720), QSize(620, 700), QSize(1300, 900)}) {
+        page.resize(size);
+        page.ask(yesNoPrompt("skin", "Is the skin as it was?", PromptTo::Operator), 1);
+        const auto places = [&] {
+            QCoreApplication::sendPostedEvents();
+            QTest::qWait(1);
+            std::vector<QRect> all;
+            for (const auto* each : page.findChildren<QPushButton*>())
+                if (each->isVisible() && each->text() != "&Give them the keys")
+                    all.push_back({each->mapToGlobal(QPoint()), each->size()});
+            return all;
+        };
+        page.setObstacle({});
+        const auto before = places();
+        ASSERT_GE(before.size(), 4U);
+        for (int i = 0; i < 20; ++i) {
+            QString why;
+            for (auto words = random.below(18); words > 0; --words) why += "the participant's window ";
+            page.setObstacle(why.left(110));
+            EXPECT_EQ(places(), before) << why.left(110).toStdString();
+            page.setObstacle({});
+            EXPECT_EQ(places(), before);
+        }
+    }
+}
+
+TEST_F(Operator8b, ATestOfTheOperatorsStopSaysWhichKeysAreTheirs) {
+    RecordProperty("hazard", "H12");
+    auto test = goOnPrompt("Press your STOP.", PromptTo::Operator);
+    test.name = "stop-test";
+    page.ask(test, 1);
+    EXPECT_THAT(allText(), HasSubstr("Press the red STOP button, or Esc while this window has the keys."));
+    QWidget theirs;
+    theirs.setProperty("stopsAs", "participant");
+    auto* strip = new gui::OperatorStrip(&theirs);
+    strip->question().ask(test, 1);
+    QStringList said;
+    for (const auto* label : strip->findChildren<QLabel*>()) said << label->text();
+    EXPECT_TRUE(said.join('\n').contains("Esc on this screen is the participant’s")) << said.join('\n').toStdString();
+    const auto* stop = strip->findChild<gui::ParticipantStop*>("operatorStop");
+    EXPECT_EQ(stop->accessibleName(), "STOP, the operator’s: interrupts the session");
+    EXPECT_TRUE(stop->toolTip().contains("go on within 2 h"));
+}
+
+TEST_F(Operator8b, TheirStopSaysHowManyAreLeft) {
+    RecordProperty("hazard", "H12");
+    gui::ParticipantStop stop([] {}, nullptr);
+    stop.resize(420, 700);
+    std::set<QByteArray> pictures;
+    for (int left = 3; left >= 0; --left) {
+        stop.setLeft(left);
+        EXPECT_TRUE(stop.accessibleName().contains(QString("%1 of 3 left").arg(left)));
+        const auto picture = stop.grab().toImage();
+        pictures.insert(QByteArray(reinterpret_cast<const char*>(picture.constBits()), int(picture.sizeInBytes())));
+    }
+    EXPECT_EQ(pictures.size(), 4U) << "it is written on it";
+}
 
 TEST_F(Operator8b, ShowsNoImpedanceOfAMassager) {
     runTo(3);

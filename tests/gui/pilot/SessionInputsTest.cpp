@@ -337,11 +337,12 @@ TEST_F(SeatedWithPad, EachTargetShowsTheButtonThatAnswersIt) {
     ASSERT_TRUE(answered());
     ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
     EXPECT_EQ(target("hold").button(), "7");
-    EXPECT_EQ(window.findChild<QAbstractButton*>("participantStop")->accessibleName(), "STOP · button 5 or 6");
+    EXPECT_EQ(window.findChild<QAbstractButton*>("participantStop")->accessibleName(),
+              "STOP · button 5 or 6, 3 of 3 left");
     const auto pedal = gui::labelsOf({seated("pedal", PromptTo::Participant, 1), seated("pad", PromptTo::Operator)});
     EXPECT_TRUE(pedal.answers.isEmpty()) << "the operator's are not theirs";
     window.setButtonLabels(pedal);
-    EXPECT_EQ(window.findChild<QAbstractButton*>("participantStop")->accessibleName(), "STOP · pedal");
+    EXPECT_EQ(window.findChild<QAbstractButton*>("participantStop")->accessibleName(), "STOP · pedal, 3 of 3 left");
 }
 
 TEST_F(SeatedWithPad, ButtonsAreNotShownOnAQuestionThatTheyDoNotReach) {
