@@ -1,5 +1,6 @@
 #include "core/pilot/VirtualPilotParticipant.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/Random.h"
@@ -80,6 +81,8 @@ std::string VirtualPilotParticipant::answerTo(const PilotPrompt& prompt) const {
             if (prompt.name == "naturalness")
                 return std::string(nameOf(observer_.rate(key, felt_.level, felt_.stimulated).naturalness));
             if (prompt.name.starts_with(row::kEncodings)) return row::kNoDifference;  // Names are nothing to it
+            // Wherever it stands: what was felt is not wanted again.
+            if (std::ranges::find(prompt.targets, "go-on", &PromptTarget::key) != prompt.targets.end()) return "go-on";
             return prompt.targets.empty() ? "" : prompt.targets.front().key;
         case PromptKind::Hold:
             return "held";

@@ -119,7 +119,7 @@ struct PersonBench {
         bench = Bench::create(std::move(config)).value();
         record = std::make_unique<PilotRecord>(*writer, *clock, std::vector<SessionRow>());
         settings.code = "P-7K3D";
-        settings.isVirtual = true;
+        settings.basis = SessionBasis::Virtual;
     }
     ~PersonBench() {
         record.reset();

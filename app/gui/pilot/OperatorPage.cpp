@@ -279,7 +279,7 @@ void OperatorPage::setObstacle(const QString& why) {
 void OperatorPage::keepRoomForObstacle() {
     auto* keys = obstacle_->findChild<QPushButton*>();
     for (auto* each : {static_cast<QWidget*>(keys), static_cast<QWidget*>(obstacleText_)}) each->ensurePolished();
-    obstacle_->setFixedHeight(std::max(keys->sizeHint().height(), 2 * obstacleText_->fontMetrics().lineSpacing()));
+    obstacle_->setFixedHeight(std::max(keys->sizeHint().height(), 2 * obstacleText_->fontMetrics().lineSpacing() + 4));
 }
 
 void OperatorPage::setBreakDue(bool due) {

@@ -68,6 +68,7 @@ protected:
     void answerAsParticipant() {
         const auto felt = people.felt();
         if (asked.name == "stop-test") return key(Qt::Key_Escape);
+        if (asked.name == "on-demand") return pressTarget("go-on");
         switch (asked.kind) {
             case PromptKind::Hold:
                 return QTest::keyPress(window.windowHandle(), Qt::Key_H);
