@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <poll.h>
@@ -16,6 +17,7 @@
 #include "app/run/SignalStop.h"
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
+#include "app/scripting/wire/ScriptMessage.h"
 #include "core/base/GivenOnce.h"
 #include "core/base/Printable.h"
 #include "core/calibration/CertificateDetails.h"
@@ -96,7 +98,7 @@ Result<std::uint64_t> seedFrom(const QCommandLineParser& parser) {
 }
 
 /// The value is an exit code when something is wrong.
-tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser) {
+tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser, const SignalStop& interrupts) {
     const auto name = onlyArgument(parser, "PROTOCOL");
     if (!name) return tl::unexpected(usage("run: " + name.error().message));
     RunOrder order;
@@ -118,8 +120,12 @@ tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser) {
         return tl::unexpected(isFile ? couldNotRun(script.error()) : usage("run: " + script.error().message));
     }
     order.script = std::move(*script);
-    auto declaration = readDeclaration(order.script);
-    if (!declaration) return tl::unexpected(couldNotRun(declaration.error()));
+    auto declaration =
+        readDeclaration(order.script, std::chrono::seconds(1), [&interrupts] { return interrupts.signalled(); });
+    if (!declaration) {
+        const bool stopped = declaration.error().code == ErrorCode::Stopped;
+        return tl::unexpected(stopped ? failWith(declaration.error()) : couldNotRun(declaration.error()));
+    }
     order.declaration = std::move(*declaration);
     auto applied = applySettings(order.declaration, *settings);
     if (!applied) return tl::unexpected(usage("run: " + applied.error().message));
@@ -221,6 +227,15 @@ Result<Running> prepareRun(RunOrder order, const QCommandLineParser& parser, Reg
     return running;
 }
 
+constexpr std::size_t kMaxLogLine = 1000;  // bytes: with what printing adds it fits what a pipe takes at once
+
+/// Whether a line can be written at once. Into a pipe that is full, writing would hold the script, and a stop of it;
+/// the session has every line.
+bool takesLine(std::FILE* to) noexcept {
+    pollfd out{::fileno(to), POLLOUT, 0};
+    return ::poll(&out, 1, 0) == 1 && (out.revents & POLLOUT) != 0;
+}
+
 RunResult runScript(const Running& running, const std::map<std::string, std::string>& answers, SignalStop& interrupts) {
     auto& run = running.run();
     ProgressLine line;
@@ -229,8 +244,9 @@ RunResult runScript(const Running& running, const std::map<std::string, std::str
     hooks.operatorDesk = &desk;
     hooks.onProgress = [&](const ScriptProgress& progress) { line.show(progress); };
     hooks.onLog = [&](const std::string& text) {
+        if (!takesLine(stderr)) return;
         line.clear();
-        say(stderr, "{}\n", lines(text));
+        say(stderr, "{}\n", lines(shortened(text, kMaxLogLine)));
     };
     if (const auto started = running.start(std::move(hooks)); !started) return running.finish();
     interrupts.onStop([&run] { run.script()->stop("operator (signal)"); });
@@ -329,7 +345,7 @@ int runRun(const QCommandLineParser& parser) {
     if (interrupts.signalled()) stops->raise();
     const auto reports = reportsFrom(parser);
     if (!reports) return usage("run: " + reports.error().message);
-    auto order = orderFrom(parser);
+    auto order = orderFrom(parser, interrupts);
     if (!order) return order.error();
     order->stops = stops;
     order->asked = asked;

@@ -111,13 +111,38 @@ Result<json> parseJson(std::string_view text, std::string_view source, const Jso
                 builder.problem());
 }
 
+namespace {
+
+/// Whether each item states its length. The library reads an open-ended text by calling itself for each part, which may
+/// be open-ended again: it would lose the stack before this counts a level.
+bool statesAllLengths(std::string_view bytes) noexcept {
+    for (std::size_t at = 0; at < bytes.size();) {
+        const auto head = static_cast<unsigned char>(bytes[at++]);
+        const unsigned kind = head >> 5U, info = head & 31U;
+        if (info > 27) return false;
+        std::uint64_t value = info;
+        if (info >= 24) {
+            const std::size_t more = std::size_t{1} << (info - 24);
+            if (bytes.size() - at < more) return false;
+            value = 0;
+            for (std::size_t i = 0; i < more; ++i) value = value << 8U | static_cast<unsigned char>(bytes[at++]);
+        }
+        const bool isText = kind == 2 || kind == 3;
+        if (isText && value > bytes.size() - at) return false;
+        if (isText) at += static_cast<std::size_t>(value);
+    }
+    return true;
+}
+
+}  // namespace
+
 Result<json> parseCbor(std::string_view bytes, std::string_view source, const JsonLimits& limits) {
     if (bytes.size() > limits.bytes)
         return fail(ErrorCode::ParseError, "{}: {} bytes; at most {} are accepted", source, bytes.size(), limits.bytes);
+    if (!statesAllLengths(bytes)) return fail(ErrorCode::ParseError, "{}: it is not CBOR of stated lengths", source);
     Builder builder(limits, false);
     if (json::sax_parse(bytes.begin(), bytes.end(), &builder, json::input_format_t::cbor)) return builder.take();
-    return fail(ErrorCode::ParseError, "{}: {}", source,
-                builder.isSyntax() ? "it is not CBOR" : builder.problem());
+    return fail(ErrorCode::ParseError, "{}: {}", source, builder.isSyntax() ? "it is not CBOR" : builder.problem());
 }
 
 void appendCbor(const json& value, std::string& to) { json::to_cbor(value, to); }

@@ -37,7 +37,7 @@ struct JsonLimits {
 
 /// The same for values in binary, as another process of the program sends them (CBOR, RFC 8949): NaN and infinities are
 /// values there. Errors: ParseError for bytes that are too many, nest too deep, hold more than `limits.values` values,
-/// are not CBOR or go on after its end, and for a key twice in one object.
+/// are not CBOR, of which each item states its length, or go on after its end, and for a key twice in one object.
 [[nodiscard]] Result<nlohmann::json> parseCbor(std::string_view bytes, std::string_view source,
                                                const JsonLimits& limits);
 void appendCbor(const nlohmann::json& value, std::string& to);

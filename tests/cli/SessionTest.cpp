@@ -135,6 +135,8 @@ TEST(NotASession, ExitsThreeWithOneSentence) {
 TEST_F(Session, WhereTheProgramThatDrawsReportsIsMissingThatIsSaid) {
     const auto program = desk.at("tactoscope-cli");
     std::filesystem::copy_file(TACTO_CLI, program);
+    std::filesystem::copy_file(std::filesystem::path(TACTO_CLI).parent_path() / "tactoscope-script",
+                               desk.at("tactoscope-script"));
     const auto said = desk.at("said");
     const auto alone = program + " report '" + session + "' --out '" + desk.at("r.pdf") + "' 2>'" + said + "'";
     EXPECT_EQ(WEXITSTATUS(std::system(alone.c_str())), 3);

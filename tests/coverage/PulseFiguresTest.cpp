@@ -104,6 +104,11 @@ TEST(Coverage, TrainsOnALoad) {
         table.promise("width", {.most = 1,
                                 .mostWithinHalf = 1,
                                 .because = "the widths of two trains are not known to differ in where samples fall"});
+        if (pulses > 1) {
+            table.promise(
+                "rate in the train",
+                {.most = 1, .because = "the rates of two trains are not known to differ in where samples fall"});
+        }
         const Promise alike{.most = 1,
                             .mostWithinHalf = 0.97,
                             .because = "pulses of a train are not known to differ in where their edges fall"};

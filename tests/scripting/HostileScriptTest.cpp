@@ -82,7 +82,8 @@ TEST(HostileScript, TheOutputIsOffWithinTenMillisecondsOfItsEnd) {
     std::vector<double> took_ms;
     for (int i = 0; i < 5; ++i) {
         RunBench rig(false);
-        auto request = rig.request(withRun(kDelivering + "for (;;) bench.live();"));
+        const bool waits = i % 2 == 1;  // in a call of its own when its process goes
+        auto request = rig.request(withRun(kDelivering + (waits ? "bench.wait(3600);" : "for (;;) bench.live();")));
         std::promise<void> armed;
         request.onLog = [&, first = true](const std::string&) mutable {
             if (std::exchange(first, false)) armed.set_value();
@@ -102,6 +103,30 @@ TEST(HostileScript, TheOutputIsOffWithinTenMillisecondsOfItsEnd) {
     }
     std::ranges::sort(took_ms);
     EXPECT_IN_TIME(took_ms[took_ms.size() / 2] < 10) << testing::PrintToString(took_ms);
+}
+
+TEST(HostileScript, ACallThatWouldComputeForLongIsRefused) {
+    RecordProperty("hazard", "H2");  // a stop would wait for it
+    for (const char* call :
+         {"analysis.transitions({ lines: 101, traverse_s: 600 });",
+          "const t = []; for (let i = 0; i < 3e4; ++i) t.push({ condition: 'c' + i % 6000, amplitude: 1, interval_s: 1 "
+          "});\nanalysis.separability(t);",
+          "const m = []; for (let i = 0; i < 1e5; ++i) m.push(i);\ncalibration.weighings(m, 1000);"}) {
+        const auto begun = steady_clock::now();
+        const auto left = runToItsEnd(call);
+        ASSERT_TRUE(left.outcome.error) << call;
+        EXPECT_THAT(left.outcome.error->message, HasSubstr("is expected")) << call;
+        EXPECT_LT(left.outcome.error->message.size(), 2100U);
+        EXPECT_IN_TIME(steady_clock::now() - begun < std::chrono::seconds(5)) << call;
+    }
+}
+
+TEST(HostileScript, ItsSentenceIsShortWhateverItHandsOver) {
+    RecordProperty("hazard", "H10");
+    const auto left = runToItsEnd("bench.fitLoad('1 ohm + '.repeat(2e6));");
+    ASSERT_TRUE(left.outcome.error);
+    EXPECT_LT(left.outcome.error->message.size(), 2100U);
+    EXPECT_TRUE(left.recorded);
 }
 
 TEST(HostileScript, AStopEndsItBehindATextOfAnySize) {
@@ -145,6 +170,12 @@ TEST(HostileScript, ItsProcessHoldsNothingOfTheProgram) {
     std::ifstream status(process / "status");
     const std::string text(std::istreambuf_iterator<char>(status), {});
     EXPECT_THAT(text, testing::AnyOf(HasSubstr("Seccomp:\t2"), testing::Not(HasSubstr("Seccomp:"))));
+    for (const auto& task : std::filesystem::directory_iterator(process / "task")) {
+        std::ifstream of(task.path() / "status");
+        EXPECT_THAT(std::string(std::istreambuf_iterator<char>(of), {}),
+                    testing::AnyOf(HasSubstr("Seccomp:\t2"), testing::Not(HasSubstr("Seccomp:"))))
+            << task.path();
+    }
     run->stop("the test");
     static_cast<void>(run->wait());
     EXPECT_FALSE(std::filesystem::exists(process)) << "nothing is left of it";
@@ -152,19 +183,20 @@ TEST(HostileScript, ItsProcessHoldsNothingOfTheProgram) {
 
 TEST(HostileScript, WhatAnotherProgramSaysInItsPlaceIsReadAsALie) {
     RecordProperty("hazard", "H10");
-    const int lies = trials<int>({.local = 42, .ci = 140, .campaign = 10'000});
+    const int lies = trials<int>({.local = 40, .ci = 140, .campaign = 10'000});
     for (int seed = 0; seed < lies; ++seed) {
         ::setenv("TACTO_LIE", std::to_string(seed).c_str(), 1);
         RunBench rig(true, "sim:", 1, true);
         auto request = rig.request(withRun(""));
         request.program = programBeside("script_liar");
-        const auto left = runToItsEnd(rig, std::move(request));
+        const auto left = runToItsEnd(rig, std::move(request), milliseconds(1500));
         ASSERT_TRUE(left.off) << seed;
         ASSERT_TRUE(left.recorded) << seed;
         ASSERT_TRUE(left.outcome.error) << seed;
         ASSERT_FALSE(left.outcome.error->message.empty()) << seed;
         ASSERT_LT(left.outcome.error->message.size(), 3000U) << seed;
         ASSERT_NE(left.outcome.verdict, ScriptVerdict::Pass) << seed;
+        ASSERT_EQ(left.outcome.error->message.find("by operator"), std::string::npos) << seed;
     }
     ::unsetenv("TACTO_LIE");
 }

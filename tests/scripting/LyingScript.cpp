@@ -18,7 +18,7 @@ constexpr int kSocket = 3;
 
 class Liar {
 public:
-    explicit Liar(std::uint64_t seed) : random_(seed), kind_(seed % 14) {}
+    explicit Liar(std::uint64_t seed) : random_(seed), kind_(seed % 20) {}
 
     [[noreturn]] void live() {
         const auto start = read();
@@ -60,7 +60,7 @@ private:
             case 8:
                 return raw(std::string("\x10\0\0\0", 4) + "\xa1");  // part of a frame, then the end
             case 9:
-                return say({{"refused", index("bench.arm")}, {"why", any(3)}}), say({{"ended", any(2)}});
+                return say({{"refused", index("bench.arm")}, {"why", any(3)}}), say({{"ended", 5}});
             case 10:
                 static_cast<void>(std::raise(SIGSEGV));
                 return;
@@ -72,9 +72,34 @@ private:
                                 15));  // a key twice
             case 12:
                 return flood();
+            case 13:
+                return frame(std::string(150'000, '\x7f'));  // open-ended texts in each other
+            case 14:
+                ::close(kSocket);
+                return linger();
+            case 15:  // a byte now and then
+                raw(std::string("\x40\0\0\0", 4));
+                for (int i = 0; i < 60; ++i) {
+                    raw("x");
+                    ::usleep(50'000);
+                }
+                return;
+            case 16:  // and reads no answer
+                for (int i = 0; i < 20'000; ++i)
+                    say({{"call", index("bench.time")}, {"with", json::array()}, {"line", 2}});
+                return linger();
+            case 17:
+                return say({{"ended", {{"memory", true}, {"reason", "stopped by operator (signal)"}}}});
+            case 18:  // what it leaves behind holds the socket
+                if (::fork() == 0) linger();
+                return;
             default:
                 say({{"ended", {{"reason", 5}, {"line", std::numeric_limits<std::int64_t>::max()}}}});
         }
+    }
+    static void linger() {
+        ::sleep(3);
+        ::_exit(0);
     }
     /// Calls with what fits no function; then it goes.
     void flood() {

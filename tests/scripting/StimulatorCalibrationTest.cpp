@@ -156,7 +156,7 @@ TEST_F(CalibrationKept, IsCheckedByAShortRunAndNoticesThatTheStimulatorChanged) 
     const auto holds = calibrate("sim:stimulator?gain=1.03", {{"mode", "check"}});
     ASSERT_FALSE(holds.error) << holds.error->message;
     EXPECT_EQ(holds.verdict, ScriptVerdict::Pass) << holds.results["reasons"].dump();
-    const auto changed = calibrate("sim:stimulator?gain=1.06", {{"mode", "check"}});
+    const auto changed = calibrate("sim:stimulator?gain=0.98", {{"mode", "check"}});
     ASSERT_FALSE(changed.error) << changed.error->message;
     EXPECT_EQ(changed.verdict, ScriptVerdict::Fail);
     EXPECT_EQ(changed.reasons.size(), 3U);

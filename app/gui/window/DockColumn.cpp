@@ -19,7 +19,7 @@ namespace {
 constexpr int kStripIcon = 16;
 constexpr int kStripGap = 8;
 
-constexpr int kFewLines = 70;  ///< of a dock that gives way to those above it: its header and a line or two
+constexpr int kFewLines = 88;  ///< of a dock that gives way to those above it: its header and a button
 
 QString settingOf(int workspace) { return QString("docks/collapsed%1").arg(workspace); }
 

@@ -81,11 +81,13 @@ struct Kept {
     std::unique_ptr<ScriptProcess> process;  // guarded
 };
 
-Result<nlohmann::json> declareIn(ScriptProcess& process, const ProtocolSource& source,
-                                 std::chrono::milliseconds limit) {
+Result<nlohmann::json> declareIn(ScriptProcess& process, const ProtocolSource& source, std::chrono::milliseconds limit,
+                                 const std::function<bool()>& stopped) {
     const std::string file = fileOf(source);
     DeclarationPort port;
-    if (const auto error = process.load(port, source, limit)) {
+    if (const auto error = process.load(port, source, limit, stopped)) {
+        if (process.ended() && stopped && stopped())
+            return fail(ErrorCode::Stopped, "stopped by operator while {} was read: nothing was delivered", file);
         if (process.ended() && error->code == ErrorCode::Timeout) {
             return fail(ErrorCode::Timeout, "{}:1: the lines outside run(p) did not end within {} ms", file,
                         limit.count());
@@ -103,7 +105,8 @@ Result<nlohmann::json> declareIn(ScriptProcess& process, const ProtocolSource& s
     return *port.declared_;
 }
 
-Result<nlohmann::json> declare(const ProtocolSource& source, std::chrono::milliseconds limit) {
+Result<nlohmann::json> declare(const ProtocolSource& source, std::chrono::milliseconds limit,
+                               const std::function<bool()>& stopped) {
     static Kept kept;
     auto lock = source.shipped ? std::unique_lock(kept.mutex) : std::unique_lock<std::mutex>();
     std::unique_ptr<ScriptProcess> own;
@@ -113,13 +116,14 @@ Result<nlohmann::json> declare(const ProtocolSource& source, std::chrono::millis
         if (!started) return failure(started);
         process = std::move(*started);
     }
-    return declareIn(*process, source, limit);
+    return declareIn(*process, source, limit, stopped);
 }
 
 }  // namespace
 
-Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source, std::chrono::milliseconds limit) {
-    auto declared = declare(source, limit);
+Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source, std::chrono::milliseconds limit,
+                                            const std::function<bool()>& stopped) {
+    auto declared = declare(source, limit, stopped);
     if (!declared) return failure(declared);
     auto declaration = parseDeclaration((*declared)[0], (*declared)[1], (*declared)[2]);
     if (!declaration) return fail(ErrorCode::ParseError, "{}:1: {}", fileOf(source), declaration.error().message);

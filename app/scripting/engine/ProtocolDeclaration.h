@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -62,9 +63,11 @@ struct ProtocolSettings {
 /// Runs the script's top level and reads what it declares.
 /// Errors: ParseError "file:line: reason" for a script error, a missing protocol(), a missing run(), an unknown key,
 /// type or role, a range upside down or a default outside it, a crash of the engine; Timeout when the top level does
-/// not end in `limit`; NotFound where the program tactoscope-script is missing.
+/// not end in `limit`; NotFound where the program tactoscope-script is missing; Stopped once `stopped`, where there is
+/// one, says so.
 [[nodiscard]] Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source,
-                                                          std::chrono::milliseconds limit = std::chrono::seconds(1));
+                                                          std::chrono::milliseconds limit = std::chrono::seconds(1),
+                                                          const std::function<bool()>& stopped = {});
 
 /// Reads what protocol() was given. `order` and `choiceOrder`: the parameters' names as written, and the keys of each
 /// one's choices. A title has at most 200 characters, any other text 2000. Errors: InvalidArgument naming the key; as

@@ -11,6 +11,7 @@
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 #include "app/scripting/wire/ScriptMessage.h"
@@ -23,10 +24,11 @@ namespace tacto {
 namespace {
 
 using nlohmann::json;
-using SteadyTime = std::chrono::steady_clock::time_point;
 
 /// For a process that does not even compute: it was stopped from outside, or the machine stands still.
 constexpr std::chrono::minutes kMaxSilence{10};
+constexpr std::chrono::milliseconds kMaxStart{3000};
+constexpr std::chrono::milliseconds kLastMoments{200};  // of a process whose socket is closed
 constexpr int kTimesOnABusyMachine = 10;  // what takes a second of the processor may take this often as long
 
 int findRunLine(const std::string& text) {
@@ -57,22 +59,30 @@ std::optional<std::chrono::nanoseconds> timeUsedBy(pid_t pid) {
     return std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec);
 }
 
-/// A script that neither calls nor ends.
-class Patience {
+}  // namespace
+
+/// How long the script may neither call nor end. With a `limit` calls give it no new time.
+class ScriptProcess::Patience {
 public:
     Patience(pid_t pid, std::optional<std::chrono::milliseconds> limit) : pid_(pid), limit_(limit) { begin(); }
     void begin() {
         used_ = timeUsedBy(pid_);
         since_ = std::chrono::steady_clock::now();
     }
+    void called() {
+        if (!limit_) begin();
+    }
     [[nodiscard]] Result<void> look() const {
         const auto now = timeUsedBy(pid_);
-        if (limit_ && now && used_ && *now - *used_ > *limit_) return fail(ErrorCode::Timeout, "no answer in time");
-        if (now && used_ && *now - *used_ > ScriptProcess::kMaxThought) {
+        const auto computed = now && used_ ? *now - *used_ : std::chrono::nanoseconds(0);
+        const auto passed = std::chrono::steady_clock::now() - since_;
+        if (limit_ && (computed > *limit_ || passed > kTimesOnABusyMachine * *limit_))
+            return fail(ErrorCode::Timeout, "no answer in time");
+        if (computed > ScriptProcess::kMaxThought) {
             return fail(ErrorCode::Timeout, "the script computed for {} s without a call, which is more than it may",
                         ScriptProcess::kMaxThought.count());
         }
-        if (std::chrono::steady_clock::now() - since_ > kMaxSilence)
+        if (passed > kMaxSilence)
             return fail(ErrorCode::Timeout, "the script's process stood still for {} min", kMaxSilence.count());
         return {};
     }
@@ -81,8 +91,10 @@ private:
     pid_t pid_;
     std::optional<std::chrono::milliseconds> limit_;
     std::optional<std::chrono::nanoseconds> used_;
-    SteadyTime since_;
+    std::chrono::steady_clock::time_point since_;
 };
+
+namespace {
 
 /// A number where one stands, whatever stands there.
 std::int64_t wholeIn(const json& message, const char* key, std::int64_t otherwise) {
@@ -150,8 +162,35 @@ ScriptProcess::~ScriptProcess() {
 
 void ScriptProcess::end() noexcept {
     ending_ = true;
+    ::shutdown(socket_, SHUT_RDWR);  // another process may hold the other end too
     const std::lock_guard lock(life_);
     if (!reaped_) static_cast<void>(::kill(pid_, SIGKILL));
+}
+
+WhileWaiting ScriptProcess::watching(const Patience& patience) const {
+    return [this, &patience]() -> Result<void> {
+        if (ending_) return fail(ErrorCode::Io, "ended");
+        if (stopped_ && stopped_()) return fail(ErrorCode::Stopped, "stopped");
+        return patience.look();
+    };
+}
+
+bool ScriptProcess::endsWithin(std::chrono::milliseconds time) const noexcept {
+    const auto until = std::chrono::steady_clock::now() + time;
+    do {
+        siginfo_t how{};
+        if (::waitid(P_PID, static_cast<id_t>(pid_), &how, WEXITED | WNOWAIT | WNOHANG) != 0 || how.si_pid == pid_)
+            return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } while (std::chrono::steady_clock::now() < until);
+    return false;
+}
+
+bool ScriptProcess::awaitEnd() const noexcept {
+    siginfo_t how{};
+    while (::waitid(P_PID, static_cast<id_t>(pid_), &how, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
+    return ending_;
 }
 
 /// Waits for its end.
@@ -171,8 +210,10 @@ ScriptError ScriptProcess::error(ErrorCode code, std::string reason, int line) c
 }
 
 std::optional<ScriptError> ScriptProcess::load(HostPort& port, const ProtocolSource& source,
-                                               std::optional<std::chrono::milliseconds> limit) {
+                                               std::optional<std::chrono::milliseconds> limit,
+                                               std::function<bool()> stopped) {
     port_ = &port;
+    stopped_ = std::move(stopped);
     file_ = fileOf(source);
     lines_ = static_cast<int>(std::ranges::count(source.text, '\n')) + 3;
     runLine_ = findRunLine(source.text);
@@ -187,31 +228,28 @@ std::optional<ScriptError> ScriptProcess::run(const nlohmann::json& parameters) 
 /// Hands the message over and answers calls until the script says that it has ended.
 std::optional<ScriptError> ScriptProcess::serve(const json& message, std::optional<std::chrono::milliseconds> limit) {
     if (reaped_) return error(ErrorCode::Io, "the script's process is gone");
-    Patience patience(pid_, limit);
-    const auto receive = [&](std::optional<SteadyTime> until) {
-        return receiveMessage(socket_, until, [&] { return patience.look(); });
-    };
     if (!ready_) {
-        if (const auto begun = receive({}); !begun) return lost(begun.error());
+        Patience start(pid_, kMaxStart);
+        const auto begun = receiveMessage(socket_, watching(start));
+        if (!begun) return lost(begun.error());
         ready_ = true;
-        patience.begin();
     }
-    std::optional<SteadyTime> deadline;
-    if (limit) deadline = std::chrono::steady_clock::now() + kTimesOnABusyMachine * *limit;
-    if (auto sent = sendMessage(socket_, message); !sent) return lost(sent.error());
+    Patience patience(pid_, limit);
+    const WhileWaiting waiting = watching(patience);
+    if (auto sent = sendMessage(socket_, message, waiting); !sent) return lost(sent.error());
     for (;;) {
-        auto said = receive(deadline);
+        auto said = receiveMessage(socket_, waiting);
         if (!said) return lost(said.error());
         if (said->is_object() && said->contains("ended")) return endedBy((*said)["ended"]);
-        const auto answered = answer(*said);
+        const auto answered = answer(*said, waiting);
         if (!answered) return lost({ErrorCode::ParseError, "said what no script can say"});
         if (!*answered) return lost(answered->error());
-        patience.begin();
+        patience.called();
     }
 }
 
 /// Empty for a message that calls nothing.
-std::optional<Result<void>> ScriptProcess::answer(const json& message) {
+std::optional<Result<void>> ScriptProcess::answer(const json& message, const WhileWaiting& waiting) {
     const auto& functions = hostFunctions();
     if (!message.is_object()) return std::nullopt;
     const bool refused = message.contains("refused");
@@ -219,8 +257,10 @@ std::optional<Result<void>> ScriptProcess::answer(const json& message) {
     if (index < 0 || index >= static_cast<std::int64_t>(functions.size())) return std::nullopt;
     const HostFunction& function = functions[static_cast<std::size_t>(index)];
     if (refused) {  // its arguments cannot be handed over
-        return sendMessage(socket_, remember({ErrorCode::InvalidArgument,
-                                              fmt::format("{}: {}", function.fullName(), textIn(message, "why"))}));
+        return sendMessage(
+            socket_,
+            remember({ErrorCode::InvalidArgument, fmt::format("{}: {}", function.fullName(), textIn(message, "why"))}),
+            waiting);
     }
     const auto given = message.find("with");
     if (given == message.end() || !given->is_array()) return std::nullopt;
@@ -228,14 +268,16 @@ std::optional<Result<void>> ScriptProcess::answer(const json& message) {
     if (line > 0) lastLine_ = static_cast<int>(line);
     auto value = port_->call(function, *given, static_cast<int>(line));
     if (value) {
-        auto sent = sendMessage(socket_, {{"value", std::move(*value)}});
+        auto sent = sendMessage(socket_, {{"value", std::move(*value)}}, waiting);
         if (sent || sent.error().code != ErrorCode::InvalidArgument) return sent;
         value = failure(sent);  // too much to be handed over
     }
-    return sendMessage(socket_, remember(value.error()));
+    return sendMessage(socket_, remember(value.error()), waiting);
 }
 
-json ScriptProcess::remember(const Error& error) {
+/// Kept short: what is wrong may be shown whole in it.
+json ScriptProcess::remember(Error error) {
+    error.message = shortened(error.message, kMaxReason);
     if (failures_.size() == kFailures) failures_.pop_front();
     failures_.emplace_back(nextFailure_, error);
     return {{"failure", nextFailure_++},
@@ -253,17 +295,22 @@ std::optional<ScriptError> ScriptProcess::endedBy(const json& ended) const {
     for (const auto& [known, failed] : failures_)
         if (known == number) return error(failed.code, failed.message, line);
     const auto memory = ended.find("memory");
-    if (memory != ended.end() && *memory == true) return error(ErrorCode::Stopped, textIn(ended, "reason"), line);
+    if (memory != ended.end() && *memory == true) {
+        return error(ErrorCode::Stopped, "the script asked for more memory than there is; output is off", line);
+    }
     return error(ErrorCode::ParseError, textIn(ended, "reason"), line);
 }
 
 /// Nothing more can come of it.
 ScriptError ScriptProcess::lost(const Error& why) {
     const bool asked = ending_;
-    const bool byItself = why.code == ErrorCode::Io;
+    // One that closed its socket and lives on has not ended by itself.
+    const bool byItself = why.code == ErrorCode::Io && endsWithin(kLastMoments);
     if (!byItself) end();
     reap();
     if (asked) return error(ErrorCode::Stopped, "interrupted", lastLine_);
+    if (!byItself && why.code == ErrorCode::Io)
+        return error(ErrorCode::Io, "the script's process hung up, at this line or after it", lastLine_);
     if (!byItself) return error(why.code, why.message, lastLine_);
     if (WIFEXITED(status_) && WEXITSTATUS(status_) == kTooMuchMemory) {
         return error(ErrorCode::Stopped,

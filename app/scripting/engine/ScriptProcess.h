@@ -4,7 +4,7 @@
 // What comes from it is bounded and read as what a stranger says: a call names a function of the table and hands over
 // plain data; the code and the sentence of a failure are the program's own, whatever the script does with it.
 //
-// Thread-safety: one thread makes, loads and runs; end() from any.
+// Thread-safety: one thread makes, loads and runs; end() and awaitEnd() from any.
 #pragma once
 
 #include <atomic>
@@ -22,6 +22,7 @@
 
 #include "app/scripting/engine/HostFunction.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
+#include "app/scripting/wire/ScriptMessage.h"
 #include "core/base/Result.h"
 
 namespace tacto {
@@ -58,14 +59,18 @@ public:
     ScriptProcess& operator=(const ScriptProcess&) = delete;
 
     /// Runs the script's top level. The error, or nothing when it went well. After `limit` of the processor's time,
-    /// where there is one, the process is ended: Timeout. `port` outlives this.
+    /// where there is one, the process is ended: Timeout; and once `stopped` says so, which is asked meanwhile:
+    /// Stopped. `port` outlives this.
     [[nodiscard]] std::optional<ScriptError> load(HostPort& port, const ProtocolSource& source,
-                                                  std::optional<std::chrono::milliseconds> limit = {});
+                                                  std::optional<std::chrono::milliseconds> limit = {},
+                                                  std::function<bool()> stopped = {});
     /// Calls run(parameters) of the script that was loaded.
     [[nodiscard]] std::optional<ScriptError> run(const nlohmann::json& parameters);
 
     /// Ends the process now. load() and run() return, once a call that is under way has ended.
     void end() noexcept;
+    /// Waits until the process has ended; returns whether it was asked to. For a thread that does nothing else.
+    [[nodiscard]] bool awaitEnd() const noexcept;
     /// Whether it has ended, by itself or not: it loads and runs nothing any more.
     [[nodiscard]] bool ended() const noexcept { return reaped_; }
     [[nodiscard]] pid_t id() const noexcept { return pid_; }
@@ -77,11 +82,14 @@ private:
     [[nodiscard]] Result<void> introduce(std::size_t memory);
     [[nodiscard]] std::optional<ScriptError> serve(const nlohmann::json& message,
                                                    std::optional<std::chrono::milliseconds> limit);
-    [[nodiscard]] std::optional<Result<void>> answer(const nlohmann::json& message);
+    class Patience;
+    [[nodiscard]] std::optional<Result<void>> answer(const nlohmann::json& message, const WhileWaiting& waiting);
+    [[nodiscard]] WhileWaiting watching(const Patience& patience) const;
+    [[nodiscard]] bool endsWithin(std::chrono::milliseconds time) const noexcept;
     [[nodiscard]] ScriptError error(ErrorCode code, std::string reason, int line = 0) const;
     [[nodiscard]] std::optional<ScriptError> endedBy(const nlohmann::json& ended) const;
     [[nodiscard]] ScriptError lost(const Error& why);
-    [[nodiscard]] nlohmann::json remember(const Error& error);
+    [[nodiscard]] nlohmann::json remember(Error error);
     void reap() noexcept;
 
     static constexpr std::size_t kFailures = 256;
@@ -93,6 +101,7 @@ private:
     std::atomic<bool> reaped_{false};  // changed under it
     int status_ = 0;                   // once reaped
     HostPort* port_ = nullptr;
+    std::function<bool()> stopped_;  // asked while the process is waited for
     std::string file_;
     int lines_ = 0;  // of the script
     int runLine_ = 1;

@@ -48,20 +48,26 @@ struct ScriptRun::State final : HostPort {
     std::condition_variable woken;
     bool paused = false;    // guarded by control
     bool stopping = false;  // guarded by control
+    bool lost = false;      // guarded by control: the script's process ended by itself
     bool ended = false;     // guarded by control: the script's thread has let go of everything
     bool over = false;      // guarded by control: the bench may be gone
     std::string stoppedBy;  // guarded by control
-    std::optional<std::chrono::steady_clock::time_point> stoppedAt;  // guarded by control
+    std::optional<std::chrono::steady_clock::time_point> endedAt;  // guarded by control: the output, from outside
 
     const std::unique_ptr<ScriptProcess> process;
     std::thread thread;                    // serves the process
+    std::thread watch;                     // for its end, also while a host call waits
     std::unique_ptr<MemoryGuard> memory;   // of what the script makes the program keep
     std::optional<ScriptOutcome> outcome;  // wait()'s caller only
 
     Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int from) override;
     [[nodiscard]] Result<nlohmann::json> callChecked(const HostFunction& function, const nlohmann::json& arguments);
     void stop(const char* by) noexcept;
+    void endOutput(const char* by) noexcept;
+    void wake() noexcept;
+    void watchProcess() noexcept;
     void execute();
+    [[nodiscard]] std::optional<ScriptError> loadAndRun();
     [[nodiscard]] bool waitForEnd(std::optional<std::chrono::milliseconds> limit);
     [[nodiscard]] std::optional<ScriptError> checkDeclared();
     void writeAbout();
@@ -80,8 +86,9 @@ Result<nlohmann::json> ScriptRun::State::call(const HostFunction& function, cons
     }
     {
         std::unique_lock lock(control);
-        woken.wait(lock, [this] { return !paused || stopping; });
+        woken.wait(lock, [this] { return !paused || stopping || lost; });
         if (stopping) return fail(ErrorCode::Stopped, "stopped by {}", stoppedBy);
+        if (lost) return fail(ErrorCode::Stopped, "the script's process has ended");
     }
     if (declares) {
         // As the program read it: the first one counts, and none inside run(p).
@@ -114,26 +121,55 @@ void ScriptRun::State::stop(const char* by) noexcept {
     {
         const std::lock_guard lock(control);
         if (over) return;
-        if (request.pilot != nullptr) request.pilot->endRun();  // a flag: no test takes this stop for its own
-        request.bench->stop(by);                                // the output first
+        endOutput(by);
         if (!stopping) stoppedBy = by;
-        if (!stopping) stoppedAt = std::chrono::steady_clock::now();
         stopping = true;
     }
-    woken.notify_all();
-    if (request.operatorDesk != nullptr) request.operatorDesk->cancel();
-    if (request.pilot != nullptr) request.pilot->cancel();
+    wake();
     process->end();
 }
 
-void ScriptRun::State::execute() {
-    error = process->load(*this, request.script);
+/// With `control`. The output first.
+void ScriptRun::State::endOutput(const char* by) noexcept {
+    if (request.pilot != nullptr) request.pilot->endRun();  // a flag: no test takes this stop for its own
+    request.bench->stop(by);
+    if (!endedAt) endedAt = std::chrono::steady_clock::now();
+}
+
+void ScriptRun::State::wake() noexcept {
+    woken.notify_all();
+    if (request.operatorDesk != nullptr) request.operatorDesk->cancel();
+    if (request.pilot != nullptr) request.pilot->cancel();
+}
+
+/// A script whose process is gone drives nothing, whatever call of it is under way.
+void ScriptRun::State::watchProcess() noexcept {
+    if (process->awaitEnd()) return;
+    {
+        const std::lock_guard lock(control);
+        if (over || ended) return;
+        lost = true;
+        endOutput("the end of the script's process");
+    }
+    wake();
+}
+
+std::optional<ScriptError> ScriptRun::State::loadAndRun() {
+    auto failed = process->load(*this, request.script);
     line = std::max(line, process->runLine());
-    if (!error) error = checkDeclared();
-    if (!error) {
-        running = true;
-        writeAbout();
-        error = process->run(request.parameters);
+    if (!failed) failed = checkDeclared();
+    if (failed) return failed;
+    running = true;
+    writeAbout();
+    return process->run(request.parameters);
+}
+
+void ScriptRun::State::execute() {
+    try {
+        error = loadAndRun();
+    } catch (const std::exception& surprise) {  // memory, above all
+        process->end();
+        error = ScriptError{ErrorCode::Io, surprise.what(), fileOf(request.script), line};
     }
     request.bench->disarm();  // however it ended: returned, threw, crashed or was ended
     const std::lock_guard lock(control);
@@ -149,7 +185,7 @@ bool ScriptRun::State::waitForEnd(std::optional<std::chrono::milliseconds> limit
     const auto until = std::chrono::steady_clock::now() + limit.value_or(std::chrono::milliseconds(0));
     while (!ended) {
         const auto now = std::chrono::steady_clock::now();
-        if (stoppedAt && now > *stoppedAt + kHostCallLimit) {
+        if (endedAt && now > *endedAt + kHostCallLimit) {
             lock.unlock();
             request.bench->stop("a host call that does not end");
             endProgram(
@@ -214,6 +250,8 @@ std::string ScriptRun::State::stopText(int at) {
 
 void ScriptRun::State::conclude() {
     if (thread.joinable()) thread.join();
+    process->end();
+    if (watch.joinable()) watch.join();
     memory.reset();
     {
         const std::lock_guard lock(control);
@@ -240,8 +278,9 @@ void ScriptRun::State::conclude() {
     }
     if (!result.error && request.bench->faults() > faultsBefore + session.expectedFaults()) {
         result.verdict = ScriptVerdict::Stopped;
-        result.error = Error{request.bench->faultCode(), fmt::format("fault during the run: {}. Output is off.",
-                                                                     request.bench->telemetry().reason.view())};
+        result.error = Error{request.bench->faultCode(),
+                             fmt::format("fault during the run: {}. {}", request.bench->telemetry().reason.view(),
+                                         outputAfter(request.bench->telemetry().fault))};
     }
     if (!result.error && request.bench->recordsLost() > 0) {
         result.verdict = ScriptVerdict::None;
@@ -295,6 +334,7 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     try {
         state.memory = std::make_unique<MemoryGuard>(
             [&state] { state.stop("the program: the script makes it take too much memory"); }, memory);
+        state.watch = std::thread([&state] { state.watchProcess(); });
         state.thread = std::thread([&state] { state.execute(); });
         return run;
     } catch (const std::system_error& refused) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -12,26 +13,29 @@ namespace tacto {
 
 namespace {
 
-using SteadyTime = std::chrono::steady_clock::time_point;
 constexpr std::chrono::milliseconds kLook{100};
 constexpr std::size_t kHead = 4;
 
 tl::unexpected<Error> gone() { return fail(ErrorCode::Io, "the script's process is gone"); }
 
-class FrameReader {
+/// Moves bytes through a socket, whatever the other end does meanwhile.
+class Mover {
 public:
-    FrameReader(int socket, std::optional<SteadyTime> deadline, const std::function<Result<void>()>& idle)
-        : socket_(socket), deadline_(deadline), idle_(idle) {}
+    Mover(int socket, const WhileWaiting& waiting) : socket_(socket), waiting_(waiting) {}
 
-    Result<void> read(char* to, std::size_t size) {
-        for (std::size_t got = 0; got < size;) {
-            const ssize_t n = ::recv(socket_, to + got, size - got, MSG_DONTWAIT);
-            if (n == 0) return gone();
+    /// All of them, or an error. `move`: recv() or send() of what is left.
+    template <class Move>
+    Result<void> all(std::size_t size, short when, Move move) {
+        for (std::size_t done = 0; done < size;) {
+            if (auto looked = look(); !looked) return looked;
+            const ssize_t n = move(done);
             if (n > 0) {
-                got += static_cast<std::size_t>(n);
-            } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-                if (auto waited = wait(); !waited) return waited;
-            } else if (errno != EINTR) {
+                done += static_cast<std::size_t>(n);
+            } else if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+                pollfd ready{socket_, when, 0};
+                if (::poll(&ready, 1, waiting_ ? static_cast<int>(kLook.count()) : -1) < 0 && errno != EINTR)
+                    return gone();
+            } else if (n == 0 || errno != EINTR) {
                 return gone();
             }
         }
@@ -39,40 +43,21 @@ public:
     }
 
 private:
-    Result<void> wait() const {
-        auto wait_ms = static_cast<int>(kLook.count());
-        if (deadline_) {
-            const auto left =
-                std::chrono::ceil<std::chrono::milliseconds>(*deadline_ - std::chrono::steady_clock::now());
-            if (left.count() <= 0) return fail(ErrorCode::Timeout, "no answer in time");
-            wait_ms = std::min(wait_ms, static_cast<int>(std::min<std::int64_t>(left.count(), wait_ms)));
-        } else if (!idle_) {
-            wait_ms = -1;
-        }
-        pollfd in{socket_, POLLIN, 0};
-        const int ready = ::poll(&in, 1, wait_ms);
-        if (ready < 0 && errno != EINTR) return gone();
-        return ready == 0 && idle_ ? idle_() : Result<void>();
+    /// By the clock: an end that sends a byte now and then is waited for as one that sends none.
+    Result<void> look() {
+        if (!waiting_ || std::chrono::steady_clock::now() < next_) return {};
+        next_ = std::chrono::steady_clock::now() + kLook;
+        return waiting_();
     }
 
     int socket_;
-    std::optional<SteadyTime> deadline_;
-    const std::function<Result<void>()>& idle_;
+    const WhileWaiting& waiting_;
+    std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + kLook;
 };
-
-Result<void> sendAll(int socket, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t n = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) return gone();
-        bytes.remove_prefix(static_cast<std::size_t>(n));
-    }
-    return {};
-}
 
 }  // namespace
 
-Result<void> sendMessage(int socket, const nlohmann::json& message) {
+Result<void> sendMessage(int socket, const nlohmann::json& message, const WhileWaiting& waiting) {
     std::string frame(kHead, '\0');
     appendCbor(message, frame);
     const std::size_t size = frame.size() - kHead;
@@ -81,14 +66,20 @@ Result<void> sendMessage(int socket, const nlohmann::json& message) {
                     kMaxFrame);
     }
     for (std::size_t i = 0; i < kHead; ++i) frame[i] = static_cast<char>(size >> (8 * i) & 0xFFU);
-    return sendAll(socket, frame);
+    return Mover(socket, waiting).all(frame.size(), POLLOUT, [&](std::size_t done) {
+        return ::send(socket, frame.data() + done, frame.size() - done, MSG_NOSIGNAL | MSG_DONTWAIT);
+    });
 }
 
-Result<nlohmann::json> receiveMessage(int socket, std::optional<SteadyTime> deadline,
-                                      const std::function<Result<void>()>& idle) {
-    FrameReader reader(socket, deadline, idle);
+Result<nlohmann::json> receiveMessage(int socket, const WhileWaiting& waiting) {
+    Mover mover(socket, waiting);
+    const auto read = [&](char* to, std::size_t size) {
+        return mover.all(size, POLLIN, [&, to, size](std::size_t done) {
+            return ::recv(socket, to + done, size - done, MSG_DONTWAIT);
+        });
+    };
     std::array<char, kHead> head{};
-    if (auto read = reader.read(head.data(), head.size()); !read) return failure(read);
+    if (auto got = read(head.data(), head.size()); !got) return failure(got);
     std::size_t size = 0;
     for (std::size_t i = 0; i < kHead; ++i)
         size |= static_cast<std::size_t>(static_cast<unsigned char>(head[i])) << (8 * i);
@@ -98,7 +89,7 @@ Result<nlohmann::json> receiveMessage(int socket, std::optional<SteadyTime> dead
     while (frame.size() < size) {
         const std::size_t have = frame.size();
         frame.resize(std::min(size, have + kBlock));
-        if (auto read = reader.read(frame.data() + have, frame.size() - have); !read) return failure(read);
+        if (auto got = read(frame.data() + have, frame.size() - have); !got) return failure(got);
     }
     // A message is an object that holds a list of arguments.
     return parseCbor(frame, "a message",

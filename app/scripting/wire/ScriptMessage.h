@@ -9,10 +9,8 @@
 // Thread-safety: a socket has one reader and one writer at a time.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,20 +23,19 @@ inline constexpr int kScriptSocket = 3;
 /// How tactoscope-script ends when it was given the memory that it may have.
 inline constexpr int kTooMuchMemory = 77;
 inline constexpr std::size_t kMaxFrame = std::size_t{64} << 20;  ///< bytes
-inline constexpr std::size_t kMaxValues = 10'000'000;            ///< of a frame
+inline constexpr std::size_t kMaxValues = 1'000'000;             ///< of a frame
 inline constexpr int kMaxScriptDepth = 32;                       ///< of a value that a script hands over
 inline constexpr std::size_t kMaxReason = 2000;                  ///< bytes of what a script throws
 
-/// Errors: Io when the other end is gone; InvalidArgument for a value of more than kMaxFrame.
-[[nodiscard]] Result<void> sendMessage(int socket, const nlohmann::json& message);
+/// Called every 100 ms while the other end is waited for; an error of its own ends the waiting.
+using WhileWaiting = std::function<Result<void>()>;
 
-/// Waits for a whole message, at most until `deadline`. `idle` is called at least every 100 ms while nothing comes, and
-/// ends the waiting by an error.
-/// Errors: Io when the other end is gone; Timeout; ParseError for a frame that is too long or no value; those of
-/// `idle`.
-[[nodiscard]] Result<nlohmann::json> receiveMessage(int socket,
-                                                    std::optional<std::chrono::steady_clock::time_point> deadline = {},
-                                                    const std::function<Result<void>()>& idle = {});
+/// Errors: Io when the other end is gone; InvalidArgument for a value of more than kMaxFrame; those of `waiting`.
+[[nodiscard]] Result<void> sendMessage(int socket, const nlohmann::json& message, const WhileWaiting& waiting = {});
+
+/// Waits for a whole message.
+/// Errors: Io when the other end is gone; ParseError for a frame that is too long or no value; those of `waiting`.
+[[nodiscard]] Result<nlohmann::json> receiveMessage(int socket, const WhileWaiting& waiting = {});
 
 /// At most `most` bytes of `text`, in whole characters, with an ellipsis where something is left out.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t most);

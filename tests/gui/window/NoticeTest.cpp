@@ -195,7 +195,7 @@ TEST(NamesOfLimits, EachHasOneLimit) {
 TEST_F(Notices, ALimitIsNamedAboveAsInTheDock) {
     ASSERT_NO_FATAL_FAILURE(open());
     ASSERT_NO_FATAL_FAILURE(arm());
-    static const QRegularExpression limit(QString::fromUtf8(R"(of\s(.+)$)"));
+    static const QRegularExpression limit(QString::fromUtf8(R"(of\s([^,]+))"));
     std::map<std::string, std::set<std::string>> limits;  // by the name that stands beside them
     std::mt19937 random(47);
     for (int i = 0; i < 8; ++i) {

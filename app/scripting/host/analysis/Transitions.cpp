@@ -64,6 +64,10 @@ std::vector<std::string> tooLarge(const LargestSteps& steps, const char* movemen
 Result<Json> transitions(ScriptSession& session, const Arguments& arguments) {
     const auto lines = arguments.whole("options.lines");
     const auto traverse = arguments.number("options.traverse_s");
+    // No more than a moment of computing: a stop does not wait for it.
+    constexpr double kMaxSweep_s = 12'000;
+    if (!(lines * traverse <= kMaxSweep_s))
+        return arguments.wrong("traverse_s", traverse, fmt::format("at most {:g} s divided by the lines", kMaxSweep_s));
     const auto jumps = arguments.flag("options.jumps");
     const auto& encoding = session.bench().profile().encoding;
     const TransitionSweep sweep{static_cast<int>(lines), Seconds(traverse)};

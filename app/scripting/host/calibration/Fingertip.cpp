@@ -1,4 +1,5 @@
 // What the calibration of a fingertip begins and ends with.
+#include <algorithm>
 #include <cmath>
 
 #include "app/scripting/host/calibration/CalibrationObject.h"
@@ -14,6 +15,7 @@ namespace {
 
 using report::digitsOf;
 
+constexpr std::size_t kMaxWeighings = 10'000;  // of one direction
 constexpr double kStandsOut = 5;  // standard deviations at rest
 
 std::string toldApart(const Json& results) {
@@ -51,6 +53,8 @@ std::string whyNot(const Json& check, double measured, double expanded) {
 
 Result<Json> weighings(ScriptSession&, const Arguments& arguments) {
     const Json& masses = arguments.list("masses");
+    if (masses.size() > kMaxWeighings / static_cast<std::size_t>(std::max(1, arguments.whole("repeats"))))
+        return arguments.wrong("masses", masses.size(), fmt::format("times the repeats at most {}", kMaxWeighings));
     Json steps = Json::array();
     for (int repeat = 1; repeat <= arguments.whole("repeats"); ++repeat) {
         const auto add = [&](const Json& mass, const char* direction) {
