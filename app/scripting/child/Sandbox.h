@@ -28,10 +28,10 @@ struct SeenFunction {
 /// What became of a call.
 struct HostAnswer {
     nlohmann::json value;
-    std::optional<std::int64_t> failure;  ///< the program's number for it: it threw
-    int code = 0;                         ///< of the failure
-    bool limit = false;                   ///< a safety limit forbade it
-    std::string text;                     ///< for the operator
+    std::optional<std::int64_t> failure = {};  ///< the program's number for it: it threw
+    int code = 0;                              ///< of the failure
+    bool limit = false;                        ///< a safety limit forbade it
+    std::string text;                          ///< for the operator
 };
 
 /// Receives what scripts call.
@@ -47,8 +47,8 @@ public:
 /// What a script threw.
 struct Thrown {
     std::string reason;
-    int line = 0;                         ///< 0 when unknown
-    std::optional<std::int64_t> failure;  ///< the very failure of a call
+    int line = 0;                              ///< 0 when unknown
+    std::optional<std::int64_t> failure = {};  ///< the very failure of a call
     bool outOfMemory = false;
 };
 
