@@ -71,7 +71,12 @@ TEST_F(DeliveredTruth, ATrainThatWasNotReadIsTheLast) {
             said.amplitude.reset();
             said.electrode = ElectrodeState::NotMeasured;
         },
-        [](auto& said) { said = {.at = said.at, .electrode = ElectrodeState::Ok}; },
+        [](auto& said) {
+            const auto at = said.at;
+            said = {};
+            said.at = at;
+            said.electrode = ElectrodeState::Ok;
+        },
     };
     for (int trial = 0; trial < 40; ++trial) {
         const int from = std::uniform_int_distribution(2, 12)(draw_);
