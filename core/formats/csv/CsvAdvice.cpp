@@ -165,6 +165,7 @@ private:
         };
         if (std::ranges::any_of(head_.header, named)) return true;
         const auto isNext = [&](const CsvLine& row, const CsvLine& next) {
+            if (column > std::min(row.fields.size(), next.fields.size())) return false;
             const auto number = fieldNumber(row.fields[column - 1], head_.point);
             return number && fieldNumber(next.fields[column - 1], head_.point) == *number + 1;
         };
