@@ -17,14 +17,41 @@ namespace tacto {
 namespace {
 
 constexpr std::array kNeeded = {
-    SYS_read,          SYS_pread64,         SYS_write,          SYS_writev,       SYS_recvfrom,
-    SYS_sendto,        SYS_ppoll,           SYS_close,  // what is open
-    SYS_mmap,          SYS_munmap,          SYS_mremap,         SYS_mprotect,     SYS_madvise,
+    SYS_read,
+    SYS_pread64,
+    SYS_write,
+    SYS_writev,
+    SYS_recvfrom,
+    SYS_sendto,
+    SYS_ppoll,
+    SYS_close,  // what is open
+    SYS_mmap,
+    SYS_munmap,
+    SYS_mremap,
+    SYS_mprotect,
+    SYS_madvise,
     SYS_brk,  // memory
-    SYS_futex,         SYS_sched_yield,     SYS_rt_sigprocmask, SYS_rt_sigaction, SYS_rt_sigreturn,
-    SYS_sigaltstack,   SYS_set_robust_list, SYS_rseq,           SYS_membarrier,   SYS_restart_syscall,  // threads
-    SYS_clock_gettime, SYS_clock_nanosleep, SYS_nanosleep,      SYS_gettimeofday, SYS_getrandom,
-    SYS_getpid,        SYS_gettid,          SYS_getppid,        SYS_exit,         SYS_exit_group,
+    SYS_futex,
+    SYS_sched_yield,
+    SYS_rt_sigprocmask,
+    SYS_rt_sigaction,
+    SYS_rt_sigreturn,
+    SYS_sigaltstack,
+    SYS_set_robust_list,
+    SYS_rseq,
+    SYS_membarrier,
+    SYS_sched_getaffinity,
+    SYS_restart_syscall,  // threads
+    SYS_clock_gettime,
+    SYS_clock_nanosleep,
+    SYS_nanosleep,
+    SYS_gettimeofday,
+    SYS_getrandom,
+    SYS_getpid,
+    SYS_gettid,
+    SYS_getppid,
+    SYS_exit,
+    SYS_exit_group,
 #ifdef SYS_poll
     SYS_poll,
 #endif
