@@ -102,7 +102,12 @@ TEST(HostileScript, TheOutputIsOffWithinTenMillisecondsOfItsEnd) {
         EXPECT_THAT(outcome.error->message, HasSubstr("made the script engine crash"));
     }
     std::ranges::sort(took_ms);
-    EXPECT_IN_TIME(took_ms[took_ms.size() / 2] < 10) << testing::PrintToString(took_ms);
+#ifdef TACTOSCOPE_SANITIZED
+    constexpr double kMax_ms = 40;  // its process is ten times as large, and the system takes it down first
+#else
+    constexpr double kMax_ms = 10;
+#endif
+    EXPECT_IN_TIME(took_ms[took_ms.size() / 2] < kMax_ms) << testing::PrintToString(took_ms);
 }
 
 TEST(HostileScript, ACallThatWouldComputeForLongIsRefused) {
