@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <poll.h>
 #include <unistd.h>
 
 #include "app/cli/Command.h"
@@ -20,6 +19,7 @@
 #include "app/scripting/wire/ScriptMessage.h"
 #include "core/base/GivenOnce.h"
 #include "core/base/Printable.h"
+#include "core/base/StandardStreams.h"
 #include "core/calibration/CertificateDetails.h"
 #include "core/devices/Registry.h"
 #include "core/dsp/RoughnessFlags.h"
@@ -229,13 +229,6 @@ Result<Running> prepareRun(RunOrder order, const QCommandLineParser& parser, Reg
 
 constexpr std::size_t kMaxLogLine = 1000;  // bytes: with what printing adds it fits what a pipe takes at once
 
-/// Whether a line can be written at once. Into a pipe that is full, writing would hold the script, and a stop of it;
-/// the session has every line.
-bool takesLine(std::FILE* to) noexcept {
-    pollfd out{::fileno(to), POLLOUT, 0};
-    return ::poll(&out, 1, 0) == 1 && (out.revents & POLLOUT) != 0;
-}
-
 RunResult runScript(const Running& running, const std::map<std::string, std::string>& answers, SignalStop& interrupts) {
     auto& run = running.run();
     ProgressLine line;
@@ -244,7 +237,7 @@ RunResult runScript(const Running& running, const std::map<std::string, std::str
     hooks.operatorDesk = &desk;
     hooks.onProgress = [&](const ScriptProgress& progress) { line.show(progress); };
     hooks.onLog = [&](const std::string& text) {
-        if (!takesLine(stderr)) return;
+        if (!takesMore(STDERR_FILENO)) return;  // the session has every line
         line.clear();
         say(stderr, "{}\n", lines(shortened(text, kMaxLogLine)));
     };
@@ -315,8 +308,7 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
 
 /// At once: a report may take long, and can be made later.
 [[noreturn]] void endBeforeReports(const std::string& session) {
-    pollfd terminal{STDERR_FILENO, POLLOUT, 0};
-    if (::poll(&terminal, 1, 0) == 1)  // one that takes no more text must not hold the program
+    if (takesMore(STDERR_FILENO))
         say(stderr,
             "tactoscope-cli: ended by a signal before the reports were written. The session is complete: "
             "tactoscope-cli report {} --out FILE writes one.\n",

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 namespace tacto {
@@ -16,6 +17,11 @@ void holdStandardStreams() noexcept {
         ::close(file);
         return;
     }
+}
+
+bool takesMore(int stream) noexcept {
+    pollfd out{stream, POLLOUT, 0};
+    return ::poll(&out, 1, 0) == 1 && (out.revents & POLLOUT) != 0;
 }
 
 }  // namespace tacto

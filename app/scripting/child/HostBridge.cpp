@@ -1,6 +1,7 @@
 #include "app/scripting/child/HostBridge.h"
 
 #include "app/scripting/child/JsValue.h"
+#include "core/base/Result.h"
 
 namespace tacto {
 
@@ -25,7 +26,7 @@ QJSValue HostBridge::call(int index, const QJSValue& arguments) {
 
     QJSValue error = engine_.newErrorObject(QJSValue::GenericError, QString::fromStdString(answer.text));
     error.setProperty(QStringLiteral("code"), answer.code);
-    error.setProperty(QStringLiteral("limit"), answer.limit);
+    error.setProperty(QStringLiteral("limit"), answer.code == static_cast<int>(ErrorCode::LimitExceeded));
     if (failures_.size() == kFailures) failures_.pop_front();
     failures_.emplace_back(error, *answer.failure);
     engine_.throwError(error);

@@ -30,7 +30,6 @@ struct HostAnswer {
     nlohmann::json value;
     std::optional<std::int64_t> failure = {};  ///< the program's number for it: it threw
     int code = 0;                              ///< of the failure
-    bool limit = false;                        ///< a safety limit forbade it
     std::string text;                          ///< for the operator
 };
 

@@ -47,7 +47,6 @@ private:
         }
         out.failure = answer->at("failure").get<std::int64_t>();
         out.code = answer->at("code").get<int>();
-        out.limit = answer->at("limit").get<bool>();
         out.text = answer->at("text").get<std::string>();
         return out;
     }

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "app/scripting/wire/ScriptMessage.h"
+#include "core/base/JsonFields.h"
 #include "core/base/ProgramPath.h"
 
 extern char** environ;
@@ -102,11 +103,7 @@ std::int64_t wholeIn(const json& message, const char* key, std::int64_t otherwis
     return at != message.end() && at->is_number_integer() ? at->get<std::int64_t>() : otherwise;
 }
 
-std::string textIn(const json& message, const char* key) {
-    const auto at = message.find(key);
-    return at != message.end() && at->is_string() ? shortened(at->get_ref<const std::string&>(), kMaxReason + 3)
-                                                  : std::string();
-}
+std::string textIn(const json& message, const char* key) { return shortened(textOr(message, key), kMaxReason + 3); }
 
 }  // namespace
 
@@ -280,10 +277,7 @@ json ScriptProcess::remember(Error error) {
     error.message = shortened(error.message, kMaxReason);
     if (failures_.size() == kFailures) failures_.pop_front();
     failures_.emplace_back(nextFailure_, error);
-    return {{"failure", nextFailure_++},
-            {"code", static_cast<int>(error.code)},
-            {"limit", error.code == ErrorCode::LimitExceeded},
-            {"text", error.message}};
+    return {{"failure", nextFailure_++}, {"code", static_cast<int>(error.code)}, {"text", error.message}};
 }
 
 std::optional<ScriptError> ScriptProcess::endedBy(const json& ended) const {
@@ -294,8 +288,7 @@ std::optional<ScriptError> ScriptProcess::endedBy(const json& ended) const {
     const auto number = wholeIn(ended, "failure", 0);
     for (const auto& [known, failed] : failures_)
         if (known == number) return error(failed.code, failed.message, line);
-    const auto memory = ended.find("memory");
-    if (memory != ended.end() && *memory == true) {
+    if (flagOr(ended, "memory")) {
         return error(ErrorCode::Stopped, "the script asked for more memory than there is; output is off", line);
     }
     return error(ErrorCode::ParseError, textIn(ended, "reason"), line);

@@ -4,7 +4,6 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
-#include <poll.h>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
@@ -13,6 +12,7 @@
 #include "app/scripting/engine/ScriptProcess.h"
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/wire/MemoryGuard.h"
+#include "core/base/StandardStreams.h"
 #include "core/pilot/PilotSession.h"
 #include "core/session/SessionWriter.h"
 
@@ -23,9 +23,7 @@ constexpr std::chrono::seconds kHostCallLimit{5};
 
 /// Without the C library's streams: the thread that stands still may hold them, and stderr may take nothing.
 [[noreturn]] void endProgram(const std::string& why) {
-    pollfd out{STDERR_FILENO, POLLOUT, 0};
-    if (::poll(&out, 1, 0) == 1 && (out.revents & POLLOUT) != 0)
-        static_cast<void>(!::write(STDERR_FILENO, why.data(), why.size()));
+    if (takesMore(STDERR_FILENO)) static_cast<void>(!::write(STDERR_FILENO, why.data(), why.size()));
     std::abort();
 }
 
