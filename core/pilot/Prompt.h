@@ -61,7 +61,7 @@ struct PilotPrompt {
 
 struct PilotAnswer {
     std::vector<std::string> keys;  ///< one; any number for Several; the text for Text. Empty for Scale: see `value`
-    std::optional<int> value;       ///< Scale
+    std::optional<int> value = {};  ///< Scale
     /// From the appearance of the targets to the press.
     Seconds after{0};
     /// False: `within` passed without an answer.
