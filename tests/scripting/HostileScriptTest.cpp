@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <random>
 #include <thread>
+#include <unistd.h>
 
 #include "app/scripting/engine/ScriptProcess.h"
 #include "core/base/ProgramPath.h"
@@ -184,6 +185,19 @@ TEST(HostileScript, ItsProcessHoldsNothingOfTheProgram) {
     run->stop("the test");
     static_cast<void>(run->wait());
     EXPECT_FALSE(std::filesystem::exists(process)) << "nothing is left of it";
+}
+
+TEST(HostileScript, AReaderThatWasEndedMeanwhileIsStartedAgain) {
+    RecordProperty("hazard", "H10");
+    ProtocolSource shipped = probe(withRun(""));
+    shipped.shipped = true;  // one process reads all that come with the program
+    ASSERT_TRUE(readDeclaration(shipped));
+    std::ifstream children(fmt::format("/proc/self/task/{}/children", ::getpid()));
+    if (!children) GTEST_SKIP() << "this system does not list a program's children";
+    for (pid_t child = 0; children >> child;) ::kill(child, SIGKILL);
+    std::this_thread::sleep_for(milliseconds(50));
+    const auto read = readDeclaration(shipped);
+    EXPECT_TRUE(read) << read.error().message;
 }
 
 TEST(HostileScript, WhatAnotherProgramSaysInItsPlaceIsReadAsALie) {

@@ -174,14 +174,16 @@ WhileWaiting ScriptProcess::watching(const Patience& patience) const {
 
 bool ScriptProcess::endsWithin(std::chrono::milliseconds time) const noexcept {
     const auto until = std::chrono::steady_clock::now() + time;
-    do {
+    for (;;) {
         siginfo_t how{};
         if (::waitid(P_PID, static_cast<id_t>(pid_), &how, WEXITED | WNOWAIT | WNOHANG) != 0 || how.si_pid == pid_)
             return true;
+        if (std::chrono::steady_clock::now() >= until) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } while (std::chrono::steady_clock::now() < until);
-    return false;
+    }
 }
+
+bool ScriptProcess::ended() const noexcept { return reaped_ || endsWithin(std::chrono::milliseconds(0)); }
 
 bool ScriptProcess::awaitEnd() const noexcept {
     siginfo_t how{};
@@ -238,16 +240,16 @@ std::optional<ScriptError> ScriptProcess::serve(const json& message, std::option
         auto said = receiveMessage(socket_, waiting);
         if (!said) return lost(said.error());
         if (said->is_object() && said->contains("ended")) return endedBy((*said)["ended"]);
-        const auto answered = answer(*said, waiting);
+        const auto answered = answer(*said, patience);
         if (!answered) return lost({ErrorCode::ParseError, "said what no script can say"});
         if (!*answered) return lost(answered->error());
-        patience.called();
     }
 }
 
 /// Empty for a message that calls nothing.
-std::optional<Result<void>> ScriptProcess::answer(const json& message, const WhileWaiting& waiting) {
+std::optional<Result<void>> ScriptProcess::answer(const json& message, Patience& patience) {
     const auto& functions = hostFunctions();
+    const WhileWaiting waiting = watching(patience);
     if (!message.is_object()) return std::nullopt;
     const bool refused = message.contains("refused");
     const auto index = wholeIn(message, refused ? "refused" : "call", -1);
@@ -264,6 +266,7 @@ std::optional<Result<void>> ScriptProcess::answer(const json& message, const Whi
     const auto line = std::clamp<std::int64_t>(wholeIn(message, "line", 0), 0, lines_);
     if (line > 0) lastLine_ = static_cast<int>(line);
     auto value = port_->call(function, *given, static_cast<int>(line));
+    patience.called();  // a call takes as long as it does
     if (value) {
         auto sent = sendMessage(socket_, {{"value", std::move(*value)}}, waiting);
         if (sent || sent.error().code != ErrorCode::InvalidArgument) return sent;

@@ -72,7 +72,7 @@ public:
     /// Waits until the process has ended; returns whether it was asked to. For a thread that does nothing else.
     [[nodiscard]] bool awaitEnd() const noexcept;
     /// Whether it has ended, by itself or not: it loads and runs nothing any more.
-    [[nodiscard]] bool ended() const noexcept { return reaped_; }
+    [[nodiscard]] bool ended() const noexcept;
     [[nodiscard]] pid_t id() const noexcept { return pid_; }
     /// Line of `function run` in the loaded script, or 1.
     [[nodiscard]] int runLine() const noexcept { return runLine_; }
@@ -83,7 +83,7 @@ private:
     [[nodiscard]] std::optional<ScriptError> serve(const nlohmann::json& message,
                                                    std::optional<std::chrono::milliseconds> limit);
     class Patience;
-    [[nodiscard]] std::optional<Result<void>> answer(const nlohmann::json& message, const WhileWaiting& waiting);
+    [[nodiscard]] std::optional<Result<void>> answer(const nlohmann::json& message, Patience& patience);
     [[nodiscard]] WhileWaiting watching(const Patience& patience) const;
     [[nodiscard]] bool endsWithin(std::chrono::milliseconds time) const noexcept;
     [[nodiscard]] ScriptError error(ErrorCode code, std::string reason, int line = 0) const;
