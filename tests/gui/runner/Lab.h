@@ -63,10 +63,12 @@ protected:
     /// Into a field, on the page of whichever step has it.
     void type(const QString& field, const QString& text) {
         const auto seen = [&] { return find<QLineEdit>(*workspace, field) != nullptr; };
-        constexpr int kLaidOut_ms = 100;
-        for (const auto step : {gui::kSettings, gui::kReference, gui::kWiring, gui::kSign}) {
-            if (comesTrue(seen, kLaidOut_ms)) break;
-            workspace->goTo(step);
+        constexpr int kLaidOut_ms = 100, kRounds = 25;
+        for (int round = 0; round < kRounds && !seen(); ++round) {  // the form is there once the script has been read
+            for (const auto step : {gui::kSettings, gui::kReference, gui::kWiring, gui::kSign}) {
+                if (comesTrue(seen, kLaidOut_ms)) break;
+                workspace->goTo(step);
+            }
         }
         auto& line = the<QLineEdit>(field);
         line.setFocus();
