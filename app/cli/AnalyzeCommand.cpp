@@ -27,7 +27,7 @@ int separability(const std::string& file, bool asJson) {
     if (asJson) {
         printJson(result);
     } else {
-        printSeparability(result);
+        printTables("separability", result);
         printVerdict(nameOf(found->verdict), found->reasons);
     }
     return exitForVerdict(nameOf(found->verdict));

@@ -24,7 +24,7 @@
 #include "core/devices/Registry.h"
 #include "core/dsp/RoughnessFlags.h"
 #include "core/session/Origin.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto::cli {
 
@@ -259,34 +259,19 @@ int exitFor(const RunResult& result) {
     return result.outcome.error ? static_cast<int>(kCouldNotRun) : exitForVerdict(result.verdict());
 }
 
-/// How results of a kind are shown.
-struct Shown {
-    void (*print)(const json& results) = printResults;  ///< of a kind that is not known: as they are
-    bool saysReasons = false;                           ///< they are among what it prints
-};
-
-Shown shownAs(const json& results) {
-    using enum ResultKind;
-    static const std::map<ResultKind, Shown> kKinds{{Variation, {printVariation, true}},
-                                                    {Separability, {printSeparability}},
-                                                    {LoadSafety, {printLoadSafety}},
-                                                    {StimulatorCalibration, {printCalibration}},
-                                                    {Transitions, {printTransitions}},
-                                                    {EncodingComparison, {printEncodingComparison}},
-                                                    {SensorCalibration, {printSensorCalibration}},
-                                                    {PilotThresholds, {printPilotThresholds}},
-                                                    {PilotIdentification, {printPilotIdentification}}};
-    const auto kind = results.is_object() ? results.find("kind") : results.end();
-    if (kind == results.end() || !kind->is_string()) return {};
-    const auto found = kKinds.find(resultTraits(kind->get<std::string>()).kind);
-    return found != kKinds.end() ? found->second : Shown{};
-}
-
 /// A script may return anything under any name; its verdict stands all the same.
-void printAnyResults(const json& results, const Shown& shown) {
+void printAnyResults(const json& results) {
     if (!results.is_object()) return;
+    const auto kind = results.contains("kind") && results["kind"].is_string() ? results["kind"].get<std::string>() : "";
     try {
-        shown.print(results);
+        switch (const auto& traits = resultTraits(kind); traits.kind) {
+            case ResultKind::PilotThresholds:
+                return printPilotThresholds(results);
+            case ResultKind::PilotIdentification:
+                return printPilotIdentification(results);
+            default:
+                return traits.tables.empty() ? printResults(results) : printTables(kind, results);
+        }
     } catch (const json::exception& problem) {
         say("\n  The results do not have the shape that is shown here ({}); the session holds them as they are.\n",
             printable(problem.what()));
@@ -294,14 +279,13 @@ void printAnyResults(const json& results, const Shown& shown) {
 }
 
 void printSummary(const ScriptOutcome& outcome, const json& value) {
-    const auto shown = shownAs(outcome.results);
-    printAnyResults(outcome.results, shown);
+    printAnyResults(outcome.results);
     say("\n");
     for (const auto& mark : value["marks"]) say("  {}\n", flagSentence(mark.get<std::string>()));
     printVerdict(value["verdict"].is_string() ? value["verdict"].get<std::string>()
                  : outcome.error              ? "none: the run ended before there was one"
                                               : "none: this protocol judges nothing",
-                 outcome.error || shown.saysReasons ? std::vector<std::string>{} : outcome.reasons);
+                 outcome.error ? std::vector<std::string>{} : outcome.reasons);
     say("  session  {}\n", value["session"].get<std::string>());
     if (value["report"].is_string()) say("  report   {}\n", value["report"].get<std::string>());
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/NaN.h"
 #include "core/base/Printable.h"
 #include "core/base/QuantityText.h"
 
@@ -208,6 +209,16 @@ QString quantityText(double value, const QString& unit, const ColumnFormat& form
                     split.base.isEmpty() ? shown : prefixOf(format.exponent).symbol + split.base);
 }
 
+QString grouped(QString words) {
+    static const QRegularExpression number(R"((?<![\w.])\d{5,})");
+    for (auto at = number.match(words); at.hasMatch(); at = number.match(words, at.capturedEnd())) {
+        auto digits = at.captured();
+        for (auto i = digits.size() - 3; i > 0; i -= 3) digits.insert(i, QChar(0x202f));
+        words.replace(at.capturedStart(), at.capturedLength(), digits);
+    }
+    return words;
+}
+
 QString withSigns(QString text) {
     static const QRegularExpression kHyphen(R"((^|[\s(\[])-(?=\d))"), kOhm(R"((\d)[ \x{a0}\x{202f}]?([kM]?)ohm\b)"),
         kSquare(R"(\b([cm]?m)2\b)");
@@ -401,18 +412,18 @@ QString cellText(const QJsonValue& value, const QString& unit) {
     if (value.isObject()) {
         const auto object = value.toObject();
         if (object.contains("mean")) {
-            return spreadText(object["mean"].toDouble(kUnknown), object["sd"].toDouble(kUnknown), unit);
+            return spreadText(object["mean"].toDouble(kNaN), object["sd"].toDouble(kNaN), unit);
         }
         if (object.contains("expanded")) {
-            return uncertainText(object["value"].toDouble(kUnknown), object["expanded"].toDouble(kUnknown),
+            return uncertainText(object["value"].toDouble(kNaN), object["expanded"].toDouble(kNaN),
                                  object["unit"].toString(unit));
         }
         if (object.contains("value") && object.contains("unit")) {
-            return quantityText(object["value"].toDouble(kUnknown), object["unit"].toString());
+            return quantityText(object["value"].toDouble(kNaN), object["unit"].toString());
         }
         if (object.contains("value")) {
-            return intervalText({object["value"].toDouble(kUnknown), object["low"].toDouble(kUnknown),
-                                 object["high"].toDouble(kUnknown)},
+            return intervalText({object["value"].toDouble(kNaN), object["low"].toDouble(kNaN),
+                                 object["high"].toDouble(kNaN)},
                                 unit);
         }
     }

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/report/Figure.h"
+#include "core/analysis/statistics/Estimate.h"
 
 namespace tacto {
 
@@ -71,6 +71,9 @@ struct ColumnFormat {
 /// `text` with the signs that a page has and a script's source need not: a minus before a number in place of a hyphen
 /// (dates and ranges keep theirs), Ω after a number in place of ohm, cm² in place of cm2.
 [[nodiscard]] QString withSigns(QString text);
+
+/// "1 000 000" of "1000000": numbers of five digits and more before their decimals.
+[[nodiscard]] QString grouped(QString words);
 
 /// One prefix for all figures of a unit that stand in one column: "620.0 µV" above "45.25 mV" becomes "0.6200 mV". Its
 /// digits stay, the point moves; the prefix is the largest that is met, or a smaller one where that is much shorter and

@@ -8,7 +8,7 @@
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
 #include "core/analysis/statistics/Verdict.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 namespace {

@@ -159,6 +159,63 @@ void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlo
     blocks.emplace_back(std::move(facts));
 }
 
+TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, const QString& caption) {
+    TableBlock table;
+    table.caption = caption;
+    table.rows.resize(records.size());
+    for (const auto& column : source.columns) {
+        auto text = columnText(column, records);
+        const bool known = std::ranges::any_of(text.cells, [](const QString& cell) { return cell != u"–"; });
+        if (!known && !records.empty()) continue;  // a column of which no row says anything is not there
+        if (column.as == ResultColumn::As::Text) sharePrefix(text.cells);
+        if (text.right) alignPoints(text.cells);
+        table.columns.push_back({text.header.replace('\n', ' '), text.right});
+        if (column.as == ResultColumn::As::Verdict) {
+            for (auto& cell : text.cells) cell.replace(' ', QChar(0x00a0));  // shape and word stay on one line
+            if (table.columns.size() == 1) table.naming = 1;
+        }
+        for (std::size_t r = 0; r < records.size(); ++r)
+            table.rows[r] << shownText(text.cells[qsizetype(r)], kShownCell);
+    }
+    return table;
+}
+
+/// One below the other: what the record does not have is left out.
+TableBlock factsOf(const ResultTable& source, const nlohmann::json& record, const QString& caption) {
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Quantity"}, {"Value"}};
+    for (const auto& column : source.columns) {
+        if (memberAt(record, column.at).is_null()) continue;
+        auto text = columnText(column, nlohmann::json::array({record}));
+        table.rows.push_back({text.header.replace('\n', ' '), shownText(text.cells.front(), kShownCell)});
+    }
+    return table;
+}
+
+/// The tables of the results' kind, but for those that stand elsewhere in the report.
+void addResults(const nlohmann::json& results, Captions& captions, std::vector<ReportBlock>& blocks) {
+    using Shape = ResultTable::Shape;
+    const QString partial = memberAt(results, "partial") == true ? " (partial: the run ended early)" : "";
+    const auto add = [&](TableBlock block) {
+        if (!block.rows.empty() && !block.columns.empty()) blocks.emplace_back(std::move(block));
+    };
+    for (const auto& table : tablesOf(results)) {
+        if (table.shown == ResultTable::Else::InTheReport || table.shown == ResultTable::Else::InBoth) continue;
+        const auto title = QString::fromStdString(table.title) + partial;
+        const auto& value = table.at.empty() ? results : memberAt(results, table.at);
+        const auto before = blocks.size();
+        if (const auto rows = rowsOf(table, results); table.shape == Shape::Rows && !rows.empty())
+            add(tableOf(table, rows, captions.table(title)));
+        else if (table.shape == Shape::Facts && value.is_object())
+            add(factsOf(table, value, captions.table(title)));
+        else if (table.shape == Shape::Sentences)
+            for (const auto& text : sentencesIn(value)) blocks.emplace_back(ParagraphBlock{shownText(text)});
+        if (blocks.size() > before && !table.note.empty())
+            blocks.emplace_back(ParagraphBlock{QString::fromStdString(table.note), true});
+    }
+}
+
 void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     if (model.items.empty()) return;
     blocks.emplace_back(captions.heading(isCertificate(model) ? "How they were found" : "Results"));
@@ -175,6 +232,8 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
             }
         } else if (const auto* matrix = std::get_if<ReportMatrix>(&item)) {
             blocks.emplace_back(matrixOf(*matrix, captions.table(matrix->caption)));
+        } else if (const auto* found = std::get_if<ReportResults>(&item)) {
+            addResults(found->results, captions, blocks);
         } else {
             blocks.emplace_back(ParagraphBlock{withSigns(std::get<ReportText>(item).text)});
         }

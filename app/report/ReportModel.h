@@ -8,6 +8,7 @@
 #include <QJsonObject>
 #include <QString>
 #include <QStringList>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -66,7 +67,12 @@ struct ReportMatrix {
     QJsonArray rows;
 };
 
-using ReportItem = std::variant<ReportFigure, ReportTable, ReportMatrix, ReportText>;
+/// What a run found, to be shown as the tables of its kind.
+struct ReportResults {
+    nlohmann::json results;
+};
+
+using ReportItem = std::variant<ReportFigure, ReportTable, ReportMatrix, ReportText, ReportResults>;
 
 /// One channel of an instrument, and what is known of its accuracy.
 struct ReportInstrument {

@@ -9,7 +9,9 @@
 #include "app/report/Report.h"
 #include "app/report/ReportBasis.h"
 #include "app/report/TableContent.h"
+#include "core/base/JsonFields.h"
 #include "core/dsp/RoughnessFlags.h"
+#include "core/results/ResultTable.h"
 #include "core/session/Marks.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
@@ -324,7 +326,13 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     if (!items) return failure(items);
     readBasis({}, model);
     ItemReader itemReader(*reader, model);
-    for (const auto& row : *items) itemReader.take(qtObject(row.body));
+    for (const auto& row : *items) {
+        if (const auto& found = memberAt(row.body, "results");
+            textOr(row.body, "kind") == "results" && found.is_object())
+            model.items.emplace_back(ReportResults{found});
+        else
+            itemReader.take(qtObject(row.body));
+    }
     itemReader.finish();
 
     const auto labels = reader->labels();

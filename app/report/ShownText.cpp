@@ -24,8 +24,8 @@ void shorten(ReportItem& item) {
         shorten(table->caption);
     } else if (auto* matrix = std::get_if<ReportMatrix>(&item)) {
         shorten(matrix->caption);
-    } else {
-        shorten(std::get<ReportText>(item).text);
+    } else if (auto* said = std::get_if<ReportText>(&item)) {
+        shorten(said->text);
     }
 }
 

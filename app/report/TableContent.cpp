@@ -7,7 +7,6 @@
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
 #include "app/report/VerdictMark.h"
-#include "core/safety/LimitSet.h"
 
 namespace tacto {
 namespace {
@@ -190,22 +189,6 @@ QString noteOf(const QJsonObject& row) {
 }
 
 }  // namespace
-
-QString limitSetTitle(const QString& id) {
-    const auto text = id.toStdString();
-    return QString::fromStdString(std::string(shortTitleOf(text)));
-}
-
-QString limitShareText(double used_pct) {
-    if (!std::isfinite(used_pct)) return "–";
-    if (used_pct > 0 && used_pct < 0.1) return "<\u202f0.1\u202f%";
-    return QString::number(used_pct, 'f', used_pct < 1 && used_pct > 0 ? 1 : 0) + "\u202f%";
-}
-
-QString loadText(QString name) {
-    static const QRegularExpression between("(\\d) (?=[kM]?Ω|[npuµ]F)");  // a number stays with its unit
-    return name.replace("ohm", "Ω").replace("||", "∥").replace(between, QString("\\1") + QChar(0x00a0));
-}
 
 TableBlock tableOf(const ReportTable& source, const QString& caption) {
     TableBlock table;

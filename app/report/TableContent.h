@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/report/ReportContent.h"
+#include "app/report/ResultCells.h"
 
 namespace tacto {
 
@@ -15,13 +16,5 @@ namespace tacto {
 /// One prefix for each unit in each column of the tables that were not made by tableOf().
 void sharePrefixes(std::vector<ReportBlock>& blocks);
 [[nodiscard]] TableBlock eventsTable(const ReportModel& model, const QString& caption);
-
-/// "FDA guidance" of "fda-pms"; "this program" of "gate"; an id that is not known
-/// stands as it is.
-[[nodiscard]] QString limitSetTitle(const QString& id);
-/// The share of a limit that value and U use together, "23 %"; "–" where it is not known.
-[[nodiscard]] QString limitShareText(double used_pct);
-/// "200 Ω + 10 kΩ ∥ 50 nF" of a load's name.
-[[nodiscard]] QString loadText(QString name);
 
 }  // namespace tacto

@@ -3,31 +3,29 @@
 #include <map>
 
 #include "app/report/Ink.h"
+#include "app/report/ResultCells.h"
 
 namespace tacto {
 namespace {
 
 const QColor kWhite(0xff, 0xff, 0xff);
 
-const std::map<QString, VerdictMark>& verdictMarks() {
-    static const std::map<QString, VerdictMark> marks{
-        {"pass", {"✔", ink::kPass, kWhite, ink::kPass}},
-        {"fail", {"✖", ink::kFail, kWhite, ink::kText}},
-        {"indeterminate", {"?", ink::kAmberCell, ink::kAmberText, ink::kAmberText}},
-        {"stopped", {"■", ink::kSunken, ink::kText, ink::kQuiet}},
-        {"attention", {"▲", ink::kAmberCell, ink::kAmberText, ink::kAmberText}},
-        {"refused as expected", {"⊘", ink::kAmberCell, ink::kAmberText, ink::kText}},
-        {"not evaluated", {"○", ink::kSunken, ink::kText, ink::kText}},
-        {"not applicable", {"–", ink::kSunken, ink::kText, ink::kQuiet}},
-    };
-    return marks;
-}
-
 }  // namespace
 
 VerdictMark verdictMark(const QString& key) {
-    const auto found = verdictMarks().find(key);
-    return found != verdictMarks().end() ? found->second : VerdictMark{"–", ink::kSunken, ink::kText, ink::kQuiet};
+    struct Inks {
+        QColor fill, ink, colour;
+    };
+    static const std::map<QString, Inks> kInks{{"pass", {ink::kPass, kWhite, ink::kPass}},
+                                               {"fail", {ink::kFail, kWhite, ink::kText}},
+                                               {"indeterminate", {ink::kAmberCell, ink::kAmberText, ink::kAmberText}},
+                                               {"stopped", {ink::kSunken, ink::kText, ink::kQuiet}},
+                                               {"attention", {ink::kAmberCell, ink::kAmberText, ink::kAmberText}},
+                                               {"refused as expected", {ink::kAmberCell, ink::kAmberText, ink::kText}},
+                                               {"not evaluated", {ink::kSunken, ink::kText, ink::kText}}};
+    const auto found = kInks.find(key);
+    const auto inks = found != kInks.end() ? found->second : Inks{ink::kSunken, ink::kText, ink::kQuiet};
+    return {verdictShape(key), inks.fill, inks.ink, inks.colour};
 }
 
 VerdictMark verdictMark(ReportVerdict verdict) {
@@ -44,11 +42,6 @@ VerdictMark verdictMark(ReportVerdict verdict) {
             break;
     }
     return verdictMark(QString());
-}
-
-QString verdictCell(const QString& key) {
-    const auto found = verdictMarks().find(key);
-    return found != verdictMarks().end() ? found->second.shape + QChar(0x00a0) + key : key;
 }
 
 }  // namespace tacto

@@ -21,7 +21,4 @@ struct VerdictMark {
 [[nodiscard]] VerdictMark verdictMark(const QString& key);
 [[nodiscard]] VerdictMark verdictMark(ReportVerdict verdict);
 
-/// "✔ pass" on one line, as it stands in a table; a text that is not a verdict stays as it is.
-[[nodiscard]] QString verdictCell(const QString& key);
-
 }  // namespace tacto

@@ -10,7 +10,7 @@
 #include "core/base/Random.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/pilot/Prompt.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 

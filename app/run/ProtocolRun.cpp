@@ -6,7 +6,7 @@
 #include "core/calibration/CertificateDetails.h"
 #include "core/session/Marks.h"
 #include "core/session/Origin.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 

@@ -128,10 +128,6 @@ function compare(p, encoding, trials, between) {
   };
 }
 
-// A report shows thousandths: what is below is measurement, not encoding.
-const shown = (x) => (x === null || !isFinite(x) ? null : Math.round(1000 * x) / 1000);
-const inPercent = (x) => (x === null ? null : 100 * x);
-
 // The distances that a curve gives, of one assignment: by what is felt as amplitude and as interval, not by what sets
 // it.
 function distancesOf(each) {
@@ -144,26 +140,6 @@ function distancesOf(each) {
     interval_levels_jnd: swapped ? n.texture_min_jnd : n.pressure_min_jnd,
     step_jnd: each.gradual_jnd,
   };
-}
-
-// A row per curve: under the other assignment all of it comes out the same.
-function comparisonRow(each) {
-  const row = { curve: each.curve };
-  const distances = distancesOf(each);
-  for (const key of Object.keys(distances)) row[key] = shown(distances[key]);
-  row.variation_pct = inPercent(largest([each.amplitude_variation_max, each.interval_variation_max]));
-  return row;
-}
-
-// "13.00 V, 1.850 s" of each condition.
-function conditionRow(each) {
-  const row = { curve: each.curve };
-  for (const condition of each.conditions) {
-    const known = condition.amplitude_v.mean !== null && condition.interval_s.mean !== null;
-    row[condition.name] = known ? condition.amplitude_v.mean.toFixed(2) + " V, " +
-      condition.interval_s.mean.toFixed(3) + " s" : null;
-  }
-  return row;
 }
 
 // How far the two assignments of a curve differ as measured, once smooth-high and rough-low have changed places: the
@@ -202,30 +178,17 @@ function differenceRow(each, base) {
   return row;
 }
 
-// Amplitude and interval of each condition went this far, in just-noticeable differences.
-function movedRow(each, base) {
-  const difference = differenceRow(each, base);
-  const row = { curve: each.curve };
-  for (const name of NAMES) {
-    const moved = ["amplitude", "interval"].map((axis) => difference[name + " " + axis + "_jnd"]);
-    row[name] = moved.includes(null) ? null : moved.map((x) => (shown(x) > 0 ? "+" : "") +
-      (shown(x) || 0).toFixed(2)).join(", ");
-  }
-  return row;
-}
-
-// Taken from the default assignment alone: the other one repeats them.
-function tablesOf(done) {
-  const curves = done.filter((each) => each.assignment === "texture_to_amplitude");
-  return [
-    { caption: "Three curves side by side, smallest distances (JND)", rows: curves.map(comparisonRow),
-      columns: ["curve", "amplitude_jnd", "interval_jnd", "amplitude_levels_jnd", "interval_levels_jnd", "step_jnd",
-        "variation_pct"] },
-    { caption: "The four conditions as measured", rows: curves.map(conditionRow), columns: ["curve"].concat(NAMES) },
-    { caption: "Against the " + (done.length > 0 ? done[0].curve : "first") +
-      " curve: conditions moved by (amplitude, interval; JND)",
-      rows: curves.slice(1).map((each) => movedRow(each, done[0])), columns: ["curve"].concat(NAMES) },
-  ].filter((table) => table.rows.length > 0);
+// Each condition under each encoding, and how far it moved against the default.
+function conditionRows(done, differences) {
+  const rows = [];
+  done.forEach((each, i) => {
+    for (const condition of each.conditions) {
+      const moved = i > 0 ? differences[i - 1] : {};
+      rows.push(Object.assign({ encoding: each.name, amplitude_jnd: moved[condition.name + " amplitude_jnd"],
+        interval_jnd: moved[condition.name + " interval_jnd"] }, condition));
+    }
+  });
+  return rows;
 }
 
 // All curves that come within a hundredth of the best: measurement does not tell them apart.
@@ -278,7 +241,7 @@ function run(p) {
   const done = [];
   for (const encoding of encodings()) {
     done.push(compare(p, encoding, trials, between));
-    record.partial({ reference, encodings: done.slice() }, tablesOf(done));
+    record.partial({ reference, encodings: done.slice() });
   }
   const asymmetry = asymmetryOf(done);
   report.text("Both assignments were measured along three curves, and differ by no more than " +
@@ -287,15 +250,14 @@ function run(p) {
     "Amplitude and interval are the smallest distances of pairs that differ in them, the worst pair is the smaller " +
     "of the two; levels are neighbours in between. Conditions at R and P of " + p.low + " and " + p.high +
       "; at 0 and 1 all curves meet. Levels at R and P of " + LEVELS.join(", ") +
-    "; step_jnd is the largest from train to train when a finger crosses the plane in " + p.traverse_s +
+    "; a train, at most: the largest step from train to train when a finger crosses the plane in " + p.traverse_s +
       " s, computed, without limits on a step.");
-  for (const table of tablesOf(done)) report.table(table.caption, table.rows, table.columns);
   report.text(sameForAll(done));
   report.figure("Four conditions under the default, " + done[0].name, plot.conditions(done[0]));
   report.figure("Exposure against limits", plot.exposure());
-  const results = { reference, default: done[0].name, encodings: done,
-    differences: done.slice(1).map((each) => differenceRow(each, done[0])),
-    asymmetry_jnd: asymmetry };
+  const differences = done.slice(1).map((each) => differenceRow(each, done[0]));
+  const results = { reference, default: done[0].name, encodings: done, differences,
+    conditions: conditionRows(done, differences), asymmetry_jnd: asymmetry };
   const missing = done.filter((each) => each.smallest_pair_jnd === null || each.neighbours.min_jnd === null);
   // A comparison has no pass: it has a verdict only where it could not be made.
   results.verdict = missing.length > 0 ? "indeterminate" : null;

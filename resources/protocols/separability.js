@@ -32,7 +32,7 @@ function feelReferences() {
   const smooth = bench.measureReference("plastic");
   const rough = bench.measureReference("P120");
   bench.setReferences(smooth, rough);
-  report.table("Reference surfaces", [smooth, rough], ["material", "h", "v", "frames"]);
+  return [smooth, rough];
 }
 
 // A lane for each condition of the paper's figure: trains one after the other for a little over twice the longest
@@ -61,32 +61,6 @@ function lanesOf(p, found) {
   return lanes;
 }
 
-function conditionRow(condition) {
-  const percent = (x) => report.rounded(100 * x, "%", 2);
-  const bounded = (x, most) => (x === null ? "–" : percent(x) + ", at most " +
-    (most === null ? "unknown" : percent(most)));
-  return {
-    condition: condition.name,
-    n: condition.n,
-    amplitude_v: condition.amplitude_v,
-    interval_s: condition.interval_s,
-    variation_of_amplitude: bounded(condition.amplitude_variation, condition.amplitude_variation_high),
-    variation_of_interval: bounded(condition.interval_variation, condition.interval_variation_high),
-  };
-}
-
-function pairRow(pair) {
-  const bounded = (x, least) => (x === null ? "–" : x.toFixed(2) + ", at least " +
-    (least === null ? "unknown" : least.toFixed(2)));
-  return {
-    a: pair.a,
-    b: pair.b,
-    amplitude_apart: bounded(pair.amplitude_jnd, pair.amplitude_jnd_low),
-    interval_apart: bounded(pair.interval_jnd, pair.interval_jnd_low),
-    mahalanobis: pair.mahalanobis,
-  };
-}
-
 // What the figures are judged by, and what the instrument leaves open of them.
 function basis(found) {
   const floor = found.floor;
@@ -106,7 +80,7 @@ function basis(found) {
 function run(p) {
   // Trials are of conditions as they stand, not of the way to them.
   bench.setEncoding({ amplitude_ratio_per_train: 0, amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0 });
-  if (p.source === "finger") feelReferences();
+  const references = p.source === "finger" ? feelReferences() : [];
 
   bench.arm({ load: p.load });
   let unsettled = 0;
@@ -131,10 +105,6 @@ function run(p) {
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Confusion, cross-validated", plot.confusion(found));
   report.figure("Exposure against limits", plot.exposure());
-  report.table("Conditions: coefficient of variation with its 95 % upper bound", found.conditions.map(conditionRow),
-    ["condition", "n", "amplitude_v", "interval_s", "variation_of_amplitude", "variation_of_interval"]);
-  report.table("Pairs: distance in just-noticeable differences with its 95 % lower bound", found.pairs.map(pairRow),
-    ["a", "b", "amplitude_apart", "interval_apart", "mahalanobis"]);
   report.text(basis(found));
-  return verdict(found);
+  return verdict(Object.assign(found, { references: references }));
 }

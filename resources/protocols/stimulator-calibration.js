@@ -152,7 +152,6 @@ function checkStored(stored, settings, results) {
   for (const quantity of quantitiesOf(settings)) {
     const tolerance_pct = quantity === "amplitude" ? settings.tolerance_pct : settings.timing_tolerance_pct;
     const check = analysis.calibrationCheck(calibrate(quantity, few, results), stored[quantity], tolerance_pct);
-    report.calibrationCheck(check);
     checks.push(check);
     results.check.push(...check.rows);
   }
@@ -167,7 +166,6 @@ function calibrateAll(stored, settings, results) {
     results[quantity] = found;
     all.push(found);
   }
-  report.calibrations(all);
   for (const found of all) report.calibration(found);
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());

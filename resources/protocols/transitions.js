@@ -50,12 +50,6 @@ protocol({
   },
 });
 
-const COLUMNS = ["step", "n", "missing", "latency_s", "median_s", "max_s", "designed_s", "off_s", "trains", "verdict"];
-const LARGEST = ["movement", "of", "change", "jnd", "R", "P", "wanted"];
-const CHANGES = ["change", "n", "amplitude_jnd", "interval_jnd", "complete_s", "max_s", "fastest_s", "trains",
-  "verdict"];
-const CAPTURED = "As captured: largest step per train (JND, at most 2 wanted), and time until complete";
-
 // The two inputs, both directions each; the order of the steps is drawn, and so is the moment within the interval.
 function stepsOf(p) {
   const at = (roughness, pressure) => ({ roughness, pressure });
@@ -110,58 +104,8 @@ function movementsOf() {
   return out;
 }
 
-function largestRows(found) {
-  const rows = [];
-  for (const movement of ["gradual", "abrupt"]) {
-    for (const axis of ["amplitude", "interval"]) {
-      const worst = found[movement][axis];
-      const unit = axis === "amplitude" ? "v" : "s";
-      rows.push({
-        movement: movement === "gradual" ? "across in " + found.traverse_s + " s" : "jump between corners",
-        of: axis,
-        change: worst["from_" + unit].toPrecision(3) + " to " + worst["to_" + unit].toPrecision(3) +
-          (unit === "v" ? " V" : " s"),
-        jnd: worst.jnd,
-        R: worst.roughness,
-        P: worst.pressure,
-        wanted: worst.jnd <= found.wanted_jnd ? "yes" : "no",
-      });
-    }
-  }
-  return rows;
-}
-
-function latencyRows(latency) {
-  return latency.groups.map((group) => ({
-    step: group.name,
-    n: group.n,
-    missing: group.not_measured,
-    latency_s: group.latency_s,
-    median_s: group.latency_s.median,
-    max_s: group.latency_s.max,
-    designed_s: group.designed_latency_s,
-    off_s: group.n > 0 ? Math.max(Math.abs(group.difference_s.min), Math.abs(group.difference_s.max)) : null,
-    trains: group.trains.max === null ? null : group.trains.max + " / " + group.designed_trains.max,
-    verdict: group.verdict,
-  }));
-}
-
 // What was not measured has no largest: Math.max takes null for 0.
 const largest = (values) => (values.some((x) => x === null || !isFinite(x)) ? null : Math.max.apply(null, values));
-
-function changeRows(changes) {
-  return changes.groups.map((group) => ({
-    change: group.name,
-    n: group.n,
-    amplitude_jnd: group.amplitude_jnd === null ? null : group.amplitude_jnd.toFixed(2),
-    interval_jnd: group.interval_jnd === null ? null : group.interval_jnd.toFixed(2),
-    complete_s: group.completes ? group.complete_s.median : null,
-    max_s: group.completes ? group.complete_s.max : null,
-    fastest_s: group.completes ? group.fastest_complete_s.min : null,
-    trains: group.trains.max === null ? null : group.trains.max + " / " + group.fewest_trains.max,
-    verdict: group.verdict,
-  }));
-}
 
 // What a pass says: what was found, and what 2 s would need and cannot have.
 function passed(p, changes) {
@@ -207,19 +151,7 @@ function writeChanges(p, changes) {
         : "Such a change is judged by its trains: it passes with the fewest that steps of 2 differences take. " +
         "(choice)"),
   );
-  report.table(CAPTURED, changeRows(changes), CHANGES);
-  report.text(
-    openOf(changes) + "Complete: median and largest time from the change to the train that reaches the new state; " +
-      "fastest_s is the least that steps of 2 differences allow; trains is how many it took, most / fewest that " +
-      "such steps take.",
-  );
-}
-
-function writeSweep(found) {
-  report.figure("Computed from the encoding: largest step from train to train over the R-P plane",
-    plot.transitions(found));
-  report.table("Computed from the encoding: largest step from train to train (at most " + found.wanted_jnd +
-    " differences are wanted)", largestRows(found), LARGEST);
+  report.text(openOf(changes));
 }
 
 function limitsText(found) {
@@ -252,15 +184,11 @@ function changesOf(p) {
 }
 
 // What has been watched so far is judged, and stands if the run ends early.
-function judge(p, changes, results, computed) {
+function judge(p, changes, results) {
   results.latency = analysis.latency(results.steps, { names: changes.stepNames, tolerance_s: p.latency_tolerance_s });
   results.changes = analysis.changes(results.steps.concat(results.jumps, results.movements),
     { names: changes.names, complete_s: p.complete_s, seconds_alone: p.complete === "seconds" });
-  record.partial(results, [
-    { caption: CAPTURED, rows: changeRows(results.changes), columns: CHANGES },
-    { caption: "Latency of a step", rows: latencyRows(results.latency), columns: COLUMNS },
-    computed,
-  ]);
+  record.partial(results);
 }
 
 function watchSteps(changes, results, keep) {
@@ -277,16 +205,6 @@ function watchMovements(p, changes, results) {
     results.movements.push(Object.assign({ name: movement.name },
       bench.traverse(movement.from, movement.to, { seconds: p.traverse_s })));
   }
-}
-
-function writeLatency(latency) {
-  report.table("Latency: from the step to the first train that carries it, with its s.d.", latencyRows(latency),
-               COLUMNS);
-  report.text(
-    "Design: the pending train is pulled forward to max(now, last onset + new interval), and carries the newest " +
-      "amplitude. Steps fall on moments spread over the interval. Off is the largest difference between a step and " +
-      "its design; trains is how many a change takes until it is complete, measured / designed.",
-  );
 }
 
 // Captures decide; a design that steps too far elsewhere in the plane leaves it open.
@@ -307,10 +225,8 @@ function run(p) {
 
   // What the encoding does all over the plane, by computation.
   const sweep = analysis.transitions({ lines: p.lines, traverse_s: p.traverse_s, jumps: p.jumps });
-  const computed = { caption: "Computed: largest step from train to train", rows: largestRows(sweep),
-    columns: LARGEST };
   const results = { transitions: sweep, changes: null, latency: null, steps: [], jumps: [], movements: [] };
-  record.partial(results, [computed]);
+  record.partial(results);
   report.text(limitsText(sweep));
 
   // The wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
@@ -319,7 +235,7 @@ function run(p) {
 
   // What the oscilloscope sees of steps and movements.
   const changes = changesOf(p);
-  const keep = () => { judge(p, changes, results, computed); };
+  const keep = () => { judge(p, changes, results); };
   if (results.reference.passed) {
     watchSteps(changes, results, keep);
     watchMovements(p, changes, results);
@@ -328,8 +244,8 @@ function run(p) {
   keep();
 
   writeChanges(p, results.changes);
-  writeLatency(results.latency);
-  writeSweep(sweep);
+  report.figure("Computed from the encoding: largest step from train to train over the R-P plane",
+    plot.transitions(sweep));
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
   conclude(p, sweep, results);

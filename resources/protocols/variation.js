@@ -82,11 +82,6 @@ function share(x) {
   return (100 * x).toFixed(0) + " %";
 }
 
-// Columns in the order in which a row names them.
-function table(caption, rows) {
-  report.table(caption, rows, rows.length > 0 ? Object.keys(rows[0]) : []);
-}
-
 function volts(range) {
   return range[0] + " to " + range[1] + " V";
 }
@@ -125,9 +120,10 @@ function headline(p, fixed, personal) {
 }
 
 function summary(name, found) {
-  return { amplitudes: name, served: found.served, refused: found.participants_refused,
-    do_not_feel_all: found.participants_not_feeling, without_a_range: found.participants_without_range,
-    every_pair_5_jnd_apart: found.clearly_separable, "right_answers_of_the_served,_%": percent(found.accuracy) };
+  return { amplitudes: name, served: found.served, participants_refused: found.participants_refused,
+    participants_not_feeling: found.participants_not_feeling,
+    participants_without_range: found.participants_without_range, clearly_separable: found.clearly_separable,
+    accuracy: found.accuracy };
 }
 
 // Where comfort ends is not known: what is served is said for the lowest, the run's and the highest answer.
@@ -148,35 +144,15 @@ function readings(p, fixed, personal) {
   });
 }
 
-function pilotRows(needed) {
-  if (needed === null) return [];
-  const rows = [];
-  const add = (aim, alone, pooled) => rows.push({ aim: aim, one_participant: alone,
-    pooled_each: pooled.per_participant, pooled_trials: pooled.total, design_effect: pooled.design_effect,
+// What a pilot wants to show, and how many answers that takes.
+function aimsOf(needed) {
+  const aim = (text, alone, pooled) => ({ aim: text, one_participant: alone, pooled_each: pooled.per_participant,
+    pooled_trials: pooled.total, design_effect: pooled.design_effect,
     participants_at_least: pooled.participants_least });
-  add("95 % interval at most " + (100 * needed.width).toFixed(0) + " % wide", needed.per_participant.for_width,
-    needed.pooled.for_width);
-  add("lower end above chance, " + (100 * needed.chance).toFixed(0) + " %", needed.per_participant.above_chance,
-    needed.pooled.above_chance);
-  return rows;
-}
-
-function fewRows(pilots) {
-  return pilots.map((each) => ({ people: each.people, all_are_served: share(each.all_served),
-    all_are_served_and_above_chance: share(each.all_above_chance),
-      "if_all:_can_do_it,_at_least": share(each.prevalence_all),
-    "if_all_but_one:_at_least": share(each.prevalence_but_one) }));
-}
-
-function fewText(found) {
-  if (found.pilots.length === 0) return "No one is served, so a pilot has nothing to show.";
-  const one = found.pilots[0];
-  return "Each person gives " + one.trials + " answers; " + one.right_from +
-    " right ones or more are above chance (p < 0.05, one-sided). One person's 95 % interval is " +
-    "then " + percent(one.width) +
-      " % wide. “If all” says what share of such people can do it, at least (95 %), when everyone in the pilot is " +
-      "above chance; “if all but one” when one is not (Bayesian prevalence, Ince et al. 2021, " +
-      "doi:10.7554/eLife.62461). So few people say whether people can do it, not how well people do it on average.";
+  return [aim("95 % interval at most " + (100 * needed.width).toFixed(0) + " % wide",
+    needed.per_participant.for_width, needed.pooled.for_width),
+  aim("lower end above chance, " + (100 * needed.chance).toFixed(0) + " %", needed.per_participant.above_chance,
+    needed.pooled.above_chance)];
 }
 
 // What is not everybody's result.
@@ -198,78 +174,16 @@ function remarks(p, found) {
   return out;
 }
 
-// Who is served, before anything else that was found.
-function writeServed(p, fixed, personal, said) {
+// Who is served stands before anything else that was found.
+function write(p, fixed, personal, found, said) {
   report.text(said.join(" "));
-  table("Who is served of " + p.participants + MARK, [summary(fixedRange(fixed), fixed),
-    summary(OWN_RANGE, personal)]);
   report.figure("Thresholds and currents of the participants" + MARK, plot.predicted(fixed, "thresholds"));
-  report.table(fixedRange(fixed) + " for everybody" + MARK, fixed.conditions,
-    ["name", "presented", "not_felt", "counted", "draws_attention", "too_strong", "not_tolerated"]);
-}
-
-function writeComfort(p, read) {
   report.text("Where comfort ends is not known: somewhere from the attention to the intolerance threshold. The run " +
     "takes " + p.discomfort + " mA.");
-  table("Served, by what is too strong" + MARK, read.map((each) => ({
-    too_strong_from: each.too_strong_from,
-    median_ma: each.median_ma,
-    fixed_range_serves: each.fixed_served,
-    it_is_refused_to: each.fixed_refused,
-    its_lowest_not_felt_by: each.fixed_not_feeling,
-    own_range_serves: each.personal_served,
-    "right_answers_of_these,_%": percent(each.accuracy),
-  })));
-}
-
-function writePremises(found) {
-  report.table("What the prediction rests on", found.premises, ["quantity", "value", "spread", "mark", "source"]);
-  report.text("Source: the value is the source's. Choice: ours, to be replaced with the laboratory's own. Set: for " +
-    "this run. Every spread (geometric standard deviation) is a choice.");
-}
-
-function writeConditions(found, amplitudes) {
-  report.text("In what follows a value is the median, and in brackets stand 5 and 95 %, of participants or of " +
-    "benches. Accuracy, confusion and trials are those of: " + amplitudes + ".");
-  table("Conditions, " + amplitudes.toLowerCase().replace(" v", " V") + MARK, found.conditions.map((each) => ({
-    name: each.name,
-    presented: each.presented,
-    refused: each.refused,
-    not_felt: each.not_felt,
-    counted: each.counted,
-    "current,_mA": spread(each.current_ma, 2, 1),
-    "voltage,_V": spread(each.voltage_v, 1, 1),
-  })));
-  table("Distance of the conditions in just-noticeable differences" + MARK, found.separability.map((each) => ({
-    a: each.a,
-    b: each.b,
-    participants: each.participants,
-    together: spread(each.jnd, 1, 1),
-    by_amplitude: spread(each.amplitude_jnd, 1, 1),
-    by_interval: spread(each.interval_jnd, 1, 1),
-  })));
+  remarks(p, found).forEach((each) => report.text(each));
   report.figure("Confusion" + MARK, plot.predicted(found, "confusion"));
   report.figure("Accuracy of the served" + MARK, plot.predicted(found, "accuracy"));
   report.figure("Width of the interval" + MARK, plot.predicted(found, "width"));
-}
-
-function writeTrials(p, needed) {
-  table("Trials that a pilot of " + p.pilot + " needs" + MARK, pilotRows(needed));
-  if (needed !== null) report.text(needed.assumptions);
-}
-
-function writeBenches(benches) {
-  table("Benches within their tolerances" + MARK, benches.conditions.map((each) => ({
-    name: each.name,
-    "amplitude,_V": spread(each.amplitude_v, 2, 1),
-    "interval,_s": spread(each.interval_s, 4, 1),
-  })));
-  table("Benches: distance of the conditions in just-noticeable differences" + MARK, benches.pairs.map((each) => ({
-    a: each.a,
-    b: each.b,
-    by_amplitude: spread(each.amplitude_jnd, 2, 1),
-    by_interval: spread(each.interval_jnd, 2, 1),
-  })));
 }
 
 // What results keep of the amplitudes that the run did not choose.
@@ -304,20 +218,14 @@ function run(p) {
   const benches = analysis.uncertainBench({ source: p.source });
 
   const said = headline(p, fixed, personal);
-  writeServed(p, fixed, personal, said);
-  writeComfort(p, read);
-  remarks(p, found).forEach((each) => report.text(each));
-  table("What 3 to 5 people can show" + MARK, fewRows(found.pilots));
-  report.text(fewText(found));
-  writePremises(found);
-  writeConditions(found, personalChosen ? OWN_RANGE : fixedRange(fixed));
-  writeTrials(p, found.trials_needed);
-  writeBenches(benches);
+  write(p, fixed, personal, found, said);
 
   const results = Object.assign({ verdict: null, reasons: said, headline: said.join(" "), levels: p.levels,
     source: p.source, profile_served: fixed.served, personal_served: personal.served, readings: read }, found);
   results.other_levels = comparedWith(other, compared);
   results.bench = benches;
+  results.ranges = [summary(fixedRange(fixed), fixed), summary(OWN_RANGE, personal)];
+  if (results.trials_needed !== null) results.trials_needed.aims = aimsOf(results.trials_needed);
   verdict(results);
   return null;
 }

@@ -70,11 +70,10 @@ TEST_F(HostileText, ACountBeyondAnyIntegerIsShownAsItIs) {
         " p.kind === 'a' ? { kind: 'variation', trials_needed: null, participants: 1e300 }"
         " : p.kind === 'b' ? { kind: 'load-safety', loads: [{ commands_refused: 1e300 }] }"
         " : { kind: 'separability', confusion: [], conditions: [{ n: 1e300, amplitude_v: {}, interval_s: {} }] })); }");
-    const auto huge = fmt::format("{:.0f}", 1e300);
-    EXPECT_THAT(desk_.run({"run", "huge", "--out", "a"}).out, HasSubstr(" of " + huge));
-    EXPECT_THAT(desk_.run({"run", "huge", "--set", "kind=b", "--out", "b"}).out,
-                HasSubstr("(" + huge + " refused as expected)"));
-    EXPECT_THAT(desk_.run({"run", "huge", "--set", "kind=c", "--out", "c"}).out, HasSubstr(" " + huge + " "));
+    for (const char* kind : {"a", "b", "c"}) {
+        const auto shown = desk_.run({"run", "huge", "--set", fmt::format("kind={}", kind), "--out", kind}).out;
+        EXPECT_THAT(shown, HasSubstr(" 1.000 × 10³⁰⁰")) << kind;
+    }
 }
 
 TEST_F(HostileText, InAnArgumentIsSpelledOut) {

@@ -169,12 +169,12 @@ TEST(Run, EachKindPrintsItsOwnFiguresAndWritesTheReportThatIsAskedFor) {
         const char* protocol;
         const char* shows;
     };
-    for (const auto& each : {Case{"transitions", "amplitude JND"}, Case{"encoding-comparison", "smallest pair JND"},
-                             Case{"sensor-calibration", "told apart"}}) {
+    for (const auto& each : {Case{"transitions", "Amplitude (JND)"}, Case{"encoding-comparison", "Smallest pair (JND)"},
+                             Case{"sensor-calibration", "Told apart"}}) {
         const auto ran =
             desk.run({"run", each.protocol, "--device", "sim:", "--report", "none", "--out", desk.at(each.protocol)});
         EXPECT_THAT(ran.out, HasSubstr(each.shows)) << each.protocol;
-        EXPECT_EQ(ran.out.find("repeatability %"), std::string::npos) << "no empty table of a calibration";
+        EXPECT_EQ(ran.out.find("Repeatability (%)"), std::string::npos) << "no empty table of a calibration";
         EXPECT_EQ(ran.out.find("nan"), std::string::npos) << ran.out;
         EXPECT_EQ(ran.out.find("  report "), std::string::npos);
         EXPECT_TRUE(desk.named(each.protocol, ".pdf").empty());

@@ -121,15 +121,16 @@ TEST(EncodingComparison, ReportsSideBySideAndAgainstTheDefault) {
     rig.closeBench();
     ASSERT_TRUE(rig.writer().close());
     const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
-    std::map<std::string, std::size_t> rowsOf;
     const auto items = reader.reportItems().value();
-    for (const auto& item : items) {
-        if (item.body.value("kind", "") == "table") rowsOf[item.body["caption"]] = item.body["rows"].size();
-    }
-    EXPECT_EQ(rowsOf["Three curves side by side, smallest distances (JND)"], 3U);
-    EXPECT_EQ(rowsOf["The four conditions as measured"], 3U);
-    EXPECT_EQ(rowsOf["Against the linear curve: conditions moved by (amplitude, interval; JND)"], 2U);
-    EXPECT_EQ(rowsOf.size(), 4U) << "with the reference check; what the other assignment repeats is said once";
+    const auto found =
+        std::ranges::find_if(items, [](const auto& item) { return item.body.value("kind", "") == "results"; });
+    ASSERT_NE(found, items.end());
+    const auto& results = found->body["results"];
+    EXPECT_EQ(results["encodings"].size(), 6U);
+    EXPECT_EQ(results["differences"].size(), 5U);
+    ASSERT_EQ(results["conditions"].size(), 24U);
+    EXPECT_FALSE(results["conditions"][0].contains("amplitude_jnd")) << "the default moves by nothing";
+    EXPECT_EQ(results["conditions"][4]["amplitude_jnd"], results["differences"][0]["smooth-low amplitude_jnd"]);
     const auto first =
         std::ranges::find_if(items, [](const auto& item) { return item.body.value("kind", "") == "text"; });
     ASSERT_NE(first, items.end());

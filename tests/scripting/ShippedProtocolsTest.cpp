@@ -1,6 +1,7 @@
 // Every shipped script runs on the simulated bench, as a lab would start it.
 #include <gtest/gtest.h>
 
+#include "core/results/ResultKind.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 #include "tests/scripting/RunBench.h"
@@ -76,6 +77,33 @@ TEST(ShippedProtocols, OfAStudyAskForTheSameInTheSameWords) {
     EXPECT_EQ(shared, others.size());
 }
 
+/// Whether there is such a member, null or not.
+bool has(const nlohmann::json& record, const std::string& path) {
+    const auto dot = path.rfind('.');
+    const auto& within = dot == path.npos ? record : memberAt(record, path.substr(0, dot));
+    return within.is_object() && within.contains(dot == path.npos ? path : path.substr(dot + 1));
+}
+
+/// Columns of which no record of a table that is there has anything: a key that no analysis writes.
+std::set<std::string> emptyColumns(const nlohmann::json& results) {
+    static const std::set<std::string> kWhereAsked{"reason",   "note",       "reason",      "spearman.note",
+                                                   "spearman", "spearman.n", "profile.name"};
+    std::set<std::string> missing;
+    for (const auto& table : resultTraits(results.at("kind").get<std::string>()).tables) {
+        const auto& value = table.at.empty() ? results : memberAt(results, table.at);
+        nlohmann::json records = rowsOf(table, results);
+        if (table.shape == ResultTable::Shape::Facts && value.is_object()) records.push_back(value);
+        for (const auto& column : table.columns) {
+            for (const auto& key : {column.at, column.beside}) {
+                if (records.empty() || key.empty() || kWhereAsked.contains(key)) continue;
+                if (std::ranges::none_of(records, [&](const auto& record) { return has(record, key); }))
+                    missing.insert(table.title + ": " + key);
+            }
+        }
+    }
+    return missing;
+}
+
 class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
@@ -96,6 +124,7 @@ TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
     ASSERT_TRUE(rig.writer().close());
     const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
     EXPECT_GE(reader.reportItems().value().size(), 2U);
+    EXPECT_EQ(emptyColumns(outcome.results), std::set<std::string>{});
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryShippedProtocol, ::testing::ValuesIn(namesWithoutStudy()),

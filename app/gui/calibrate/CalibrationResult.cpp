@@ -79,7 +79,7 @@ void CalibrationResult::addSummary(const json& found) {
 }
 
 void CalibrationResult::addTable(const QString& name, const char* objectName, const QString& tip,
-                                 const std::vector<RecordColumn>& columns, const json& rows) {
+                                 const std::vector<ResultColumn>& columns, const json& rows) {
     auto* above = new QLabel(name, this);
     setTextSize(*above, TextSize::Body, true);
     layout()->addWidget(above);
@@ -91,7 +91,8 @@ void CalibrationResult::addTable(const QString& name, const char* objectName, co
 }
 
 void CalibrationResult::addLevels(const json& levels) {
-    using As = RecordColumn::As;
+    using As = ResultColumn::As;
+    const auto unit = unit_.toStdString();
     auto rows = levels;
     for (auto& row : rows) {
         // A session of an earlier version has the mean's error alone.
@@ -107,20 +108,21 @@ void CalibrationResult::addLevels(const json& levels) {
     addTable(tr("Levels"), "calibrationLevels",
              tr("The error that is judged is that of the worse direction; a level passes when it is inside the "
                 "tolerance by more than U."),
-             {{tr("Verdict"), "verdict", As::Verdict},
-              {tr("Commanded"), "commanded", As::Number, unit_},
-              {tr("n"), "n", As::Number},
-              {tr("Mean, going up"), "mean_up", As::Number, unit_},
-              {tr("Mean, going down"), "mean_down", As::Number, unit_},
-              {tr("s"), "s", As::Spread, unit_},
-              {tr("Error ± U"), "judged_error", As::Number, unit_, "judged_u"},
-              {tr("Tolerance, ±"), "tolerance", As::Number, unit_},
-              {tr("Tolerance used"), "used", As::Used}},
+             {{"Verdict", "verdict", As::Verdict},
+              {"Commanded", "commanded", As::Number, unit},
+              {"n", "n", As::Number},
+              {"Mean, going up", "mean_up", As::Number, unit},
+              {"Mean, going down", "mean_down", As::Number, unit},
+              {"s", "s", As::Spread, unit},
+              {"Error ± U", "judged_error", As::Number, unit, "judged_u"},
+              {"Tolerance, ±", "tolerance", As::Number, unit},
+              {"Tolerance used", "used", As::Used}},
              rows);
 }
 
 void CalibrationResult::addBudget(const json& budget) {
-    using As = RecordColumn::As;
+    using As = ResultColumn::As;
+    const auto unit = unit_.toStdString();
     auto rows = budget["rows"];
     for (auto& row : rows) {
         if (row.contains("degrees_of_freedom") && !row["degrees_of_freedom"].is_number())
@@ -136,13 +138,13 @@ void CalibrationResult::addBudget(const json& budget) {
     addTable(tr("Uncertainty at the largest command"), "calibrationBudget",
              tr("Each contribution is its value over the divisor of its distribution, times its sensitivity. "
                 "They are combined as the sum of squares (GUM)."),
-             {{tr("Contribution"), "name"},
-              {tr("Distribution"), "distribution"},
-              {tr("Value"), "value", As::Number},
-              {tr("Divisor"), "divisor", As::Number},
-              {tr("Sensitivity"), "sensitivity", As::Number},
-              {tr("u"), "contribution", As::Number, unit_},
-              {tr("Degrees of freedom"), "degrees_of_freedom"}},
+             {{"Contribution", "name"},
+              {"Distribution", "distribution"},
+              {"Value", "value", As::Number},
+              {"Divisor", "divisor", As::Number},
+              {"Sensitivity", "sensitivity", As::Number},
+              {"u", "contribution", As::Number, unit},
+              {"Degrees of freedom", "degrees_of_freedom"}},
              rows);
 }
 

@@ -23,7 +23,7 @@ private:
     void addLevels(const nlohmann::json& levels);
     void addBudget(const nlohmann::json& budget);
     void addTable(const QString& name, const char* objectName, const QString& tip,
-                  const std::vector<RecordColumn>& columns, const nlohmann::json& rows);
+                  const std::vector<ResultColumn>& columns, const nlohmann::json& rows);
     QString title_;
     QString unit_;
 };

@@ -16,7 +16,7 @@
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/base/JsonFields.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 #include "core/study/SessionBasis.h"
 
 namespace tacto::gui {

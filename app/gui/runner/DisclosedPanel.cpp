@@ -142,13 +142,13 @@ void DisclosedPanel::showTracing(const std::shared_ptr<const Capture>& capture, 
 void DisclosedPanel::show(const nlohmann::json& disclosed) {
     const bool any = disclosed.is_array() && !disclosed.empty();
     if (any) {
-        using As = RecordColumn::As;
+        using As = ResultColumn::As;
         const auto all = byLoad(disclosed);
-        std::vector<RecordColumn> columns{{tr("Output"), "output", As::Text}};
+        std::vector<ResultColumn> columns{{"Output", "output", As::Text}};
         for (std::size_t i = 0; i < all.loads.size(); ++i) {
             const auto of = std::to_string(i);
-            columns.push_back(
-                {tr("at %1").arg(loadText(qtext(all.loads[i]))), "value" + of, As::Number, "@unit", "u" + of});
+            columns.push_back({tr("at %1").arg(loadText(qtext(all.loads[i]))).toStdString(), "value" + of, As::Number,
+                               "@unit", "u" + of});
         }
         fillRecordTable(*table_, columns, all.rows);
         layOutRecordTable(*table_);

@@ -7,7 +7,7 @@
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/TabOrder.h"
 #include "app/gui/theme/Theme.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto::gui {
 
@@ -66,9 +66,9 @@ std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
     }
     if (!run.result.session.empty()) {
         if (!outcome.error) steps.push_back(NextStep::Sign);
-        if (passed && traits.afterPass == AfterPass::SafetyCheck) steps.push_back(NextStep::SafetyCheck);
+        if (passed && calibrates) steps.push_back(NextStep::SafetyCheck);
         if (passed && calibrates && memberAt(results, "stored").is_object()) steps.push_back(NextStep::Check);
-        if (passed && traits.afterPass == AfterPass::Live) steps.push_back(NextStep::Live);
+        if (passed && traits.kind == ResultKind::LoadSafety) steps.push_back(NextStep::Live);
         steps.push_back(NextStep::Session);
     }
     return steps;

@@ -6,6 +6,7 @@
 #include "app/gui/calibrate/CalibrationResult.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/TabOrder.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
@@ -15,15 +16,6 @@ namespace {
 
 using nlohmann::json;
 using Shape = ResultTable::Shape;
-
-QStringList textsOf(const json& list) {
-    QStringList texts;
-    if (!list.is_array()) return texts;
-    for (const auto& one : list) {
-        if (one.is_string()) texts << withSigns(visible(QString::fromStdString(one.get<std::string>())));
-    }
-    return texts;
-}
 
 QStringList namesOf(const json& records) {
     QStringList names;
@@ -58,9 +50,7 @@ void ResultTables::show(const json& results) {
     body_ = new QWidget(this);
     column_ = new QVBoxLayout(body_);
     column_->setContentsMargins(0, 0, 0, 0);
-    const auto& kind = memberAt(results, "kind");
-    const auto& known = tablesOf(kind.is_string() ? kind.get<std::string>() : std::string());
-    for (const auto& table : known.empty() ? tablesIn(results) : known) add(table, results);
+    for (const auto& table : tablesOf(results)) add(table, results);
     column_->addStretch();
     layout_->addWidget(body_);
     tabInPlace(*this);
@@ -73,7 +63,7 @@ void ResultTables::add(const ResultTable& table, const json& results) {
             if (value.is_object()) addFacts(table, value);
             break;
         case Shape::Rows:
-            if (value.is_array()) addRows(table, value);
+            addRows(table, rowsOf(table, results));
             break;
         case Shape::Sentences:
             addSentences(table, value);
@@ -87,8 +77,8 @@ void ResultTables::add(const ResultTable& table, const json& results) {
     }
 }
 
-void ResultTables::addHeading(const QString& title) {
-    auto* head = new QLabel(title, body_);
+void ResultTables::addHeading(const std::string& title) {
+    auto* head = new QLabel(qtext(title), body_);
     head->setTextFormat(Qt::PlainText);
     setTextSize(*head, TextSize::Body, true);
     column_->addSpacing(8);
@@ -116,39 +106,42 @@ void ResultTables::addFacts(const ResultTable& table, const json& record) {
 }
 
 void ResultTables::addRows(const ResultTable& table, const json& records) {
-    auto shown = json::array();
-    for (const auto& record : records) {
-        if (record.is_object() && (table.but.empty() || memberAt(record, "verdict") != table.but))
-            shown.push_back(record);
-    }
-    if (shown.empty() || table.columns.empty()) return;
+    if (records.empty() || table.columns.empty()) return;
     addHeading(table.title);
-    auto* made = makeRecordTable(table.columns, shown, body_);
-    made->setAccessibleName(table.title);
+    auto* made = makeRecordTable(table.columns, records, body_);
+    made->setAccessibleName(qtext(table.title));
     column_->addWidget(made);
+    addNote(table);
 }
 
 void ResultTables::addSentences(const ResultTable& table, const json& sentences) {
-    const auto texts = textsOf(sentences);
+    const auto texts = sentencesIn(sentences);
     if (texts.isEmpty()) return;
     addHeading(table.title);
-    for (const auto& text : texts) {
-        auto* line = new QLabel(text, body_);
-        line->setTextFormat(Qt::PlainText);
-        line->setWordWrap(true);
-        line->setTextInteractionFlags(Qt::TextSelectableByMouse);
-        column_->addWidget(line);
-    }
+    for (const auto& text : texts) addSentence(text);
+}
+
+QLabel* ResultTables::addSentence(const QString& text) {
+    auto* line = new QLabel(text, body_);
+    line->setTextFormat(Qt::PlainText);
+    line->setWordWrap(true);
+    line->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    column_->addWidget(line);
+    return line;
+}
+
+void ResultTables::addNote(const ResultTable& table) {
+    if (!table.note.empty()) setTone(*addSentence(qtext(table.note)), Tone::Quiet);
 }
 
 void ResultTables::addConfusion(const ResultTable& table, const json& results) {
     const auto& counts = memberAt(results, table.at);
     const auto names = namesOf(memberAt(results, "conditions"));
-    auto across = textsOf(memberAt(results, "columns"));
+    auto across = sentencesIn(memberAt(results, "columns"));
     if (across.isEmpty()) across = names;
     addHeading(table.title);
     auto* made = new QTableWidget(int(counts.size()), int(counts.front().size()) + 1, body_);
-    made->setAccessibleName(table.title);
+    made->setAccessibleName(qtext(table.title));
     QStringList header{tr("Presented ↓  recognised as →")};
     for (int c = 1; c < made->columnCount(); ++c) header << across.value(c - 1, QString::number(c));
     made->setHorizontalHeaderLabels(header);

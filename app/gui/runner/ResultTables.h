@@ -1,14 +1,14 @@
-// ResultTables.h - the numbers that a protocol's verdict was given, as tables by the schema of their kind
-// (ResultSchema.h).
+// ResultTables.h - the numbers that a protocol's verdict was given, as the tables of their kind
+// (core/results/ResultTable.h).
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QLabel>
 #include <QVBoxLayout>
 #include <QWidget>
-#include <nlohmann/json.hpp>
 
-#include "app/gui/runner/ResultSchema.h"
+#include "app/gui/theme/RecordColumns.h"
 
 namespace tacto::gui {
 
@@ -22,11 +22,13 @@ public:
 
 private:
     void add(const ResultTable& table, const nlohmann::json& results);
-    void addHeading(const QString& title);
+    void addHeading(const std::string& title);
     void addFacts(const ResultTable& table, const nlohmann::json& record);
     void addRows(const ResultTable& table, const nlohmann::json& records);
     void addSentences(const ResultTable& table, const nlohmann::json& sentences);
     void addConfusion(const ResultTable& table, const nlohmann::json& results);
+    QLabel* addSentence(const QString& text);
+    void addNote(const ResultTable& table);
     QVBoxLayout* layout_;
     QWidget* body_ = nullptr;
     QVBoxLayout* column_ = nullptr;

@@ -46,10 +46,10 @@ QTableWidget* makeTable(QWidget* parent, const QString& name) {
     return table;
 }
 
-using As = RecordColumn::As;
+using As = ResultColumn::As;
 using nlohmann::json;
 
-void fill(QTableWidget& table, const std::vector<RecordColumn>& columns, const json& records) {
+void fill(QTableWidget& table, const std::vector<ResultColumn>& columns, const json& records) {
     fillRecordTable(table, columns, records);
     fitRecordTable(table);
 }
@@ -282,11 +282,11 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
                             {"at", toSeconds(capture.at)},
                             {"samples", capture.samples},
                             {"rate", known(capture.rate_hz)}});
-    std::vector<RecordColumn> ofTrials{
-        {tr("Trial"), "number", As::Number}, {tr("At"), "at", As::Number, "s"}, {tr("Condition"), "condition"}};
-    for (const auto& column : {RecordColumn{tr("Amplitude"), "measured.amplitude_v", As::Number, "V"},
-                               RecordColumn{tr("Interval"), "measured.interval_s", As::Number, "s"},
-                               RecordColumn{tr("Width"), "measured.width_s", As::Number, "s"}}) {
+    std::vector<ResultColumn> ofTrials{
+        {"Trial", "number", As::Number}, {"At", "at", As::Number, "s"}, {"Condition", "condition"}};
+    for (const auto& column : {ResultColumn{"Amplitude", "measured.amplitude_v", As::Number, "V"},
+                               ResultColumn{"Interval", "measured.interval_s", As::Number, "s"},
+                               ResultColumn{"Width", "measured.width_s", As::Number, "s"}}) {
         // A procedure that measures none of it has no column of dashes.
         if (std::ranges::any_of(trials, [&](const json& trial) { return memberAt(trial, column.at).is_number(); }))
             ofTrials.push_back(column);
@@ -294,19 +294,19 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
     fill(*trials_, ofTrials, trials);
     streams_->setCurrentCell(-1, -1);
     fill(*streams_,
-         {{tr("Stream"), "name"},
-          {tr("Unit"), "unit"},
-          {tr("Rate"), "rate", As::Number, "Hz"},
-          {tr("Samples"), "samples", As::Number},
-          {tr("Channels"), "channels", As::Number}},
+         {{"Stream", "name"},
+          {"Unit", "unit"},
+          {"Rate", "rate", As::Number, "Hz"},
+          {"Samples", "samples", As::Number},
+          {"Channels", "channels", As::Number}},
          streams);
     clearStream();
     fill(*captures_,
-         {{tr("Capture"), "number", As::Number},
-          {tr("Trial"), "trial", As::Number},
-          {tr("At"), "at", As::Number, "s"},
-          {tr("Samples"), "samples", As::Number},
-          {tr("Rate"), "rate", As::Number, "S/s"}},
+         {{"Capture", "number", As::Number},
+          {"Trial", "trial", As::Number},
+          {"At", "at", As::Number, "s"},
+          {"Samples", "samples", As::Number},
+          {"Rate", "rate", As::Number, "S/s"}},
          captures);
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
     fitStreams();

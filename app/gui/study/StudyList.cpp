@@ -299,12 +299,12 @@ void StudyList::showTables(const Study& study) {
     if (!study.stillApproved()) sayWhatHinders();
     delete std::exchange(participants_, nullptr);
     const auto people = participantRows(study);
-    participants_ = makeRecordTable({{tr("Code"), "code"},
-                                     {tr("Who"), "who"},
-                                     {tr("Group"), "group"},
-                                     {tr("State"), "state"},
-                                     {tr("Sessions"), "sessions", RecordColumn::As::Number},
-                                     {tr("Consent"), "consent"}},
+    participants_ = makeRecordTable({{"Code", "code"},
+                                     {"Who", "who"},
+                                     {"Group", "group"},
+                                     {"State", "state"},
+                                     {"Sessions", "sessions", ResultColumn::As::Number},
+                                     {"Consent", "consent"}},
                                     people, this);
     participants_->setObjectName("participants");
     participants_->setAccessibleName(tr("Participants"));

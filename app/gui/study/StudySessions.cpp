@@ -8,7 +8,7 @@
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto::gui {
 
@@ -84,12 +84,12 @@ StudySessions::StudySessions(QWidget* parent)
 void StudySessions::show(const Study& study) {
     sessions_ = study.sessions();
     delete std::exchange(table_, nullptr);
-    table_ = makeRecordTable({{tr("Participant"), "code"},
-                              {tr("Session"), "number", RecordColumn::As::Number},
-                              {tr("Begun"), "begun"},
-                              {tr("Protocol"), "protocol"},
-                              {tr("Answers"), "answered", RecordColumn::As::Number},
-                              {tr("State"), "state"}},
+    table_ = makeRecordTable({{"Participant", "code"},
+                              {"Session", "number", ResultColumn::As::Number},
+                              {"Begun", "begun"},
+                              {"Protocol", "protocol"},
+                              {"Answers", "answered", ResultColumn::As::Number},
+                              {"State", "state"}},
                              sessionRows(sessions_), this);
     table_->setObjectName("studySessions");
     table_->setAccessibleName(tr("Sessions"));

@@ -3,178 +3,20 @@
 #include <QHeaderView>
 #include <QScrollBar>
 #include <algorithm>
-#include <cmath>
 
-#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/Verdict.h"
-#include "app/report/NumberText.h"
-#include "app/report/TableContent.h"
-#include "core/base/JsonFields.h"
 
 namespace tacto::gui {
 
 namespace {
 
 using nlohmann::json;
-using As = RecordColumn::As;
 
-constexpr double kOnePrefix = 1e4;        // numbers further apart than this have a prefix each
-constexpr double kOnePrefixWithU = 1000;  // and those with all the decimals of an uncertainty
-constexpr int kDigits = 4, kSpreadDigits = 2;
 constexpr int kHeaderPad = 10, kRow = 30;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
 constexpr int kMinText = 10;      // and where numbers need the room
 constexpr int kMinTextTight = 6;  // and where the table stands in less than that of a small window
 constexpr int kRoom = 860;        // pixels beside a path in a window of 1280: a wider table is set small
-const QString kNone = QStringLiteral("–");
-
-/// A number of a record with what is known around it.
-struct Known {
-    double value = std::nan("");
-    double around = std::nan("");  ///< U, or a standard deviation
-    double low = std::nan("");
-    double high = std::nan("");
-    bool hasAround = false;
-};
-
-QString textOf(const json& value) {
-    if (value.is_string()) return visible(QString::fromStdString(value.get<std::string>()));
-    if (value.is_boolean()) return value.get<bool>() ? QObject::tr("yes") : QObject::tr("no");
-    if (value.is_number()) return settingText(value.get<double>(), {});
-    return kNone;
-}
-
-Known knownOf(const RecordColumn& column, const json& record) {
-    const auto& value = memberAt(record, column.at);
-    Known known;
-    known.value = numberOr(value);
-    if (value.is_object()) {
-        const bool spread = value.contains("mean") || value.contains("sd");
-        known.value = numberOr(memberAt(value, value.contains("mean")     ? "mean"
-                                               : value.contains("median") ? "median"
-                                                                          : "value"));
-        known.hasAround = spread;
-        if (spread) known.around = numberOr(memberAt(value, "sd"));
-        known.low = spread ? std::nan("") : numberOr(memberAt(value, "low"));
-        known.high = spread ? std::nan("") : numberOr(memberAt(value, "high"));
-    }
-    if (!column.uncertainty.empty()) {
-        known.hasAround = true;
-        known.around = numberOr(memberAt(record, column.uncertainty));
-    }
-    return known;
-}
-
-/// The text of one number in `unit`; with `spread` the second one is a standard deviation, and may be unknown.
-QString numberText(const Known& known, const QString& unit, bool isU, int digits = kDigits) {
-    if (!std::isfinite(known.value)) return kNone;
-    if (known.hasAround)
-        return isU ? uncertainText(known.value, known.around, unit) : spreadText(known.value, known.around, unit);
-    if (std::isfinite(known.low) && std::isfinite(known.high))
-        return intervalText({known.value, known.low, known.high}, unit);
-    return quantityText(known.value, unit, digits);
-}
-
-/// The unit below the title, also where it is the title's own word: "Smallest pair (JND)".
-QString onTwoLines(QString title) {
-    if (const auto at = title.lastIndexOf(" ("); at > 0 && title.endsWith(')')) title[at] = '\n';
-    return title;
-}
-
-QString withUnit(const QString& title, const QString& unit) {
-    return unit.isEmpty() ? title : QString("%1\n(%2)").arg(title, unit);
-}
-
-void scale(Known& known, double factor) {
-    for (auto* number : {&known.value, &known.around, &known.low, &known.high}) *number *= factor;
-}
-
-ColumnText sharesText(const RecordColumn& column, const json& records) {
-    ColumnText out{withUnit(column.title, "%"), {}, true};
-    for (const auto& record : records) {
-        auto known = knownOf(column, record);
-        scale(known, 100);
-        const auto tenth = [](double value) { return decimalText(value, 1); };
-        out.cells << (std::isfinite(known.low) && std::isfinite(known.high)
-                          ? QObject::tr("%1 (%2 to %3)").arg(tenth(known.value), tenth(known.low), tenth(known.high))
-                          : numberText(known, {}, true));
-    }
-    return out;
-}
-
-ColumnText numbersText(const RecordColumn& column, const json& records) {
-    ColumnText out{column.title, {}, true};
-    const bool isU = !column.uncertainty.empty();
-    const int digits = column.as == As::Spread ? kSpreadDigits : kDigits;
-    std::vector<Known> all;
-    std::vector<double> values;
-    double least = 0, most = 0;
-    for (const auto& record : records) {
-        all.push_back(knownOf(column, record));
-        values.push_back(all.back().value);
-        const double size = std::abs(all.back().value);
-        const double seen =
-            all.back().hasAround && std::isfinite(all.back().around) ? std::max(size, all.back().around) : size;
-        if (!std::isfinite(seen) || seen == 0) continue;
-        least = least == 0 ? seen : std::min(least, seen);
-        most = std::max(most, seen);
-    }
-    const bool own = column.unit.startsWith('@');
-    const bool around =
-        std::any_of(all.begin(), all.end(), [](const Known& k) { return k.hasAround || std::isfinite(k.low); });
-    const bool apart = most > (around ? kOnePrefixWithU : kOnePrefix) * least;
-    const auto axis = axisUnit(most, own ? QString() : column.unit);
-    const auto format = columnFormat(values, column.unit);
-    for (std::size_t row = 0; row < all.size(); ++row) {
-        auto& known = all[row];
-        if (own) {
-            const auto unit = textOf(memberAt(records[row], column.unit.mid(1).toStdString()));
-            out.cells << numberText(known, unit, isU, digits);
-        } else if (apart && !column.unit.isEmpty()) {
-            out.cells << numberText(known, column.unit, isU, digits);
-        } else if (!around && digits == kDigits && format && std::isfinite(known.value)) {
-            out.cells << quantityText(known.value, column.unit, *format).section(QChar(0x202f), 0, 0);
-        } else {
-            scale(known, axis.factor);
-            out.cells << numberText(known, {}, isU, digits);
-        }
-    }
-    for (auto& cell : out.cells) cell = grouped(std::move(cell));
-    out.header = !own && !apart && !axis.unit.isEmpty() ? withUnit(column.title, axis.unit) : onTwoLines(column.title);
-    return out;
-}
-
-ColumnText usedText(const RecordColumn& column, const json& records) {
-    ColumnText out{column.title, {}, true};
-    for (const auto& record : records) out.cells << limitShareText(100 * numberOr(memberAt(record, column.at)));
-    return out;
-}
-
-ColumnText tolerancesText(const RecordColumn& column, const json& records) {
-    ColumnText out{column.title, {}, true};
-    for (const auto& record : records) {
-        const auto& value = memberAt(record, column.at);
-        out.cells << (value.is_number() ? toleranceText(value.get<double>(), column.unit) : kNone);
-    }
-    return out;
-}
-
-QString wordsText(As as, const json& value) {
-    if (value.is_null()) return kNone;
-    const auto text = textOf(value);
-    switch (as) {
-        case As::Verdict:
-            if (value.is_boolean()) return verdictText(value.get<bool>() ? "pass" : "fail");
-            return text.isEmpty() || text == kNone ? kNone : verdictText(text);
-        case As::Load:
-            return loadText(text);
-        case As::LimitSet:
-            return limitSetTitle(text);
-        default:
-            return text.isEmpty() ? kNone : withSigns(text);
-    }
-}
 
 /// As many lines as the longest title has.
 void fitHeader(QTableWidget& table) {
@@ -243,38 +85,29 @@ void keepWhole(QTableWidget& table, int height) {
 
 }  // namespace
 
-const json& memberAt(const json& record, const std::string& path) {
-    static const json kNothing;
-    const auto* here = &record;
-    for (std::size_t from = 0; from <= path.size() && !path.empty();) {
-        const auto dot = std::min(path.find('.', from), path.size());
-        if (!here->is_object()) return kNothing;
-        const auto at = here->find(path.substr(from, dot - from));
-        if (at == here->end()) return kNothing;
-        here = &*at;
-        from = dot + 1;
-    }
-    return *here;
+namespace {
+
+/// A title that is longer than its column's numbers stands in two lines.
+QString inLines(const QString& header) {
+    constexpr qsizetype kLine = 14;
+    const auto end = header.indexOf('\n') < 0 ? header.size() : header.indexOf('\n');
+    if (end <= kLine) return header;
+    qsizetype best = -1;
+    for (auto at = header.indexOf(' '); at >= 0 && at < end; at = header.indexOf(' ', at + 1))
+        if (best < 0 || std::abs(2 * at - end) < std::abs(2 * best - end)) best = at;
+    return best < 0 ? header : header.left(best) + '\n' + header.mid(best + 1);
 }
 
-ColumnText columnText(const RecordColumn& column, const json& records) {
-    if (column.as == As::Share) return sharesText(column, records);
-    if (column.as == As::Used) return usedText(column, records);
-    if (column.as == As::Number || column.as == As::Spread) return numbersText(column, records);
-    if (column.as == As::Tolerance) return tolerancesText(column, records);
-    ColumnText out{column.title, {}, false};
-    for (const auto& record : records) out.cells << wordsText(column.as, memberAt(record, column.at));
-    return out;
-}
+}  // namespace
 
-void fillRecordTable(QTableWidget& table, const std::vector<RecordColumn>& columns, const json& records) {
+void fillRecordTable(QTableWidget& table, const std::vector<ResultColumn>& columns, const json& records) {
     table.clear();
     table.setColumnCount(int(columns.size()));
     table.setRowCount(int(records.size()));
     for (int c = 0; c < int(columns.size()); ++c) {
         const auto& column = columns[std::size_t(c)];
         const auto text = columnText(column, records);
-        auto* header = new QTableWidgetItem(text.header);
+        auto* header = new QTableWidgetItem(text.right ? inLines(text.header) : text.header);
         header->setTextAlignment((text.right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
         table.setHorizontalHeaderItem(c, header);
         for (int r = 0; r < table.rowCount(); ++r) {
@@ -291,7 +124,7 @@ void fitRecordTable(QTableWidget& table) {
     table.resizeColumnsToContents();
 }
 
-QTableWidget* makeRecordTable(const std::vector<RecordColumn>& columns, const json& records, QWidget* parent) {
+QTableWidget* makeRecordTable(const std::vector<ResultColumn>& columns, const json& records, QWidget* parent) {
     auto* table = new QTableWidget(parent);
     fillRecordTable(*table, columns, records);
     layOutRecordTable(*table);

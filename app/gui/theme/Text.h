@@ -9,10 +9,11 @@
 #include <cmath>
 #include <string_view>
 
+#include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
 #include "core/base/QuantityText.h"
 #include "core/base/Result.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto::gui {
 
@@ -54,17 +55,6 @@ namespace tacto::gui {
     static const QRegularExpression between(
         R"((?<=\d) (?=(?:[kMmµnp]?(?:V|A|Ω|ohm|Hz|s|J|C|N|Pa|W)|%|min|cm²|m[AW]/cm²)(?![\w/])))");
     return words.replace(between, QStringLiteral("\u202f"));
-}
-
-/// "1 000 000" of "1000000": numbers of five digits and more before their decimals.
-[[nodiscard]] inline QString grouped(QString words) {
-    static const QRegularExpression number(R"((?<![\w.])\d{5,})");
-    for (auto at = number.match(words); at.hasMatch(); at = number.match(words, at.capturedEnd())) {
-        auto digits = at.captured();
-        for (auto i = digits.size() - 3; i > 0; i -= 3) digits.insert(i, QChar(0x202f));
-        words.replace(at.capturedStart(), at.capturedLength(), digits);
-    }
-    return words;
 }
 
 /// "20 000".

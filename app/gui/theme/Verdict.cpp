@@ -5,6 +5,7 @@
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/ResultCells.h"
 
 namespace tacto::gui {
 
@@ -19,21 +20,23 @@ constexpr int kPadding = 16;
 
 VerdictStyle verdictStyle(const QString& key) {
     const auto& c = colours();
-    const auto amber = [&](const char* shape, const char* icon, const QString& word) {
-        return VerdictStyle{shape, icon, word, c.amberCell, c.amberText, c.amberText};
+    const auto shape = verdictShape(key);
+    const auto amber = [&](const QString& mark, const char* icon, const QString& word) {
+        return VerdictStyle{mark, icon, word, c.amberCell, c.amberText, c.amberText};
     };
-    if (key == "pass") return {"✔", "verdict-pass", QObject::tr("PASS"), c.pass, Qt::white, c.passText};
-    if (key == "fail") return {"✖", "verdict-fail", QObject::tr("FAIL"), c.fail, c.failText, c.text};
-    if (key == "stopped") return {"■", "verdict-stopped", QObject::tr("STOPPED"), c.sunken, c.text, c.quiet};
-    if (key == "indeterminate") return amber("?", "verdict-indeterminate", QObject::tr("INDETERMINATE"));
+    if (key == "pass") return {shape, "verdict-pass", QObject::tr("PASS"), c.pass, Qt::white, c.passText};
+    if (key == "fail") return {shape, "verdict-fail", QObject::tr("FAIL"), c.fail, c.failText, c.text};
+    if (key == "stopped") return {shape, "verdict-stopped", QObject::tr("STOPPED"), c.sunken, c.text, c.quiet};
+    if (key == "indeterminate") return amber(shape, "verdict-indeterminate", QObject::tr("INDETERMINATE"));
     if (key == "error") return amber("✖", "verdict-attention", QObject::tr("DID NOT RUN TO ITS END"));
-    if (key == "attention") return amber("▲", "verdict-attention", QObject::tr("ATTENTION"));
+    if (key == "attention") return amber(shape, "verdict-attention", QObject::tr("ATTENTION"));
     if (key == "refused as expected")
-        return {"⊘", "verdict-refused", QObject::tr("REFUSED AS EXPECTED"), c.amberCell, c.amberText, c.text};
+        return {shape, "verdict-refused", QObject::tr("REFUSED AS EXPECTED"), c.amberCell, c.amberText, c.text};
     if (key == "not evaluated")
-        return {"○", "verdict-not-evaluated", QObject::tr("NOT EVALUATED"), c.sunken, c.text, c.text};
-    if (key == "not applicable") return {"–", "verdict-none", QObject::tr("NOT APPLICABLE"), c.sunken, c.text, c.quiet};
-    return {"–", "verdict-none", QObject::tr("NO VERDICT"), c.sunken, c.text, c.quiet};
+        return {shape, "verdict-not-evaluated", QObject::tr("NOT EVALUATED"), c.sunken, c.text, c.text};
+    if (key == "not applicable")
+        return {shape, "verdict-none", QObject::tr("NOT APPLICABLE"), c.sunken, c.text, c.quiet};
+    return {shape, "verdict-none", QObject::tr("NO VERDICT"), c.sunken, c.text, c.quiet};
 }
 
 QString verdictText(const QString& key) { return verdictStyle(key).shape + " " + key; }

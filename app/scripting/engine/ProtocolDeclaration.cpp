@@ -43,7 +43,9 @@ constexpr Word<ProtocolView> kViews[] = {{"trials", ProtocolView::Trials},
 
 /// For a script that declares none: what its kind and its devices suggest.
 ProtocolView usualView(const ProtocolDeclaration& declaration) {
-    if (const auto view = resultTraits(declaration.kind).view) return *view;
+    const auto kind = resultTraits(declaration.kind).kind;
+    if (kind == ResultKind::LoadSafety) return ProtocolView::Loads;
+    if (kind == ResultKind::StimulatorCalibration) return ProtocolView::Calibration;
     if (declaration.needs.contains(Role::Oscilloscope)) return ProtocolView::Trials;
     return declaration.needs == std::set{Role::Sensor} ? ProtocolView::Slides : ProtocolView::None;
 }

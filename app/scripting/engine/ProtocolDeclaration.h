@@ -19,7 +19,7 @@
 
 #include "app/scripting/engine/ProtocolParameter.h"
 #include "core/devices/Device.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 
@@ -36,6 +36,15 @@ struct ProtocolSource {
 [[nodiscard]] std::string fileOf(const ProtocolSource& source);
 /// Where a script comes from, for people: "shipped with the program", or its path.
 [[nodiscard]] std::string originOf(const ProtocolSource& source);
+
+/// What a window draws while a run's rows come.
+enum class ProtocolView {
+    Trials,       ///< trains as captured
+    Loads,        ///< a row per load of the bench set
+    Calibration,  ///< measured against commanded
+    Slides,       ///< a fingertip by itself
+    None,
+};
 
 struct ProtocolDeclaration {
     std::string name;

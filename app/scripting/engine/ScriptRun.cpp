@@ -14,6 +14,7 @@
 #include "app/scripting/wire/MemoryGuard.h"
 #include "core/base/StandardStreams.h"
 #include "core/pilot/PilotSession.h"
+#include "core/results/ResultKind.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
@@ -304,6 +305,8 @@ void ScriptRun::State::writeVerdict() {
     if (outcome->error) {
         writeEvent("script ended by an error", {{"message", outcome->error->message}});
     }
+    if (auto shown = shownInReports(outcome->results); !shown.is_null())
+        (void)request.session->reportItem(session.now(), {{"kind", "results"}, {"results", std::move(shown)}});
     // A protocol that judges nothing may say what it found all the same: that stands where the verdict would.
     const bool judged = outcome->verdict != ScriptVerdict::None;
     if (!judged && (outcome->error || outcome->reasons.empty())) return session.recordBasis(outcome->results);

@@ -287,6 +287,7 @@ void ScriptSession::keepPartial(nlohmann::json results, nlohmann::json tables) {
 nlohmann::json ScriptSession::takePartial() {
     if (!partial_.is_object()) return {};
     auto out = std::exchange(partial_, {});
+    if (const auto kind = kindOf(out); !kind.empty()) out["kind"] = kind;
     addBasis(out);
     out["partial"] = true;
     out["verdict"] = nullptr;  // nothing that ended early passes, whatever it had come to (hazard H9)

@@ -15,9 +15,25 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json distanceJson(const std::optional<SurfaceDistance>& distance) {
+/// On the logarithm of the feature.
+std::string_view wordsOf(SensorFeature feature) noexcept {
+    switch (feature) {
+        case SensorFeature::H:
+            return "vibration h";
+        case SensorFeature::HAbs:
+            return "vibration, absolute";
+        case SensorFeature::VStatic:
+            return "taxels, static";
+        case SensorFeature::VDynamic:
+            return "taxels, dynamic";
+    }
+    return "";
+}
+
+Json distanceJson(std::string of, const std::optional<SurfaceDistance>& distance) {
     if (!distance) return {};
     Json out = toJson(distance->magnitude());
+    out["of"] = std::move(of);
     out["told_apart"] = distance->toldApart();
     out["pooled_sd"] = numberOrNull(distance->pooledSd);
     return out;
@@ -134,7 +150,8 @@ Json toJson(const SensorCalibration& found) {
     }
     Json all = Json::object();
     for (const auto feature : kSensorFeatures) {
-        all[std::string(keyOf(feature))] = distanceJson(found.distances[indexOf(feature)]);
+        all[std::string(keyOf(feature))] =
+            distanceJson(std::string(wordsOf(feature)), found.distances[indexOf(feature)]);
     }
     Json ranking;
     if (found.ranking) {
@@ -145,9 +162,9 @@ Json toJson(const SensorCalibration& found) {
     }
     return {{"surfaces", surfaces},
             {"d_prime",
-             {{"h", distanceJson(found.distances[indexOf(h)])},
-              {"v", distanceJson(found.distances[indexOf(v)])},
-              {"R", distanceJson(found.distanceR)},
+             {{"h", distanceJson("h", found.distances[indexOf(h)])},
+              {"v", distanceJson("v", found.distances[indexOf(v)])},
+              {"R", distanceJson("R", found.distanceR)},
               {"all", all}}},
             {"spearman", ranking},
             {"uncertainty_R", uncertaintyJson(found)},

@@ -14,6 +14,7 @@ nlohmann::json toJson(const LatencyGroup& group) {
             {"latency_s", toJson(group.latency_s)},
             {"designed_latency_s", toJson(group.designed_s)},
             {"difference_s", toJson(group.difference_s)},
+            {"off_s", numberOrNull(std::max(std::abs(group.difference_s.min), std::abs(group.difference_s.max)))},
             {"trains", toJson(group.trains)},
             {"designed_trains", toJson(group.designedTrains)},
             {"verdict", nameOf(group.verdict)}};

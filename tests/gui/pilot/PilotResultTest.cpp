@@ -174,7 +174,7 @@ TEST(PilotResult, EveryPageIsShownAfterEveryOther) {
         view.resize(width = width == 900 ? 700 : 900, 700);  // it lays the page out again
         QCoreApplication::sendPostedEvents();
         view.grab();
-        const auto& labels = gui::memberAt(page.second.outcome.results, "labels");
+        const auto& labels = memberAt(page.second.outcome.results, "labels");
         EXPECT_EQ(matrix->isVisible(), labels.is_array()) << page.first;
         EXPECT_EQ(std::size_t(matrix->rowCount()), labels.is_array() ? labels.size() : 0U) << page.first;
         EXPECT_FALSE(view.findChild<QLabel*>("pilotHeadline")->text().isEmpty()) << page.first;

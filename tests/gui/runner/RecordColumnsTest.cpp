@@ -3,16 +3,13 @@
 
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Theme.h"
-#include "app/report/TableContent.h"
 
 namespace tacto::test {
 namespace {
 
 using testing::HasSubstr;
 
-using gui::columnText;
-using gui::RecordColumn;
-using As = RecordColumn::As;
+using As = ResultColumn::As;
 using Json = nlohmann::json;
 
 TEST(RecordColumns, PutsTheUnitIntoTheHeaderWithAPrefixThatSuitsAllRows) {
@@ -58,7 +55,7 @@ TEST(RecordColumns, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
                         {"gain", 0.5},
                         {"flag", true},
                         {"reason", "off by -0.3 ± 1.2 % into 500 ohm"}}};
-    const auto cell = [&](const RecordColumn& column) { return columnText(column, rows).cells.first().toStdString(); };
+    const auto cell = [&](const ResultColumn& column) { return columnText(column, rows).cells.first().toStdString(); };
     EXPECT_EQ(cell({"V", "v", As::Number, "V"}), "40.12, s.d. 0.46") << "± is kept for uncertainties";
     EXPECT_THAT(cell({"S", "share", As::Share}), HasSubstr("94.6"));
     EXPECT_EQ(cell({"V", "verdict", As::Verdict}), "○ not evaluated");
@@ -95,7 +92,7 @@ TEST(RecordColumns, HaveNoMoreDigitsThanAreKnown) {
 TEST(RecordColumns, ANumberIsNeverCutAndWordsGiveWayFirst) {
     RecordProperty("hazard", "H9");
     gui::applyTheme(gui::Theme::Light);
-    std::vector<RecordColumn> columns{{"Condition", "words", As::Text}, {"Load", "words", As::Text}};
+    std::vector<ResultColumn> columns{{"Condition", "words", As::Text}, {"Load", "words", As::Text}};
     Json row{{"words", "a surface of many words that go on for longer than any column has room"},
              {"many", {{"value", 123456.7}, {"low", 123456.6}, {"high", 123456.8}}},
              {"far", {{"value", 1e-6}, {"low", 0.999999e-6}, {"high", 1.000001e-6}}}};

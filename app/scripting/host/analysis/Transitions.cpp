@@ -31,6 +31,29 @@ Json toJson(const LargestSteps& steps) {
             {"interval", toJson(steps.interval, steps.interval.interval)}};
 }
 
+/// The largest steps as a reader wants them beside each other.
+Json largestOf(const TransitionReport& report, double traverse_s) {
+    Json rows = Json::array();
+    const auto add = [&](const std::string& movement, const LargestSteps& steps) {
+        for (const bool amplitude : {true, false}) {
+            const auto& step = amplitude ? steps.amplitude : steps.interval;
+            const double jnd = amplitude ? step.amplitude : step.interval;
+            rows.push_back({{"movement", movement},
+                            {"of", amplitude ? "amplitude" : "interval"},
+                            {"from", amplitude ? step.from.amplitude.value() : step.from.interval.count()},
+                            {"to", amplitude ? step.to.amplitude.value() : step.to.interval.count()},
+                            {"unit", amplitude ? "V" : "s"},
+                            {"jnd", jnd},
+                            {"roughness", step.R},
+                            {"pressure", step.P},
+                            {"wanted", jnd <= kWanted}});
+        }
+    };
+    add(fmt::format("across in {} s", traverse_s), report.gradual);
+    add("jump between corners", report.abrupt);
+    return rows;
+}
+
 Json gridOf(const std::vector<std::vector<double>>& cells) {
     Json rows = Json::array();
     for (const auto& row : cells) {
@@ -88,6 +111,7 @@ Result<Json> transitions(ScriptSession& session, const Arguments& arguments) {
                 {"amplitude_slew_v_per_s", encoding.amplitudeSlew_V_per_s},
                 {"interval_ratio_per_train", encoding.intervalRatioPerTrain},
                 {"steps", report->steps.size()},
+                {"largest", largestOf(*report, traverse)},
                 {"gradual", toJson(report->gradual)},
                 {"abrupt", toJson(report->abrupt)},
                 {"amplitude_map", gridOf(map->amplitude)},

@@ -1,27 +1,11 @@
 // Trials, measurements and events, and what is kept of a run that ends early.
-#include <algorithm>
-#include <iterator>
-
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/record/RecordObject.h"
-#include "app/scripting/host/report/FingertipItems.h"
 #include "app/scripting/host/report/LoadSafetyTables.h"
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto::host::record {
-
-namespace {
-
-struct KindTables {
-    ResultKind kind;
-    Json (*tables)(const Json& found);
-};
-/// How what a run has found so far is shown, by the kind of its results.
-constexpr KindTables kTables[] = {{ResultKind::LoadSafety, report::loadSafetyTables},
-                                  {ResultKind::SensorCalibration, report::fingertipTables}};
-
-}  // namespace
 
 Result<Json> trial(ScriptSession& session, const Arguments& arguments) {
     const auto condition = arguments.text("condition");
@@ -52,9 +36,9 @@ Result<Json> event(ScriptSession& session, const Arguments& arguments) {
 
 Result<Json> partial(ScriptSession& session, const Arguments& arguments) {
     const Json& found = arguments.object("found");
-    const auto* own = std::ranges::find(kTables, resultTraits(session.kindOf(found)).kind, &KindTables::kind);
-    const bool isShown = !arguments.has("tables") && own != std::end(kTables);
-    const Json tables = isShown ? own->tables(found) : arguments.list("tables");
+    const bool checksLoads = resultTraits(session.kindOf(found)).kind == ResultKind::LoadSafety;
+    const Json tables =
+        !arguments.has("tables") && checksLoads ? report::loadSafetyTables(found) : arguments.list("tables");
     for (const auto& table : tables) {
         if (!table.value("caption", Json()).is_string() || !table.value("rows", Json()).is_array())
             return arguments.wrong("a table", table, "an object with a caption and a list of rows");

@@ -109,41 +109,4 @@ Json calibrationItems(const Json& found) {
     return items;
 }
 
-Json calibrationSummary(const Json& all) {
-    Json rows = Json::array();
-    for (const auto& found : all) {
-        const auto unit = textOr(found, "unit");
-        const auto brief = [&found](const char* key) { return scaledText(numberOr(found, key), "%", 2); };
-        rows.push_back(
-            {{"quantity", titleOfQuantity(textOr(found, "quantity"))},
-             {"gain", withU(numberOr(found, "gain"), numberOr(found, "gain_expanded_uncertainty"), "")},
-             {"gain_k", factorText(numberOr(found, "gain_coverage_factor"))},
-             {"offset", withU(numberOr(found, "offset"), numberOr(found, "offset_expanded_uncertainty"), unit)},
-             {"offset_k", factorText(numberOr(found, "offset_coverage_factor"))},
-             {"residual", brief("residual_max_pct_fs")},
-             {"repeatability", brief("repeatability_pct_fs")},
-             {"hysteresis", brief("hysteresis_pct_fs")},
-             {"verdict", found.at("verdict")}});
-    }
-    return tableOf(
-        "What was found: gain and offset ± U (95 %), the rest in % of the largest command", std::move(rows),
-        {"quantity", "gain", "gain_k", "offset", "offset_k", "residual", "repeatability", "hysteresis", "verdict"});
-}
-
-Json calibrationCheckTable(const Json& rows) {
-    Json out = Json::array();
-    for (const auto& row : rows) {
-        const auto unit = textOr(row, "unit");
-        out.push_back({{"commanded", scaledText(numberOr(row, "commanded"), unit)},
-                       {"expected", measuredText(numberOr(row, "expected"), 0, unit)},
-                       {"off ± U", withU(numberOr(row, "off"), numberOr(row, "expanded_uncertainty"), unit)},
-                       {"direction", textOr(row, "direction")},
-                       {"allowed", "± " + scaledText(numberOr(row, "allowed"), unit)},
-                       {"verdict", row.at("verdict")}});
-    }
-    const auto title = rows.empty() ? std::string() : titleOfQuantity(textOr(rows.front(), "quantity"));
-    return tableOf(title + ": check of the stored calibration", std::move(out),
-                   {"commanded", "expected", "off ± U", "direction", "allowed", "verdict"});
-}
-
 }  // namespace tacto::host::report

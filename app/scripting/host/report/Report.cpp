@@ -6,7 +6,6 @@
 #include "app/scripting/host/report/CalibrationTables.h"
 #include "app/scripting/host/report/Cells.h"
 #include "app/scripting/host/report/CertificateItem.h"
-#include "app/scripting/host/report/FingertipItems.h"
 #include "app/scripting/host/report/LoadSafetyTables.h"
 #include "app/scripting/host/report/LoadTracings.h"
 #include "app/scripting/host/report/ReportObject.h"
@@ -90,16 +89,6 @@ Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
     return writeItems(session, calibrationItems(found));
 }
 
-Result<Json> calibrations(ScriptSession& session, const Arguments& arguments) {
-    return writeItem(session, calibrationSummary(arguments.list("found")));
-}
-
-Result<Json> calibrationCheck(ScriptSession& session, const Arguments& arguments) {
-    return writeItem(session, calibrationCheckTable(listIn(arguments.object("check"), "rows")));
-}
-
-/// It is made of the run's own calibrations alone, and of what the program itself told of the stored one: a certificate
-/// says nothing that a script made up (hazard H8).
 Result<Json> certificate(ScriptSession& session, const Arguments& arguments) {
     const Json& before = arguments.object("before");
     if (!session.own().noted(before)) return arguments.wrong("before", before, "bench.calibration, unchanged,");
@@ -146,31 +135,6 @@ Result<Json> loadTracingsFigures(ScriptSession& session, const Arguments& argume
     if (!burst.is_null() && !burst.is_object()) return arguments.wrong("burst", burst, "what loads.burst() returned");
     if (session.writer() == nullptr) return Json();  // tens of thousands of samples, for no report
     return writeItems(session, loadTracings(session, arguments.list("loads"), burst));
-}
-
-Result<Json> fingertipScales(ScriptSession& session, const Arguments& arguments) {
-    const FingertipReferences known{.weight_pct = arguments.number("options.tolerance_pct"),
-                                    .gravity_pct = arguments.number("options.gravity_tolerance_pct"),
-                                    .area_cm2 = arguments.number("options.contact_area_cm2"),
-                                    .area_pct = arguments.number("options.contact_area_tolerance_pct")};
-    return writeItems(session, fingertipScaleItems(arguments.object("scales"), known));
-}
-
-Result<Json> fingertipRest(ScriptSession& session, const Arguments& arguments) {
-    const auto streams = session.bench().devices().sensor->streams();
-    const bool hasTaxels =
-        std::ranges::any_of(streams, [](const StreamInfo& stream) { return stream.kind == StreamKind::Taxels; });
-    return writeItems(session, fingertipRestItems(arguments.object("rest"), hasTaxels));
-}
-
-Result<Json> slides(ScriptSession& session, const Arguments& arguments) {
-    return writeItem(session, slidesTable(arguments.list("rows")));
-}
-
-Result<Json> sensorCalibration(ScriptSession& session, const Arguments& arguments) {
-    const auto devices = session.bench().devices().identities();
-    const bool simulated = std::ranges::all_of(devices, &DeviceIdentity::simulated);
-    return writeItems(session, sensorCalibrationItems(arguments.object("found"), simulated));
 }
 
 Result<Json> quantity(ScriptSession&, const Arguments& arguments) {

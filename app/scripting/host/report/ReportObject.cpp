@@ -2,8 +2,6 @@
 // returns.
 #include "app/scripting/host/report/ReportObject.h"
 
-#include "app/scripting/host/analysis/AnalysisObject.h"
-
 namespace tacto {
 
 std::vector<HostFunction> reportFunctions() {
@@ -40,16 +38,6 @@ std::vector<HostFunction> reportFunctions() {
                  "and the readings that stand out.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::calibration},
-        {.name = "calibrations",
-         .parameters = {list("found", "from analysis.calibration(), a quantity each").of(ValueType::Object)},
-         .text = "Adds several calibrations to the report, side by side in one table.",
-         .errors = "Throws when the session file cannot be written.",
-         .call = host::report::calibrations},
-        {.name = "calibrationCheck",
-         .parameters = {object("check", "from analysis.calibrationCheck()")},
-         .text = "Adds the check of a stored calibration to the report.",
-         .errors = "Throws when the session file cannot be written.",
-         .call = host::report::calibrationCheck},
         {.name = "certificate",
          .parameters = {list("found", "from calibration.judge(), a quantity each").of(ValueType::Object),
                         object("before", "bench.calibration, read before anything was kept")},
@@ -76,28 +64,6 @@ std::vector<HostFunction> reportFunctions() {
                  "burst on another.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::loadTracingsFigures},
-        {.name = "fingertipScales",
-         .parameters = host::analysis::withWeighing(object("scales", "from analysis.fingertipScales()")),
-         .text = "Adds the scales of force and taxels to the report; the options are those they were found with.",
-         .errors = "Throws when the session file cannot be written.",
-         .call = host::report::fingertipScales},
-        {.name = "sensorCalibration",
-         .parameters = {object("found", "from analysis.sensorCalibration()")},
-         .text = "Adds a sensor calibration to the report: surfaces, distances of the references, rank correlation, "
-                 "uncertainty of R.",
-         .errors = "Throws when the session file cannot be written.",
-         .call = host::report::sensorCalibration},
-        {.name = "slides",
-         .parameters = {list("rows", "from bench.measureSlide()").of(ValueType::Object)},
-         .text = "Adds slides over surfaces to the report.",
-         .errors = "Throws when the session file cannot be written.",
-         .call = host::report::slides},
-        {.name = "fingertipRest",
-         .parameters = {object("rest", "from bench.measureRest()")},
-         .text = "Adds to the report what the fingertip reads when nothing touches it.",
-         .errors = "Throws when the session file cannot be written.",
-         .needs = Role::Sensor,
-         .call = host::report::fingertipRest},
         {.name = "quantity",
          .parameters =
              {number("value", "", "null where it is not known").orNull(),

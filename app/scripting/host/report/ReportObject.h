@@ -10,8 +10,7 @@ namespace tacto::host::report {
 
 using Json = nlohmann::json;
 
-HostCall figure, table, matrix, quantity, rounded, text, calibration, calibrations, calibrationCheck, certificate,
-    loadSafety, loadTracingsFigures, fingertipRest, fingertipScales, slides,
-    sensorCalibration;  // Report.cpp
+HostCall figure, table, matrix, quantity, rounded, text, calibration, certificate, loadSafety,
+    loadTracingsFigures;  // Report.cpp
 
 }  // namespace tacto::host::report

@@ -1,15 +1,13 @@
 // What is declared of each kind of result.
 #include <gtest/gtest.h>
 
-#include "core/session/ResultKind.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 namespace {
 
 TEST(ResultKinds, AreFoundByTheirNames) {
     EXPECT_EQ(resultTraits("separability").kind, ResultKind::Separability);
-    EXPECT_EQ(resultTraits("stimulator-calibration").afterPass, AfterPass::SafetyCheck);
-    EXPECT_EQ(resultTraits("load-safety").view, ProtocolView::Loads);
     EXPECT_TRUE(resultTraits("load-safety").guardBanded);
     EXPECT_FALSE(resultTraits("sensor-calibration").guardBanded);
 }
@@ -20,8 +18,7 @@ TEST(ResultKinds, OfALaboratorysOwnDeclareNothing) {
         EXPECT_EQ(traits.kind, ResultKind::Other) << name;
         EXPECT_EQ(traits.decisionRule, "");
         EXPECT_FALSE(traits.guardBanded);
-        EXPECT_FALSE(traits.view);
-        EXPECT_EQ(traits.afterPass, AfterPass::Nothing);
+        EXPECT_TRUE(traits.tables.empty());
     }
 }
 
