@@ -38,7 +38,7 @@ FingerInput::FingerInput(SensorSession& session, std::unique_ptr<RoughnessChain>
     : session_(session), chain_(std::move(chain)) {
     for (const auto& stream : session.device().streams()) {
         health_.emplace_back(stream.rate_hz);
-        still_.emplace_back(stream.channels);
+        still_.emplace_back(stream.channels, stream.kind == StreamKind::Acceleration);
         blocks_.emplace_back();
         // A second's worth, so that a step never has to grow it.
         const auto samples = static_cast<std::size_t>(std::max(64.0, stream.rate_hz));
@@ -73,14 +73,19 @@ double FingerInput::age_s(double now_s) const noexcept {
     return since ? std::max(oldest, now_s - *since) : oldest;
 }
 
-/// An accelerometer is never still by itself: its noise is larger than its steps. Force and taxels may be.
+/// No axis of an accelerometer is still by itself: its noise is larger than its steps. Force and taxels may be, but for
+/// an array that is touched and has moved all the time.
 std::optional<double> FingerInput::standsStillSince() const noexcept {
+    constexpr std::size_t kArray = 4;  // taxels that are not all filtered to the same values
     const auto streams = session_.device().streams();
     std::optional<double> latest;  // when the last of them came to stand
     bool all = !still_.empty();
     for (std::size_t s = 0; s < still_.size(); ++s) {
         const auto since = still_[s].since();
-        if (since && streams[s].kind == StreamKind::Acceleration) return since;
+        const bool accelerates = streams[s].kind == StreamKind::Acceleration;
+        if (since && accelerates) return since;
+        const bool array = streams[s].kind == StreamKind::Taxels && streams[s].channels >= kArray && latest_.contact;
+        if (const auto repeats = still_[s].repeatsSince(); repeats && (accelerates || array)) return repeats;
         all = all && since;
         if (since) latest = std::max(latest.value_or(*since), *since);
     }

@@ -29,7 +29,7 @@ public:
     [[nodiscard]] const RoughnessFrame& latest() const noexcept { return latest_; }
 
     /// Age of the oldest stream's newest sample; infinite before the first. While the samples stand still, as all
-    /// streams do or the acceleration does by itself, it is that of the first of those.
+    /// streams do, an axis of the acceleration or a touched array of taxels, it is that of the first of those.
     [[nodiscard]] double age_s(double now_s) const noexcept;
     /// Fresh when no sample stands still, every stream, and the newest frame allowing for its window, is at most 100 ms
     /// old, none is stamped in the future, and no value of the last 100 ms was outside what a fingertip can give

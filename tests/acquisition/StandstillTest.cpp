@@ -75,5 +75,103 @@ TEST(Standstill, OfOneThatNeverMovedIsFoundToo) {
     EXPECT_TRUE(still.since());
 }
 
+/// Every sample by itself, so that each is judged.
+template <class Judge>
+void feedEach(Standstill& still, const SampleBlock& block, std::size_t channels, Judge judge) {
+    for (std::size_t i = 0; i < block.t_s.size(); ++i) {
+        SampleBlock one;
+        one.t_s.push_back(block.t_s[i]);
+        for (std::size_t c = 0; c < channels; ++c) one.values.push_back(block.values[i * channels + c]);
+        still.feed(one);
+        judge(block.t_s[i]);
+    }
+}
+
+SampleBlock noise(std::mt19937& draw, double begin_s, double rate_hz, std::size_t count, std::size_t channels,
+                  double steps) {
+    SampleBlock block;
+    std::normal_distribution<double> level(0, steps);
+    for (std::size_t i = 0; i < count; ++i) {
+        block.t_s.push_back(begin_s + static_cast<double>(i) / rate_hz);
+        for (std::size_t c = 0; c < channels; ++c) block.values.push_back(std::round(level(draw)));
+    }
+    return block;
+}
+
+TEST(Standstill, OfOneAxisOrOfABlockThatRepeatsIsFound) {
+    RecordProperty("hazard", "H7");
+    std::mt19937 draw(9);
+    const auto whole = [&](std::size_t low, std::size_t high) {
+        return std::uniform_int_distribution<std::size_t>(low, high)(draw);
+    };
+    for (int trial = 0; trial < 60; ++trial) {
+        const double rate_hz = std::uniform_real_distribution(200.0, 4000.0)(draw);
+        const std::size_t channels = 3, period = whole(1, Standstill::kPeriods);
+        const double steps = std::uniform_real_distribution(1.0, 50.0)(draw);
+        const auto before = whole(2000, 6000), after = static_cast<std::size_t>(0.6 * rate_hz) + 200;
+        auto block = noise(draw, 0, rate_hz, before + after, channels, steps);
+        const std::size_t axis = whole(0, channels);  // channels: all of them
+        for (std::size_t i = before; i < before + after; ++i) {
+            for (std::size_t c = 0; c < channels; ++c) {
+                if (axis == channels || axis == c)
+                    block.values[i * channels + c] = block.values[(i - period) * channels + c];
+            }
+        }
+        Standstill still(channels, true);
+        const double begin_s = block.t_s[before];
+        double found_s = NAN;
+        feedEach(still, block, channels, [&](double t_s) {
+            if (const auto since = still.repeatsSince(); since && std::isnan(found_s)) {
+                found_s = t_s;
+                EXPECT_NEAR(*since, begin_s, 0.05 + 3 / rate_hz) << trial;
+            }
+        });
+        EXPECT_GT(found_s, begin_s) << trial << ": not before it hangs";
+        EXPECT_LE(found_s - begin_s, 0.11 + 41 / rate_hz) << trial << ", period " << period << ", axis " << axis;
+    }
+}
+
+TEST(Standstill, OfAFingertipThatFeelsIsNone) {
+    RecordProperty("hazard", "H7");
+    std::mt19937 draw(10);
+    for (const double steps : {50.0, 5.0, 1.0, 0.5, 0.3, 0.1}) {
+        Standstill still(3, true);
+        feedEach(still, noise(draw, 0, 1000, 20'000, 3, steps), 3,
+                 [&](double t_s) { ASSERT_FALSE(still.repeatsSince()) << steps << " steps of noise, at " << t_s; });
+    }
+    // A board may lack an axis: nothing hangs there.
+    Standstill two(3, true);
+    auto block = noise(draw, 0, 1000, 5000, 3, 5);
+    for (std::size_t i = 0; i < block.t_s.size(); ++i) block.values[i * 3 + 1] = 0;
+    two.feed(block);
+    EXPECT_FALSE(two.repeatsSince());
+    EXPECT_FALSE(two.since());
+}
+
+/// Ten minutes of hanging teach nothing: the next time it is found as soon.
+TEST(Standstill, IsNoNoiseHoweverLongItLasts) {
+    RecordProperty("hazard", "H7");
+    std::mt19937 draw(11);
+    Standstill still(1);
+    const double rate_hz = 100;
+    double t_s = 0;
+    for (const std::size_t hangs : {60'000UL, 600UL, 60'000UL, 600UL}) {
+        still.feed(noise(draw, t_s, rate_hz, 400, 1, 3));
+        t_s += 400 / rate_hz;
+        EXPECT_FALSE(still.since());
+        SampleBlock block;
+        for (std::size_t i = 0; i < hangs; ++i) {
+            block.t_s.push_back(t_s + static_cast<double>(i) / rate_hz);
+            block.values.push_back(17);
+        }
+        double found_s = NAN;
+        feedEach(still, block, 1, [&](double now_s) {
+            if (std::isnan(found_s) && still.since()) found_s = now_s;
+        });
+        EXPECT_LE(found_s - t_s, 0.4);
+        t_s += static_cast<double>(hangs) / rate_hz;
+    }
+}
+
 }  // namespace
 }  // namespace tacto::test
