@@ -57,9 +57,9 @@ Result<void> BenchPulse::leaveFault() {
     if (interlock_.state() != InterlockState::Faulted) return {};
     if (!order_.resetFault) {
         return fail(ErrorCode::NotArmed,
-                    "the stimulator is in a fault, {}. Output is off. Fix the cause, then reset the fault: run again "
+                    "the stimulator is in a fault, {}. {} Fix the cause, then reset the fault: run again "
                     "with --reset-fault, or Bench > Reset fault in the window",
-                    interlock_.reason().view());
+                    interlock_.reason().view(), outputAfter(interlock_.cause()));
     }
     session_.forceOff();
     const auto status = device_.status();

@@ -74,9 +74,9 @@ Result<void> ProtocolRun::leaveFault() {
     if (seen.state != InterlockState::Faulted) return {};
     if (order_.resetFault) return bench().resetFault();
     return fail(ErrorCode::NotArmed,
-                "the stimulator is in a fault, {}. Output is off. Fix the cause, then reset the fault: run again with "
+                "the stimulator is in a fault, {}. {} Fix the cause, then reset the fault: run again with "
                 "--reset-fault, or Bench > Reset fault in the window",
-                seen.reason.view());
+                seen.reason.view(), outputAfter(seen.fault));
 }
 
 ProtocolRun::~ProtocolRun() {

@@ -165,10 +165,11 @@ std::optional<LoopFault> DeliveryJudge::load(const SeenLoad& seen, bool permitte
                   seen.impedance.value())};
 }
 
-std::optional<LoopFault> DeliveryJudge::silence(Instant trainEnd, Instant now) const {
-    const auto judgement = judgeTrain(mode_, std::nullopt, trainEnd, now);
+std::optional<LoopFault> DeliveryJudge::silence(Instant trainEnd, bool goesOn, Instant now) const {
+    const auto status = goesOn ? std::optional(TrainReadBack{.at = now, .delivering = true}) : std::nullopt;
+    const auto judgement = judgeTrain(mode_, status, trainEnd, now);
     if (!judgement.stops() || interlock_.state() == InterlockState::Faulted) return std::nullopt;
-    return LoopFault{FaultCause::StatusMissing, judgement.reason.view()};
+    return LoopFault{causeOf(judgement.finding), judgement.reason.view()};
 }
 
 std::optional<LoopFault> DeliveryJudge::updateImpedance(Ohms measured, Instant at) {

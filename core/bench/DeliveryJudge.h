@@ -53,8 +53,8 @@ public:
     [[nodiscard]] const char* unit() const noexcept { return amplitudeUnit(source_.drive); }
     /// Where the stimulator does not read back: what a capture shows of the load.
     [[nodiscard]] std::optional<LoopFault> load(const SeenLoad& seen, bool permitted, Instant now);
-    /// A train that ended at `trainEnd` and whose status has not come by `now`.
-    [[nodiscard]] std::optional<LoopFault> silence(Instant trainEnd, Instant now) const;
+    /// A train that should have ended at `trainEnd` and of which nothing, or only that it goes on, is known by `now`.
+    [[nodiscard]] std::optional<LoopFault> silence(Instant trainEnd, bool goesOn, Instant now) const;
 
 private:
     [[nodiscard]] std::optional<LoopFault> updateImpedance(Ohms measured, Instant at);

@@ -21,7 +21,7 @@ public:
     /// A train that ended and whose status has not come in time.
     [[nodiscard]] std::optional<LoopFault> silence(Instant now) const {
         if (stimulator_ == nullptr || stimulator_->idle()) return std::nullopt;
-        return judge_.silence(stimulator_->trainEnd(), now);
+        return judge_.silence(stimulator_->trainEnd(), stimulator_->saysItDelivers(), now);
     }
     /// When the reading grows old; nothing where none is taken.
     [[nodiscard]] std::optional<Instant> until() const noexcept {

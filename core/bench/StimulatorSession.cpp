@@ -40,6 +40,7 @@ Instant StimulatorSession::latestEnd(const PulseTrain& train, Instant onset) noe
 
 void StimulatorSession::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
     trainEnd_.store(latestEnd(train.train(), onset).count(), std::memory_order_release);
+    saysItDelivers_.store(false, std::memory_order_release);
     OutputSession::post({std::move(train), onset, isCheck});
 }
 
@@ -86,6 +87,7 @@ void StimulatorSession::deliver(TrainOrder&& order, Instant now) noexcept {
 void StimulatorSession::readStatus(Instant now) noexcept {
     TrainReport made = *awaitingStatus_;
     const auto status = device_.status();
+    saysItDelivers_.store(status && status->delivering, std::memory_order_release);
     if (status && status->delivering) {
         if (status->trainEnd && *status->trainEnd > made.end) {
             awaitingStatus_->end = made.end = *status->trainEnd;

@@ -4,8 +4,8 @@
 // One train is in the session at a time: it is idle again when its report was made, so a status that was
 // not read holds back the next train.
 //
-// Thread-safety: askHealth(), health() and trainEnd() any thread; serve() has one caller, the device's thread (on the
-// virtual clock, the bench); post() has one, the control loop. The rest as OutputSession.
+// Thread-safety: askHealth(), health(), trainEnd() and saysItDelivers() any thread; serve() has one caller, the
+// device's thread (on the virtual clock, the bench); post() has one, the control loop. The rest as OutputSession.
 #pragma once
 
 #include "core/bench/OutputSession.h"
@@ -41,6 +41,9 @@ public:
     /// Any thread.
     [[nodiscard]] Instant trainEnd() const noexcept { return Instant(trainEnd_.load(std::memory_order_acquire)); }
 
+    /// The last answer about that train was that it is still being delivered. Any thread.
+    [[nodiscard]] bool saysItDelivers() const noexcept { return saysItDelivers_.load(std::memory_order_acquire); }
+
     /// Hands over a train to be written at `onset`. The session must be idle().
     void post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept;
 
@@ -65,6 +68,7 @@ private:
     void answerHealth() noexcept;
 
     std::atomic<Instant::rep> trainEnd_{0};
+    std::atomic<bool> saysItDelivers_{false};
     std::atomic<bool> healthAsked_{false};
     std::atomic<Instant::rep> longestGap_{0};
     std::optional<Result<void>> health_;  // guarded by mailbox_

@@ -43,6 +43,21 @@ TEST_F(RealTimeBenchTest, DeliversOnTimeWithAThreadPerDevice) {
     }
 }
 
+/// The loop hears nothing for 50 ms before the device's thread gives up: what it has heard counts.
+TEST_F(RealTimeBenchTest, ADeviceThatSaysThatItGoesOnIsStuckOnAndNotSilent) {
+    RecordProperty("hazard", "H2");
+    for (int trial = 0; trial < 3; ++trial) {
+        open({"sim:stimulator?fault=stuck-on@0.4s"}, {Role::Stimulator}, true);
+        ASSERT_IN_TIME(arm());
+        ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 1, 1));
+        const auto waited = bench_->wait(Seconds(3));
+        ASSERT_FALSE(waited);
+        const bool known = bench_->telemetry().fault == FaultCause::StuckOn;
+        EXPECT_IN_TIME(known) << waited.error().message;
+        EXPECT_IN_TIME(waited.error().message.ends_with("The output may still be on.")) << waited.error().message;
+    }
+}
+
 TEST_F(RealTimeBenchTest, StopReachesForceOffWithinTenMilliseconds) {
     RecordProperty("hazard", "H2");
     constexpr int kStops = 200;
