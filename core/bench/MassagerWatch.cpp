@@ -11,6 +11,8 @@ constexpr double kQuiet = 3;        // times the floor
 constexpr std::size_t kEnough = 20;
 constexpr double kSteady = 0.1;  // standard deviation of windows, of their mean
 constexpr double kTone = 2.1;    // kurtosis: 1.5 of a tone, 3 of noise
+constexpr double kFalls = 0.01;  // from window to window: more is a motor that runs down
+constexpr int kTries = 6;        // seconds of rest: a slow motor is not steady at once
 }  // namespace
 
 void MassagerWatch::Axis::add(double value, bool begins) noexcept {
@@ -69,6 +71,12 @@ void MassagerWatch::take(double begin_s, double strength, double kurtosis) noexc
     quiet_ = strength <= kQuiet * floor_;
     if (quiet_) return forget();
     if (!follows_) return;
+    if (std::abs(begin_s - (last_s_ + kWindow_s)) < kWindow_s / 2) {
+        fall_ += last_ - strength;
+        ++pairs_;
+    }
+    last_s_ = begin_s;
+    last_ = strength;
     ++count_;
     sum_ += strength;
     squares_ += strength * strength;
@@ -76,16 +84,19 @@ void MassagerWatch::take(double begin_s, double strength, double kurtosis) noexc
     if (count_ < kEnough) return;
     const double mean = sum_ / static_cast<double>(count_);
     const double deviation = std::sqrt(std::max(0.0, squares_ / static_cast<double>(count_) - mean * mean));
-    if (deviation <= kSteady * mean && kurtosis_ / static_cast<double>(count_) < kTone)
-        found_ = mean;
-    else
-        forget();
+    const bool holds = std::abs(fall_) <= kFalls * mean * static_cast<double>(pairs_);
+    const bool goesOn = deviation <= kSteady * mean && holds && kurtosis_ / static_cast<double>(count_) < kTone;
+    if (++tries_ > kTries && !goesOn) return forget();
+    count_ = pairs_ = 0;
+    sum_ = squares_ = kurtosis_ = fall_ = 0;
+    found_ = goesOn ? mean : 0;
 }
 
 void MassagerWatch::forget() noexcept {
     follows_ = false;
-    count_ = 0;
-    sum_ = squares_ = kurtosis_ = found_ = 0;
+    count_ = pairs_ = 0;
+    tries_ = 0;
+    sum_ = squares_ = kurtosis_ = fall_ = found_ = 0;
 }
 
 }  // namespace tacto

@@ -286,6 +286,24 @@ TEST_F(DeliveredTruth, AMassagerThatGoesOnWhenItShouldRestIsAFault) {
     }
 }
 
+/// However slowly it gathers speed and runs down.
+TEST_F(DeliveredTruth, ASlowMassagerIsAFaultOnlyWhereItGoesOn) {
+    RecordProperty("hazard", "H2");
+    for (int trial = 0; trial < 16; ++trial) {
+        const bool stuck = trial % 2 == 0;
+        const double spinUp = std::uniform_real_distribution(0.1, 0.5)(draw_);
+        open({fmt::format("sim:massager?spinup={:.3f}s{}", spinUp, stuck ? "&fault=stuck-on@3s" : ""),
+              "sim:finger?on=motor"},
+             {Role::Massager, Role::Sensor});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->wait(Seconds(0.5)));
+        const double strength = std::uniform_real_distribution(0.3, 1.0)(draw_);
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, strength, std::uniform_real_distribution(0.0, 1.0)(draw_)));
+        const auto waited = bench_->wait(Seconds(30));
+        EXPECT_EQ(waited.has_value(), !stuck) << spinUp << " s, " << strength << ": " << reason();
+    }
+}
+
 TEST_F(DeliveredTruth, AMassagerThatRestsIsNoFaultWhateverTheSensorFeels) {
     RecordProperty("hazard", "H2");
     const char* const fingers[] = {"sim:finger?on=motor", "sim:finger?material=P60&force=3N",
