@@ -12,6 +12,12 @@ namespace {
 /// A pulse this much of a period late moves those after it, so that none follows too fast.
 constexpr double kGridSlack = 0.1;
 
+/// No pulse follows one that found no electrode, or none that is known: what the train says of it stays.
+bool endsTrain(const PulseReading& reading, const SourceTraits& traits) noexcept {
+    return reading.electrode == ElectrodeState::Open || reading.electrode == ElectrodeState::Short ||
+           (traits.readsBack && !reading.impedance);
+}
+
 }  // namespace
 
 ScienceModeStimulator::ScienceModeStimulator(Connect connect, const StimulatorSettings& settings, const Clock& clock)
@@ -270,7 +276,7 @@ Result<void> ScienceModeStimulator::deliver(ApprovedTrain&& train) {
         reading_ = reading;
         ended_.reset();
         play_.reset();
-        if (consumed.train().pulses > 1 && reading.electrode != ElectrodeState::Open) {
+        if (consumed.train().pulses > 1 && !endsTrain(reading, traits_)) {
             const Instant period = toInstant(1 / consumed.train().rate.value());
             play_ = Play{*plan, *request, consumed.train().pulses, 1, period, clock_.asleep(), first + period, offs};
         }
@@ -332,7 +338,7 @@ void ScienceModeStimulator::firePlayed(Instant now) {
     }
     reading_ = reading;
     ++play_->sent;
-    if (play_->sent >= play_->pulses || reading.electrode == ElectrodeState::Open) {
+    if (play_->sent >= play_->pulses || endsTrain(reading, traits_)) {
         play_.reset();
         return;
     }

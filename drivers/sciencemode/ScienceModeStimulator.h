@@ -3,9 +3,9 @@
 //
 // deliver() sends low-level pulses, which end by themselves: the first from the caller's thread, so that nothing lies
 // between approval and wire, the others timed by the driver's own thread, each after the ack of the one before. An
-// electrode that is found off, an ack that is missing or a refusal ends the train there. Pulses never follow each other
-// faster than the approved rate, and a train whose next pulse is kMaxLate late (a host that slept) is given up.
-// What repeats by itself in the device (mid level) is never begun here, only ended.
+// electrode that is found off, shorted or not read, an ack that is missing or a refusal ends the train there. Pulses
+// never follow each other faster than the approved rate, and a train whose next pulse is kMaxLate late (a host that
+// slept) is given up. What repeats by itself in the device (mid level) is never begun here, only ended.
 //
 // A device that was unplugged is looked for again, by identity, when its status is asked for: that is what a reset of
 // the fault does.

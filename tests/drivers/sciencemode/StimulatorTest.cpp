@@ -305,6 +305,26 @@ TEST(ScienceModeStatus, ALiftedElectrodeEndsTheTrainAtThatPulse) {
     EXPECT_FALSE(status.impedance.has_value());
 }
 
+/// A good pulse afterwards does not hide it.
+TEST(ScienceModeStatus, NoPulseFollowsOneThatFoundNoElectrode) {
+    RecordProperty("hazard", "H3");
+    for (const auto& load : {Load::openCircuit(), Load::shortCircuit(), Load::resistor(Ohms(5))}) {
+        for (const int good : {1, 2, 3, 4}) {
+            ScienceModeBench bench;
+            ASSERT_TRUE(bench.stimulator->deliver(bench.approved(5, 6)).has_value());
+            bench.wait(Seconds(0.01 * (good - 1) + 0.004));
+            ASSERT_EQ(bench.line->pulses(), std::size_t(good));
+            setLoad(bench, load);
+            bench.wait(Seconds(0.01));
+            setLoad(bench, Load::resistor(Ohms(1000)));
+            bench.wait(Seconds(0.2));
+            EXPECT_EQ(bench.line->pulses(), std::size_t(good) + 1) << "the one that found it";
+            const auto found = bench.status().electrode;
+            EXPECT_TRUE(found == ElectrodeState::Open || found == ElectrodeState::Short);
+        }
+    }
+}
+
 TEST(ScienceModeStatus, AShortIsTold) {
     RecordProperty("hazard", "H3");
     ScienceModeBench bench(onLoad(Load::shortCircuit()));
