@@ -115,9 +115,8 @@ void Bench::State::noteCapture(Capture& capture) {
     const auto command = commandShownIn(capture, loop->telemetry().programmed);
     capture.programmed = command ? command->amplitude : kNaN;
     if (output.stimulator() == nullptr) return;
-    if (command) {
-        if (const auto seen = amplitudeSeenIn(capture, output.source().drive, *command)) loop->noteAmplitude(*seen);
-    }
+    const auto shown = command.value_or(ProgrammedTrain{});
+    if (const auto seen = amplitudeSeenIn(capture, output.source(), shown)) loop->noteAmplitude(*seen);
     if (output.source().readsBack) return;
     if (const auto seen = loadSeenIn(capture)) loop->noteLoad(*seen);
 }

@@ -37,10 +37,13 @@ bool alike(const ProgrammedTrain& a, const ProgrammedTrain& b) {
     return std::abs(a.expected - b.expected) <= kSame * std::abs(b.expected) && a.isCheck == b.isCheck;
 }
 
-bool showsAllOf(const Capture& capture, const ProgrammedTrain& command) {
+/// No pulse of the command could be missed: it was put out within the record, whose samples lie close enough.
+bool mustShow(const Capture& capture, const SourceTraits& source, const ProgrammedTrain& command) {
+    constexpr double kSamplesInPhase = 2;
     const auto [from, until] = stretchOf(capture);
     const Instant slack = stampSlack(capture);
-    return command.acknowledged && from <= command.from - slack && command.until + slack <= until;
+    return command.acknowledged && from <= command.from - slack && command.until + slack <= until &&
+           capture.rate_hz * Seconds(source.widthMin).count() >= kSamplesInPhase;
 }
 
 /// From the least to the most in a channel that knows its resolution; nothing where samples are missing.
@@ -123,21 +126,34 @@ std::optional<ProgrammedTrain> commandShownIn(const Capture& capture, std::span<
     return *shown;
 }
 
-std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive, const ProgrammedTrain& command) {
+std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, const SourceTraits& source,
+                                             const ProgrammedTrain& command) {
     const auto channels = loadChannels(capture);
     if (!channels) return std::nullopt;
-    const bool current = drive == Drive::Current;
+    const bool current = source.drive == Drive::Current;
     const auto index = current ? channels->second : channels->first;
     const auto& channel = capture.channels[index];
     const double scale = current ? 1e3 : 1;
-    double amplitude = measureChannel(capture, index).amplitude.mean;
-    if (!std::isfinite(amplitude)) {
-        if (!showsAllOf(capture, command)) return std::nullopt;
-        const auto most = mostIn(channel);
-        if (!most || !(kMinSteps * channel.lsb < command.expected / scale)) return std::nullopt;
-        amplitude = *most;
-    }
+    const double expected = command.expected / scale;
     SeenAmplitude seen;
+    const auto measured = measureChannel(capture, index);
+    const double mean = measured.amplitude.mean, most = measured.amplitude.max;
+    // One pulse that is larger than the others is as large.
+    double amplitude = !(std::abs(mean - expected) > std::abs(most - expected)) ? most : mean;
+    const auto swing = mostIn(channel);
+    const bool clipped =
+        std::ranges::any_of(measured.pulses, [](const PulseMeasurement& pulse) { return pulse.flags.clipped; });
+    // The two phases of a pulse are as large: the signal moves by both.
+    if (clipped && swing && !(amplitude > *swing / 2)) {
+        amplitude = *swing / 2;
+        if (amplitude < expected) return std::nullopt;
+        seen.by = "the oscilloscope shows at least";
+    }
+    if (!std::isfinite(amplitude)) {
+        if (!measured.pulses.empty() || !swing || !mustShow(capture, source, command)) return std::nullopt;
+        if (!(kMinSteps * channel.lsb < expected) || !(*swing < expected)) return std::nullopt;
+        amplitude = *swing;
+    }
     seen.amplitude = scale * amplitude;
     // What the instrument does not state excuses nothing: a fault is then found sooner (hazard H3).
     const auto stated = [](double tolerance) { return std::isfinite(tolerance) ? tolerance : 0; };
@@ -145,7 +161,7 @@ std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive
                                 stated(channel.offsetTolerance) + channel.linearityTolerance + channel.lsb);
     seen.expected = command.expected;
     seen.programmed = command.amplitude;
-    seen.onset = command.onset;
+    seen.onset = std::isnan(expected) ? toInstant(Seconds(capture.start_s)) : command.onset;
     seen.isCheck = command.isCheck;
     return seen;
 }

@@ -13,6 +13,7 @@
 #include "core/bench/Telemetry.h"
 #include "core/encoding/PulseTrain.h"
 #include "core/measure/Capture.h"
+#include "core/safety/SourceTraits.h"
 
 namespace tacto {
 
@@ -26,7 +27,7 @@ struct SeenLoad {
 struct SeenAmplitude {
     const char* by = "the oscilloscope shows";  ///< begins the sentence of a fault
     double amplitude = 0;
-    double expected = 0;
+    double expected = 0;     ///< NaN: of no command, or of more than one
     double programmed = 0;   ///< for it
     double uncertainty = 0;  ///< of `amplitude`, half-width, as its instrument states it
     double unstated = 0;     ///< the same of one that states nothing: it proves no limit broken, and excuses nothing
@@ -39,11 +40,12 @@ struct SeenAmplitude {
 [[nodiscard]] std::optional<ProgrammedTrain> commandShownIn(const Capture& capture,
                                                             std::span<const ProgrammedTrain> programmed);
 
-/// The amplitude of the voltage, or of the current, in a record of `command`. Where the device has acknowledged the
-/// command, the record covers all of it and no pulse is found, it is how far the signal moves at most. Nothing without
-/// exactly one channel in V and one in A, and else without a pulse that was measured.
-[[nodiscard]] std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive,
-                                                           const ProgrammedTrain& command);
+/// The amplitude of the voltage, or of the current, in a record of `command`, without one of what it shows:
+/// the pulse furthest off, and where that is beyond the range, the least that it can be. Where the device has
+/// acknowledged the command, no pulse is found and none could be missed, it is how far the signal moves at most.
+/// Nothing without exactly one channel in V and one in A, and else without a pulse that was measured.
+[[nodiscard]] std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, const SourceTraits& source,
+                                                           const ProgrammedTrain& command = {});
 
 /// Nothing for a record without a trigger, without a channel in V and one in A, or without a pulse that was measured.
 [[nodiscard]] std::optional<SeenLoad> loadSeenIn(const Capture& capture);

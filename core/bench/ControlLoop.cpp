@@ -144,7 +144,8 @@ void ControlLoop::takeCommands(Instant now) noexcept {
     if (taken->confirmed) arming_.confirm(std::move(*taken->confirmed));
     if (taken->load && parts_.stimulator != nullptr)
         trip(judge_.load(*taken->load, dispatch_.mayPost(false), now), now);
-    if (taken->amplitude && parts_.stimulator != nullptr) trip(judge_.amplitude(*taken->amplitude), now);
+    for (const auto& seen : {taken->amplitude, taken->unasked})
+        if (seen && parts_.stimulator != nullptr) trip(judge_.amplitude(*seen), now);
 }
 
 void ControlLoop::noteState(Instant now) noexcept {

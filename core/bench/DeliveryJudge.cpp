@@ -101,6 +101,7 @@ std::optional<LoopFault> DeliveryJudge::readBack(const TrainReport& report) {
 
 std::optional<LoopFault> DeliveryJudge::amplitude(const SeenAmplitude& seen) {
     if (seen.onset < load_.armedAt || interlock_.state() == InterlockState::Faulted) return std::nullopt;
+    if (std::isnan(seen.expected)) return unasked(seen);
     const double off = seen.amplitude - seen.expected;
     const auto& stated = source_.accuracy.amplitude;
     const double uncertainty = seen.uncertainty + (stated ? stated->absolute : 0);
@@ -137,6 +138,23 @@ std::optional<LoopFault> DeliveryJudge::overLimit(const SeenAmplitude& seen) {
     }
     keep(seen, beyond || fault);
     return fault;
+}
+
+/// What is of no one command is held against the limit of commands alone, whatever came of it.
+std::optional<LoopFault> DeliveryJudge::unasked(const SeenAmplitude& seen) {
+    const auto state = interlock_.state();
+    if (state == InterlockState::Disarmed || state == InterlockState::Disconnected) return std::nullopt;
+    const double value = voltsOf(seen.amplitude - seen.uncertainty) / (1 + kCommandTolerance);
+    gate_.exposure(rows_);
+    for (const auto& row : rows_) {
+        if (row.quantity != Quantity::CommandVoltage || row.action != LimitAction::Refuse || !(value > row.limit))
+            continue;
+        return LoopFault{
+            FaultCause::LimitBroken,
+            faultText("{} {:.4g} {} beside what was set: more than the limit of {} ({}), {:.4g} {}", seen.by,
+                      seen.amplitude, unit(), titleOf(row.quantity), row.set.view(), row.limit, row.unit)};
+    }
+    return std::nullopt;
 }
 
 void DeliveryJudge::keep(const SeenAmplitude& seen, bool beyond) noexcept {

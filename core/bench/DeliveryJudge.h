@@ -60,6 +60,7 @@ private:
     [[nodiscard]] std::optional<LoopFault> updateImpedance(Ohms measured, Instant at);
     [[nodiscard]] std::optional<LoopFault> reading(const TrainReport& report);
     [[nodiscard]] std::optional<LoopFault> overLimit(const SeenAmplitude& seen);
+    [[nodiscard]] std::optional<LoopFault> unasked(const SeenAmplitude& seen);
     void keep(const SeenAmplitude& seen, bool beyond) noexcept;
     [[nodiscard]] double voltsOf(double amplitude) const noexcept;
 

@@ -46,7 +46,11 @@ void LoopInbox::load(const SeenLoad& seen) {
 void LoopInbox::amplitude(const SeenAmplitude& seen) {
     const auto off = [](const SeenAmplitude& one) { return std::abs(one.amplitude / one.expected - 1); };
     put([&](Settings& s) {
-        if (!s.amplitude || off(seen) > off(*s.amplitude)) s.amplitude = seen;
+        if (std::isnan(seen.expected)) {
+            if (!s.unasked || seen.amplitude > s.unasked->amplitude) s.unasked = seen;
+        } else if (!s.amplitude || off(seen) > off(*s.amplitude)) {
+            s.amplitude = seen;
+        }
     });
 }
 

@@ -39,6 +39,7 @@ public:
         std::optional<Result<Ohms>> confirmed;
         std::optional<SeenLoad> load;
         std::optional<SeenAmplitude> amplitude;
+        std::optional<SeenAmplitude> unasked;  ///< of no one command
     };
 
     void arm(ArmCommand command);
@@ -49,7 +50,7 @@ public:
     void planner(std::unique_ptr<TrainPlanner> next);
     void confirm(const Result<Ohms>& seen);
     void load(const SeenLoad& seen);
-    /// If several arrive in one step, the one furthest off counts.
+    /// If several arrive in one step, the one furthest off counts; of those of no one command the largest.
     void amplitude(const SeenAmplitude& seen);
 
     /// All that came since the last time. Nothing when there is nothing, and while another thread hands something in:

@@ -7,6 +7,7 @@
 #include "core/bench/CaptureLoad.h"
 #include "core/session/Marks.h"
 #include "core/session/SessionReader.h"
+#include "drivers/simulated/SimulatedStimulator.h"
 #include "tests/bench/BenchFixture.h"
 #include "tests/support/Trials.h"
 #include "tests/support/WrappedTwin.h"
@@ -45,6 +46,31 @@ public:
 private:
     const Lie lie_;
     int& trains_;
+};
+
+/// Puts out pulses of its own between the trains that it is given.
+class UnaskedStimulator final : public WrappedStimulator {
+public:
+    UnaskedStimulator(std::unique_ptr<Stimulator> inner, Volts volts, int from)
+        : WrappedStimulator(std::move(inner)), volts_(volts), from_(from) {}
+    Result<void> keepAlive() override {
+        const Instant now = world()->clock().now();
+        if (auto& circuit = world()->circuit(); ++asked_ >= from_ && !circuit.active(now)) {
+            PulseTrain train;
+            train.amplitude = volts_;
+            sim::DrivenTrain driven;
+            driven.pulse = dynamic_cast<const sim::SimulatedStimulator&>(inner()).drivenPulse(train, now);
+            driven.onset_s = toSeconds(now) + 1e-4;
+            driven.limits.compliance_V = 100;
+            circuit.play(driven, now, Instant::max());
+        }
+        return WrappedStimulator::keepAlive();
+    }
+
+private:
+    const Volts volts_;
+    const int from_;
+    int asked_ = 0;
 };
 
 class DeliveredTruth : public BenchFixture {
@@ -266,6 +292,114 @@ TEST_F(DeliveredTruth, MoreThanALimitIsAFaultAndBesideTheCommandAMark) {
         }
     }
     EXPECT_GT(std::min({faults, marks, neither}), 3) << faults << " " << marks << " " << neither;
+}
+
+/// Pulses that a record shows by a part, beside an oracle that made them.
+TEST(AmplitudeSeenIn, SaysNothingUntrueOfARecordThatCannotShowItsPulsesWhole) {
+    testing::Test::RecordProperty("hazard", "H1");
+    std::mt19937 draw(147);
+    const auto time = [&](double low, double high) { return std::uniform_real_distribution(low, high)(draw); };
+    SourceTraits source;
+    source.drive = Drive::Voltage;
+    int least = 0, whole = 0, absent = 0, nothing = 0;
+    for (int trial = 0; trial < 1500; ++trial) {
+        const double volts = trial % 5 == 0 ? 0 : time(3, 60), range = time(5, 80);
+        const double width_s = time(50e-6, 400e-6), gap_s = time(0, 200e-6), offset = time(-0.5, 0.5);
+        const bool biphasic = trial % 3 != 0;
+        Capture capture;
+        capture.rate_hz = std::exp(time(std::log(2e3), std::log(2e6)));
+        capture.start_s = 1;
+        capture.stampTolerance_s = 0;
+        const double onset_s = 1 + time(0.003, 0.01), end_s = onset_s + 2 * width_s + gap_s + time(0.003, 0.01);
+        const auto count = static_cast<std::size_t>((end_s - 1) * capture.rate_hz);
+        CaptureChannel voltage{"voltage", "V", {}, -range, range, 2 * range / 4096};
+        std::normal_distribution<double> noise(0, voltage.lsb);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double t = 1 + static_cast<double>(i) / capture.rate_hz - onset_s;
+            const bool first = t >= 0 && t < width_s;
+            const bool second = biphasic && t >= width_s + gap_s && t < 2 * width_s + gap_s;
+            const double level = offset + (first ? volts : second ? -volts : 0) + noise(draw);
+            voltage.samples.push_back(
+                static_cast<float>(std::round(std::clamp(level, -range, range) / voltage.lsb) * voltage.lsb));
+        }
+        capture.channels = {voltage, voltage};
+        capture.channels[1].name = "current";
+        capture.channels[1].unit = "A";
+        ProgrammedTrain command;
+        command.expected = command.amplitude = volts > 0 ? volts * time(0.5, 1.5) : time(5, 40);
+        command.onset = command.from = toInstant(Seconds(onset_s));
+        command.until = toInstant(Seconds(onset_s + 2 * width_s + gap_s));
+        command.acknowledged = true;
+        const auto seen = amplitudeSeenIn(capture, source, command);
+        if (!seen) {
+            ++nothing;
+            continue;
+        }
+        const double apart = 0.03 * volts + 12 * voltage.lsb + std::abs(offset);
+        if (std::string_view(seen->by).ends_with("at least")) {
+            EXPECT_LE(seen->amplitude, volts + apart) << trial;
+            EXPECT_GE(volts + apart, command.expected) << trial << ": less may come of the range alone";
+            ++least;
+        } else {
+            EXPECT_NEAR(seen->amplitude, volts, apart) << trial << ": " << capture.rate_hz << " Hz, " << range << " V";
+            ++(volts > 0 ? whole : absent);
+        }
+    }
+    EXPECT_GT(std::min({least, whole, absent, nothing}), 20)
+        << least << " " << whole << " " << absent << " " << nothing;
+}
+
+TEST_F(DeliveredTruth, ARecordThatCannotShowATrainWholeIsNoFaultOfTheTrain) {
+    RecordProperty("hazard", "H1");
+    for (int trial = 0; trial < 16; ++trial) {
+        open({trial % 2 == 0 ? "sim:stimulator?readback=no" : "sim:stimulator?mode=current"});
+        ASSERT_TRUE(arm());
+        ScopeSettings settings;
+        const bool narrow = trial % 4 < 2;
+        settings.sampleRate = Hertz(narrow ? 1e6 : std::uniform_real_distribution(4e3, 40e3)(draw_));
+        settings.samples = static_cast<std::size_t>(settings.sampleRate.value() * 0.1);
+        settings.triggerLevel = 2;
+        if (narrow) {
+            settings.voltageRange = Volts(std::uniform_real_distribution(5.0, 38.0)(draw_));
+            settings.currentRange = Milliamps(settings.voltageRange.value());
+        }
+        ASSERT_TRUE(bench_->requestCaptures(64, settings, Seconds(0.02)));
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        EXPECT_TRUE(bench_->wait(Seconds(4))) << trial << ": " << reason();
+    }
+}
+
+TEST_F(DeliveredTruth, WhatTheRangeCutsOffIsAtLeastAsLarge) {
+    RecordProperty("hazard", "H1");
+    open({"sim:stimulator?readback=no&gain=1.1"});
+    ASSERT_TRUE(arm());
+    ScopeSettings settings;
+    settings.voltageRange = Volts(42.5);
+    ASSERT_TRUE(bench_->requestCaptures(8, settings));
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0.99, 1));
+    static_cast<void>(bench_->wait(Seconds(1.2)));
+    EXPECT_TRUE(bench_->telemetry().measured.beyond);
+}
+
+TEST_F(DeliveredTruth, WhatWasAskedOfNoCommandAndIsOverTheLimitIsAFault) {
+    RecordProperty("hazard", "H1");
+    for (int trial = 0; trial < 12; ++trial) {
+        const bool over = trial % 3 != 0;
+        const double volts =
+            over ? std::uniform_real_distribution(44.0, 90.0)(draw_) : std::uniform_real_distribution(5.0, 40.0)(draw_);
+        wrap_ = [&](std::unique_ptr<Stimulator> inner) {
+            return std::make_unique<UnaskedStimulator>(std::move(inner), Volts(volts), 4 + trial % 5);
+        };
+        open({"sim:stimulator?readback=no"});
+        ASSERT_TRUE(arm());
+        ScopeSettings settings;
+        settings.voltageRange = Volts(trial % 2 == 0 ? 100 : 50);
+        ASSERT_TRUE(bench_->requestCaptures(64, settings));
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0));
+        const auto waited = bench_->wait(Seconds(6));
+        EXPECT_EQ(waited.has_value(), !over) << volts << " V: " << reason();
+        if (over) EXPECT_THAT(reason(), HasSubstr("beside what was set: more than the limit"));
+    }
 }
 
 TEST_F(DeliveredTruth, AMassagerThatGoesOnWhenItShouldRestIsAFault) {
