@@ -39,6 +39,7 @@ protected:
         if (looksReal_ && devices->stimulator)
             devices->stimulator = std::make_unique<RealLookingStimulator>(std::move(devices->stimulator));
         if (wrap_) devices->stimulator = wrap_(std::move(devices->stimulator));
+        if (wrapSensor_) devices->sensor = wrapSensor_(std::move(devices->sensor));
         BenchConfig config;
         config.devices = std::move(*devices);
         config.clock = clock_;
@@ -74,6 +75,7 @@ protected:
     bool looksReal_ = false;             ///< what is opened next is taken for a device
     /// What stands between the bench and the stimulator that is opened next.
     std::function<std::unique_ptr<Stimulator>(std::unique_ptr<Stimulator>)> wrap_;
+    std::function<std::unique_ptr<TactileSensor>(std::unique_ptr<TactileSensor>)> wrapSensor_;
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<Bench> bench_;
 };

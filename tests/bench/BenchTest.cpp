@@ -1,4 +1,6 @@
 // The whole bench on the virtual clock and the simulated devices.
+#include <map>
+
 #include "core/measure/PulseMeasurement.h"
 #include "core/session/SessionReader.h"
 #include "tests/bench/BenchFixture.h"
@@ -249,6 +251,64 @@ TEST_F(BenchTest, TheFingerDrivesTheStimulator) {
     const auto seen = bench_->telemetry();
     EXPECT_GT(seen.trainsDelivered, 2U);
     EXPECT_TRUE(seen.contact || seen.contactFrames > 0);
+}
+
+/// From a moment on, some channels of a stream say again what they said some samples before, under running stamps.
+class HangingFinger final : public TactileSensor {
+public:
+    struct Hang {
+        std::size_t stream, firstChannel, channels, period;
+    };
+    HangingFinger(std::unique_ptr<TactileSensor> inner, Hang hang, double from_s)
+        : inner_(std::move(inner)), hang_(hang), from_s_(from_s) {}
+    const DeviceIdentity& identity() const noexcept override { return inner_->identity(); }
+    std::span<const StreamInfo> streams() const noexcept override { return inner_->streams(); }
+    Result<void> read(std::span<SampleBlock> blocks) override {
+        const std::size_t old = blocks[hang_.stream].samples();
+        auto done = inner_->read(blocks);
+        auto& block = blocks[hang_.stream];
+        const std::size_t width = streams()[hang_.stream].channels;
+        for (std::size_t i = old; i < block.samples(); ++i) {
+            for (std::size_t c = hang_.firstChannel; c < hang_.firstChannel + hang_.channels; ++c) {
+                auto& said = said_[c];
+                double& value = block.values[i * width + c];
+                if (block.t_s[i] >= from_s_ && said.size() >= hang_.period) value = said[said.size() - hang_.period];
+                said.push_back(value);
+            }
+        }
+        return done;
+    }
+
+private:
+    const std::unique_ptr<TactileSensor> inner_;
+    const Hang hang_;
+    const double from_s_;
+    std::map<std::size_t, std::vector<double>> said_;
+};
+
+TEST_F(BenchTest, AFingertipThatHangsInPartDrivesNothing) {
+    RecordProperty("hazard", "H7");
+    const HangingFinger::Hang hangs[] = {{0, 0, 3, 1},  {0, 0, 1, 1}, {0, 1, 1, 1},  {0, 2, 1, 1}, {0, 0, 3, 2},
+                                         {0, 0, 3, 32}, {0, 2, 1, 2}, {0, 0, 3, 64}, {1, 0, 8, 1}, {1, 0, 8, 4}};
+    for (const auto& hang : hangs) {
+        wrapSensor_ = [&](std::unique_ptr<TactileSensor> inner) {
+            return std::make_unique<HangingFinger>(std::move(inner), hang, 3.0);
+        };
+        open({"sim:finger?material=P60&force=3N&stroke=60s"}, {Role::Sensor, Role::Stimulator});
+        const auto& stream = bench_->devices().sensor->streams()[hang.stream];
+        ASSERT_GE(stream.channels, hang.firstChannel + hang.channels);
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Sensor));
+        ASSERT_TRUE(bench_->wait(Seconds(2.9)));
+        ASSERT_GT(bench_->telemetry().trainsDelivered, 0U);
+        ASSERT_TRUE(bench_->wait(Seconds(0.5)));
+        const auto delivered = bench_->telemetry().trainsDelivered;
+        ASSERT_TRUE(bench_->wait(Seconds(6)));
+        EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered)
+            << "stream " << hang.stream << " from " << hang.firstChannel << ", " << hang.channels << ", period "
+            << hang.period;
+        EXPECT_EQ(bench_->telemetry().finger, FingerStanding::Stale);
+    }
 }
 
 TEST_F(BenchTest, StaleCorruptOrMissingSensorDataDriveNothing) {
