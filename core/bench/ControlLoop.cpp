@@ -263,7 +263,7 @@ void ControlLoop::watchMassager(Instant now) noexcept {
                      "the massager goes on after its bursts: the accelerometer feels {:.3g} m/s2 r.m.s. at rest",
                      rests_.goesOnAt());
     rests_.forget();
-    trip(FaultCause::DeviceFault, why.data(), now);
+    trip(FaultCause::StuckOn, why.data(), now);
 }
 
 void ControlLoop::updateCommand(Instant now) noexcept {

@@ -416,6 +416,7 @@ TEST_F(DeliveredTruth, AMassagerThatGoesOnWhenItShouldRestIsAFault) {
         EXPECT_FALSE(bench_->wait(Seconds(25))) << strength << ", " << pressure << " from " << from;
         EXPECT_EQ(state(), InterlockState::Faulted);
         EXPECT_THAT(reason(), HasSubstr("goes on after its bursts"));
+        EXPECT_EQ(bench_->telemetry().fault, FaultCause::StuckOn) << "and none says that the output is off";
         EXPECT_LE(toSeconds(bench_->clock().now()), 0.5 + from + 10) << strength << ", " << pressure;
     }
 }
