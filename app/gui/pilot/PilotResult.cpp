@@ -8,6 +8,7 @@
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/OutputWords.h"
 #include "app/gui/theme/PageFoot.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/ScrollingPage.h"
@@ -182,8 +183,9 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
     QStringList why;
     static const QRegularExpression place(R"(^\S*\.js:\d+: )");  // where in the script: not the operator's concern
     if (outcome.error)
-        why << inThePast(sentence(qtext(outcome.error->message).remove(place))) +
-                   tr(" The output was switched off. What was answered is on disk.");
+        why << withOutput(inThePast(sentence(qtext(outcome.error->message).remove(place))),
+                          tr("The output was switched off.")) +
+                   tr(" What was answered is on disk.");
     for (const auto& reason : outcome.reasons) {
         const auto text = qtext(reason);
         if (!outcome.error && text != said) why << sentence(text);

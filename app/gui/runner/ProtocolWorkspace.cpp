@@ -18,6 +18,7 @@
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstPage.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/OutputWords.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
@@ -324,7 +325,7 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     if (watched) steps_->focusShown();  // the progress had the keys, and is gone
     if (!error) return;
     if (run->result.session.empty())
-        panel_->say(tr("%1 The output was switched off.").arg(inThePast(sentence(*error))));
+        panel_->say(withOutput(inThePast(sentence(*error)), tr("The output was switched off.")));
     if (editor_ != nullptr && editor_->isVisible() && run->result.outcome.line > 0)
         editor_->showError(run->result.outcome.line, QString::fromStdString(error->message));
 }

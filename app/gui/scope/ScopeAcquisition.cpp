@@ -152,7 +152,7 @@ QString ScopeAcquisition::outputText() const {
         case InterlockState::Faulted:
             break;
     }
-    return tr("Output is off after a fault.");
+    return tr("The stimulator is in a fault.");
 }
 
 QString ScopeAcquisition::runningText(const ShownCapture* shown, std::uint64_t skipped) const {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/gui/theme/OutputWords.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/ExposureNow.h"
@@ -61,11 +62,13 @@ void NoticeBanner::sayEnd(const std::shared_ptr<const FinishedRun>& run) {
     saidArmed_ = false;
     const auto name = procedureText(run->order.script.name);
     const auto verdict = qtext(run->result.verdict());
-    if (const auto& error = run->result.outcome.error; error && verdict.isEmpty())
-        line_.say(tr("%1 ended by an error: %2 Output is off.").arg(name, sentence(*error)), true);
-    else
-        line_.say(verdict.isEmpty() ? tr("%1 finished. Output is off.").arg(name)
-                                    : tr("%1 finished: %2. Output is off.").arg(name, verdict));
+    const auto& error = run->result.outcome.error;
+    const auto why = error ? sentence(*error) : QString();
+    if (error && verdict.isEmpty())
+        return line_.say(withOutput(tr("%1 ended by an error: %2").arg(name, why), tr("Output is off.")), true);
+    const auto output = qtext(outputAfter(saysMayBeOn(why) ? std::optional(FaultCause::StuckOn) : std::nullopt));
+    line_.say(verdict.isEmpty() ? tr("%1 finished. %2").arg(name, output)
+                                : tr("%1 finished: %2. %3").arg(name, verdict, output));
 }
 
 void NoticeBanner::refresh(const Telemetry& telemetry) {
@@ -117,7 +120,7 @@ void NoticeBanner::complain(const QString& what) {
     const auto telemetry = controller_.telemetry();
     auto text = sentence(what);
     if (outputIsOff(telemetry.state) && telemetry.fault != FaultCause::StuckOn && !text.contains(tr("Output is off")))
-        text += tr(" Output is off.");
+        text = withOutput(text, tr("Output is off."));
     if (text.contains(tr("Output is off")))
         sayWhile(text, [](const Telemetry& now) { return outputIsOff(now.state); });
     else

@@ -1,6 +1,7 @@
 // A notice ends with the state that it describes, a name has one limit, and words of the output are true (H2, H7, H12).
 #include <QCheckBox>
 #include <QRegularExpression>
+#include <QToolButton>
 #include <map>
 #include <random>
 #include <set>
@@ -97,6 +98,29 @@ TEST_F(Notices, WhatARunEndedWithIsSaidOfThen) {
     ASSERT_NO_FATAL_FAILURE(arm());
     EXPECT_IN_TIME(comesTrue([] { return inSightWith("Output is off").empty(); })) << inSightWith("Output is off");
     EXPECT_NE(inSightWith("was switched off"), "") << "the result says it of its run";
+}
+
+/// However it is told that a run ended so: never that the output is off.
+TEST_F(Notices, ARunThatLeavesAStimulatorStuckOnSaysSo) {
+    RecordProperty("hazard", "H2");
+    auto* line = window.findChild<QToolButton*>("lastMessage");
+    ASSERT_NE(line, nullptr);
+    for (const auto verdict : {ScriptVerdict::None, ScriptVerdict::Stopped}) {
+        for (const auto cause : {FaultCause::StuckOn, FaultCause::OpenElectrode}) {
+            auto run = std::make_shared<gui::FinishedRun>();
+            run->order.script.name = "separability";
+            run->result.outcome.verdict = verdict;
+            run->result.outcome.error =
+                Error{ErrorCode::Device, fmt::format("fault: the reason. {}", outputAfter(cause))};
+            emit window.controller().finished(run);
+            const auto said = line->text() + line->toolTip();
+            EXPECT_EQ(said.contains("may still be on"), cause == FaultCause::StuckOn) << said.toStdString();
+            EXPECT_EQ(said.contains("Output is off"), cause != FaultCause::StuckOn) << said.toStdString();
+            emit window.controller().failed(QString::fromStdString(run->result.outcome.error->message));
+            const auto notice = banner();
+            EXPECT_EQ(notice.contains("Output is off"), cause != FaultCause::StuckOn) << notice.toStdString();
+        }
+    }
 }
 
 TEST(WordsOfTheOutput, OfAStimulatorThatIsStuckOnNeitherSayThatItIsOffNorBlameTheCable) {
