@@ -255,7 +255,12 @@ void SafetyBar::refresh(const Telemetry& telemetry) {
 void SafetyBar::showState(const Telemetry& telemetry) {
     state_ = telemetry.state;
     if (telemetry.trainsDelivered > trainsSeen_ && !blind_) pulse_ = kFlashFrames;
+    if (telemetry.trainsDelivered != trainsSeen_ || telemetry.driving == DriveSource::Off)
+        refused_ = false;
+    else if (telemetry.trainsRefused != refusalsSeen_)
+        refused_ = true;
     trainsSeen_ = telemetry.trainsDelivered;
+    refusalsSeen_ = telemetry.trainsRefused;
     // An empty presentation delivers nothing: while blind it looks as any other.
     const bool closed = state_ == InterlockState::Disconnected && controller_.activity() == Activity::Closed;
     const bool hidden = blind_ && (state_ == InterlockState::Delivering || state_ == InterlockState::Armed);
@@ -265,7 +270,7 @@ void SafetyBar::showState(const Telemetry& telemetry) {
     if (hidden)
         block_->show(shown_, tr("The session presents and asks. Space stops."), false);
     else
-        block_->show(shown_, closed ? closedWords() : stateWords(telemetry, protocol()), pulse_ > 0);
+        block_->show(shown_, closed ? closedWords() : stateWords(telemetry, protocol(), refused_), pulse_ > 0);
     if (pulse_ > 0) --pulse_;
 }
 

@@ -107,6 +107,8 @@ private:
     double measuredAt_s_ = NAN;  ///< on its clock
     std::weak_ptr<BenchTap> measuredOn_;
     std::uint64_t trainsSeen_ = 0;
+    std::uint64_t refusalsSeen_ = 0;
+    bool refused_ = false;  // no train was delivered since one was
     bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash that goes with each train
     InterlockState state_ = InterlockState::Disconnected;

@@ -60,8 +60,11 @@ QString reasonWords(const QString& reason) {
     return found.hasMatch() ? QObject::tr("stopped with %1").arg(found.captured(1)) : reason;
 }
 
-QString stateWords(const Telemetry& telemetry, const QString& protocol) {
+QString stateWords(const Telemetry& telemetry, const QString& protocol, bool refused) {
     const auto reason = reasonWords(qtext(telemetry.reason.view()));
+    const bool puts = telemetry.state == InterlockState::Armed || telemetry.state == InterlockState::Delivering;
+    if (refused && puts && !telemetry.paused && protocol.isEmpty() && telemetry.driving != DriveSource::Off)
+        return QObject::tr("No train: a limit refuses it. Space stops.");
     switch (telemetry.state) {
         case InterlockState::Disconnected:
             return QObject::tr("No stimulator is open.");

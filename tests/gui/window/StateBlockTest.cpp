@@ -2,6 +2,7 @@
 #include <QTest>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <random>
 
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Text.h"
@@ -121,6 +122,36 @@ TEST_F(StateOnTheBar, ItsWordIsReadFromTwoMetresInEverySizeStateAndTheme) {
             }
         }
     }
+}
+
+/// Nothing is said to follow while every train is refused, from whatever they are driven.
+TEST_F(StateOnTheBar, NoTrainIsSaidToFollowWhileALimitRefusesThem) {
+    RecordProperty("hazard", "H12");
+    std::mt19937 draw(47);
+    auto now = inState(InterlockState::Armed, DriveSource::Manual);
+    bar.refresh(now);
+    bool refused = false;
+    for (int frame = 0; frame < 400; ++frame) {
+        const auto happens = draw() % 4;
+        if (happens == 0) {
+            ++now.trainsDelivered;
+            now.state = InterlockState::Delivering;
+            refused = false;
+        } else if (happens == 1) {
+            ++now.trainsRefused;
+            refused = true;
+        }
+        now.driving = draw() % 8 == 0 ? DriveSource::Sensor : DriveSource::Manual;
+        now.finger = now.driving == DriveSource::Sensor ? FingerStanding::Fresh : FingerStanding::None;
+        now.interval_s = 0.5;
+        bar.refresh(now);
+        EXPECT_EQ(says().text().contains("a limit refuses it"), refused) << says().text().toStdString();
+        if (refused) EXPECT_FALSE(says().text().contains("very 500")) << says().text().toStdString();
+    }
+    now.driving = DriveSource::Off;
+    ++now.trainsRefused;
+    bar.refresh(now);
+    EXPECT_FALSE(says().text().contains("refuses")) << "nothing is asked for any more";
 }
 
 TEST_F(StateOnTheBar, WhatIsDeliveredStandsThereWhole) {
