@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
 
 namespace tacto {
@@ -238,6 +239,10 @@ ExposureFigure readExposure(Reader& in) {
         row.reason = item.text("reason");
         row.warning = item.flag("warning");
         if (item.has("within")) row.within = item.flag("within");
+        if (const double measured = item.number("measured"); row.evaluated() && std::isfinite(measured)) {
+            row.reason = "measured " + quantityText(measured, row.unit, 3);
+            if (item.flag("measured_beyond")) row.reason += " (beyond accuracy)";
+        }
         if (row.name.isEmpty()) item.complain("name", "the name of the limited quantity");
         figure.rows.push_back(std::move(row));
     });

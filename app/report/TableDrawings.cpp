@@ -205,6 +205,7 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
         addRect(*sheet, axes, QRectF(0, i - 0.32, 100 * std::min(fraction, kReach), 0.64), color,
                 QPen(color.darker(125), 0.8));
         QString text = quantityText(row.value, row.unit, 3) + " of " + settingText(row.limit, row.unit);
+        if (!row.reason.isEmpty()) text += ", " + row.reason;
         if (over) text += row.warning ? ": attention" : ": over the limit";
         beside(text)->setFont(textFont(10, over));
     }

@@ -24,6 +24,19 @@ TEST(Figure, ReadsEveryTypeAsDocumented) {
     EXPECT_DOUBLE_EQ(first.n, 25);
 }
 
+TEST(Figure, WhatWasMeasuredStandsBesideWhatWasSet) {
+    RecordProperty("hazard", "H1");
+    for (const bool beyond : {false, true}) {
+        const QJsonObject row{
+            {"name", "commanded voltage"}, {"value", 40}, {"limit", 40}, {"unit", "V"}, {"measured", 45.9},
+            {"measured_beyond", beyond}};
+        const auto figure = parseFigure({{"type", "exposure"}, {"rows", QJsonArray{row}}}).value();
+        const auto said = std::get<ExposureFigure>(figure.content).rows.front().reason;
+        EXPECT_TRUE(said.contains("45.9")) << said.toStdString();
+        EXPECT_EQ(said.contains("beyond accuracy"), beyond) << said.toStdString();
+    }
+}
+
 TEST(Figure, IgnoresKeysItDoesNotKnow) {
     auto json = planeJson(2);
     json["accuracy"] = "anything";

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "core/session/SessionReader.h"
@@ -125,6 +127,36 @@ TEST(ScriptRun, ArgumentErrorsNameTheFunctionTheValueAndWhatIsAccepted) {
     EXPECT_NE(error("random.blocks('abc')"), "");
     EXPECT_NE(error("random.blocks([1], -1)"), "");
     EXPECT_NE(error("progress(5)"), "");
+}
+
+/// What was measured stands beside what was set, and whether the stimulator's accuracy explains it.
+TEST(ScriptRun, ExposureSaysWhatWasMeasured) {
+    RecordProperty("hazard", "H1");
+    for (const double gain : {0.9, 0.97, 1.0, 1.03, 1.12}) {
+        RunBench rig(true, fmt::format("sim:stimulator?gain={}", gain), 3, true);
+        const auto outcome = rig.run(withRun(R"js(
+            bench.arm({ load: 1000 });
+            bench.drive("manual", { roughness: 0.5, pressure: 1 });
+            bench.wait(2);
+            return verdict({ verdict: null, rows: bench.exposure() });)js"));
+        ASSERT_FALSE(outcome.error) << outcome.error->message;
+        int measured = 0;
+        for (const auto& row : outcome.results["rows"]) {
+            if (row["measured"].is_null()) continue;
+            ++measured;
+            EXPECT_EQ(row["name"], "commanded voltage");
+            EXPECT_NEAR(row["measured"].get<double>(), gain * 25, 0.5);
+            EXPECT_EQ(row["measured_beyond"], std::abs(gain - 1) > 0.05) << gain;
+        }
+        EXPECT_EQ(measured, 1) << outcome.results["rows"].dump();
+        rig.closeBench();
+        ASSERT_TRUE(rig.writer().close());
+        const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
+        const auto kept = reader.measurements().value();
+        const auto exposure = std::ranges::find(kept, std::string(kExposureMeasurement), &SessionRow::name);
+        ASSERT_NE(exposure, kept.end());
+        EXPECT_EQ(exposure->body["rows"], outcome.results["rows"]);
+    }
 }
 
 TEST(ScriptRun, WritesTrialsFiguresAndTheVerdictIntoTheSession) {

@@ -266,7 +266,9 @@ nlohmann::json ScriptSession::worstExposure() const {
                               {"limit", numberOrNull(row.limit)},
                               {"unit", row.unit},
                               {"source", row.set.view()},
-                              {"warning", row.action != LimitAction::Refuse}};
+                              {"warning", row.action != LimitAction::Refuse},
+                              {"measured", numberOrNull(row.measured)},
+                              {"measured_beyond", row.beyond}};
         if (!row.reason.empty()) out["reason"] = row.reason.view();
         rows.push_back(std::move(out));
     }

@@ -152,8 +152,11 @@ std::vector<HostFunction> benchFunctions() {
          .call = host::bench::watch},
         {.name = "exposure",
          .text = "The largest exposure seen in this run against each limit, at the ends of wait() and capture().",
-         .returns = "Rows { name, value, limit, unit, source, warning, reason } for plot.exposure(); value null: not "
-                    "evaluated.",
+         .returns =
+             "Rows { name, value, limit, unit, source, warning, reason, measured, measured_beyond } for "
+             "plot.exposure(); "
+             "value null: not evaluated; measured null: not measured; measured_beyond: the stimulator's accuracy "
+             "does not explain it.",
          .call = host::bench::exposure},
         {.name = "loads",
          .kind = HostKind::Property,
