@@ -176,6 +176,33 @@ TEST_F(ForgedCalibration, AReadingOfUnlikeTrainsHasNoKnownCommand) {
     }
 }
 
+/// A check pulse goes before the first train: their mean would pass for a stimulator that gives too little.
+TEST_F(ForgedCalibration, ARecordOfACheckPulseAndATrainIsJudgedByNoOtherCommandThanItShows) {
+    RecordProperty("hazard", "H1");
+    for (const char* accuracy : {"stated", "unknown"}) {
+        for (const double strength : {0.0, 0.3, 1.0}) {
+            RunBench rig(true, fmt::format("sim:oscilloscope?accuracy={}", accuracy), 1, true, kCalibrated);
+            const auto outcome = rig.run(withRun(fmt::format(R"(
+  bench.arm({{ load: 1000 }});
+  bench.wait(6);
+  bench.drive("manual", {{ roughness: {}, pressure: 1 }});
+  const both = measure.pulse(bench.capture({{ trains: 1, rate_hz: 1e6, samples: 300000 }}));
+  const one = measure.pulse(bench.capture({{ trains: 1, rate_hz: 1e6, samples: 300000 }}));
+  return verdict({{ verdict: null, readings: [both, one] }});)",
+                                                             strength)));
+            ASSERT_FALSE(outcome.error) << outcome.error->message;
+            for (const auto& reading : outcome.results["readings"]) {
+                const auto& commanded = reading["commanded"]["amplitude"];
+                if (commanded.is_null()) continue;
+                EXPECT_NEAR(reading["amplitude"].get<double>(), commanded.get<double>(), 0.2 * commanded.get<double>());
+            }
+            const auto& one = outcome.results["readings"][1]["commanded"]["amplitude"];
+            ASSERT_FALSE(one.is_null()) << outcome.results.dump();
+            EXPECT_NEAR(one.get<double>(), 10 + 30 * strength, 0.05);
+        }
+    }
+}
+
 TEST_F(ForgedCalibration, AnAccuracyThatOnlyTheScriptStatesDoesNotCount) {
     RecordProperty("hazard", "H1");
     const std::string silent = "sim:oscilloscope?accuracy=unknown";

@@ -141,7 +141,8 @@ bool programmedAlike(const Capture& capture, const Telemetry& now, const Encodin
 
 }  // namespace
 
-/// What was asked of the stimulator, on its own grid: that is what the gate judged and the device was programmed to.
+/// What was asked of the stimulator, on its own grid: that is what the gate judged and the device was programmed to. A
+/// record of no one command has no amplitude: another train's would pass for an error of the stimulator.
 CapturedCommand ScriptSession::commandOf(const Capture& capture) const {
     const auto& bench = *request_.bench;
     const Telemetry now = bench.telemetry();
@@ -151,9 +152,7 @@ CapturedCommand ScriptSession::commandOf(const Capture& capture) const {
         return stimulator ? towardZero(time.count(), stimulator->traits().widthStep.count()) / 1e6 : kNaN;
     };
     const bool steady = programmedAlike(capture, now, bench.profile().encoding);
-    return {.amplitude = !steady                             ? kNaN
-                         : std::isfinite(capture.programmed) ? capture.programmed
-                                                             : now.trainAmplitude,
+    return {.amplitude = steady ? capture.programmed : kNaN,
             .interval_s = steady ? now.interval_s : kNaN,
             .width_s = onGrid(train.phaseWidth),
             .gap_s = onGrid(train.interPhaseGap),
