@@ -12,7 +12,7 @@ constexpr std::size_t kEnough = 20;
 constexpr double kSteady = 0.1;  // standard deviation of windows, of their mean
 constexpr double kTone = 2.1;    // kurtosis: 1.5 of a tone, 3 of noise
 constexpr double kFalls = 0.01;  // from window to window: more is a motor that runs down
-constexpr int kTries = 6;        // seconds of rest: a slow motor is not steady at once
+constexpr int kTries = 6;        // more: a slow motor is not steady at once
 }  // namespace
 
 void MassagerWatch::Axis::add(double value, bool begins) noexcept {
@@ -29,9 +29,9 @@ std::pair<double, double> MassagerWatch::Axis::moments(double n) const noexcept 
 }
 
 void MassagerWatch::burst(Instant begin, Instant end) noexcept {
-    if (quiet_) follows_ = true;
-    quiet_ = false;
     begin_s_ = toSeconds(begin);
+    // A window may have closed on its first milliseconds before it was told of.
+    if (begin_s_ - quiet_s_ < 3 * kWindow_s) follows_ = true;
     end_s_ = std::max(end_s_, toSeconds(end));
 }
 
@@ -68,8 +68,10 @@ void MassagerWatch::take(double begin_s, double strength, double kurtosis) noexc
     if (strength > 0) floor_ = std::min(floor_, strength);
     const bool burst = begin_s + kWindow_s > begin_s_ && begin_s < end_s_ + kRunDown.count();
     if (burst) return;
-    quiet_ = strength <= kQuiet * floor_;
-    if (quiet_) return forget();
+    if (strength <= kQuiet * floor_) {
+        quiet_s_ = begin_s;
+        return forget();
+    }
     if (!follows_) return;
     if (std::abs(begin_s - (last_s_ + kWindow_s)) < kWindow_s / 2) {
         fall_ += last_ - strength;
@@ -86,7 +88,9 @@ void MassagerWatch::take(double begin_s, double strength, double kurtosis) noexc
     const double deviation = std::sqrt(std::max(0.0, squares_ / static_cast<double>(count_) - mean * mean));
     const bool holds = std::abs(fall_) <= kFalls * mean * static_cast<double>(pairs_);
     const bool goesOn = deviation <= kSteady * mean && holds && kurtosis_ / static_cast<double>(count_) < kTone;
-    if (++tries_ > kTries && !goesOn) return forget();
+    // In rests too short to see a motor run down, one that was not steady may be a slow one.
+    const bool sees = pairs_ >= kEnough * 3 / 4;
+    if (++tries_ > (sees ? kTries : 0) && !goesOn) return forget();
     count_ = pairs_ = 0;
     sum_ = squares_ = kurtosis_ = fall_ = 0;
     found_ = goesOn ? mean : 0;

@@ -51,16 +51,16 @@ private:
     Window now_;
     double begin_s_ = std::numeric_limits<double>::infinity();  // of the newest burst
     double end_s_ = -std::numeric_limits<double>::infinity();
-    double floor_ = std::numeric_limits<double>::infinity();  // the least strength so far
-    bool quiet_ = false;                                      // in the last window of rest
-    bool follows_ = false;                                    // a burst began after quiet, and none was since
-    int tries_ = 0;                                           // seconds of rest since then that were looked at
-    std::size_t count_ = 0;                                   // windows of rest that were not quiet
-    std::size_t pairs_ = 0;                                   // of them that follow each other
-    double last_s_ = -1, last_ = 0;                           // the newest of them
-    double fall_ = 0;                                         // from one to the next, summed
-    double sum_ = 0, squares_ = 0;                            // of their strengths
-    double kurtosis_ = 0;                                     // sum of theirs
+    double floor_ = std::numeric_limits<double>::infinity();     // the least strength so far
+    double quiet_s_ = -std::numeric_limits<double>::infinity();  // of the last quiet window of rest
+    bool follows_ = false;                                       // a burst began after quiet, and none was since
+    int tries_ = 0;                                              // seconds of rest since then that were looked at
+    std::size_t count_ = 0;                                      // windows of rest that were not quiet
+    std::size_t pairs_ = 0;                                      // of them that follow each other
+    double last_s_ = -1, last_ = 0;                              // the newest of them
+    double fall_ = 0;                                            // from one to the next, summed
+    double sum_ = 0, squares_ = 0;                               // of their strengths
+    double kurtosis_ = 0;                                        // sum of theirs
     double found_ = 0;
 };
 
