@@ -138,6 +138,12 @@ Result<StudyKeys> StudyKeys::open(const fs::path& file, const std::string& study
     if (passphrase != nullptr) {
         if (auto own = isOwnFolder(file.parent_path(), "the key folder"); !own) return failure(own);
         if (auto own = isOwnFile(file, "the key file"); !own) return failure(own);
+        if (fs::is_symlink(file, error)) {
+            return fail(ErrorCode::NotFound,
+                        "the key file {} is a link to {}; the file itself is expected in its place, or the keys there "
+                        "would outlast a withdrawal",
+                        file.string(), fs::read_symlink(file, error).string());
+        }
     }
     const auto text = readTextFile(file);
     if (!text) return failure(text);

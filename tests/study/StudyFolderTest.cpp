@@ -85,6 +85,30 @@ TEST_F(StudyFolder, TheKeyFileIsItsOwnersAloneAndSealed) {
     EXPECT_EQ(text.find("limit"), std::string::npos);  // the cost of a guess is not a file's business
 }
 
+// What a link names would keep its bytes when the keys are written again: a withdrawal would destroy nothing.
+TEST_F(StudyFolder, AKeyFileThatIsALinkIsRefused) {
+    RecordProperty("hazard", "H11");
+    {
+        auto study = make();
+        enrolled(study);
+    }
+    const auto place = keyFile(), elsewhere = scratch.path() / "stick.json";
+    std::filesystem::rename(place, elsewhere);
+    std::filesystem::create_symlink(elsewhere, place);
+    const auto before = everythingBelow(scratch.path());
+    for (const auto access : {Study::Access::Change, Study::Access::Read}) {
+        const auto study = open(access);
+        ASSERT_FALSE(study);
+        EXPECT_EQ(study.error().code, ErrorCode::NotFound);
+        EXPECT_NE(study.error().message.find("is a link to " + elsewhere.string()), std::string::npos)
+            << study.error().message;
+    }
+    EXPECT_EQ(everythingBelow(scratch.path()), before);
+    std::filesystem::remove(place);
+    std::filesystem::rename(elsewhere, place);
+    EXPECT_TRUE(open());
+}
+
 TEST_F(StudyFolder, AKeyFileThatOthersMayReadOrAFolderThatTheyMayWriteIsRefused) {
     RecordProperty("hazard", "H11");
     const auto before = ::umask(0);
