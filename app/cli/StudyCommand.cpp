@@ -165,7 +165,7 @@ int goBack(Study& study, const QCommandLineParser& parser, const QStringList&) {
     if (const auto done = study.goBack(given(parser, "confirm")); !done) return failWith(done.error());
     const auto& back = study.goingsBack().back();
     if (parser.isSet("json"))
-        printJson({{"lost", back.lost}, {"rows", back.rows}, {"files", back.files}});
+        printJson({{"lost", back.lost}, {"rows", back.rows}, {"files", back.files}, {"unsealed", back.unsealed}});
     else
         say("{}\n", goingBackText(back));
     return kDone;

@@ -78,7 +78,11 @@ Json studyJson(const Study& study) {
     for (const auto& amendment : study.amendments()) amendments.push_back(amendmentJson(amendment));
     auto wentBack = Json::array();
     for (const auto& back : study.goingsBack()) {
-        wentBack.push_back({{"date", dayOf(back.at)}, {"lost", back.lost}, {"rows", back.rows}, {"files", back.files}});
+        wentBack.push_back({{"date", dayOf(back.at)},
+                            {"lost", back.lost},
+                            {"rows", back.rows},
+                            {"files", back.files},
+                            {"unsealed", back.unsealed}});
     }
     return {{"title", settings.title},
             {"rehearsal", study.isRehearsal()},
@@ -132,6 +136,9 @@ void sayStudy(const Study& study) {
     }
     if (const auto events = study.adverseEventCount(); events > 0) say("  adverse events: {}\n", events);
     say("  ledger head {}\n", study.ledgerHead());
+    // A ledger that is an older one, or has rows that are not this study's, is read all the same: it says so.
+    if (const auto may = study.stillApproved(); !may && !study.isRehearsal())
+        say(stderr, "No session can begin today: {}.\n", may.error().message);
     if (!study.hasKey()) say(stderr, "Codes, consents and who took part are sealed; --passphrase-file shows them.\n");
 }
 

@@ -1,5 +1,6 @@
 #include "core/seal/SealedText.h"
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <sodium.h>
@@ -117,6 +118,17 @@ Result<std::string> openText(const Secret& key, std::string_view boundTo, std::s
     const auto opened = openBytes(key, boundTo, kTextBlock, *bytes);
     if (!opened) return failure(opened);
     return std::string(reinterpret_cast<const char*>(opened->data()), opened->size());
+}
+
+std::string macText(const Secret& key, std::string_view text) {
+    std::array<unsigned char, crypto_generichash_BYTES> hash{};
+    if (crypto_generichash(hash.data(), hash.size(), reinterpret_cast<const unsigned char*>(text.data()), text.size(),
+                           raw(key.bytes().data()), key.size()) != 0)
+        std::abort();
+    std::string digits(2 * hash.size() + 1, '\0');
+    sodium_bin2hex(digits.data(), digits.size(), hash.data(), hash.size());
+    digits.pop_back();  // the null byte
+    return digits;
 }
 
 Secret subkey(const Secret& key, std::uint64_t number) {

@@ -40,6 +40,9 @@ inline constexpr std::size_t kChunkBlock = 4096;
 [[nodiscard]] std::string sealText(const Secret& key, std::string_view boundTo, std::string_view text);
 [[nodiscard]] Result<std::string> openText(const Secret& key, std::string_view boundTo, std::string_view sealed);
 
+/// Keyed hash of `text` (BLAKE2b, 64 hexadecimal digits): only who has `key` makes it.
+[[nodiscard]] std::string macText(const Secret& key, std::string_view text);
+
 /// Subkey `number` of `key`, kKeyBytes bytes (crypto_kdf, context "tactpart").
 [[nodiscard]] Secret subkey(const Secret& key, std::uint64_t number);
 

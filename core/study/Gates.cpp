@@ -177,7 +177,8 @@ Result<void> consentGate(const StudySettings& settings, const Participant& parti
 Result<void> wentBackGate(const StudySettings& settings, std::span<const StudyGoingBack> all,
                           std::chrono::sys_seconds now) {
     if (settings.kind == StudyKind::Rehearsal || all.empty()) return {};
-    const auto at = all.back().at;
+    // A clock that was set back when it went back hides no session; one that ran ahead before bars none for years.
+    const auto at = all.back().newestAt <= now ? std::max(all.back().at, all.back().newestAt) : all.back().at;
     const double hours = std::chrono::duration<double, std::ratio<3600>>(now - at).count();
     using std::chrono::days;
     if (hours >= settings.gapMin_h && std::chrono::floor<days>(at) < std::chrono::floor<days>(now)) return {};

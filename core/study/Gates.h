@@ -37,9 +37,11 @@ struct ExclusionItem {
 /// A ledger that is older than one that this computer knows was gone on with (StudyBook::goBack()).
 struct StudyGoingBack {
     std::chrono::sys_seconds at{};
-    std::int64_t lost = 0;           ///< rows; 0: how many is not known
-    std::vector<std::string> rows;   ///< their names, as far as they are known
-    std::vector<std::string> files;  ///< of sessions that it does not know: given up
+    std::chrono::sys_seconds newestAt{};  ///< of the newest row that was known; 1970 where that is not known
+    std::int64_t lost = 0;                ///< rows; 0: how many is not known
+    std::vector<std::string> rows;        ///< their names, as far as they are known
+    std::vector<std::string> files;       ///< of sessions that it does not know: given up
+    std::vector<std::string> unsealed;  ///< names of rows that were taken over and that the study's key had not written
 };
 
 /// What reports and readers of an export are told of it.

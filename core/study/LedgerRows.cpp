@@ -11,6 +11,8 @@ namespace tacto {
 
 namespace {
 
+constexpr const char* kMac = "mac";
+
 constexpr AcceptedText kLedgerText{.mayBeEmpty = true, .mostBytes = 2000};
 
 RecordFields<Participant> buildParticipantFields() {
@@ -82,6 +84,7 @@ public:
     [[nodiscard]] Result<void> take(const SessionRow& row) {
         state.last = std::max(state.last, std::chrono::sys_seconds(wholeSeconds(row.at)));
         state.rows.push_back(row.name);
+        // What counts from its row on counts from `last`: a clock that was set back dates nothing back.
         if (row.name == ledger::kStudy || row.name == ledger::kAmendment) {
             settings(row);
             return {};
@@ -95,7 +98,7 @@ public:
         if (row.name == ledger::kConsent) return consent(row, *participant);
         if (row.name == ledger::kExcluded) {
             if (const auto content = opened(row, participant->id); !content) return failure(content);
-            state.excluded[participant->id] = std::chrono::sys_seconds(wholeSeconds(row.at));
+            state.excluded[participant->id] = state.last;
             return {};
         }
         if (row.name == ledger::kLeft) {
@@ -168,8 +171,7 @@ private:
         const auto version = textOr(now, "consent_version");
         const bool isFirst = row.name == ledger::kStudy;
         const bool moved = isFirst || fromOf(now) != fromOf(state.settings);
-        const CalibrationDate written =
-            std::chrono::floor<std::chrono::days>(std::chrono::sys_seconds(wholeSeconds(row.at)));
+        const CalibrationDate written = std::chrono::floor<std::chrono::days>(state.last);
         const auto known = state.formSince.find(version);
         if (known == state.formSince.end())
             state.formSince[version] = moved ? *from : written;
@@ -179,9 +181,12 @@ private:
 
     [[nodiscard]] Result<void> wentBack(const SessionRow& row) {
         StudyGoingBack back;
-        back.at = std::chrono::sys_seconds(wholeSeconds(row.at));
+        back.at = state.last;
         back.lost = static_cast<std::int64_t>(countOr(row.body, "lost"));
-        for (const auto& [key, into] : {std::pair{"rows", &back.rows}, std::pair{"files", &back.files}}) {
+        back.newestAt =
+            std::chrono::sys_seconds(std::chrono::seconds(static_cast<std::int64_t>(countOr(row.body, "at"))));
+        for (const auto& [key, into] :
+             {std::pair{"rows", &back.rows}, std::pair{"files", &back.files}, std::pair{"unsealed", &back.unsealed}}) {
             for (const auto& each : valueOr(row.body, key)) {
                 if (!each.is_string()) return unfit(row, "a list of something else than names");
                 into->push_back(each.get<std::string>());
@@ -334,6 +339,13 @@ Result<nlohmann::json> openedInLedger(const std::string& study, const Secret& ke
     return parseJson(*text, fmt::format("row {} of the ledger", seq), kRowLimits);
 }
 
+std::string macInLedger(const std::string& study, const Secret& key, std::int64_t seq, std::chrono::sys_seconds at,
+                        std::string_view name, const nlohmann::json& body, std::string_view before) {
+    constexpr std::uint64_t kMacs = 2;  // of the key's subkeys; 1 is that of labels
+    return macText(subkey(key, kMacs), fmt::format("{}\n{}\n{}\n{}\n{}\n{}", study, seq, at.time_since_epoch().count(),
+                                                   name, before, dumpJson(body)));
+}
+
 nlohmann::json toJson(const Participant& participant) { return participantFields().write(participant); }
 nlohmann::json toJson(const Consent& consent) { return consentFields().write(consent); }
 nlohmann::json toJson(const AdverseEvent& event) { return adverseEventFields().write(event); }
@@ -344,11 +356,32 @@ Result<void> checkForLedger(const Participant& participant) {
 Result<void> checkForLedger(const Consent& consent) { return consentFields().check(consent, RecordPlace{}); }
 Result<void> checkForLedger(const AdverseEvent& event) { return adverseEventFields().check(event, RecordPlace{}); }
 
+namespace {
+Result<void> checkMac(const SessionReader& ledger, const std::string& study, const StudyKeys& keys,
+                      const SessionRow& row) {
+    const auto before = ledger.hashOf(row.seq - 1);
+    if (!before) return failure(before);
+    auto body = row.body;
+    body.erase(kMac);
+    const std::chrono::sys_seconds at(std::chrono::floor<std::chrono::seconds>(row.at));
+    if (macInLedger(study, keys.study(), row.seq, at, row.name, body, *before) == textOr(row.body, kMac)) return {};
+    return fail(
+        ErrorCode::ParseError,
+        "row {} ({}) of the ledger was not written with the study's key: it was changed, or is another ledger's; put "
+        "the newest back from your copy",
+        row.seq, row.name);
+}
+}  // namespace
+
 Result<LedgerState> replay(const SessionReader& ledger, const std::string& study, const StudyKeys* keys) {
     const auto rows = ledger.events();
     if (!rows) return failure(rows);
     Replay replay(study, keys);
     for (const auto& row : *rows) {
+        if (keys != nullptr && row.body.contains(kMac)) {
+            if (auto own = checkMac(ledger, study, *keys, row); !own) return failure(own);
+            replay.state.vouched = row.seq;
+        }
         if (auto taken = replay.take(row); !taken) return failure(taken);
     }
     replay.state.head = ledger.chainHead();

@@ -8,8 +8,12 @@
 //   session-ended         {session, participant, state, file, head}, "opened": false where its bench could not be
 //   excluded              {participant, sealed}              of that day
 //   next-day              {participant, session, sealed}
-//   went-back             {row, head, at, lost, rows, files}   of what was given up; `rows` is empty where not known
+//   went-back             {row, head, at, lost, rows, files, unsealed}   of what was given up; `rows` is empty where
+//                         not known; `unsealed` names rows that were taken over without a "mac"
 //   adverse-event, exported   {session, sealed under the study's key}
+//
+// Each row has a "mac" over itself and the hash of the row before it, under a subkey of the study's: it vouches for all
+// rows up to it. Rows of before that have none, and rows that were appended without the key.
 //
 // Thread-safety: values.
 #pragma once
@@ -61,7 +65,8 @@ struct LedgerState {
     std::vector<StudyExport> exports;                  ///< with the key only
     std::map<std::string, CalibrationDate> formSince;  ///< version of the consent form to the first day that it counts
     std::vector<StudyGoingBack> wentBack;              ///< in order
-    std::vector<std::string> rows;                     ///< the name of each
+    std::vector<std::string> rows;                     ///< the name of each, from row 2 on
+    std::int64_t vouched = 0;                          ///< the last row with a "mac"; 0: none, or without the key
     std::chrono::sys_seconds last{};                   ///< of the newest row
     std::string head;
 
@@ -75,6 +80,11 @@ struct LedgerState {
                                          std::string_view name, const nlohmann::json& content);
 [[nodiscard]] Result<nlohmann::json> openedInLedger(const std::string& study, const Secret& key, std::int64_t seq,
                                                     std::string_view name, const nlohmann::json& body);
+
+/// The "mac" of a row with this body, behind a row of that hash.
+[[nodiscard]] std::string macInLedger(const std::string& study, const Secret& key, std::int64_t seq,
+                                      std::chrono::sys_seconds at, std::string_view name, const nlohmann::json& body,
+                                      std::string_view before);
 
 /// What a participant's row in the ledger seals.
 [[nodiscard]] nlohmann::json toJson(const Participant& participant);

@@ -79,10 +79,12 @@ struct LedgerLoss {
     std::vector<std::string> enrolled;    ///< codes that the key file has and this ledger does not
     int keysGone = 0;                     ///< participants of this ledger whose key is not in the key file
     std::vector<std::string> files;       ///< of sessions that this ledger does not know
+    std::vector<std::string> unsealed;    ///< names of rows of this ledger that were not written with the study's key
+    int withdrawn = 0;                    ///< participants who withdrew by this ledger, and have a key yet
 
     /// Rows that are lost; 0: how many is not known.
     [[nodiscard]] std::int64_t lost() const noexcept;
-    /// What goBack() is confirmed with: "lose-4-rows".
+    /// What goBack() is confirmed with: "lose-4-rows"; "take-2-rows" where nothing is lost and rows are taken over.
     [[nodiscard]] std::string word() const;
     /// All of it in words, for people.
     [[nodiscard]] std::string sentence() const;

@@ -23,8 +23,22 @@ constexpr const char* kWayBack =
 /// The newest that is known, and what is wrong with the ledger where it is not that one.
 struct Newest {
     LedgerEnd end;
-    std::string missing;  ///< a sentence; empty where nothing is
+    std::string missing;                ///< a sentence; empty where nothing is
+    std::vector<std::string> unsealed;  ///< names of the rows at its end that were not written with the key
 };
+
+/// Rows after the last for which the study's key vouches, in the ledger itself or by the key file. Where neither does,
+/// all were written before either did.
+void weighOwn(Newest& newest, const StudyBook& book, const SessionReader& ledger) {
+    if (!book.keys) return;
+    const auto& noted = book.keys->ledgerEnd();
+    const auto vouched = std::max(book.known.vouched, reaches(ledger, noted) ? noted.row : 0);
+    const auto& rows = book.known.rows;
+    if (vouched < 1 || vouched > std::ssize(rows)) return;  // row 2 is the first of them
+    newest.unsealed.assign(rows.begin() + vouched - 1, rows.end());
+    newest.missing = fmt::format("row {} ({}) of the study's ledger was not written with the study's key", vouched + 1,
+                                 newest.unsealed.front());
+}
 
 void weigh(Newest& newest, const SessionReader& ledger, const LedgerEnd& end, std::string_view source) {
     if (end.row > newest.end.row) {
@@ -44,8 +58,9 @@ Result<Newest> newestKnown(const StudyBook& book) {
     if (book.settings.kind == StudyKind::Rehearsal) return newest;  // its keys lie beside it and go back with it
     const auto ledger = SessionReader::open(book.files.ledger());
     if (!ledger) return failure(ledger);
+    weighOwn(newest, book, *ledger);
     const auto noted = notedLedgerEnd(book.endFile());
-    if (!noted) newest.missing = noted.error().message;
+    if (!noted && newest.missing.empty()) newest.missing = noted.error().message;
     if (noted && *noted) weigh(newest, *ledger, **noted, "was written on this computer");
     if (book.keys && book.keys->ledgerEnd().row > 0)
         weigh(newest, *ledger, book.keys->ledgerEnd(), "the key file notes");
@@ -183,6 +198,10 @@ Result<LedgerLoss> StudyBook::lossOfGoingBack() const {
     const auto [ours, theirs] = std::ranges::mismatch(known.rows, newest->end.rows);
     loss.rows.assign(theirs, newest->end.rows.end());
     loss.files = *strangers;
+    loss.unsealed = newest->unsealed;
+    loss.withdrawn = static_cast<int>(std::ranges::count_if(known.participants, [this](const Participant& each) {
+        return each.state == ParticipantState::Withdrawn && keys->byId(each.id) != nullptr;
+    }));
     for (const auto& entry : keys->entries())
         if (std::ranges::find(known.participants, entry.id, &Participant::id) == known.participants.end())
             loss.enrolled.push_back(entry.code);
@@ -204,7 +223,8 @@ Result<void> StudyBook::goBack(std::string_view word) {
                                               {"at", loss->newestAt.time_since_epoch().count()},
                                               {"lost", loss->lost()},
                                               {"rows", loss->rows},
-                                              {"files", loss->files}});
+                                              {"files", loss->files},
+                                              {"unsealed", loss->unsealed}});
         !done)
         return done;
     return finishWithdrawals();
@@ -218,7 +238,9 @@ Result<void> StudyBook::append(const char* name, nlohmann::json body, const Secr
 
 Result<void> StudyBook::write(const char* name, nlohmann::json body, const Secret* key, const nlohmann::json& content) {
     if (key != nullptr) body["sealed"] = sealedInLedger(settings.id, *key, ledger->next(), name, content);
-    auto row = ledger->append(now(), name, body);
+    const auto at = now();
+    body["mac"] = macInLedger(settings.id, keys->study(), ledger->next(), at, name, body, ledger->head());
+    auto row = ledger->append(at, name, body);
     if (!row) return failure(row);
     if (auto replayed = read(); !replayed) return replayed;
     noteEnd();

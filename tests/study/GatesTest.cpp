@@ -189,6 +189,14 @@ TEST(Gates, AfterALedgerWentBackNoSessionBeginsThatDayNorWithinTheGap) {
     EXPECT_FALSE(wentBackGate(settings, once, at + 11h)) << "the same day";
     EXPECT_TRUE(wentBackGate(settings, once, at + 12h));
     EXPECT_FALSE(wentBackGate(settings, once, at - 24h)) << "a clock that is behind";
+    // With the clock set back by two days while it went back; the newest row that was known tells how late it was.
+    settings.gapMin_h = 20;
+    back.at = at - 48h;
+    back.newestAt = at;
+    EXPECT_FALSE(wentBackGate(settings, std::vector{back}, at + 19h));
+    EXPECT_TRUE(wentBackGate(settings, std::vector{back}, at + 20h));
+    back.newestAt = at + 24h * 3650;
+    EXPECT_TRUE(wentBackGate(settings, std::vector{back}, at + 20h)) << "a clock that ran ahead bars none for years";
     settings.kind = StudyKind::Rehearsal;
     EXPECT_TRUE(wentBackGate(settings, once, at));
 }

@@ -5,6 +5,7 @@
 
 #include "core/session/Ledger.h"
 #include "core/study/LedgerEnd.h"
+#include "core/study/StudyKeys.h"
 #include "core/study/StudyVerify.h"
 #include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
@@ -242,6 +243,160 @@ TEST_F(RolledBack, CopiesOfAStudyAreNotChangedAtOnce) {
     ASSERT_FALSE(copy);
     EXPECT_NE(copy.error().message.find("a copy of the study"), std::string::npos) << copy.error().message;
     EXPECT_TRUE(Study::open(scratch.path() / "old", &words, Study::Access::Read, around()));
+}
+
+/// Rows that are appended by a program with the folder and without the key: the chain holds, for it is recomputed.
+class ForgedRows : public RolledBack {
+protected:
+    [[nodiscard]] fs::path ledgerFile() const { return folder() / "ledger.tacto"; }
+    void append(const char* name, const nlohmann::json& body) const {
+        auto forged = Ledger::open(ledgerFile());
+        ASSERT_TRUE(forged) << forged.error().message;
+        ASSERT_TRUE(forged->append(time.now, name, body));
+    }
+    [[nodiscard]] std::vector<SessionRow> rows() const { return SessionReader::open(ledgerFile())->events().value(); }
+    /// A study with a session that ended and one that is unfinished.
+    void makeWithSessions() {
+        makeStudy();
+        auto study = open().value();
+        runSession(study);
+        time.now += std::chrono::hours(30);
+        unfinished_ = study.beginSession(request()).value().session;
+        participant_ = study.participants().front().id;
+    }
+    /// What needs no key to be written.
+    [[nodiscard]] std::vector<std::pair<const char*, nlohmann::json>> forgeries() const {
+        auto amended = rows().front().body;
+        amended.erase("mac");
+        amended["reference"] = amended["settings"]["approval"]["reference"] = "EC-9";
+        amended["settings"]["approval"]["expires"] = "2040-01-01";
+        return {{"withdrawn", {{"participant", participant_}, {"sessions", 1}, {"virtual", false}}},
+                {"left", {{"participant", participant_}, {"sessions", 1}}},
+                {"amendment", amended},
+                {"session-ended",
+                 {{"session", unfinished_.id},
+                  {"participant", participant_},
+                  {"state", "complete"},
+                  {"file", unfinished_.id},
+                  {"head", ""}}},
+                {"session-part",
+                 {{"session", unfinished_.id},
+                  {"file", std::string(16, 'a')},
+                  {"participant", participant_},
+                  {"after", unfinished_.id},
+                  {"head", ""}}},
+                {"went-back", {{"row", 9}, {"lost", 1}, {"rows", {"left"}}, {"files", {"a.tacto"}}}}};
+    }
+    /// As a ledger of before rows had a "mac": the same rows, and what notes its end says so.
+    void makeOld() {
+        auto old = rows();
+        const auto about = SessionReader::open(ledgerFile())->about();
+        for (const char* part : {"", "-wal", "-shm"}) fs::remove(ledgerFile().string() + part);
+        const auto seconds = [](Instant at) {
+            return std::chrono::sys_seconds(std::chrono::floor<std::chrono::seconds>(at));
+        };
+        auto made = Ledger::create(ledgerFile(), about, seconds(old.front().at)).value();
+        for (auto& row : old) {
+            row.body.erase("mac");
+            ASSERT_TRUE(made.append(seconds(row.at), row.name, row.body));
+        }
+        const LedgerEnd end{made.next() - 1, made.head(), time.now, {}};
+        const auto words = test::somePassphrase();
+        ASSERT_TRUE(StudyKeys::open(keyFile(), id_, &words, PassphraseCost::least())->noteEnd(end));
+        noteLedgerEnd(noted(), end);
+    }
+    StudySession unfinished_;
+    std::string participant_;
+};
+
+TEST_F(ForgedRows, AreTakenAsNothingAndDestroyNoKeyWhoeverRecomputesTheChain) {
+    RecordProperty("hazard", "H11");
+    for (const bool old : {false, true}) {
+        fs::remove_all(folder());
+        fs::remove_all(scratch.path() / "home");
+        makeWithSessions();
+        if (old) makeOld();
+        if (HasFatalFailure()) return;
+        const auto kept = scratch.path() / "kept", keptKeys = scratch.path() / "kept keys";
+        copyAll(folder(), kept);
+        copyAll(keys(), keptKeys);
+        for (const auto& [name, body] : forgeries()) {
+            SCOPED_TRACE(fmt::format("{}{}", name, old ? ", in a ledger of before" : ""));
+            for (const bool withMac : {false, true}) {
+                copyAll(kept, folder());
+                auto written = body;
+                if (withMac) written["mac"] = std::string(64, 'a');
+                append(name, written);
+                {
+                    auto study = open();
+                    if (withMac) {
+                        ASSERT_FALSE(study);
+                        EXPECT_NE(study.error().message.find("was not written with the study's key"), std::string::npos)
+                            << study.error().message;
+                    } else {
+                        ASSERT_TRUE(study) << study.error().message;
+                        expectEachRefused(*study, fmt::format("({}) of the study's ledger was not written with the "
+                                                              "study's key",
+                                                              name));
+                    }
+                }
+                EXPECT_EQ(everythingBelow(keys()), everythingBelow(keptKeys)) << "no key was touched";
+            }
+        }
+        copyAll(kept, folder());
+        auto study = open();
+        ASSERT_TRUE(study) << study.error().message;
+        EXPECT_EQ(study->participants().front().code, code_) << "their records open as before";
+        EXPECT_TRUE(study->exported("/media/stick", "bids"));
+        EXPECT_TRUE(study->withdraw(code_)) << "and what the program writes itself is taken";
+        study = tl::unexpected(Error{});
+        study = open();
+        ASSERT_TRUE(study) << study.error().message;
+        EXPECT_TRUE(study->enrol({}));
+    }
+}
+
+TEST_F(ForgedRows, ARowThatWasCopiedFromElsewhereInTheLedgerIsFound) {
+    RecordProperty("hazard", "H11");
+    makeWithSessions();
+    const auto all = rows();
+    const auto kept = scratch.path() / "kept";
+    copyAll(folder(), kept);
+    for (const auto& row : all) {
+        if (!row.body.contains("mac")) continue;
+        copyAll(kept, folder());
+        append(row.name.c_str(), row.body);
+        const auto study = open();
+        ASSERT_FALSE(study) << row.name;
+        EXPECT_EQ(study.error().code, ErrorCode::ParseError);
+    }
+}
+
+TEST_F(ForgedRows, AreTakenOverByTheirWordAlone) {
+    RecordProperty("hazard", "H11");
+    makeWithSessions();
+    append("withdrawn", forgeries().front().second);
+    {
+        auto study = open();
+        ASSERT_TRUE(study) << study.error().message;
+        const auto loss = study->lossOfGoingBack();
+        ASSERT_TRUE(loss) << loss.error().message;
+        EXPECT_EQ(loss->word(), "take-1-rows");
+        EXPECT_EQ(loss->unsealed, std::vector<std::string>{"withdrawn"});
+        EXPECT_EQ(loss->withdrawn, 1);
+        for (const char* part :
+             {"Lost with it: nothing; taken over: 1 row not written with the study's key (1 withdrawn)",
+              "the keys of 1 participants who withdrew by this ledger"})
+            EXPECT_NE(loss->sentence().find(part), std::string::npos) << loss->sentence();
+        EXPECT_EQ(study->goBack("lose-rows").error().code, ErrorCode::InvalidArgument);
+        ASSERT_TRUE(study->goBack("take-1-rows"));
+        EXPECT_TRUE(study->enrol({})) << "it is changed again";
+    }
+    const auto study = open();
+    ASSERT_TRUE(study) << study.error().message;
+    ASSERT_EQ(study->goingsBack().size(), 1U);
+    EXPECT_NE(goingBackText(study->goingsBack().front()).find("taken over: 1 row"), std::string::npos);
+    EXPECT_EQ(study->participants().front().state, ParticipantState::Withdrawn);
 }
 
 /// The rows of a ledger as another program reads them: what the oracle goes by.

@@ -102,6 +102,38 @@ TEST_F(GateOfASession, AYesHoldsWhenTheClockIsSetBackOverMidnight) {
     expectRefused(study, request, "answered yes to the exclusion checklist today");
 }
 
+TEST_F(GateOfASession, AClockThatIsSetBackDatesNothingBack) {
+    RecordProperty("hazard", "H12");
+    for (const int days : {1, 2, 20, 400}) {
+        SCOPED_TRACE(days);
+        std::filesystem::remove_all(folder());
+        auto study = make();
+        const auto code = study.enrol({}).value().code;
+        const auto today = study.today();
+        ASSERT_TRUE(study.consent(code, {"2", today, "KL"}));
+        const auto back = std::chrono::hours(24 * days);
+        auto request = test::someRequest(code);
+        request.devicesSimulated = false;
+        // A form that is approved today is not one of the day that the clock says.
+        time.now -= back;
+        auto amended = study.settings();
+        amended.consentVersion = "3";
+        ASSERT_TRUE(study.amend(amended, "EC-2026-18"));
+        time.now += back;
+        const std::chrono::sys_days before = std::chrono::sys_days(today) - std::chrono::days(1);
+        EXPECT_FALSE(study.consent(code, {"3", before, "KL"}));
+        ASSERT_TRUE(study.consent(code, {"3", today, "KL"}));
+        ASSERT_TRUE(study.mayBegin(request));
+        // Nor does a yes of today become one of before.
+        time.now -= back;
+        request.exclusions.front().yes = true;
+        ASSERT_TRUE(study.noteExclusions(request));
+        request.exclusions = nothingExcludes();
+        time.now += back;
+        expectRefused(study, request, "answered yes to the exclusion checklist today");
+    }
+}
+
 TEST_F(Desk, TheNextSessionWaitsForTheGap) {
     RecordProperty("hazard", "H12");
     auto study = make();
