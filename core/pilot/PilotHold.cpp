@@ -1,5 +1,7 @@
 #include "core/pilot/PilotHold.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "core/base/JsonFields.h"
@@ -24,6 +26,14 @@ std::vector<PilotHold> heldIn(const std::vector<SessionRow>& rows, int ceiling) 
     return all;
 }
 
+/// A part was booked, and its file is not there.
+bool isMissing(const Study& study, const StudySession& session) {
+    return std::ranges::any_of(session.parts, [&](const StudyPart& each) {
+        std::error_code error;
+        return !std::filesystem::exists(study.pathOf(each.file), error);
+    });
+}
+
 }  // namespace
 
 PilotHold tooStrongHold(std::string_view trial) {
@@ -43,13 +53,22 @@ std::vector<PilotHold> openHolds(const Study& study, const Participant& who) {
     std::vector<PilotHold> found;
     std::set<std::string> answered;
     for (const auto& session : study.sessions()) {
+        const bool theirs = session.participant == who.id;
         const auto rows = study.events(session);
+        if (theirs && session.opened && (!rows || isMissing(study, session))) {
+            found.push_back(
+                {fmt::format("session {}, not known", session.id),
+                 fmt::format("The record of session {} is gone or does not open, and what was felt in it is "
+                             "not known",
+                             session.number)});
+        }
         if (!rows) continue;
         std::set<std::string> here;
         for (const auto& each : *rows)
             if (each.name == row::kHold) here.insert(textOr(each.body, "name"));
-        answered.insert(here.begin(), here.end());
-        if (session.participant != who.id) continue;
+        // The program answers for a virtual participant's operator: that holds nothing off a person.
+        if (session.basis != SessionBasis::Virtual || who.isVirtual()) answered.insert(here.begin(), here.end());
+        if (!theirs) continue;
         auto held = heldIn(*rows, ceiling);
         std::erase_if(held, [&](const PilotHold& each) { return here.contains(each.name); });
         if (held.empty()) continue;

@@ -28,7 +28,8 @@ struct PilotHold {
 /// Nothing where the row "rating" is about something else, or lies below `ceiling`.
 [[nodiscard]] std::optional<PilotHold> painHold(const nlohmann::json& rating, int ceiling);
 /// What is unanswered: of each session of the participant, one that goes on among them, and of events in the
-/// whole study. A session whose record does not open is left out: the gates ask for it.
+/// whole study. A session of theirs whose record is gone or does not open holds too: it may have ended with pain. What
+/// the program answered in a virtual participant's session counts for virtual participants alone.
 [[nodiscard]] std::vector<PilotHold> openHolds(const Study& study, const Participant& who);
 
 }  // namespace tacto

@@ -1,4 +1,6 @@
 // What holds a session until the operator has answered by name: too strong, pain, adverse events.
+#include <fstream>
+
 #include "core/base/JsonFields.h"
 #include "core/pilot/PilotCare.h"
 #include "core/pilot/PilotHold.h"
@@ -141,6 +143,53 @@ TEST_F(OpenHolds, AreThoseOfTheParticipantAndOfEventsUntilSomeoneHasAnswered) {
     for (const auto& each : open(other)) all.push_back(answer(each.name));
     session(study, other, all);
     EXPECT_TRUE(open(code).empty()) << "one answer is enough for all";
+}
+
+TEST_F(OpenHolds, WhatTheProgramAnsweredForAVirtualParticipantHoldsAPersonAllTheSame) {
+    RecordProperty("hazard", "H11");
+    auto settings = someStudy();
+    settings.sessionsMax = 20;
+    auto study = make(settings);
+    const auto model = enrolled(study, 1), another = enrolled(study, 2);
+    const auto person = study.enrol({}).value();
+    session(study, model, {});
+    ASSERT_TRUE(study.adverseEvent(study.sessions().front().id, {.what = "burn", .serious = true}));
+    const auto open = [&](const std::string& of) { return openHolds(study, study.find(of).value()); };
+    ASSERT_EQ(open(person.code).size(), 1U);
+    session(study, model, {Row{row::kHold, {{"name", open(model).front().name}, {"by", "simulated"}}}});
+    EXPECT_TRUE(open(another).empty());
+    EXPECT_EQ(open(person.code).size(), 1U) << "no operator has answered";
+}
+
+TEST_F(OpenHolds, ARecordThatIsGoneOrDoesNotOpenHoldsTheNextSession) {
+    RecordProperty("hazard", "H11");
+    auto settings = someStudy();
+    settings.sessionsMax = 20;
+    auto study = make(settings);
+    const auto code = enrolled(study, 1), other = enrolled(study, 2);
+    const Row pain{row::kRating, {{"name", "rough-high pain"}, {"asked", "pain"}, {"value", 9}}};
+    const auto open = [&](const std::string& of) { return openHolds(study, study.find(of).value()); };
+    for (const bool gone : {false, true}) {
+        time.now += std::chrono::hours(24);
+        // Killed before the ledger knew its end; then it was damaged and ended as stopped.
+        const auto begun = study.beginSession(someRequest(code)).value();
+        VirtualClock clock;
+        {
+            auto writer = SessionWriter::create(begun.path, {}, clock, begun.seal).value();
+            EXPECT_TRUE(writer->event(clock.now(), pain.kind, pain.body));
+            EXPECT_TRUE(writer->close());
+        }
+        if (gone)
+            std::filesystem::remove(begun.path);
+        else
+            std::ofstream(begun.path, std::ios::binary | std::ios::trunc) << "no record";
+        ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, ""));
+        ASSERT_EQ(open(code).size(), 1U) << gone;
+        EXPECT_THAT(open(code).front().said, testing::HasSubstr("is gone or does not open"));
+        EXPECT_TRUE(open(other).empty());
+        session(study, code, {Row{row::kHold, {{"name", open(code).front().name}, {"by", "KL"}}}});
+        EXPECT_TRUE(open(code).empty()) << "one answer is enough";
+    }
 }
 
 }  // namespace
