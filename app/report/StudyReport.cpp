@@ -31,12 +31,24 @@ QString warningOf(SessionBasis basis) {
            "people do.";
 }
 
+/// How many of each kind have had a session; where none of them has, how many are enrolled.
+std::map<SessionBasis, std::size_t> tookPart(const StudyRecord& study) {
+    std::map<SessionBasis, std::size_t> counts;
+    const auto had = [](const ParticipantRecord& each) { return !each.sessions.empty(); };
+    const bool any = std::ranges::any_of(study.participants, had);
+    for (const auto& participant : study.participants)
+        if (!any || had(participant)) ++counts[participant.basis];
+    return counts;
+}
+
 /// `parts` as of byBasis(): those that the report is of.
 ReportContent begun(const StudyRecord& study, std::vector<SessionBasis> parts, const QString& title,
                     const QString& subtitle) {
     ReportContent content;
-    const auto simulated = std::ranges::count_if(parts, isSimulatedBasis);
-    content.simulated = simulated == std::ssize(parts);
+    // Who is enrolled and has had no session makes no report one of people.
+    const auto counts = parts.size() > 1 ? tookPart(study) : std::map<SessionBasis, std::size_t>{{parts.front(), 1}};
+    const auto simulated = std::ranges::count_if(counts, [](const auto& each) { return isSimulatedBasis(each.first); });
+    content.simulated = simulated == std::ssize(counts);
     content.documentTitle = title;
     content.header = QString("Tactoscope " TACTOSCOPE_VERSION "  ·  %1%2")
                          .arg(title, content.simulated ? "  ·  simulated"
@@ -50,11 +62,12 @@ ReportContent begun(const StudyRecord& study, std::vector<SessionBasis> parts, c
             "Modality: massager. What was felt was the vibration of a motor; levels are its strength, from 0 to 1."});
     for (const auto& back : study.goingsBack) content.blocks.emplace_back(ParagraphBlock{qtext(goingBackText(back))});
     if (parts.size() > 1) {
-        std::map<SessionBasis, std::size_t> counts;
-        for (const auto& participant : study.participants) ++counts[participant.basis];
-        content.blocks.emplace_back(ParagraphBlock{
-            QString("SIMULATED IN PART: %1. Each kind has its own part of this report; no figure is of both.")
-                .arg(qtext(countsText(counts)))});
+        content.blocks.emplace_back(
+            ParagraphBlock{QString("%1%2. Each kind has its own part of this report; no figure is of both.")
+                               .arg(content.simulated ? "SIMULATED: "
+                                    : simulated > 0   ? "SIMULATED IN PART: "
+                                                      : "",
+                                    qtext(countsText(counts)))});
     } else if (const auto warning = warningOf(parts.front()); !warning.isEmpty()) {
         content.blocks.emplace_back(ParagraphBlock{warning});
     }

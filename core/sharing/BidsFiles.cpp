@@ -30,10 +30,17 @@ void addTable(std::vector<BidsFile>& files, const std::string& stem, const BidsT
     files.push_back({stem + ".json", textOf(about)});
 }
 
-/// How many participants and sessions there are of each kind.
+/// How many participants and sessions there are of each kind. Who is enrolled and has had no session took no part;
+/// where none of them has had one, all are counted.
 struct Basis {
     explicit Basis(const BidsStudy& study) {
+        const auto tookPart = [](const BidsParticipant& each) { return !each.sessions.empty(); };
+        const bool any = std::ranges::any_of(study.participants, tookPart);
         for (const auto& participant : study.participants) {
+            if (any && !tookPart(participant)) {
+                ++waiting;
+                continue;
+            }
             ++participants[participant.basis];
             sessions[participant.basis] += participant.sessions.size();
         }
@@ -49,6 +56,7 @@ struct Basis {
         return participants.contains(SessionBasis::Person) ? "SIMULATED IN PART" : "SIMULATED";
     }
     std::map<SessionBasis, std::size_t> participants, sessions;
+    std::size_t waiting = 0;  ///< enrolled, and without a session
 };
 
 /// No name of what is simulated, wholly or in part, is one that a study of people could have.
@@ -100,9 +108,10 @@ BidsFile readme(const BidsStudy& study) {
     const Basis basis(study);
     std::size_t sessions = 0;
     for (const auto& [one, n] : basis.sessions) sessions += n;
-    std::string text =
-        fmt::format("{}\n\nWhether people tell four conditions of tactile stimulation apart: {}, {} session(s).\n\n",
-                    titleOf(study), countsText(basis.participants), sessions);
+    std::string text = fmt::format(
+        "{}\n\nWhether people tell four conditions of tactile stimulation apart: {}, {} session(s).{}\n\n",
+        titleOf(study), countsText(basis.participants), sessions,
+        basis.waiting > 0 ? fmt::format(" {} more are enrolled and have had no session.", basis.waiting) : "");
     if (study.massager) {
         text +=
             "Modality: massager. What was felt was the vibration of a motor; levels are its strength, from 0 to 1. "

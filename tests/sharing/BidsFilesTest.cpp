@@ -228,22 +228,25 @@ TEST(BidsFiles, WhatIsSimulatedSaysSoInEachNameCountAndRow) {
         study.rehearsal = random.below(3) == 0;
         study.participants.clear();
         study.places = 9;
-        std::map<SessionBasis, std::size_t> people, sessions;
+        std::map<SessionBasis, std::size_t> people, waiting, sessions;
         const auto all = 1 + random.below(9);
         for (std::size_t i = 1; i <= all; ++i) {
             BidsParticipant one;
             one.enrolled = i;
             one.group = "intact";
-            const auto count = random.below(3);  // who is enrolled and had no session is of their kind too
+            const auto count = random.below(3);
             for (std::size_t number = 1; number <= count; ++number) one.sessions.push_back(sessionOf(number, 0));
             restOn(one, kSessionBases[random.below(3)].value);
-            ++people[one.basis];
+            ++(count > 0 ? people : waiting)[one.basis];
             sessions[one.basis] += count;
             study.participants.push_back(std::move(one));
         }
+        // Who is enrolled and has had no session took no part: a study of theirs is not one of people.
+        if (people.empty()) people = std::exchange(waiting, {});
         const auto files = filesOf(study);
         const auto& readme = files.at("README");
         SCOPED_TRACE(readme);
+        EXPECT_EQ(readme.find("have had no session") != std::string::npos, !waiting.empty());
         const auto about = *parseJson(files.at("dataset_description.json"), "description");
         const auto name = about.at("Name").get<std::string>();
         const bool only = people.size() == 1 && people.contains(SessionBasis::Person);
