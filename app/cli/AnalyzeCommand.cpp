@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
@@ -11,12 +12,22 @@
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/separability/SeparabilityJson.h"
 #include "core/analysis/separability/TrialFile.h"
+#include "core/base/Csv.h"
+#include "core/base/JsonFields.h"
+#include "core/study/SessionBasis.h"
 
 namespace tacto::cli {
 
 namespace {
 
-void declareAnalyze(QCommandLineParser& parser) { parser.addOption({"json", "Prints one JSON value."}); }
+void declareAnalyze(QCommandLineParser& parser) {
+    parser.addOption(
+        {"basis",
+         "For identification: on whom the answers rest, where no column \"basis\" says it: person, \"person "
+         "on simulated devices\" or \"virtual participant\".",
+         "BASIS"});
+    parser.addOption({"json", "Prints one JSON value."});
+}
 
 int separability(const std::string& file, bool asJson) {
     const auto trials = readSeparabilityTrials(file);
@@ -77,13 +88,68 @@ void printConfusion(const Identification& found) {
     table.print();
 }
 
-void printFigures(const Identification& found, const std::string& name) {
+using Basis = std::optional<SessionBasis>;
+
+/// What the answers rest on: as the table says, or the option, or what the BIDS export states beside its table.
+/// Nothing where none of them does. Errors: InvalidArgument for another word, for two that differ, and for a table of
+/// several kinds, since a figure is of one.
+Result<Basis> basisOf(const std::string& file, std::string stated, std::span<const ParticipantTrials> all) {
+    const std::filesystem::path sidecar = std::filesystem::path(file).replace_extension(".json");
+    std::error_code error;
+    if (stated.empty() && file.ends_with(".tsv") && std::filesystem::is_regular_file(sidecar, error)) {
+        const auto text = readTextFile(sidecar);
+        const auto about = text ? parseJson(*text, sidecar.string()) : failure(text);
+        if (!about) return failure(about);
+        stated = textOr(*about, "Basis");
+    }
+    Basis basis;
+    const auto take = [&](const std::string& word) -> Result<void> {
+        const auto one = valueFor(kSessionBases, word);
+        if (!one) {
+            return fail(ErrorCode::InvalidArgument, "the basis is \"{:.40}\"; {}, \"{}\" or \"{}\" is expected", word,
+                        kSessionBases[0].text, kSessionBases[1].text, kSessionBases[2].text);
+        }
+        if (basis && *basis != *one) {
+            return fail(ErrorCode::InvalidArgument,
+                        "the answers rest on a {} and on a {}; a table of one kind is expected, since no figure is of "
+                        "both",
+                        nameOf(*basis), nameOf(*one));
+        }
+        basis = one;
+        return {};
+    };
+    if (!stated.empty()) {
+        if (auto taken = take(stated); !taken) return failure(taken);
+    }
+    const bool someSay = std::ranges::any_of(all, [](const auto& each) { return !each.basis.empty(); });
+    for (const auto& each : all) {
+        if (each.basis.empty() && someSay && stated.empty())
+            return fail(ErrorCode::InvalidArgument,
+                        "the basis of participant \"{:.40}\" is not stated, and that of others is; one for each is "
+                        "expected",
+                        each.participant);
+        if (each.basis.empty()) continue;
+        if (auto taken = take(each.basis); !taken) return failure(taken);
+    }
+    return basis;
+}
+
+/// What such figures say something of.
+std::string_view whoOf(const Basis& basis) { return basis ? peopleOf(*basis) : "participants"; }
+
+std::string basisText(const Basis& basis) {
+    if (!basis) return "not known: a column \"basis\" or --basis says whether these are people";
+    return std::string(peopleOf(*basis)) + (*basis == SessionBasis::Virtual ? ", a model of people" : "");
+}
+
+void printFigures(const Identification& found, const std::string& name, const Basis& basis) {
     printConfusion(found);
     const auto& all = found.all;
-    say("\n  {}\n", headline(name, found, {}));
+    say("\n  {}\n", headline(basis ? namedWith(*basis, name) : name, found, {}));
     if (all.n == 0) return;
     say("  {}\n", precisionSentence(all.n, all.chance));
     TextTable table({"", ""});
+    table.add({"rests on", basisText(basis)});
     table.add({"by chance", fmt::format("p = {:.2g} (exact, one-sided)", all.pChance)});
     table.add({"information", fmt::format("{} bit without what chance adds, 95 % interval; {:.2f} bit as counted",
                                           bitsText(all.itCorrected_bits), all.it_bits)});
@@ -103,9 +169,12 @@ void printFigures(const Identification& found, const std::string& name) {
 
 /// The labels that each person's trials name are the answers offered. Nothing is judged, and several people are not
 /// pooled (pilot.md section 7). One of several whose trials cannot be analysed is named and left out.
-int identification(const std::string& file, bool asJson) {
+int identification(const std::string& file, const std::string& stated, bool asJson) {
     const auto read = readIdentificationTrials(file);
     if (!read) return couldNotRun(read.error());
+    const auto basis = basisOf(file, stated, *read);
+    if (!basis) return couldNotRun(Error{basis.error().code, fmt::format("{}: {}", file, basis.error().message)});
+    const auto basisJson = *basis ? nlohmann::json(nameOf(**basis)) : nlohmann::json();
     std::vector<PersonResult> people;
     std::vector<Identification> each;
     std::vector<PersonLeftOut> leftOut;
@@ -127,23 +196,27 @@ int identification(const std::string& file, bool asJson) {
         const auto name = people.front().name.empty() ? file : people.front().name;
         auto result = toJson(each.front());
         result["kind"] = "identification";
+        result["basis"] = basisJson;
         if (asJson) {
             printJson(result);
         } else {
-            printFigures(each.front(), name);
+            printFigures(each.front(), name, *basis);
         }
         return kDone;
     }
-    const auto together = judgeFewPeople(people, std::move(leftOut));
+    auto together = judgeFewPeople(people, std::move(leftOut));
+    together.who = whoOf(*basis);
     if (asJson) {
         auto result = toJson(together);
         result["kind"] = "identification";
+        result["basis"] = basisJson;
         for (std::size_t i = 0; i < each.size(); ++i) result["people"][i].update(toJson(each[i]));
         printJson(result);
         return kDone;
     }
-    for (std::size_t i = 0; i < each.size(); ++i) printFigures(each[i], people[i].name);
+    for (std::size_t i = 0; i < each.size(); ++i) printFigures(each[i], people[i].name, *basis);
     say("\n  {}\n", fewPeopleSentence(together));
+    if (!*basis) say("  On whom this rests is {}.\n", basisText(*basis));
     return kDone;
 }
 
@@ -153,8 +226,16 @@ int runAnalyze(const QCommandLineParser& parser) {
         return usage("analyze: a kind and a CSV file are expected, as in analyze separability trials.csv");
     const auto kind = given.front().toStdString();
     const auto file = given.at(1).toStdString();
+    if (parser.isSet("basis") && kind != "identification") return usage("analyze " + kind + " takes no --basis");
+    if (const auto word = parser.value("basis").trimmed().toStdString();
+        parser.isSet("basis") && !valueFor(kSessionBases, word)) {
+        return usage(fmt::format("analyze: --basis is \"{}\"; {}, \"{}\" or \"{}\" is expected", word,
+                                 kSessionBases[0].text, kSessionBases[1].text, kSessionBases[2].text));
+    }
     if (kind == "calibration") return calibration(file, parser.isSet("json"));
-    if (kind == "identification") return identification(file, parser.isSet("json"));
+    if (kind == "identification") {
+        return identification(file, parser.value("basis").trimmed().toStdString(), parser.isSet("json"));
+    }
     if (kind == "separability") return separability(file, parser.isSet("json"));
     return usage(fmt::format(
         "analyze: \"{}\" cannot be analysed by this version; calibration, identification and separability can", kind));
@@ -162,7 +243,7 @@ int runAnalyze(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kAnalyze{"analyze", "{calibration|identification|separability} FILE.csv [--json]",
+const Command kAnalyze{"analyze", "{calibration|identification|separability} FILE.csv [--basis BASIS] [--json]",
                        "Commanded against measured values, or whether people or measurements tell trials apart",
                        declareAnalyze, runAnalyze};
 

@@ -94,6 +94,76 @@ TEST(AnalyzeIdentification, APersonWithOneTrialIsNamedAndLeftOut) {
                   3, {"single.csv", "no participant can be analysed", "A: 1 condition(s)", "B: "});
 }
 
+std::string answersTable(std::initializer_list<std::pair<const char*, const char*>> whoAndBasis, bool says = true) {
+    std::string text = says ? "participant,basis,stimulus,response\n" : "participant,stimulus,response\n";
+    for (const auto& [who, basis] : whoAndBasis) {
+        for (int i = 0; i < 20; ++i) {
+            text += std::string(who) + (says ? std::string(",") + basis : std::string()) +
+                    (i % 2 == 0 ? ",x,x\n" : ",y,y\n");
+        }
+    }
+    return text;
+}
+
+// A table that does not say whether its rows are people is not reported as people.
+TEST(AnalyzeIdentification, SpeaksOfPeopleOnlyWhereTheTableTheOptionOrTheExportSaysSo) {
+    RecordProperty("hazard", "H8");
+    const Desk desk;
+    struct Case {
+        const char* word;
+        const char* who;  ///< in "of such ... can tell them apart"
+        const char* name;
+    };
+    for (const auto& [word, who, name] :
+         {Case{"person", "people", "B told"},
+          {"person on simulated devices", "people on simulated devices", "B (simulated devices) told"},
+          {"virtual participant", "virtual participants", "B (virtual) told"},
+          {"", "participants", "B told"}}) {
+        SCOPED_TRACE(word);
+        const std::string basis = word;
+        const auto file = desk.write("says.csv", answersTable({{"A", word}, {"B", word}, {"C", word}}));
+        const auto silent = desk.write("silent.csv", answersTable({{"A", ""}, {"B", ""}, {"C", ""}}, false));
+        const auto exported = desk.write("export.tsv", answersTable({{"A", ""}, {"B", ""}, {"C", ""}}, false));
+        desk.write("export.json", basis.empty() ? "{}" : fmt::format(R"({{"Basis": "{}"}})", word));
+        std::vector<std::vector<std::string>> calls{{file}, {exported}};
+        if (basis.empty())
+            calls.push_back({silent});
+        else
+            calls.push_back({silent, "--basis", basis});
+        for (const auto& call : calls) {
+            std::vector<std::string> words{"analyze", "identification"};
+            words.insert(words.end(), call.begin(), call.end());
+            const auto said = desk.run(words);
+            EXPECT_EQ(said.code, 0) << said.err;
+            EXPECT_NE(said.out.find(fmt::format("of such {} can tell them apart", who)), std::string::npos) << said.out;
+            EXPECT_NE(said.out.find(name), std::string::npos) << said.out;
+            EXPECT_EQ(said.out.find("On whom this rests is not known") != std::string::npos, basis.empty()) << said.out;
+            words.emplace_back("--json");
+            const auto found = jsonOf(desk.run(words));
+            EXPECT_EQ(found.at("basis"), basis.empty() ? nlohmann::json() : nlohmann::json(basis));
+        }
+    }
+    const auto one = desk.run({"analyze", "identification", desk.write("one.csv", answersTable({{"A", ""}}, false))});
+    EXPECT_NE(one.out.find("rests on     not known"), std::string::npos) << one.out;
+}
+
+TEST(AnalyzeIdentification, NoFigureIsOfTwoKinds) {
+    RecordProperty("hazard", "H8");
+    const Desk desk;
+    const auto mixed = desk.write("mixed.csv", answersTable({{"A", "person"}, {"B", "virtual participant"}}));
+    expectRefused(desk.run({"analyze", "identification", mixed}), 3,
+                  {"mixed.csv", "rest on a person and on a virtual participant"});
+    const auto partly = desk.write("partly.csv", answersTable({{"A", "person"}, {"B", "n/a"}}));
+    expectRefused(desk.run({"analyze", "identification", partly}), 3, {"participant \"B\" is not stated"});
+    const auto twice = desk.write("twice.csv", answersTable({{"A", "person"}, {"A", "virtual participant"}}));
+    expectRefused(desk.run({"analyze", "identification", twice}), 3, {"one for each participant was expected"});
+    const auto person = desk.write("person.csv", answersTable({{"A", "person"}, {"B", "person"}}));
+    expectRefused(desk.run({"analyze", "identification", person, "--basis", "virtual participant"}), 3,
+                  {"rest on a virtual participant and on a person"});
+    expectRefused(desk.run({"analyze", "identification", person, "--basis", "robot"}), 2, {"\"robot\"", "is expected"});
+    expectRefused(desk.run({"analyze", "separability", person, "--basis", "person"}), 2, {"takes no --basis"});
+}
+
 TEST(AnalyzeIdentification, RefusesWhatIsNoTableOfAnswers) {
     const Desk desk;
     expectRefused(desk.run({"analyze", "identification", desk.write("a.csv", "stimulus\nx\n")}), 3,

@@ -39,6 +39,7 @@ Result<std::vector<ParticipantTrials>> parseIdentificationTrials(std::string_vie
     const auto response = rows.column({"response"});
     if (!response) return failure(response);
     const auto participant = rows.find({"participant", "participant_id"});
+    const auto basis = rows.find({"basis"});
     const auto number = rows.find({"number", "trial"}), block = rows.find({"block"}), phase = rows.find({"phase"}),
                attempt = rows.find({"attempt"}), time = rows.find({"response_time", "rt_s"});
 
@@ -47,7 +48,14 @@ Result<std::vector<ParticipantTrials>> parseIdentificationTrials(std::string_vie
     for (; more && *more; more = rows.next()) {
         const std::string who(participant ? rows[*participant] : "");
         auto person = std::ranges::find(people, who, &ParticipantTrials::participant);
-        if (person == people.end()) person = people.insert(people.end(), {who, {}});
+        if (person == people.end()) person = people.insert(people.end(), {who, {}, {}});
+        const std::string on(basis && !isMissing(rows[*basis]) ? rows[*basis] : "");
+        if (person->trials.empty()) person->basis = on;
+        if (on != person->basis) {
+            return rows.refuse(
+                "basis '{}', and rows of '{}' before it have '{}'; one for each participant was expected",
+                on.substr(0, 40), who.substr(0, 40), person->basis.substr(0, 40));
+        }
         auto& trials = person->trials;
         IdentificationTrial trial;
         trial.condition = std::string(rows[*condition]);
