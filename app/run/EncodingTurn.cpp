@@ -7,7 +7,9 @@
 
 #include "app/run/PilotRows.h"
 #include "core/analysis/identification/Encodings.h"
+#include "core/base/JsonFields.h"
 #include "core/base/Random.h"
+#include "core/base/Text.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/pilot/Prompt.h"
 #include "core/results/ResultKind.h"
@@ -24,6 +26,32 @@ bool wasTested(const Study& study, const StudySession& session) {
                                [](const IdentificationTrial& trial) { return trial.phase == TrialPhase::Test; });
 }
 
+/// How many of their kind were enrolled before them: with virtual participants among them, people are balanced over
+/// people.
+std::size_t placeAmongTheirs(const Study& study, const Participant& who) {
+    const auto all = study.participants();
+    return static_cast<std::size_t>(std::ranges::count_if(all, [&](const Participant& each) {
+        return each.enrolled < who.enrolled && each.isVirtual() == who.isVirtual();
+    }));
+}
+
+/// As the plan of an earlier session has them; empty where there is none.
+std::vector<std::string> answersBefore(const Study& study, const Participant& who) {
+    for (const auto& session : study.sessions()) {
+        if (session.participant != who.id) continue;
+        const auto rows = pilotRows(study, session);
+        if (!rows) continue;
+        for (const auto& event : rows->events) {
+            const auto places = event.name == row::kPlan ? textOr(event.body, "answers") : std::string();
+            if (places.empty()) continue;
+            std::vector<std::string> answers;
+            for (const auto each : split(places, ',')) answers.emplace_back(each);
+            return answers;
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 EncodingTurn encodingTurn(const Study& study, const Participant& who, const std::optional<StudySession>& continued) {
@@ -37,8 +65,10 @@ EncodingTurn encodingTurn(const Study& study, const Participant& who, const std:
         if (resultTraits(session.protocol).kind != ResultKind::PilotIdentification) continue;
         if (session.state == StudySessionState::Complete && wasTested(study, session)) had.push_back(session.encoding);
     }
-    const auto order = williamsOrder(offered.size(), static_cast<std::size_t>(std::max(1, who.enrolled) - 1));
-    turn.encoding = continued ? continued->encoding : offered[order[had.size() % order.size()]];
+    const auto order = williamsOrder(offered.size(), placeAmongTheirs(study, who));
+    const auto next =
+        *std::ranges::min_element(order, {}, [&](std::size_t one) { return std::ranges::count(had, offered[one]); });
+    turn.encoding = continued ? continued->encoding : offered[next];
     for (const auto& each : had) {
         if (each != turn.encoding) turn.earlier = each;
     }
@@ -46,7 +76,8 @@ EncodingTurn encodingTurn(const Study& study, const Participant& who, const std:
 }
 
 std::vector<std::string> answersOf(const Study& study, const Participant& who) {
-    const auto place = static_cast<std::size_t>(std::max(1, who.enrolled) - 1);
+    if (auto before = answersBefore(study, who); !before.empty()) return before;
+    const auto place = placeAmongTheirs(study, who);
     std::array<std::size_t, kAnswerWays> ways{};
     std::iota(ways.begin(), ways.end(), 0U);
     Random random(study.labelSeed().value_or(0), fmt::format("places of answers {}", place / kAnswerWays));

@@ -1,5 +1,5 @@
 // EncodingTurn.h - which of a study's encodings a participant's session has. Each participant has them in an order of
-// their own (Encodings.h), one a session; one whose session was not completed comes again.
+// their own among their kind (Encodings.h), one a session; one whose session was not completed comes again.
 //
 // Thread-safety: as Study.
 #pragma once
@@ -22,7 +22,7 @@ struct EncodingTurn {
                                         const std::optional<StudySession>& continued);
 
 /// The four answers at their places: one way for a participant in all sessions, drawn from the study's secret, and each
-/// of the kAnswerWays once among as many who are enrolled one after the other.
+/// of the kAnswerWays once among as many people, or virtual participants, who are enrolled one after the other.
 [[nodiscard]] std::vector<std::string> answersOf(const Study& study, const Participant& who);
 
 }  // namespace tacto

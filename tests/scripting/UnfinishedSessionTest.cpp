@@ -9,6 +9,7 @@
 #include "app/run/PilotRows.h"
 #include "app/run/UnfinishedSession.h"
 #include "app/run/VirtualPerson.h"
+#include "core/base/Random.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/session/SessionWriter.h"
 #include "tests/support/Support.h"
@@ -53,10 +54,15 @@ protected:
 
 TEST_F(UnfinishedSessionTest, AnswersLieInOneWayForAParticipantAndInEachWayEquallyOftenInTheStudy) {
     RecordProperty("hazard", "H12");
-    std::map<std::vector<std::string>, int> ways;
-    for (int enrolled = 1; enrolled <= 24; ++enrolled) {
-        Participant who;
-        who.enrolled = enrolled;
+    // People and virtual participants are enrolled as it comes: each kind has each way equally often.
+    Random random(20, "enrolments");
+    std::map<bool, std::map<std::vector<std::string>, int>> waysOf;
+    std::map<bool, int> enrolled{{false, 0}, {true, 1}};
+    ++waysOf[true][answersOf(*study_, who_)];
+    for (std::uint64_t i = 0; i < 40; ++i) {
+        Participant one;
+        if (random.below(3) == 0) one.virtualSeed = 100 + i;
+        const auto who = study_->enrol(one).value();
         const auto answers = answersOf(*study_, who);
         EXPECT_EQ(answers, answersOf(*study_, who));
         ASSERT_EQ(answers.size(), 4U);
@@ -69,11 +75,25 @@ TEST_F(UnfinishedSessionTest, AnswersLieInOneWayForAParticipantAndInEachWayEqual
         EXPECT_EQ(differ(answers[0], answers[2]), 1);
         EXPECT_EQ(differ(answers[1], answers[3]), 1);
         EXPECT_EQ(differ(answers[0], answers[3]), 2);
+        auto& ways = waysOf[who.isVirtual()];
         ++ways[answers];
-        if (enrolled % 8 != 0) continue;
+        const int n = ++enrolled[who.isVirtual()];
+        if (random.below(5) == 0) EXPECT_TRUE(study_->withdraw(who.code));  // their place stays theirs
+        if (n % 8 != 0) continue;
         EXPECT_EQ(ways.size(), 8U);
-        for (const auto& [one, n] : ways) EXPECT_EQ(n, enrolled / 8);
+        for (const auto& [each, times] : ways) EXPECT_EQ(times, n / 8);
     }
+    EXPECT_GT(enrolled[false], 8);
+}
+
+TEST_F(UnfinishedSessionTest, AnswersLieAsInTheParticipantsEarlierSessionsWhateverWouldBeDrawnNow) {
+    RecordProperty("hazard", "H12");
+    const auto begun = study_->beginSession(request_).value();
+    VirtualClock clock;
+    auto writer = SessionWriter::create(begun.path, {}, clock, begun.seal).value();
+    ASSERT_TRUE(writer->event(clock.now(), row::kPlan, {{"name", "plan"}, {"answers", "d,c,b,a"}}));
+    ASSERT_TRUE(writer->close());
+    EXPECT_THAT(answersOf(*study_, who_), ElementsAre("d", "c", "b", "a"));
 }
 
 TEST_F(UnfinishedSessionTest, WhereThereIsNoneASessionBegins) {
@@ -131,9 +151,15 @@ protected:
 
 TEST_F(EncodingTurnTest, TheSecondPersonHasTheEncodingsInAnotherOrder) {
     EXPECT_EQ(encodingTurn(*study_, who_, std::nullopt).encoding, "standard");
-    auto second = who_;
-    second.enrolled = 2;
-    EXPECT_EQ(encodingTurn(*study_, second, std::nullopt).encoding, "swapped");
+    for (std::uint64_t i = 0; i < 12; ++i) {
+        Participant model;
+        model.virtualSeed = 100 + i;
+        // People between virtual participants have them in turns all the same.
+        EXPECT_EQ(encodingTurn(*study_, study_->enrol({}).value(), std::nullopt).encoding,
+                  i % 2 == 0 ? "standard" : "swapped");
+        EXPECT_EQ(encodingTurn(*study_, study_->enrol(model).value(), std::nullopt).encoding,
+                  i % 2 == 0 ? "swapped" : "standard");
+    }
 }
 
 TEST_F(EncodingTurnTest, ASessionThatGoesOnKeepsItsEncoding) {
