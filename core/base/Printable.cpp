@@ -80,4 +80,27 @@ std::size_t charactersOf(std::string_view utf8) noexcept {
         std::count_if(utf8.begin(), utf8.end(), [](char byte) { return (byte & 0xC0) != 0x80; }));
 }
 
+std::string withoutNumbers(std::string_view text) {
+    std::string out;
+    bool inNumber = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto isDigit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+        const auto isAny = [&](std::size_t at, std::string_view of) {
+            return at < text.size() && of.find(text[at]) != std::string_view::npos;
+        };
+        const bool goesOn =
+            inNumber && ((isAny(i, ".,") && isDigit(i + 1)) ||
+                         (isAny(i, "eE") && (isDigit(i + 1) || (isAny(i + 1, "+-") && isDigit(i + 2)))) ||
+                         (isAny(i, "+-") && isAny(i - 1, "eE") && isDigit(i + 1)));
+        if (isDigit(i) || goesOn) {
+            if (!inNumber) out += "…";
+            inNumber = true;
+            continue;
+        }
+        inNumber = false;
+        out += text[i];
+    }
+    return out;
+}
+
 }  // namespace tacto

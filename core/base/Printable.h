@@ -27,4 +27,7 @@ enum class Newlines { Escape, Keep };
 /// The number of code points in a UTF-8 text.
 [[nodiscard]] std::size_t charactersOf(std::string_view utf8) noexcept;
 
+/// Every number becomes "…": a level in a sentence tells what was felt.
+[[nodiscard]] std::string withoutNumbers(std::string_view text);
+
 }  // namespace tacto

@@ -1,5 +1,6 @@
 #include "core/bench/BlindTelemetry.h"
 
+#include "core/base/Printable.h"
 #include "core/safety/TrainExposure.h"
 
 namespace tacto {
@@ -9,7 +10,7 @@ Telemetry blinded(const Telemetry& telemetry) {
     seen.at = telemetry.at;
     // It delivers while a train is written, and is armed in between and in an empty presentation.
     seen.state = telemetry.state == InterlockState::Delivering ? InterlockState::Armed : telemetry.state;
-    if (seen.state != InterlockState::Armed) seen.reason = telemetry.reason;
+    if (seen.state != InterlockState::Armed) seen.reason = std::string_view(withoutNumbers(telemetry.reason.view()));
     seen.fault = telemetry.fault;
     seen.paused = telemetry.paused;
     seen.uncalibratedStimulator = telemetry.uncalibratedStimulator;

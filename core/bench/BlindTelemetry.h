@@ -8,7 +8,8 @@
 namespace tacto {
 
 /// The same for every condition and level (hazard H9): whether the output is armed, paused, off or faulted and why,
-/// and the limits that are broken. No train, level, reading or age, for each of them comes or changes with a train.
+/// and the limits that are broken; why without its numbers, which a fault has of the train that it ended. No train,
+/// level, reading or age, for each of them comes or changes with a train.
 [[nodiscard]] Telemetry blinded(const Telemetry& telemetry);
 
 }  // namespace tacto

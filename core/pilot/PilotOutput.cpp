@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/base/Printable.h"
 #include "core/pilot/PilotEnding.h"
 #include "core/pilot/PilotStage.h"
 
@@ -353,7 +354,7 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
     if (const char* by = stops_.takeBy(); by != nullptr && isParticipants(by)) {  // and they pressed too
         if (auto noted = noteParticipantStop(during, by); !noted) return noted;
     }
-    auto cause = why.message;
+    auto cause = withoutNumbers(why.message);  // they may be of the train; the row has them
     for (int tries = 1;; ++tries) {
         if (auto seen = askToSee(cause); !seen) return seen;
         const auto reset = stage_.bench().resetFault();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/JsonFields.h"
+#include "core/base/Printable.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionTypes.h"
 
@@ -85,24 +86,6 @@ constexpr ShownOfEvent kShownOfEvents[] = {
 
 constexpr const char* kSealedKey = "sealed";
 constexpr const char* kSealedName = "sealed";
-
-/// A level in a sentence reveals what was felt: every number becomes "…".
-std::string withoutNumbers(std::string_view text) {
-    std::string out;
-    bool inNumber = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto isDigit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
-        const bool goesOn = inNumber && (text[i] == '.' || text[i] == ',') && isDigit(i + 1);
-        if (isDigit(i) || goesOn) {
-            if (!inNumber) out += "…";
-            inNumber = true;
-            continue;
-        }
-        inNumber = false;
-        out += text[i];
-    }
-    return out;
-}
 
 nlohmann::json shownKeys(const nlohmann::json& body, Keys keys, bool hideNumbers) {
     auto shown = nlohmann::json::object();

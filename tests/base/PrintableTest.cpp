@@ -1,4 +1,8 @@
+#include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <random>
+#include <set>
 
 #include "core/base/Printable.h"
 
@@ -38,6 +42,20 @@ TEST(Printable, TakesOnlyTheShortestFormForACharacter) {
     EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half a pair";
     EXPECT_EQ(printable("\xf5\x80\x80\x80"), "\\xf5\\x80\\x80\\x80");
     EXPECT_EQ(printable("\xe2\x80"), "\\xe2\\x80") << "cut short";
+}
+
+TEST(WithoutNumbers, TheSameSentenceWithOtherNumbersIsTheSame) {
+    RecordProperty("hazard", "H9");
+    EXPECT_EQ(withoutNumbers("6.5 mA is above 6 mA, row 3."), "… mA is above … mA, row ….");
+    EXPECT_EQ(withoutNumbers("no number at all"), "no number at all");
+    std::mt19937 random(471);
+    std::set<std::string> all;
+    for (int i = 0; i < 1000; ++i) {
+        const double level = std::ldexp(double(random() % 100'000 + 1) / 7, int(random() % 60) - 30);
+        all.insert(withoutNumbers(fmt::format("pulse {} of {}: {:g} A, {:.3f} V and {:E} C", random() % 9,
+                                              random() % 1000, level, level, level)));
+    }
+    EXPECT_EQ(all.size(), 1U) << *all.begin() << " and " << *all.rbegin();
 }
 
 }  // namespace

@@ -112,6 +112,7 @@ QString FaultBanner::outputWords(const Telemetry& telemetry) const {
     const auto off = telemetry.fault == FaultCause::StuckOn
                          ? tr("The program has switched off; the device may still deliver.")
                          : tr("Output is off and stays off.");
+    if (blind_) return tr("%1 What was delivered is hidden until the session ends.").arg(off);
     const auto trains = telemetry.trainsDelivered;
     if (trains == 0) return tr("%1 No train was delivered.").arg(off);
     const auto delivered = trains == 1 ? tr("1 train was delivered") : tr("%1 trains were delivered").arg(trains);

@@ -19,6 +19,8 @@ public:
     /// Call it thirty times a second in every state: it notes when a fault comes, and whether the gate found every
     /// train within its limits. Shows itself while the bench is faulted. `now`: the time of day.
     void refresh(const Telemetry& telemetry, QTime now = QTime::currentTime());
+    /// While blind the telemetry says nothing of trains, and so does this.
+    void setBlind(bool blind) { blind_ = blind; }
     /// All of it, for a tool tip and for the log.
     [[nodiscard]] QString text() const;
 
@@ -38,6 +40,7 @@ private:
     bool unseen_ = false;        ///< trains of this bench that left the gate's table before it was looked at
     bool broken_ = false;        ///< a limit of this bench
     bool notEvaluated_ = false;  ///< a limit of this bench
+    bool blind_ = false;
 };
 
 }  // namespace tacto::gui

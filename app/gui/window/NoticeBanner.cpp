@@ -130,7 +130,7 @@ void NoticeBanner::complain(const QString& what) {
 void NoticeBanner::sayWhile(const QString& text, std::function<bool(const Telemetry&)> holds) {
     holds_ = std::move(holds);
     held_ = false;
-    text_->setText("⚠  " + text);
+    text_->setText("⚠  " + line_.shown(text));
     show();
     raise();
     lieDown();

@@ -11,7 +11,9 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/base/Printable.h"
 
 namespace tacto::gui {
 
@@ -92,7 +94,12 @@ void RecordingLine::sayRecorded(const std::filesystem::path& session) {
                      : tr("Nothing is being recorded"));
 }
 
-void RecordingLine::say(const QString& text, bool isError) {
+QString RecordingLine::shown(const QString& text) const {
+    return blind_ ? qtext(withoutNumbers(text.toStdString())) : text;
+}
+
+void RecordingLine::say(const QString& message, bool isError) {
+    const auto text = shown(message);
     const auto time = QDateTime::currentDateTime().toString("HH:mm:ss");
     log_ << QString("%1  %2").arg(time, text);
     while (log_.size() > kLogLines) log_.removeFirst();

@@ -19,10 +19,13 @@ class RecordingLine final : public QObject {
 public:
     RecordingLine(BenchController& controller, QStatusBar& bar);
     void refresh();
-    /// While blind it says neither how much is written nor when: both come with each train.
+    /// While blind it says neither how much is written nor when, which come with each train, and messages without their
+    /// numbers.
     void setBlind(bool blind);
+    /// A message as it may be shown now.
+    [[nodiscard]] QString shown(const QString& text) const;
     /// Shows a message and keeps it in the log.
-    void say(const QString& text, bool isError = false);
+    void say(const QString& message, bool isError = false);
     /// Whether the message on the line says that the output is off.
     [[nodiscard]] bool saysOff() const;
     void showLog();

@@ -143,6 +143,7 @@ QWidget* SafetyBar::buildBlindFacts() {
 
 void SafetyBar::setBlind(bool blind) {
     blind_ = blind;
+    fault_->setBlind(blind);
     pulse_ = 0;
     giveRoom();
 }

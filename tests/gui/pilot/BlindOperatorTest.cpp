@@ -3,11 +3,17 @@
 // not blind sees tells them apart, so it would find a difference.
 #include <QAbstractButton>
 #include <QLabel>
+#include <QRegularExpression>
+#include <QStatusBar>
 #include <QVBoxLayout>
 #include <cmath>
+#include <set>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/pilot/OperatorPage.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/window/NoticeBanner.h"
+#include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/run/AllDrivers.h"
 #include "core/base/Random.h"
@@ -31,13 +37,15 @@ struct SeenTrial {
 };
 
 /// All that a widget says: its texts, also those of its tip and for a screen reader, and whether it can be pressed.
-std::size_t saidBy(const QWidget& widget) {
+QString textOf(const QWidget& widget) {
     auto text = widget.toolTip() + '|' + widget.accessibleName() + '|' + widget.accessibleDescription() +
                 (widget.isEnabled() ? '+' : '-') + (widget.isVisible() ? '+' : '-');
     if (const auto* label = qobject_cast<const QLabel*>(&widget)) text += label->text();
     if (const auto* button = qobject_cast<const QAbstractButton*>(&widget)) text += button->text();
-    return qHash(text);
+    return text;
 }
+
+std::size_t saidBy(const QWidget& widget) { return qHash(textOf(widget)); }
 
 /// How often the trial that is most alike, of all others, is of the same class; where several are, one of them is
 /// drawn.
@@ -88,6 +96,7 @@ protected:
         auto* column = new QVBoxLayout(&screen);
         column->addWidget(bar);
         column->addWidget(page);
+        column->addWidget(status);
         screen.resize(1100, 800);
         screen.show();
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&screen));
@@ -97,6 +106,7 @@ protected:
         const auto shown = blind ? blinded(telemetry) : telemetry;
         bar->refresh(shown);
         page->refresh(shown);
+        notices->refresh(shown);
         Frame frame;
         for (const auto* each : screen.findChildren<QWidget*>()) frame.push_back(saidBy(*each));
         if (++frames_ % 5 != 0) return frame;
@@ -116,6 +126,7 @@ protected:
             EXPECT_TRUE(bench.accept(Milliamps(level)));
         }
         bar->setBlind(blind);
+        line->setBlind(blind);
         std::vector<SeenTrial> all;
         for (int i = 0; i < count; ++i) {
             SeenTrial trial;
@@ -169,7 +180,51 @@ protected:
     QWidget screen;
     gui::SafetyBar* bar = new gui::SafetyBar(controller, calibrations, &screen);
     gui::OperatorPage* page = new gui::OperatorPage(&screen);
+    QStatusBar* status = new QStatusBar(&screen);
+    gui::RecordingLine* line = new gui::RecordingLine(controller, *status);
+    gui::NoticeBanner* notices = new gui::NoticeBanner(controller, *line, *page);
 };
+
+// A fault, a stop and a complaint in words that name the train: what is seen of them is the same for every train.
+TEST_F(BlindOperator, WhatIsSaidOfAFaultIsTheSameForEveryTrain) {
+    RecordProperty("hazard", "H9");
+    Random random(20, "faults of trains");
+    const FaultCause causes[] = {FaultCause::DeviceFault, FaultCause::OpenElectrode, FaultCause::LimitBroken,
+                                 FaultCause::NetCharge};
+    for (const bool blind : {true, false}) {
+        bar->setBlind(blind);
+        line->setBlind(blind);
+        for (const auto cause : causes) {
+            std::set<std::vector<std::string>> looks;
+            for (int i = 0; i < 25; ++i) {
+                const double level = 0.5 * double(1 + random.below(30));
+                Telemetry telemetry;
+                telemetry.state = InterlockState::Faulted;
+                telemetry.fault = cause;
+                telemetry.trainsDelivered = 1 + random.below(400);
+                telemetry.trainAmplitude = level;
+                const auto why = fmt::format(
+                    "pulse {} of {}: {} mA was read back and {:g} V, {:E} C, where {} mA was sent", 1 + random.below(9),
+                    telemetry.trainsDelivered, level, 3.3 * level, 1e-7 * level, level + 1);
+                telemetry.reason = std::string_view(why);
+                emit controller.failed(gui::qtext(why));
+                for (int frame = 0; frame < 3; ++frame) static_cast<void>(seen(telemetry, blind));
+                std::vector<std::string> texts;
+                for (const auto* each : screen.findChildren<QWidget*>()) {
+                    auto text = textOf(*each);
+                    text.remove(QRegularExpression(R"(\d\d:\d\d:\d\d)"));  // the time of the day
+                    texts.push_back(text.toStdString());
+                }
+                looks.insert(std::move(texts));
+                static_cast<void>(seen(Telemetry(), blind));
+            }
+            if (blind)
+                EXPECT_EQ(looks.size(), 1U) << "fault " << int(cause);
+            else
+                EXPECT_GT(looks.size(), 10U) << "they would be told apart";
+        }
+    }
+}
 
 TEST_F(BlindOperator, AClassifierOfAllTextsAndPixelsDoesNotBeatChance) {
     RecordProperty("hazard", "H9");

@@ -19,6 +19,7 @@
 #include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/pilot/ScreenChoice.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/window/RecordingLine.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
 #include "tests/gui/Looks.h"
@@ -33,7 +34,7 @@ namespace {
 
 class RehearsalInTheWindow : public Window {
 protected:
-    RehearsalInTheWindow() {
+    explicit RehearsalInTheWindow(std::function<Registry()> makeRegistry = nullptr) : Window(std::move(makeRegistry)) {
         window.showWorkspace(4);
         letLive(50);
     }
@@ -243,6 +244,70 @@ TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
     const auto note = std::ranges::find(events, row::kNote, &SessionRow::name);
     ASSERT_NE(note, events.end());
     EXPECT_EQ(note->body["reason"], "fire alarm");
+}
+
+/// One whose stimulator fails in words that name a train.
+class FaultWhileBlind : public RehearsalInTheWindow {
+protected:
+    FaultWhileBlind()
+        : RehearsalInTheWindow([plug = plugged] {
+              return unpluggableRegistry(plug, "12.34 mA was read back in pulse 7 of 98765, and 4.567 mA was sent");
+          }) {}
+    /// Every text of every widget of all windows, those of tips and of screen readers too, and the log of messages.
+    [[nodiscard]] std::string allTexts() const {
+        QStringList all;
+        for (const auto* top : QApplication::topLevelWidgets()) {
+            auto widgets = top->findChildren<QWidget*>();
+            widgets << const_cast<QWidget*>(top);
+            for (const auto* each : widgets) {
+                all << each->windowTitle() << each->toolTip() << each->statusTip() << each->whatsThis()
+                    << each->accessibleName() << each->accessibleDescription();
+                for (const char* property : {"text", "plainText", "placeholderText"})
+                    all << each->property(property).toString();
+            }
+        }
+        if (const auto* line = window.findChild<gui::RecordingLine*>()) all << line->log();
+        return all.join('\n').toStdString();
+    }
+    static inline const Plug plugged = std::make_shared<std::atomic<bool>>(true);
+};
+
+TEST_F(FaultWhileBlind, NoTextInAnyWindowNamesANumberOfItsTrain) {
+    RecordProperty("hazard", "H9");
+    for (const bool blind : {true, false}) {
+        SCOPED_TRACE(blind ? "blind" : "not blind: the numbers would be found");
+        *plugged = true;
+        window.findChild<gui::RehearsalPage*>()->findChild<QCheckBox*>("blind")->setChecked(blind);
+        begin(true);
+        ASSERT_EQ(pilot->blind(), blind);
+        auto* theirs = pilot->participantWindow();
+        ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
+        ASSERT_NE(theirs->title().indexOf("STOP"), -1) << theirs->title().toStdString();
+        *plugged = false;
+        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
+        std::string said;
+        // The line, the safety bar and the operator's question, as long as the fault stands.
+        const auto comes = [&](const char* words) {
+            return comesTrue([&] {
+                const auto now = allTexts();
+                said += now;
+                return now.find(words) != std::string::npos;
+            });
+        };
+        ASSERT_IN_TIME(comes("Fault: ")) << said;
+        QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);  // their test is over
+        ASSERT_IN_TIME(comes("See to the electrodes")) << said;
+        EXPECT_NE(said.find("was read back in pulse"), std::string::npos) << "it says what happened";
+        for (const char* number : {"12.34", "98765", "4.567"})
+            EXPECT_EQ(said.find(number) == std::string::npos, blind) << number;
+        EXPECT_EQ(said.find("No train was delivered") == std::string::npos, blind) << "which it does not know";
+        *plugged = true;
+        window.controller().stop("operator (signal)");
+        ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+        if (!blind) continue;
+        click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
+        std::filesystem::remove_all(folder.path() / "study");
+    }
 }
 
 TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain) {

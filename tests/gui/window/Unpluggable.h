@@ -18,8 +18,8 @@ using Plug = std::shared_ptr<std::atomic<bool>>;  ///< true: it is in
 
 class UnpluggableStimulator final : public WrappedStimulator {
 public:
-    UnpluggableStimulator(std::unique_ptr<Stimulator> twin, Plug plug)
-        : WrappedStimulator(std::move(twin)), plug_(std::move(plug)) {}
+    UnpluggableStimulator(std::unique_ptr<Stimulator> twin, Plug plug, std::string says)
+        : WrappedStimulator(std::move(twin)), plug_(std::move(plug)), says_(std::move(says)) {}
     Result<void> deliver(ApprovedTrain&& train) override {
         if (!*plug_) return out();
         return WrappedStimulator::deliver(std::move(train));
@@ -34,17 +34,20 @@ public:
     }
 
 private:
-    static tl::unexpected<Error> out() { return fail(ErrorCode::Device, "the simulated stimulator is unplugged"); }
+    [[nodiscard]] tl::unexpected<Error> out() const { return fail(ErrorCode::Device, "{}", says_); }
 
     const Plug plug_;
+    const std::string says_;
 };
 
-/// As simulatedRegistry().
-[[nodiscard]] inline Registry unpluggableRegistry(const Plug& plug) {
+/// As simulatedRegistry(); a stimulator that is out fails with what it `says`.
+[[nodiscard]] inline Registry unpluggableRegistry(const Plug& plug,
+                                                  const std::string& says = "the simulated stimulator is unplugged") {
     std::vector<std::unique_ptr<Driver>> drivers;
-    drivers.push_back(std::make_unique<WrappedBench>([plug](std::unique_ptr<Stimulator> twin, const OpenContext&) {
-        return std::make_unique<UnpluggableStimulator>(std::move(twin), plug);
-    }));
+    drivers.push_back(
+        std::make_unique<WrappedBench>([plug, says](std::unique_ptr<Stimulator> twin, const OpenContext&) {
+            return std::make_unique<UnpluggableStimulator>(std::move(twin), plug, says);
+        }));
     drivers.push_back(makeRecordingDriver());
     drivers.push_back(makeCaptureDriver());
     return Registry(std::move(drivers));
