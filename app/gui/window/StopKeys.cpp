@@ -18,6 +18,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kFirstEvery_ms = 50;
+constexpr quint32 kBreak = 0xFF6B;  // X has this symbol for Pause with Ctrl, and Qt no key
 
 bool takesText(const QWidget* widget) {
     if (const auto* line = qobject_cast<const QLineEdit*>(widget)) return !line->isReadOnly();
@@ -82,7 +83,7 @@ bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
     // Each press is one stop of theirs, and their third ends a session; a key that is held has stopped already.
     const bool held = key.isAutoRepeat();
     if (theirs && held) return false;
-    switch (key.key()) {
+    switch (key.nativeVirtualKey() == kBreak ? Qt::Key_Pause : key.key()) {
         case Qt::Key_Escape:
             stop_(theirs ? "participant (Esc)" : held ? "operator (Esc, held)" : "operator (Esc)");
             return false;  // it closes dialogs and popups too
