@@ -250,6 +250,10 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
                    : tr("The current is not known: no impedance was measured.");
     }
     if (finger_->isChecked() && telemetry.sensorFinished) return tr("The recording has ended: no train is sent.");
+    if (finger_->isChecked() && telemetry.finger == FingerStanding::Stale)
+        return tr("The fingertip’s samples are old: no train is sent.");
+    if (finger_->isChecked() && telemetry.finger == FingerStanding::Implausible)
+        return tr("The fingertip gives no readings: no train is sent.");
     if (finger_->isChecked() && !telemetry.contact) return tr("The fingertip touches nothing: no train is sent.");
     if (finger_->isChecked()) return tr("The fingertip gives no roughness: no train is sent.");
     return tr("No train is due.");

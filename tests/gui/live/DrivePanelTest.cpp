@@ -56,6 +56,32 @@ TEST_F(DriveThatWas, IsNamedAfterAStopAndStartsNothing) {
     EXPECT_EQ(controller.telemetry().driving, DriveSource::Off);
 }
 
+/// Why the fingertip drives no train is what is known of it, not more.
+TEST_F(LiveBench, TheDriveSaysOfTheFingertipWhatIsKnown) {
+    RecordProperty("hazard", "H7");
+    ASSERT_IN_TIME(openSimulated());
+    ASSERT_IN_TIME(comesTrue([this] { return drive.isEnabled(); }));
+    ASSERT_IN_TIME(armed());
+    controller.drive(DriveSource::Sensor);
+    ASSERT_IN_TIME(comesTrue([this] { return drive.chosen() == DriveSource::Sensor; }));
+    for (const auto finger : {FingerStanding::Stale, FingerStanding::Implausible, FingerStanding::Fresh}) {
+        for (const bool contact : {false, true}) {
+            auto telemetry = controller.telemetry();
+            telemetry.state = InterlockState::Delivering;
+            telemetry.finger = finger;
+            telemetry.contact = contact;
+            telemetry.amplitude_v = telemetry.interval_s = NAN;
+            drive.refresh(telemetry);
+            const auto says = drive.findChild<QLabel*>("driveSays")->text().toStdString();
+            const bool feels = finger == FingerStanding::Fresh;
+            EXPECT_EQ(says.find("touches nothing") != says.npos, feels && !contact) << says;
+            EXPECT_EQ(says.find("no roughness") != says.npos, feels && contact) << says;
+            EXPECT_EQ(says.find("samples are old") != says.npos, finger == FingerStanding::Stale) << says;
+            EXPECT_EQ(says.find("no readings") != says.npos, finger == FingerStanding::Implausible) << says;
+        }
+    }
+}
+
 TEST_F(DriveThatWas, ByHandSaysBeforeArmingWhatItAsksForAndAfterwardsWhatWasSet) {
     ASSERT_IN_TIME(openSimulated());
     ASSERT_IN_TIME(comesTrue([this] { return drive.isEnabled(); }));

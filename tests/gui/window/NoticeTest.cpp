@@ -199,6 +199,8 @@ TEST_F(Notices, AFingertipWithoutReadingsIsSaidWhereTheStateStands) {
     EXPECT_LE(window.controller().telemetry().trainsDelivered, trains + 1) << "none is sent";
     EXPECT_EQ(inSightWith("Samples are fresh"), "");
     EXPECT_NE(inSightWith("No readings"), "");
+    EXPECT_EQ(inSightWith("touches nothing"), "") << "it is not known";
+    EXPECT_NE(inSightWith("gives no readings: no train"), "") << "in the dock of the drive";
 }
 
 /// In the bar and in the dock: whatever is judged, one name stands beside one limit.
