@@ -5,6 +5,7 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 #include <limits>
+#include <utility>
 
 #include "app/gui/theme/Theme.h"
 
@@ -76,11 +77,11 @@ void Tour::go(std::size_t step, bool back) {
     done_.invalidate();
     shown_ = nullptr;
     title_->setText(now.title);
-    place_->setText(tr("%1 of %2").arg(step_ + 1).arg(steps_.size()));
     back_->setEnabled(step_ > 0);
     next_->setText(step_ + 1 < steps_.size() ? tr("Next") : tr("Done"));
     if (now.enter) now.enter();
     waits_ = back && now.done && now.done();
+    showPlace(waits_);
     emit stepped(int(step_));
     look();
 }
@@ -105,13 +106,17 @@ void Tour::look() {
     frame_->follow(target);
     if (const auto text = now.text(); !done_.isValid() && text_->text() != text) text_->setText(text);
     const bool isDone = now.done && now.done();
-    if (!isDone) waits_ = false;
+    if (!isDone && std::exchange(waits_, false)) showPlace(false);
     if (isDone && !waits_ && !done_.isValid()) {
         done_.start();
-        place_->setText(tr("%1 of %2 ✔ done").arg(step_ + 1).arg(steps_.size()));
+        showPlace(true);
     }
     place();
     if (done_.isValid() && done_.elapsed() >= now.linger_ms) goOn();
+}
+
+void Tour::showPlace(bool done) {
+    place_->setText((done ? tr("%1 of %2 ✔ done") : tr("%1 of %2")).arg(step_ + 1).arg(steps_.size()));
 }
 
 /// Once, when it becomes the one that is talked about: what the user scrolls afterwards stays.

@@ -57,6 +57,7 @@ private:
     void goOn();
     void look();
     void end(bool finished);
+    void showPlace(bool done);
     void bringIntoView(QWidget* control);
     void place();
 

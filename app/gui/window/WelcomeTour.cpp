@@ -16,6 +16,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/MainWindow.h"
+#include "app/gui/window/StateWords.h"
 
 namespace tacto::gui {
 
@@ -122,9 +123,8 @@ std::vector<TourStep> WelcomeTour::onTheBench() {
          [this] { return armTarget(); },
          [this] { return state() == InterlockState::Armed || state() == InterlockState::Delivering; }},
         {tr("Let the fingertip drive"),
-         say("Nothing is delivered until something drives. Choose Fingertip: amplitude and interval then follow what "
-             "is "
-             "felt."),
+         whileOn(tr("Nothing is delivered until something drives. Choose Fingertip: amplitude and interval then follow "
+                    "what is felt.")),
          [this] { window_.showDock("driveDock"); }, [this] { return TourTarget{named("driveFingertip")}; },
          [this] { return state() == InterlockState::Delivering && controller_.telemetry().trainsDelivered > 0; },
          kSee_ms,
@@ -137,8 +137,8 @@ std::vector<TourStep> WelcomeTour::onTheBench() {
 std::vector<TourStep> WelcomeTour::toTheVerdict() {
     return {
         {tr("See a measured pulse"),
-         say("Open the oscilloscope. What really came out is captured, and each pulse is measured: amplitude, phase "
-             "width and gap stand under Measurements, charge further down."),
+         whileOn(tr("Open the oscilloscope. What really came out is captured, and each pulse is measured: amplitude, "
+                    "phase width and gap stand under Measurements, charge further down.")),
          [this] { window_.showDock("measurementDock"); }, [this] { return scopeTarget(); },
          [this] { return showsScope() && captured_ > 0; }, kReadFor_ms,
          [this] { return std::vector<QWidget*>{window_.findChild<ScopeScreen*>()}; }},
@@ -166,6 +166,14 @@ std::vector<TourStep> WelcomeTour::toTheVerdict() {
          [this] { return sessionsTarget(); },
          [this] { return window_.workspace() == kSessionsPage; },
          kReadFor_ms},
+    };
+}
+
+/// What needs the output says how it is had again: a step back, a stop or a fault may have ended it.
+std::function<QString()> WelcomeTour::whileOn(const QString& text) const {
+    return [this, text] {
+        return isOn(state()) ? text
+                             : tr("The output is off: arm it again first, with “Arm…”. Back leads to that step.");
     };
 }
 

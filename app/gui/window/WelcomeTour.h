@@ -30,6 +30,7 @@ private:
     [[nodiscard]] QWidget* named(const char* name) const;
     [[nodiscard]] TourTarget workspaceButton(int index) const;
     [[nodiscard]] TourTarget armTarget() const;
+    [[nodiscard]] std::function<QString()> whileOn(const QString& text) const;
     [[nodiscard]] TourTarget openTarget() const;
     [[nodiscard]] QString surfaceText();
     [[nodiscard]] TourTarget scopeTarget() const;

@@ -169,11 +169,30 @@ TEST_F(TourOfTheWindow, GoesBackAndStaysThere) {
     EXPECT_EQ(title(), "Open the simulated bench");
     letLive(2000);
     EXPECT_EQ(title(), "Open the simulated bench") << "what is done already does not push forward again";
+    EXPECT_EQ(tour().findChild<QLabel*>("tourPlace")->text().toStdString(), "2 of 9 ✔ done") << "and says so";
     press("Next");
     EXPECT_EQ(title(), "Put a surface under the finger");
     press("Back");
     press("Back");
     EXPECT_FALSE(find<QPushButton>(tour(), "Back")->isEnabled());
+}
+
+/// Who stops on the way, or goes back to what needs the output, is told how it is had again.
+TEST_F(TourOfTheWindow, SaysThatTheOutputIsOffWhereAStepNeedsIt) {
+    RecordProperty("hazard", "H12");
+    ASSERT_NO_FATAL_FAILURE(open());
+    const auto says = [this] { return tour().findChild<QLabel*>("tourText")->text(); };
+    for (const int step : {4, 5}) {
+        QSettings().setValue("tourStep", step);
+        window.beginTour();
+        EXPECT_IN_TIME(comesTrue([&] { return says().startsWith("The output is off: arm it again"); }))
+            << says().toStdString();
+        ASSERT_NO_FATAL_FAILURE(arm());
+        EXPECT_IN_TIME(comesTrue([&] { return !says().contains("output is off"); })) << says().toStdString();
+        key(Qt::Key_Escape);
+        EXPECT_IN_TIME(comesTrue([&] { return says().startsWith("The output is off: arm it again"); }));
+        press("Leave");
+    }
 }
 
 TEST_F(TourOfTheWindow, IsLeftAndResumed) {
