@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/base/Ascii.h"
 #include "core/base/Printable.h"
 #include "core/pilot/PilotEnding.h"
 #include "core/pilot/PilotStage.h"
@@ -132,9 +133,13 @@ Result<void> PilotOutput::seatAgain(const std::string& during, const std::string
 
 Result<void> PilotOutput::askToSee(const std::string& why) {
     stage_.participant().show({});
-    const auto seen = insist(
-        goOnPrompt(fmt::format("Output is off: {}. See to the {}, then go on.", why, stage_.settings().modality()),
-                   PromptTo::Operator));
+    // What the bench says of a stop or a fault ends with what it leaves of the output.
+    auto output = std::string(outputAfter(stage_.bench().telemetry().fault));
+    output.pop_back();
+    const auto said = why.ends_with('.') ? fmt::format("{}{}", capital(why.front()), why.substr(1))
+                                         : fmt::format("{}: {}.", output, why);
+    const auto seen = insist(goOnPrompt(
+        fmt::format("{} See to the {}, then go on.", said, stage_.settings().modality()), PromptTo::Operator));
     return seen ? Result<void>() : failure(seen);
 }
 

@@ -12,6 +12,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
+using testing::Not;
 using testing::SizeIs;
 
 class PilotOutputTest : public PilotStageTest {
@@ -328,6 +329,29 @@ TEST_F(PilotOutputTest, AStopWithAFaultCounts) {
     ASSERT_TRUE(stage_->trial(trial()));
     EXPECT_EQ(record_->count(row::kFault), 1U);
     EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
+}
+
+/// Once, as a sentence, and not that it is off where it may still be on.
+TEST_F(PilotOutputTest, OfEachFaultTheOperatorReadsWhatItLeavesOfTheOutput) {
+    RecordProperty("hazard", "H2");
+    for (const auto* fault : {"open", "short", "unplug", "garbage", "stuck-on"}) {
+        SCOPED_TRACE(fault);
+        more_ = fmt::format("&fault={}@20.2s..22s", fault);
+        begin();
+        someone_.texts.clear();
+        ASSERT_TRUE(stage_->pass(Seconds(19)));
+        operatorTakesTime();
+        static_cast<void>(stage_->trial(trial()));
+        const auto asked = std::ranges::find_if(someone_.texts, [](const auto& text) {
+            return text.find(", then go on.") != std::string::npos && text.find("See to the") != std::string::npos;
+        });
+        ASSERT_NE(asked, someone_.texts.end());
+        const bool stuck = std::string_view(fault) == "stuck-on";
+        EXPECT_THAT(*asked, HasSubstr(stuck ? "he output may still be on" : "utput is off"));
+        EXPECT_EQ(asked->find("utput is off") == std::string::npos, stuck) << *asked;
+        EXPECT_EQ(asked->find("utput", asked->find("utput") + 1), std::string::npos) << "twice: " << *asked;
+        EXPECT_THAT(*asked, Not(HasSubstr(".."))) << *asked;
+    }
 }
 
 TEST_F(PilotOutputTest, AnAbortIsAskedForItsReasonOnceTheOutputIsOff) {
