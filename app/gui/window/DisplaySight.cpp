@@ -3,10 +3,14 @@
 #include <QApplication>
 #include <QGuiApplication>
 #include <QWidget>
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <vector>
 #include <xcb/xcb.h>
+#include <xcb/xcbext.h>
 
 namespace tacto::gui {
 
@@ -21,6 +25,17 @@ Owned<Reply> owned(Reply* reply) {
 }
 
 constexpr std::uint32_t kEveryDesktop = 0xFFFF'FFFF;
+constexpr int kAcross = 5, kDown = 3;  // of the places within a part that are tried
+
+bool isTaken(std::uint8_t status) {
+    return status == XCB_GRAB_STATUS_ALREADY_GRABBED || status == XCB_GRAB_STATUS_FROZEN;
+}
+
+/// A place on the screen, in its pixels, and the window that a press there is followed down to.
+struct Pressed {
+    std::int16_t x, y;
+    xcb_window_t in;
+};
 
 }  // namespace
 
@@ -33,7 +48,7 @@ struct DisplaySight::Server {
     [[nodiscard]] xcb_atom_t atom(const char* name) const {
         const auto reply = owned(xcb_intern_atom_reply(
             connection, xcb_intern_atom(connection, 0, std::uint16_t(std::strlen(name)), name), nullptr));
-        return reply ? reply->atom : XCB_ATOM_NONE;
+        return reply ? reply->atom : xcb_atom_t{XCB_ATOM_NONE};
     }
     [[nodiscard]] std::optional<std::uint32_t> cardinal(xcb_window_t window, xcb_atom_t property) const {
         const auto reply = owned(xcb_get_property_reply(
@@ -54,7 +69,19 @@ struct DisplaySight::Server {
         }
     }
 
+    /// One step down for each: to the child of `in` that a press arrives at, by the shapes that the windows have.
+    void descend(std::vector<Pressed>& all) const {
+        std::vector<xcb_translate_coordinates_cookie_t> asked;
+        for (const auto& each : all)
+            asked.push_back(xcb_translate_coordinates(connection, root, each.in, each.x, each.y));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const auto reply = owned(xcb_translate_coordinates_reply(connection, asked[i], nullptr));
+            all[i].in = reply ? reply->child : xcb_window_t{XCB_WINDOW_NONE};
+        }
+    }
+
     xcb_connection_t* connection;
+    std::uint8_t saver = 0;  // the opcode of MIT-SCREEN-SAVER; 0: there is none
     xcb_window_t root = XCB_WINDOW_NONE;
     xcb_atom_t windowsDesktop = XCB_ATOM_NONE, currentDesktop = XCB_ATOM_NONE;
 };
@@ -69,6 +96,10 @@ DisplaySight::DisplaySight() {
     made->root = roots.data->root;
     made->windowsDesktop = made->atom("_NET_WM_DESKTOP");
     made->currentDesktop = made->atom("_NET_CURRENT_DESKTOP");
+    constexpr std::string_view kSaver = "MIT-SCREEN-SAVER";
+    const auto saver = owned(xcb_query_extension_reply(
+        made->connection, xcb_query_extension(made->connection, std::uint16_t(kSaver.size()), kSaver.data()), nullptr));
+    if (saver && saver->present != 0) made->saver = saver->major_opcode;
     own_ = std::move(made);
 }
 
@@ -82,6 +113,58 @@ bool DisplaySight::onAnotherDesktop(const QWidget& window) const {
     return its && shown && *its != kEveryDesktop && *its != *shown;
 }
 
+bool DisplaySight::isCovered(const QWidget& part) const {
+    if (!own_ || part.window()->windowHandle() == nullptr || !part.isVisible()) return false;
+    const auto window = static_cast<xcb_window_t>(part.window()->winId());
+    const auto origin = owned(xcb_translate_coordinates_reply(
+        own_->connection, xcb_translate_coordinates(own_->connection, window, own_->root, 0, 0), nullptr));
+    if (!origin) return false;
+    const double scale = part.devicePixelRatioF();
+    std::vector<Pressed> open;
+    for (int i = 0; i < kAcross * kDown; ++i) {
+        const QPointF at((i % kAcross + 0.5) * part.width() / kAcross, (i / kAcross + 0.5) * part.height() / kDown);
+        const auto in = part.mapTo(part.window(), at) * scale;
+        if (QGuiApplication::screenAt(part.mapToGlobal(at).toPoint()) == nullptr) continue;
+        open.push_back({std::int16_t(origin->dst_x + in.x()), std::int16_t(origin->dst_y + in.y()), own_->root});
+    }
+    // Each client's windows have numbers that differ by these bits alone.
+    const auto ofClient = ~xcb_get_setup(own_->connection)->resource_id_mask;
+    int arrive = 0;
+    while (!open.empty()) {
+        own_->descend(open);
+        arrive += int(std::erase_if(open, [&](const auto& each) { return ((each.in ^ window) & ofClient) == 0; }));
+        std::erase_if(open, [](const auto& each) { return each.in == XCB_WINDOW_NONE; });
+    }
+    return 2 * arrive < kAcross * kDown;
+}
+
+/// Asked by hand: its library (xcb-screensaver) would be another one to install for one request.
+bool DisplaySight::isBlank() const {
+    if (!own_ || own_->saver == 0) return false;
+    struct {
+        std::uint8_t major, minor;
+        std::uint16_t words;
+        std::uint32_t drawable;
+    } request{own_->saver, 1, 2, own_->root};  // QueryInfo
+    std::array<iovec, 3> parts{};
+    parts[2] = {&request, sizeof request};  // the two before it are xcb's
+    const xcb_protocol_request_t info{1, nullptr, own_->saver, 0};
+    const auto asked = xcb_send_request(own_->connection, XCB_REQUEST_CHECKED, &parts[2], &info);
+    xcb_generic_error_t* error = nullptr;
+    const auto reply = owned(static_cast<std::uint8_t*>(xcb_wait_for_reply(own_->connection, asked, &error)));
+    std::free(error);
+    return reply && reply.get()[1] == 1;  // its state: off, on, disabled
+}
+
+bool DisplaySight::keysTakenByAnother() const {
+    if (!own_) return false;
+    auto* to = own_->connection;
+    const auto key = xcb_grab_keyboard(to, 1, own_->root, XCB_CURRENT_TIME, XCB_GRAB_MODE_ASYNC, XCB_GRAB_MODE_SYNC);
+    xcb_ungrab_keyboard(to, XCB_CURRENT_TIME);
+    const auto keyboard = owned(xcb_grab_keyboard_reply(to, key, nullptr));
+    return keyboard && isTaken(keyboard->status);
+}
+
 bool DisplaySight::grabbedByAnother() const {
     if (!own_ || QApplication::activePopupWidget() != nullptr || QWidget::mouseGrabber() != nullptr ||
         QGuiApplication::mouseButtons() != Qt::NoButton)
@@ -89,18 +172,11 @@ bool DisplaySight::grabbedByAnother() const {
     // Given back before the answer is read, and frozen until then: the server keeps what is pressed meanwhile for whom
     // it is meant.
     auto* to = own_->connection;
-    const auto taken = [](std::uint8_t status) {
-        return status == XCB_GRAB_STATUS_ALREADY_GRABBED || status == XCB_GRAB_STATUS_FROZEN;
-    };
     const auto press = xcb_grab_pointer(to, 1, own_->underPointer(), 0, XCB_GRAB_MODE_SYNC, XCB_GRAB_MODE_ASYNC,
                                         XCB_WINDOW_NONE, XCB_CURSOR_NONE, XCB_CURRENT_TIME);
     xcb_ungrab_pointer(to, XCB_CURRENT_TIME);
     const auto pointer = owned(xcb_grab_pointer_reply(to, press, nullptr));
-    if (!pointer || !taken(pointer->status)) return false;
-    const auto key = xcb_grab_keyboard(to, 1, own_->root, XCB_CURRENT_TIME, XCB_GRAB_MODE_ASYNC, XCB_GRAB_MODE_SYNC);
-    xcb_ungrab_keyboard(to, XCB_CURRENT_TIME);
-    const auto keyboard = owned(xcb_grab_keyboard_reply(to, key, nullptr));
-    return keyboard && taken(keyboard->status);
+    return pointer && isTaken(pointer->status) && keysTakenByAnother();
 }
 
 }  // namespace tacto::gui

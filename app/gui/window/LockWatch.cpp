@@ -77,8 +77,8 @@ void LockWatch::forget() {
 }
 
 QString LockWatch::says() const {
-    if (locked_ || !lockedBy_.isEmpty()) return tr("the screen is locked");
-    return elsewhere_ ? tr("another session is at the screen") : QString();
+    if (locked_ || !lockedBy_.isEmpty()) return tr("the screen was locked");
+    return elsewhere_ ? tr("another session was at the screen") : QString();
 }
 
 }  // namespace tacto::gui

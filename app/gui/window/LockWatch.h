@@ -17,7 +17,7 @@ class LockWatch final : public QObject {
     Q_OBJECT
 public:
     explicit LockWatch(QObject* parent);
-    /// "the screen is locked"; empty while it is not, or where it is not known.
+    /// "the screen was locked"; empty while it is not, or where it is not known.
     [[nodiscard]] QString says() const;
     /// The operator is there after all: what was said before counts no more.
     void forget();

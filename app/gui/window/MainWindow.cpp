@@ -13,6 +13,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/pilot/ParticipantWindow.h"
@@ -82,12 +83,13 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     top->addWidget(safety_);
     addToolBar(Qt::TopToolBarArea, top);
     setContextMenuPolicy(Qt::NoContextMenu);
-    attendance_ = new Attendance(*this, *safety_->findChild<QWidget*>("stopButton"));
+    stop_ = safety_->findChild<QWidget*>("stopButton");
+    attendance_ = new Attendance(*this);
     connect(safety_, &SafetyBar::resumed, attendance_, &Attendance::noteHand);
     if (!attendance_->displayTells())
-        safety_->addToStopTip(
-            tr("This display does not tell which desktop the window is on, or who holds keyboard and mouse: keep it in "
-               "sight while output is on."));
+        safety_->addToStopTip(tr(
+            "This display does not tell which desktop the window is on, what lies over it, or who holds keyboard and "
+            "mouse: keep it in sight while output is on."));
 
     auto* centre = new QWidget(this);
     centre->setObjectName("centre");
@@ -196,6 +198,7 @@ void MainWindow::tick() {
     safety_->refresh(telemetry);
     attend(seen);
     showTitle();
+    standIn();
     if (smallStop_) smallStop_->showState(safety_->shownState());
     if (smallStop_ && smallStop_->isHidden()) {  // closed by its frame
         smallStop_.reset();
@@ -264,9 +267,20 @@ void MainWindow::showTitle() {
 }
 
 void MainWindow::showSmallStop(bool shown) {
+    standsIn_ = false;
     if (!shown) return smallStop_.reset();
     smallStop_ = std::make_unique<SmallStop>([this] { controller_.stop("operator (STOP)"); }, *this);
     smallStop_->show();
+}
+
+/// Where another program's window lies over STOP a small one comes, once, and goes when STOP is free again.
+void MainWindow::standIn() {
+    const bool covered = attendance_->isCovered();
+    if (covered == std::exchange(covered_, covered) || (covered ? smallStop_ != nullptr : !standsIn_)) return;
+    showSmallStop(covered);
+    standsIn_ = covered;
+    findChild<QAction*>("smallStopShown")->setChecked(covered);
+    if (covered) line_->say(tr("Another program’s window lies over STOP: a small STOP stands above it."));
 }
 
 void MainWindow::askToArm() { arming_->ask(ArmDialog::Purpose::Arm); }
@@ -378,11 +392,12 @@ void MainWindow::attend(const Telemetry& telemetry) {
     // On the only screen the participant's window covers this one.
     const bool covers = theirs != nullptr && theirs->isVisible() && theirs->screen() == screen();
     const bool on = isOn(telemetry.state);
-    const auto why = attendance_->absence(covers ? *theirs : *this, on);
+    const auto* stop = covers ? theirs->findChild<QWidget*>("participantStop") : stop_;
+    const auto why = attendance_->absence({covers ? *theirs : *this, *stop, smallStop_.get()}, on);
     if (why.isEmpty() || !on || safety_->held(telemetry.state)) return;
     safety_->holdOutput(true);
     static_cast<void>(controller_.markMoment(telemetry.at, tr("output paused: %1").arg(why)));
-    banner_->sayWhile(tr("Output is paused: %1, and STOP is out of reach. It goes on when you press Resume.").arg(why),
+    banner_->sayWhile(tr("Output is paused: %1, and STOP was out of reach. It goes on when you press Resume.").arg(why),
                       [this](const Telemetry& now) { return safety_->held(now.state); });
 }
 

@@ -88,6 +88,7 @@ private:
     void tick();
     /// Output pauses while the operator cannot see STOP and reach it.
     void attend(const Telemetry& telemetry);
+    void standIn();
     void showTitle();
     /// While a pilot session hides what is delivered: this workspace alone, no docks, no bars.
     void noteBlind();
@@ -97,7 +98,10 @@ private:
     CalibrationBook calibrations_{controller_};
     Attendance* attendance_ = nullptr;
     SafetyBar* safety_ = nullptr;
+    const QWidget* stop_ = nullptr;  ///< in the safety bar
     std::unique_ptr<SmallStop> smallStop_;
+    bool covered_ = false;   ///< STOP, by another program's window
+    bool standsIn_ = false;  ///< it came by itself, and goes by itself
     NoticeBanner* banner_ = nullptr;
     Workspaces* workspaces_ = nullptr;
     DeviceDock* devices_ = nullptr;
