@@ -1,0 +1,40 @@
+// sample_words.py draws pieces of prose to be read aloud: sixty, of every kind, the same for the same seed.
+#include <gmock/gmock.h>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "tests/support/OtherProgram.h"
+#include "tests/support/Support.h"
+
+namespace tacto {
+namespace {
+
+std::string drawn(int seed) {
+    const auto tool = test::sourceDir() / "tests" / "house" / "sample_words.py";
+    auto [output, code] = test::outputOf("python3 -B '" + tool.string() + "' --seed " + std::to_string(seed));
+    EXPECT_EQ(code, 0) << output;
+    return output;
+}
+
+TEST(SampleWords, AreSixtyOfEveryKindAndTheSameForTheSameSeed) {
+    const auto sample = drawn(7);
+    EXPECT_EQ(sample, drawn(7));
+    EXPECT_NE(sample, drawn(8));
+    static const std::regex piece(R"(^(\d+)\. \[(\w+)\] .+)");
+    std::map<std::string, int> kinds;
+    std::istringstream lines(sample);
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch found;
+        const auto beginning = line.substr(0, 100);  // a regular expression goes as deep as its line is long
+        ASSERT_TRUE(std::regex_match(beginning, found, piece)) << line;
+        EXPECT_EQ(found[1].str(), std::to_string(++number));
+        ++kinds[found[2]];
+    }
+    EXPECT_EQ(kinds, (std::map<std::string, int>{
+                         {"comment", 12}, {"message", 12}, {"heading", 12}, {"change", 12}, {"commit", 12}}));
+}
+
+}  // namespace
+}  // namespace tacto
