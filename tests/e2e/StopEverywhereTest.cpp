@@ -308,7 +308,7 @@ protected:
             menu("File", "Open recording folder…", "MainWindow"),
             menu("View", "Messages", "RecordingLine"),
             menu("Help", "Keys", "Menus"),
-            menu("Help", "Definitions and limits", "Menus"),
+            menu("Help", "Definitions and limits", "HelpWindow"),
             menu("Help", "About Tactoscope", "Menus"),
             {"Not saved", [this] { failToSave(); }, "PlotPicture"},
             {"Encoding profile",
@@ -520,7 +520,7 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryMenuAndList) {
     for (auto* action : bar->actions())
         popups.push_back({"menu " + action->text().toStdString(),
                           [bar, action] { clickAt(bar->mapToGlobal(bar->actionGeometry(action).center())); }});
-    popups.push_back({"explanation of what has the focus", [] { type("F1"); }});
+    popups.push_back({"explanation of what has the focus", [] { type("shift+F1"); }});
     ASSERT_NO_FATAL_FAILURE(tryAll());
     for (int shown = 0; shown < 8; ++shown) {
         page(std::max(0, shown - 1), shown == 0 ? 1 : 0);

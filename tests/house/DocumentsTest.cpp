@@ -127,6 +127,25 @@ TEST(Documents, EveryPathInThemExists) {
     EXPECT_GT(named, 50U);
 }
 
+TEST(Documents, LinksLeadToFiles) {
+    const std::regex link(R"(\]\(([^)#]+)\))");
+    std::set<fs::path> linked;
+    for (const auto& file : filesBelow({"resources"})) {
+        if (file.extension() != ".md") continue;
+        const auto text = contentOf(test::sourceDir() / file);
+        for (std::sregex_iterator i(text.begin(), text.end(), link), end; i != end; ++i) {
+            if ((*i)[1].str().find("://") != std::string::npos) continue;
+            const auto target = (file.parent_path() / (*i)[1].str()).lexically_normal();
+            EXPECT_TRUE(fs::exists(test::sourceDir() / target)) << file << " links to " << target;
+            linked.insert(target);
+        }
+    }
+    for (const auto& file : filesBelow({"resources/help"})) {
+        if (!file.has_parent_path()) continue;
+        EXPECT_TRUE(linked.contains(file)) << file << " is linked from nowhere";
+    }
+}
+
 TEST(Headers, SayWhichThreadMayCallThem) {
     std::size_t headers = 0;
     for (const auto& file : filesBelow({"app", "core", "drivers", "tests"})) {

@@ -2,35 +2,88 @@
 
 #include <QApplication>
 #include <QDialogButtonBox>
-#include <QFile>
 #include <QGridLayout>
+#include <QImage>
 #include <QLabel>
-#include <QScrollArea>
+#include <QPushButton>
 #include <QTabWidget>
+#include <QTextBlock>
 #include <QTextBrowser>
+#include <QTextCursor>
 #include <QVBoxLayout>
 #include <QWhatsThis>
+#include <array>
 
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/LimitSetView.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/Workspaces.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
 namespace {
 
-QString definitions() {
-    const auto resources = resourcesFolder();
-    if (!resources) return QString::fromStdString(resources.error().message);
-    QFile file(QString::fromStdString((*resources / "help" / "definitions.md").string()));
-    if (!file.open(QIODevice::ReadOnly)) return QObject::tr("%1 cannot be read.").arg(file.fileName());
-    return QString::fromUtf8(file.readAll());
+constexpr int kGuideColumns = 130;  ///< average characters that the window is wide
+
+/// Shows Markdown pages, and pictures no wider than they.
+class GuideBrowser final : public QTextBrowser {
+public:
+    using QTextBrowser::QTextBrowser;
+
+protected:
+    QVariant loadResource(int type, const QUrl& name) override {
+        if (type != QTextDocument::ImageResource) return QTextBrowser::loadResource(type, name);
+        const QImage picture(source().resolved(name).toLocalFile());
+        const int width = fontMetrics().averageCharWidth() * (kGuideColumns - 20);
+        return picture.width() <= width ? picture : picture.scaledToWidth(width, Qt::SmoothTransformation);
+    }
+};
+
+/// Wraps long commands, which Qt keeps on one line.
+void wrapCommands(QTextDocument& page) {
+    QTextCursor cursor(&page);
+    for (auto block = page.begin(); block.isValid(); block = block.next()) {
+        if (!block.blockFormat().nonBreakableLines()) continue;
+        cursor.setPosition(block.position());
+        auto format = block.blockFormat();
+        format.setNonBreakableLines(false);
+        cursor.setBlockFormat(format);
+    }
 }
 
-QTextBrowser* page(QWidget* parent) {
-    auto* browser = new QTextBrowser(parent);
-    browser->setOpenExternalLinks(false);
-    return browser;
+QWidget* makeGuide(const QString& page, QWidget* parent) {
+    auto* guide = new QWidget(parent);
+    auto* layout = new QVBoxLayout(guide);
+    auto* tools = new QHBoxLayout;
+    auto* contents = new QPushButton(QObject::tr("&Contents"), guide);
+    auto* back = new QPushButton(QObject::tr("&Back"), guide);
+    for (auto* button : {contents, back}) {
+        button->setAutoDefault(false);
+        tools->addWidget(button);
+    }
+    tools->addStretch();
+    layout->addLayout(tools);
+    auto* browser = new GuideBrowser(guide);
+    browser->setObjectName("guide");
+    browser->setAccessibleName(QObject::tr("Guide"));
+    layout->addWidget(browser);
+    QObject::connect(browser, &QTextBrowser::sourceChanged, browser, [browser] { wrapCommands(*browser->document()); });
+    back->setEnabled(false);
+    QObject::connect(browser, &QTextBrowser::backwardAvailable, back, &QWidget::setEnabled);
+    QObject::connect(back, &QPushButton::clicked, browser, &QTextBrowser::backward);
+    const auto resources = resourcesFolder();
+    if (!resources) {
+        browser->setPlainText(QString::fromStdString(resources.error().message));
+        contents->setEnabled(false);
+        return guide;
+    }
+    const auto at = [folder = *resources / "help" / "guide"](const QString& name) {
+        return QUrl::fromLocalFile(QString::fromStdString((folder / name.toStdString()).string()));
+    };
+    QObject::connect(contents, &QPushButton::clicked, browser, [browser, at] { browser->setSource(at("index.md")); });
+    browser->setSource(at(page));
+    return guide;
 }
 
 struct Key {
@@ -47,7 +100,8 @@ const std::vector<std::pair<const char*, std::vector<Key>>>& allKeys() {
           {"Space", QT_TRANSLATE_NOOP("Keys", "output off, outside text fields")},
           {"Return", QT_TRANSLATE_NOOP("Keys", "presses the focused button")},
           {"Ctrl+1 … Ctrl+7", QT_TRANSLATE_NOOP("Keys", "the seven workspaces")},
-          {"F1", QT_TRANSLATE_NOOP("Keys", "explains what has the focus")},
+          {"F1", QT_TRANSLATE_NOOP("Keys", "the guide, at the page of this workspace")},
+          {"Shift+F1", QT_TRANSLATE_NOOP("Keys", "explains what has the focus")},
           {"?", QT_TRANSLATE_NOOP("Keys", "this sheet")},
           {"Ctrl+D", QT_TRANSLATE_NOOP("Keys", "opens the docks, or collapses them to a strip")},
           {"F11", QT_TRANSLATE_NOOP("Keys", "safety bar and plot alone")},
@@ -85,20 +139,33 @@ void addClose(QDialog& dialog, QVBoxLayout& layout) {
 
 }  // namespace
 
-QDialog* makeHelpWindow(const ShippedLimits& limits, QWidget* parent) {
+QString guidePageOf(const Workspaces& workspaces) {
+    if (workspaces.showsScope()) return "oscilloscope.md";
+    static constexpr std::array kPages{
+        "live.md",     "stimulator-calibration.md", "load-safety.md", "separability.md", "pilot.md", "sessions.md",
+        "protocols.md"};
+    return kPages.at(static_cast<std::size_t>(workspaces.currentIndex()));
+}
+
+void openGuide(const ShippedLimits& limits, const QString& page, QWidget* parent) {
+    if (auto* browser = parent->findChild<QTextBrowser*>("guide")) {
+        browser->setSource(QUrl(page));
+        browser->window()->findChild<QTabWidget*>()->setCurrentIndex(0);
+        browser->window()->raise();
+        browser->window()->activateWindow();
+        return;
+    }
     auto* dialog = new QDialog(parent);
-    dialog->setWindowTitle(QObject::tr("Definitions and limits"));
+    dialog->setWindowTitle(QObject::tr("Guide"));
     auto* layout = new QVBoxLayout(dialog);
     auto* tabs = new QTabWidget(dialog);
-    auto* first = page(tabs);
-    first->setMarkdown(definitions());
-    tabs->addTab(first, QObject::tr("&Definitions"));
+    tabs->addTab(makeGuide(page, tabs), QObject::tr("&Guide"));
     tabs->addTab(new LimitSetView(limits.sets, tabs), QObject::tr("&Limits"));
     layout->addWidget(tabs);
     addClose(*dialog, *layout);
     const auto metrics = dialog->fontMetrics();
-    dialog->resize(metrics.averageCharWidth() * 130, metrics.height() * 34);
-    return dialog;
+    dialog->resize(metrics.averageCharWidth() * kGuideColumns, metrics.height() * 34);
+    openDialog(dialog);
 }
 
 QDialog* makeShortcutSheet(QWidget* parent) {

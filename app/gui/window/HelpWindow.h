@@ -1,4 +1,4 @@
-// HelpWindow.h - definitions and limits, the keys, and the first steps.
+// HelpWindow.h - the guide and the limits, the keys, and what has the focus.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -10,8 +10,13 @@
 
 namespace tacto::gui {
 
-/// Definitions (resources/help/definitions.md) and the limit sets in force, with their sources.
-[[nodiscard]] QDialog* makeHelpWindow(const ShippedLimits& limits, QWidget* parent);
+class Workspaces;
+
+/// The file of the guide (in resources/help/guide) that is about the workspace in front.
+[[nodiscard]] QString guidePageOf(const Workspaces& workspaces);
+
+/// Opens the guide at that file, beside the limit sets in force with their sources. A guide that is open turns to it.
+void openGuide(const ShippedLimits& limits, const QString& page, QWidget* parent);
 
 /// Every key, by topic.
 [[nodiscard]] QDialog* makeShortcutSheet(QWidget* parent);

@@ -15,6 +15,7 @@
 #include "app/gui/window/SafetyBar.h"
 #include "app/gui/window/SmallStop.h"
 #include "app/gui/window/StateWords.h"
+#include "app/gui/window/Workspaces.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
@@ -142,12 +143,14 @@ void Menus::addView(const QActionGroup& workspaces, DockColumn& docks) {
 
 void Menus::addHelp() {
     auto* help = window_.menuBar()->addMenu(tr("&Help"));
-    help->addAction(tr("&Explain what has the focus"), QKeySequence(Qt::Key_F1), &window_,
+    const auto open = [this](const QString& page) { openGuide(window_.controller().limits(), page, &window_); };
+    help->addAction(tr("&Guide"), QKeySequence(Qt::Key_F1), &window_,
+                    [this, open] { open(guidePageOf(*window_.findChild<Workspaces*>())); });
+    help->addAction(tr("&Explain what has the focus"), QKeySequence(Qt::SHIFT | Qt::Key_F1), &window_,
                     [this] { explainFocus(&window_); });
     help->addAction(tr("&Keys"), QKeySequence(Qt::Key_Question), &window_,
                     [this] { openDialog(makeShortcutSheet(&window_)); });
-    help->addAction(tr("&Definitions and limits"), &window_,
-                    [this] { openDialog(makeHelpWindow(window_.controller().limits(), &window_)); });
+    help->addAction(tr("&Definitions and limits"), &window_, [open] { open("definitions.md"); });
     help->addAction(tr("&Tour"), &window_, &MainWindow::beginTour);
     help->addSeparator();
     help->addAction(tr("&About Tactoscope"), this, &Menus::showAbout);

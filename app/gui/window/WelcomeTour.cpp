@@ -160,8 +160,7 @@ std::vector<TourStep> WelcomeTour::toTheVerdict() {
          [this] { return ofTheRun(); }},
         {tr("Everything is kept"),
          say("Each bench and each run is a session. Open Sessions and look at the newest one: its verdict, trials and "
-             "captures, and below them Report, Replay and Open capture. ? shows all keys, F1 explains what has the "
-             "focus."),
+             "captures, and below them Report, Replay and Open capture. ? shows all keys, F1 opens the guide."),
          {},
          [this] { return sessionsTarget(); },
          [this] { return window_.workspace() == kSessionsPage; },

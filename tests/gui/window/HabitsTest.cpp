@@ -6,14 +6,18 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QPointer>
+#include <QPushButton>
 #include <QScrollBar>
 #include <QSettings>
 #include <QTabWidget>
 #include <QTableWidget>
+#include <QTextBlock>
 #include <QTextBrowser>
 #include <QToolBar>
 #include <QTreeWidget>
 #include <gmock/gmock.h>
+#include <set>
 
 #include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/TabbedPage.h"
@@ -129,6 +133,71 @@ TEST_F(Habits, TheKeysAreOneKeyAway) {
     for (const auto* wanted : {"Esc", "Space", "Ctrl+1", "F5", "F1"})
         EXPECT_THAT(words.toStdString(), HasSubstr(wanted));
     sheet->close();
+}
+
+TEST_F(Habits, F1OpensTheGuideAtTheWorkspaceInFront) {
+    const auto folder = sourceDir() / "resources" / "help" / "guide";
+    const auto opened = [this](const auto& open) -> QDialog* {
+        open();
+        QDialog* found = nullptr;
+        EXPECT_IN_TIME(comesTrue([&] {
+            for (auto* dialog : window.findChildren<QDialog*>())
+                if (dialog->isVisible() && dialog->findChild<QTextBrowser*>("guide") != nullptr) found = dialog;
+            return found != nullptr;
+        }));
+        return found;
+    };
+    const auto pageOf = [](QDialog& guide) { return guide.findChild<QTextBrowser*>("guide")->source().fileName(); };
+    const char* const pages[] = {
+        "live.md",     "stimulator-calibration.md", "load-safety.md", "separability.md", "pilot.md", "sessions.md",
+        "protocols.md"};
+    for (int workspace = 0; workspace < 7; ++workspace) {
+        window.showWorkspace(workspace);
+        window.activateWindow();
+        ASSERT_IN_TIME(comesTrue([this] { return QApplication::activeWindow() == &window; }));
+        auto* guide = opened([this] { key(Qt::Key_F1); });
+        ASSERT_NE(guide, nullptr);
+        EXPECT_EQ(pageOf(*guide), pages[workspace]);
+        const QPointer shown = guide;
+        guide->close();
+        ASSERT_IN_TIME(comesTrue([&] { return shown == nullptr; }));
+    }
+    auto* guide = opened([this] { menuEntry("Help", "Definitions and limits")->trigger(); });
+    ASSERT_NE(guide, nullptr);
+    EXPECT_EQ(pageOf(*guide), "definitions.md");
+    menuEntry("Help", "Guide")->trigger();
+    EXPECT_EQ(pageOf(*guide), pages[6]) << "the open one turns to it";
+    menuEntry("Help", "Definitions and limits")->trigger();
+    auto* browser = guide->findChild<QTextBrowser*>("guide");
+    browser->clearHistory();
+    QPushButton *contents = nullptr, *back = nullptr;
+    for (auto* button : guide->findChildren<QPushButton*>()) {
+        if (button->text() == "&Contents") contents = button;
+        if (button->text() == "&Back") back = button;
+    }
+    ASSERT_TRUE(contents != nullptr && back != nullptr);
+    EXPECT_FALSE(back->isEnabled());
+    contents->click();
+    EXPECT_EQ(pageOf(*guide), "index.md");
+    // Every page is reached by a link of the contents, and has a heading.
+    std::set<QString> linked;
+    for (auto block = browser->document()->begin(); block.isValid(); block = block.next())
+        for (auto part = block.begin(); !part.atEnd(); ++part)
+            if (const auto link = part.fragment().charFormat().anchorHref(); !link.isEmpty()) linked.insert(link);
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const auto name = QString::fromStdString(entry.path().filename().string());
+        if (name == "index.md") continue;
+        EXPECT_TRUE(linked.contains(name)) << name.toStdString();
+        browser->setSource(name);
+        EXPECT_EQ(pageOf(*guide), name);
+        EXPECT_EQ(browser->document()->begin().blockFormat().headingLevel(), 1) << name.toStdString();
+        EXPECT_EQ(browser->horizontalScrollBar()->maximum(), 0) << name.toStdString() << " is read whole";
+        shot(*guide, "guide-" + name.section('.', 0, 0));
+        back->click();
+        EXPECT_EQ(pageOf(*guide), "index.md");
+    }
+    guide->close();
+    window.showWorkspace(0);  // the next window begins where this one ends
 }
 
 TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {

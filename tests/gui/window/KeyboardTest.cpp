@@ -1,5 +1,5 @@
 // Without a mouse: Tab reaches every control of the window and of its dialogs and comes round, the focus is seen, and
-// F1 explains what has it.
+// Shift+F1 explains what has it.
 #include <QDialog>
 #include <QLineEdit>
 #include <QMenu>
@@ -166,7 +166,7 @@ TEST_F(Keyboard, TheFocusIsSeen) {
     }
 }
 
-TEST_F(Keyboard, F1ExplainsWhateverHasTheFocus) {
+TEST_F(Keyboard, ShiftF1ExplainsWhateverHasTheFocus) {
     const auto explanation = []() -> QWidget* {
         for (auto* widget : QApplication::topLevelWidgets()) {
             if (widget->isVisible() && widget->inherits("QWhatsThat")) return widget;
@@ -199,7 +199,7 @@ TEST_F(Keyboard, F1ExplainsWhateverHasTheFocus) {
                 says = says->parentWidget();
             if (says == nullptr) continue;
             const auto words = says->whatsThis().isEmpty() ? says->toolTip() : says->whatsThis();
-            key(Qt::Key_F1);
+            key(Qt::Key_F1, Qt::ShiftModifier);
             const auto shown = pictureOf();
             QWhatsThis::showText(window.mapToGlobal(QPoint(50, 50)), words, at);
             EXPECT_EQ(shown, pictureOf()) << widgetName(*at) << " should say \"" << words.toStdString() << '"';
@@ -219,7 +219,7 @@ TEST_F(Keyboard, WhateverTabReachesSaysWhatItIs) {
             const QWidget* says = &at;
             while (says != nullptr && says->toolTip().isEmpty() && says->whatsThis().isEmpty())
                 says = says->parentWidget();
-            EXPECT_NE(says, nullptr) << widgetName(at) << ": F1 says that nothing has the focus";
+            EXPECT_NE(says, nullptr) << widgetName(at) << ": Shift+F1 says that nothing has the focus";
         });
     }
 }
