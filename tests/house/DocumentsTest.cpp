@@ -146,6 +146,18 @@ TEST(Documents, LinksLeadToFiles) {
     }
 }
 
+TEST(Documents, TheNewestReleaseIsTheProgramsVersion) {
+    const auto first = [](const char* file, const char* before) {
+        const std::regex version(std::string(before) + R"((\d+\.\d+\.\d+))");
+        const auto text = contentOf(test::sourceDir() / file);
+        std::smatch found;
+        return std::regex_search(text, found, version) ? found[1].str() : std::string(file) + " names none";
+    };
+    const auto built = first("CMakeLists.txt", "project\\(Tactoscope VERSION ");
+    EXPECT_EQ(first("CHANGELOG.md", "\n## "), built);
+    EXPECT_EQ(first("resources/desktop/io.github.tactoscope.Tactoscope.metainfo.xml", "<release version=\""), built);
+}
+
 TEST(Headers, SayWhichThreadMayCallThem) {
     std::size_t headers = 0;
     for (const auto& file : filesBelow({"app", "core", "drivers", "tests"})) {
