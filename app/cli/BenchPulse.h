@@ -22,7 +22,7 @@ struct PulseOrder {
     PulseTrain pulse;  ///< one biphasic pulse, in mA
     Load load;         ///< declared; ± 20 % is accepted
     std::vector<LimitSet> limits;
-    Ceilings ceilings;                               ///< of the profile
+    Ceilings ceilings;                               ///< the profile's own ceilings
     std::optional<SquareCentimetres> electrodeArea;  ///< without it density rows are not evaluated
     bool resetFault =
         false;  ///< one in which an earlier run left the unit, if its cause is gone; else it ends this one

@@ -24,7 +24,7 @@ Result<std::pair<std::string, std::string>> pairOf(const QString& text, const ch
     return std::pair(std::string(trimmed(both.substr(0, equals))), std::string(trimmed(both.substr(equals + 1))));
 }
 
-/// Adds what an option says of a channel. Errors: InvalidArgument for a channel that it was given for before.
+/// Adds what an option says about a channel. Errors: InvalidArgument for a channel that it was given for before.
 template <class Map, class Entry>
 Result<void> addOnce(Map& all, const Entry& entry, const char* option) {
     if (all.emplace(entry.first, entry.second).second) return {};

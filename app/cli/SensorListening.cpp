@@ -17,7 +17,7 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 constexpr std::chrono::milliseconds kReadEvery(2);
 constexpr double kShowEvery_s = 0.25;
 
-/// Says on a terminal how long it will still be.
+/// Says on a terminal how much longer it will take.
 class Countdown {
 public:
     explicit Countdown(double whole_s) : whole_s_(whole_s), terminal_(isatty(STDERR_FILENO) != 0) {}

@@ -12,7 +12,7 @@
 namespace tacto::cli {
 
 struct Listened {
-    double seconds = 0;                ///< of listening
+    double seconds = 0;                ///< how long it listened
     std::vector<HealthReport> health;  ///< by SensorBoard::streams()
     SensorBoardReport report;
 };

@@ -216,7 +216,7 @@ int trials(Study& study, const QCommandLineParser& parser, const QStringList& wo
 struct StudyWord {
     const char* name;
     int least, most;    ///< words, its own included
-    const char* names;  ///< of the words after its own
+    const char* names;  ///< the words that may follow the command's own
     QStringList options;
     bool changes;
     int (*run)(Study& study, const QCommandLineParser& parser, const QStringList& words);

@@ -93,7 +93,7 @@ private:
         line[0] = '+';
         const double every = roundUp(length() / 6, {1, 2, 5});
         const bool hasLength = length() > 0 && std::isfinite(length());
-        std::size_t free = 0;  // of `labels`
+        std::size_t free = 0;  // the first column of `labels` that is free
         for (int i = 0; hasLength && i * every <= length() * (1 + 1e-9); ++i) {
             // Behind the corner, as the curve is.
             const auto at = static_cast<std::size_t>(i == 0 ? 0 : columnOf(i * every) + 1);

@@ -28,7 +28,7 @@ ReportFact detailFact(const ReportModel& model, std::string_view key, const QStr
     const auto detail = std::ranges::find(kCertificateDetails, key, &CertificateDetail::key);
     const QString given = shownText(model.certificate->details[fromUtf8(key)].toString(), kShownCell);
     QString text = given.isEmpty() ? known : given;
-    // What the device says of itself is not replaced by what was entered.
+    // What the device says about itself is not replaced by what was entered.
     if (!given.isEmpty() && !known.isEmpty() && given != known) text += QString(" (the device reports %1)").arg(known);
     return {fromUtf8(detail->title), text, false, text.isEmpty()};
 }

@@ -38,7 +38,7 @@ bool known(const Condition& c) {
 }
 
 constexpr int kTitleHeight = 20;
-constexpr int kLaneHeight = 70;     // of which the strip with name and numbers
+constexpr int kLaneHeight = 70;     // a lane's height, the strip with name and numbers included
 constexpr double kHeadroom = 1.18;  // for the markers
 constexpr int kStripHeight = 15;
 constexpr int kAxisHeight = 34;
@@ -112,7 +112,7 @@ private:
             return;
         }
         const auto widthOf = [](const QString& text) { return QFontMetricsF(textFont(10)).horizontalAdvance(text); };
-        constexpr double kRoom = 300;  // of a lane in half a sheet
+        constexpr double kRoom = 300;  // a lane's room in half a sheet
         QString numbers = spreadText(condition.amplitude_v.mean, condition.amplitude_v.sd, "V") + ";  " +
                           spreadText(condition.interval_s.mean, condition.interval_s.sd, "s");
         if (widthOf(condition.name + "   " + numbers) > kRoom)  // without the spread

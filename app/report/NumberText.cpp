@@ -17,7 +17,7 @@ namespace {
 const QString kMissing = QStringLiteral("–");
 const QString kSpace = QStringLiteral("\u202f");  // narrow and unbreakable
 const QString kMinus = QStringLiteral("−");
-constexpr double kMinInterval = 1e-6;  // of the value
+constexpr double kMinInterval = 1e-6;  // share of the value
 
 QString shownUnit(const QString& unit) { return QString::fromStdString(writtenUnit(unit.toStdString())); }
 
@@ -231,7 +231,7 @@ namespace {
 struct FigureCell {
     QString* text = nullptr;
     QString base;
-    int exponent = 0;              // of its prefix
+    int exponent = 0;              // its prefix, as a power of ten
     std::vector<QString> between;  // one more than numbers; the unit is left out
     std::vector<QString> numbers;
     std::vector<bool> unitAfter;

@@ -16,8 +16,8 @@ namespace tacto {
 
 class PdfPages {
 public:
-    static constexpr double kWidth = 656;   ///< of the text
-    static constexpr double kHeight = 996;  ///< of the text on one page
+    static constexpr double kWidth = 656;   ///< the text's width
+    static constexpr double kHeight = 996;  ///< the text's height on one page
 
     /// Draws on `device`; null only counts pages. `total` is printed as "page x of total". `alarming`: the header is
     /// a warning, set where every reader sees it.

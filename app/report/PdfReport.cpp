@@ -14,7 +14,7 @@ constexpr double kFactColumn = 150;
 constexpr double kAboveLine = 7;          // room to write on a line
 constexpr double kSymbol = 34;            // room of a verdict's shape before its word
 constexpr double kHalf = 316;             // two columns of facts with a gutter
-constexpr double kBriefFactColumn = 210;  // of a half: a setting's name is longer than its value
+constexpr double kBriefFactColumn = 210;  // width in half a page: a setting's name is longer than its value
 
 class Setter {
 public:

@@ -13,7 +13,7 @@
 namespace tacto {
 namespace {
 
-constexpr qsizetype kMaxNamedAt = 8;  // of what was not evaluated; the rest is counted
+constexpr qsizetype kMaxNamedAt = 8;  // names of what was not evaluated; the rest is counted
 
 QString sentence(QString key) {
     key.replace('_', ' ');

@@ -1,4 +1,4 @@
-// ReportBasis.h - what the results of a run say of the ground that its verdict stands on.
+// ReportBasis.h - what the results of a run say about the ground that its verdict stands on.
 //
 // Read, where present, from the results of the verdict:
 //   "kind": "load-safety"                                        which rule is meant where none is stated

@@ -74,7 +74,7 @@ struct ReportResults {
 
 using ReportItem = std::variant<ReportFigure, ReportTable, ReportMatrix, ReportText, ReportResults>;
 
-/// One channel of an instrument, and what is known of its accuracy.
+/// One channel of an instrument, and what is known about its accuracy.
 struct ReportInstrument {
     QString name;
     QString channel;
@@ -87,7 +87,7 @@ struct ReportBasis {
     std::vector<ReportFact> rule;     ///< how a value, its uncertainty and a limit become a verdict
     std::vector<ReportFact> restsOn;  ///< references, calibration
     std::vector<ReportInstrument> instruments;
-    QString certificate;       ///< of the oscilloscope, and whether it was used; empty: none
+    QString certificate;       ///< the oscilloscope's, and whether it was used; empty: none
     QStringList notEvaluated;  ///< what and why, "net charge into 1 kΩ: …"; empty: nothing is known to be left out
     QString operatorName;      ///< these as they were entered; empty: not recorded
     QString sample;
@@ -123,7 +123,7 @@ struct ReportModel {
     ReportVerdict verdict = ReportVerdict::None;
     QStringList reasons;     ///< why that verdict; one sentence each
     bool simulated = false;  ///< any device of the session was simulated
-    QStringList marks;       ///< of sessionMarks(): origin, calibration, the flags of R, its known limit
+    QStringList marks;       ///< as sessionMarks() gives them: origin, calibration, the flags of R, its known limit
     QString chainHead;       ///< hex; empty only when there is none yet
     QStringList damage;      ///< what verify finds wrong with the session; empty when it is intact
     ReportBasis basis;

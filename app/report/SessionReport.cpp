@@ -44,7 +44,7 @@ QString shellWord(const QString& word) {
 void fillAbout(const SessionReader& reader, const std::filesystem::path& file, ReportModel& model) {
     const auto& about = reader.about();
     model.protocol = text(about.protocol);
-    model.resultKind = model.protocol;  // of sessions from before protocols declared what their results are
+    model.resultKind = model.protocol;  // a session from before protocols declared what their results are
     model.session = text(file.stem().string());
     model.started = text(about.wallStart);
     model.simulated = about.simulated;
@@ -241,7 +241,7 @@ QString sentenceOf(const QJsonObject& body) {
     for (const char* key : {"text", "message", "reason"}) {
         if (!body[QLatin1String(key)].isString()) continue;
         const auto said = body[QLatin1String(key)].toString();
-        const auto gap = body["longest_gap_s"];  // of keep-alives
+        const auto gap = body["longest_gap_s"];  // between two keep-alives
         return gap.isDouble() ? said + ": " + quantityText(gap.toDouble(), "s", 3) : said;
     }
     QStringList parts;
@@ -261,7 +261,7 @@ void addEvent(ReportModel& model, const SessionRow& row) {
     model.events.push_back(std::move(event));
 }
 
-/// What was said of the session after it ended is told apart from what was entered before it began.
+/// What was said about the session after it ended is told apart from what was entered before it began.
 void takeLabels(const SessionLabels& labels, ReportBasis& basis) {
     const auto later = [](const std::string& now, QString& shown) {
         if (text(now) == shown) return;

@@ -11,7 +11,7 @@
 namespace tacto {
 
 inline constexpr qsizetype kShownText = 4000;
-inline constexpr qsizetype kShownCell = 1000;  ///< of a table, which is not broken between pages
+inline constexpr qsizetype kShownCell = 1000;  ///< characters in a table's cell, which is not broken between pages
 inline constexpr qsizetype kShownHead = 80;    ///< on every page
 
 /// The text, or its first `most` characters and how many more the session holds.

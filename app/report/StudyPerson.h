@@ -1,4 +1,4 @@
-// StudyPerson.h - what the study report says of one participant: a sentence a session, then what was presented and
+// StudyPerson.h - what the study report says about one participant: a sentence a session, then what was presented and
 // answered, ratings, encodings and the person over their sessions.
 //
 // Thread-safety: as StudyReport.

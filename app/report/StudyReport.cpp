@@ -119,7 +119,7 @@ void addApproval(std::vector<ReportBlock>& blocks, Captions& captions, const Stu
     blocks.emplace_back(procedureFacts(study));
 }
 
-/// All that is found of the participants of one kind.
+/// All that is found about the participants of one kind.
 Result<void> addResults(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis,
                         const StudyRecord& study) {
     std::vector<StudyPerson> persons;

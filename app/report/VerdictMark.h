@@ -14,7 +14,7 @@ struct VerdictMark {
     QString shape;  ///< tells it apart without colour: "✔"
     QColor fill;
     QColor ink;     ///< on the fill
-    QColor colour;  ///< of the word on white
+    QColor colour;  ///< the word's colour on white
 };
 /// `key` is a verdict as a result or a row writes it: "pass", "fail", "indeterminate", "stopped", "attention",
 /// "refused as expected", "not evaluated", "not applicable". Every other text has the mark of no verdict.

@@ -10,7 +10,7 @@ namespace {
 using Trace = WaveformsFigure::Trace;
 
 constexpr std::size_t kColumns = 4;
-constexpr std::size_t kWavePoints = 350;  // of which the extremes are drawn; a column is 150 units wide
+constexpr std::size_t kWavePoints = 350;  // points whose extremes are drawn; a column is 150 units wide
 
 bool measured(const Trace& trace) { return !trace.voltage_v.empty() || !trace.current_a.empty(); }
 

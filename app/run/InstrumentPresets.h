@@ -32,10 +32,10 @@ struct InstrumentPreset {
     InstrumentKind kind = InstrumentKind::Oscilloscope;
     std::string name;            ///< the laboratory's; one of its kind
     std::string serial;          ///< may be empty
-    std::string address;         ///< of an oscilloscope alone: "sigrok:rigol-ds:conn=...?voltage=CH1&current=CH2"
-    std::optional<double> ohms;  ///< of a shunt alone
+    std::string address;         ///< an oscilloscope's alone: "sigrok:rigol-ds:conn=...?voltage=CH1&current=CH2"
+    std::optional<double> ohms;  ///< a shunt's alone
     std::optional<double> accuracy_pct;  ///< half-width: an oscilloscope's gain, a shunt's or probe's tolerance
-    std::optional<double> timeBase_ppm;  ///< half-width, of an oscilloscope alone
+    std::optional<double> timeBase_ppm;  ///< half-width; an oscilloscope's alone
     std::optional<CalibrationDate> due;  ///< last day of its certificate; nothing: the data sheet's figures
     [[nodiscard]] bool expired(CalibrationDate today) const { return due && *due < today; }
 };
@@ -48,7 +48,7 @@ struct ChosenInstruments {
     std::optional<InstrumentPreset> oscilloscope, shunt, probe;
 };
 struct ComposedAddress {
-    std::string text;               ///< of the oscilloscope, with what is stated; empty without one
+    std::string text;               ///< the oscilloscope's address, with what is stated; empty without one
     std::vector<std::string> said;  ///< sentences: what is not used or not known, and what that leaves unknown
 };
 [[nodiscard]] ComposedAddress composed(const ChosenInstruments& chosen, CalibrationDate today);

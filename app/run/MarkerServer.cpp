@@ -83,7 +83,7 @@ private:
     }
     QTcpSocket* const socket_;
     std::int64_t offered_ = 0;       // bytes
-    std::deque<std::int64_t> ends_;  // of the lines that wait, counted as offered_ is
+    std::deque<std::int64_t> ends_;  // where the lines that wait end, counted as offered_ is
 };
 
 }  // namespace

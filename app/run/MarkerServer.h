@@ -25,7 +25,7 @@ namespace tacto {
 
 /// Where the program listens.
 struct MarkerAddress {
-    std::string host = "127.0.0.1";  ///< of this computer; others reach the usual one from this computer alone
+    std::string host = "127.0.0.1";  ///< this computer's; others reach the usual one from this computer alone
     std::uint16_t port = 0;
 
     static constexpr std::uint16_t kMinPort = 1024;
@@ -38,7 +38,7 @@ struct MarkerAddress {
 /// What became of the markers.
 struct MarkerTally {
     std::uint64_t made = 0;
-    std::uint64_t unheard = 0;    ///< of them: no recorder was connected
+    std::uint64_t unheard = 0;    ///< those of them that went to no recorder
     std::uint64_t lost = 0;       ///< lines that a recorder did not take while it was connected
     std::uint64_t recorders = 0;  ///< connections, one after the other too
     bool operator==(const MarkerTally&) const = default;

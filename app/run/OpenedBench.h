@@ -36,13 +36,13 @@ struct BenchOrder {
     StopMark asked = {};
     std::function<bool()> watched = {};  ///< BenchConfig::watched
     OutputMode mode = OutputMode::BenchLoad;
-    std::optional<PersonSetup> person = {};  ///< of Person
+    std::optional<PersonSetup> person = {};  ///< for OutputMode::Person
     bool virtualParticipant = false;         ///< as BenchConfig says, both
     bool rehearsal = false;
     /// Makes the session file in place of makeRunSession(); empty: that does. It is given the open devices, and may
     /// refuse them: then nothing was made.
     std::function<Result<RunSession>(const SessionAbout&, const Clock&, const DeviceSet&)> makeSession = {};
-    SessionAbout about = {};  ///< of a protocol: its script and parameters; aboutSession() adds the rest
+    SessionAbout about = {};  ///< for a protocol its script and parameters; aboutSession() adds the rest
 };
 
 struct OpenedBench {
@@ -51,7 +51,7 @@ struct OpenedBench {
     RunFiles files;
     SessionAbout about;
     std::unique_ptr<SessionWriter> session;
-    std::shared_ptr<const RowSeal> seal;  ///< of the session; null: its rows are not sealed
+    std::shared_ptr<const RowSeal> seal;  ///< seals the session's rows; null: they are not sealed
     std::unique_ptr<Bench> bench;         // Ends before what it writes to
     /// What the operator should know before anything is delivered, a sentence each; what a report needs of it is in the
     /// session.

@@ -20,9 +20,9 @@ inline constexpr std::chrono::hours kResumedWithin{2};
 
 struct PilotRows {
     std::vector<SessionRow> events;         ///< in order
-    std::optional<std::uint64_t> seed;      ///< of the first part
-    std::string chainHead;                  ///< of the last part
-    std::string runSha256;                  ///< of its plan: runHash(); empty where it was not kept yet
+    std::optional<std::uint64_t> seed;      ///< the first part's seed
+    std::string chainHead;                  ///< the last part's chain head
+    std::string runSha256;                  ///< runHash() of its plan; empty where it was not kept yet
     std::optional<SessionDevice> delivers;  ///< the stimulator or massager of the first part
     /// When something was last presented or answered; else when the session began, however often it was gone on with.
     /// On a virtual clock a session's time runs ahead of the wall's, so a part counts from its beginning. Nothing: a

@@ -30,7 +30,7 @@ struct RunOrder : BenchOrder {
 /// The load that a protocol's parameters declare: what the simulated bench starts with.
 [[nodiscard]] std::string declaredLoad(const nlohmann::json& parameters);
 
-/// What a session says of its script.
+/// What a session says about its script.
 [[nodiscard]] SessionAbout aboutScript(const RunOrder& order);
 
 /// What came of a run, also when it failed.
@@ -38,11 +38,11 @@ struct RunResult {
     ScriptOutcome outcome;
     bool stoppedBySafety = false;    ///< a fault, a refused train, an operator's stop
     bool simulated = false;          ///< any device, or a prediction; `marks` say which
-    std::vector<std::string> marks;  ///< of sessionMarks(): origin, calibration, the flags of R
+    std::vector<std::string> marks;  ///< as sessionMarks() gives them: origin, calibration, the flags of R
     std::vector<SessionDevice> devices;
     std::filesystem::path session;
     std::vector<Error> troubles;         ///< beside the outcome's error, which does not say them: closing the session
-    std::optional<MarkerTally> markers;  ///< of a pilot session with markers
+    std::optional<MarkerTally> markers;  ///< for a pilot session with markers
     /// pass, fail, indeterminate, stopped; empty for a protocol that judges nothing or ended by an error.
     [[nodiscard]] std::string verdict() const;
     /// Without an error the first trouble becomes it, and there is no verdict; troubles that the error says are left
@@ -82,7 +82,7 @@ private:
     RunOrder order_;
     std::shared_ptr<OpenedBench> opened_;  // and the script's
     std::optional<Error> notStarted_;
-    std::optional<LoadSafetyCheck> check_;  // of a load-safety run, as it is kept
+    std::optional<LoadSafetyCheck> check_;  // what is kept of a load-safety run
     std::unique_ptr<ScriptRun> script_;     // Last: ends first
 };
 

@@ -1,4 +1,4 @@
-// RunNotes.h - what a report says of a run beside what was measured: who did it, of what, who checks it, and the
+// RunNotes.h - what a report says about a run beside what was measured: who did it, of what, who checks it, and the
 // ambient conditions. As they were entered; nothing here is measured, and nothing is judged by it.
 //
 // Thread-safety: pure functions; keepNotes() as SessionWriter.

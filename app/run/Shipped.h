@@ -18,7 +18,7 @@ namespace tacto {
 
 struct ShippedLimits {
     std::vector<LimitSet> sets;
-    std::vector<std::string> sha256;  ///< of each set's file, in the same order
+    std::vector<std::string> sha256;  ///< digest of each set's file, in the same order
     std::vector<std::string> from;    ///< where its file lies; empty for one that is built in; in the same order
 };
 /// Errors: as parseLimitSet(); ParseError for a file in the resources' limits/ that would take the place of a built-in

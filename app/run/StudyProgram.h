@@ -1,4 +1,4 @@
-// StudyProgram.h - what a study's approval says of this program and of the profile that its sessions are run with.
+// StudyProgram.h - what a study's approval says about this program and the profile that its sessions are run with.
 //
 // Thread-safety: pure but for the limit sets' files.
 #pragma once

@@ -17,10 +17,10 @@ namespace tacto {
 
 class UnfinishedSession {
 public:
-    /// What the run's settings say of it.
+    /// What the run's settings say about it.
     struct Choice {
         std::string wanted;    ///< "end" or "resume"
-        std::string protocol;  ///< of the run
+        std::string protocol;  ///< the run's protocol
         bool inWindow = false;
     };
     /// There is none.
@@ -56,7 +56,7 @@ private:
     /// An option, or what the window offers.
     [[nodiscard]] std::string_view whatEnds() const;
 
-    std::string code_;  // of the participant
+    std::string code_;  // the participant's code
     bool inWindow_ = false;
     std::optional<Ends> ends_;
     std::optional<StudySession> continued_;

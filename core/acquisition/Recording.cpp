@@ -93,7 +93,7 @@ RecordFields<DescribedRecording> buildRecordingFields() {
 /// No count is too large for a fingertip by itself. One that stands alone, a thousand times as far from the median as
 /// 98 % of its channel reach, is none: it becomes infinite, which no reading is.
 void markFarCounts(SampleBlock& samples, std::size_t channels) {
-    constexpr std::size_t kMinSamples = 100;  // of which 98 % say something
+    constexpr std::size_t kMinSamples = 100;  // the fewest samples of which 98 % say something
     constexpr std::size_t kAlone = 3;         // in a row
     constexpr double kFar = 1000;
     for (std::size_t c = 0; c < channels && samples.samples() >= kMinSamples; ++c) {

@@ -16,7 +16,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kLongestQuote = 40;   // of the file's own text, in a message
+constexpr std::size_t kLongestQuote = 40;   // characters of the file's own text in a message
 constexpr std::size_t kHeadLines = 1000;    // among which a header is looked for
 constexpr std::size_t kLookedAt = 1 << 16;  // bytes that show what a table is like
 
@@ -388,7 +388,7 @@ private:
     const TableLayout& layout_;
     CsvHead head_;
     std::vector<ColumnChoice> wanted_;  // the time first, where there is one
-    std::vector<std::size_t> indices_;  // of them, in a row
+    std::vector<std::size_t> indices_;  // their indices in a row
     std::size_t width_ = 0;
     std::size_t skip_ = 0;  // lines before the rows
     bool headed_ = false;
@@ -396,7 +396,7 @@ private:
     char point_ = '.';
     std::size_t rows_ = 0;
     SampleBlock out_;
-    std::vector<bool> empty_;  // of its samples: without a value
+    std::vector<bool> empty_;  // which of its samples are without a value
 };
 
 }  // namespace

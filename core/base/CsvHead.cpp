@@ -50,7 +50,7 @@ char separatorWithout(const std::vector<std::string_view>& lines) {
 }
 
 struct Remark {
-    std::size_t number;  // of its line
+    std::size_t number;  // number of its line
     std::string_view words;
 };
 

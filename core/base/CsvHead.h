@@ -19,8 +19,8 @@ namespace tacto {
 /// One line that is neither blank nor a comment.
 struct CsvLine {
     std::size_t number = 0;           ///< in the file, from 1
-    std::size_t offset = 0;           ///< of its first byte from the beginning of the text
-    std::size_t behind = 0;           ///< of the line after it
+    std::size_t offset = 0;           ///< place of its first byte, from the beginning of the text
+    std::size_t behind = 0;           ///< place of the line after it
     std::vector<std::string> fields;  ///< trimmed, without quotes, in UTF-8
 };
 
@@ -29,7 +29,7 @@ struct CsvHead {
     std::vector<CsvLine> header;       ///< the lines before the first row of numbers; all that were seen where none is
     std::optional<CsvLine> firstRow;   ///< the first line whose fields are numbers, stamps or empty
     std::vector<CsvLine> body;         ///< some lines from the first row on
-    std::vector<CsvLine> beside;       ///< of them, those that begin with a key (KeyedCsv.h)
+    std::vector<CsvLine> beside;       ///< those of them that begin with a key (KeyedCsv.h)
     char separator = ',';              ///< ' ': any number of blanks and tabs
     char point = '.';
 };

@@ -45,7 +45,7 @@ public:
         return true;
     }
     bool parse_error(std::size_t position, const std::string&, const json::exception& why) {
-        constexpr int kOutOfRange = 406;  // of the library: a number that is not a double
+        constexpr int kOutOfRange = 406;  // the library's number of an error: a number that is not a double
         isSyntax_ = true;
         wrongAt_ = position;
         return refuse(why.id == kOutOfRange ? ": a number is out of range" : " is not JSON");

@@ -58,7 +58,7 @@ private:
     static constexpr std::size_t kBlock = 32;  ///< words that are compared at a time
     std::atomic<std::uint64_t> sequence_{0};
     std::array<std::atomic<std::uint64_t>, kWords> words_{};
-    std::array<std::uint64_t, kWords> written_{};  ///< the same, for the writer alone
+    std::array<std::uint64_t, kWords> written_{};  ///< the words as last written, for the writer alone
 };
 
 }  // namespace tacto

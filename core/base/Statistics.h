@@ -13,7 +13,7 @@ namespace tacto {
 /// deviation when n = 1; one reading that is NaN makes everything but n NaN. NaN is null in JSON and empty in CSV.
 struct Statistics {
     double mean = std::numeric_limits<double>::quiet_NaN();
-    double sd = std::numeric_limits<double>::quiet_NaN();  ///< of the sample, with n - 1
+    double sd = std::numeric_limits<double>::quiet_NaN();  ///< standard deviation of the sample, with n - 1
     double median = std::numeric_limits<double>::quiet_NaN();
     double min = std::numeric_limits<double>::quiet_NaN();
     double max = std::numeric_limits<double>::quiet_NaN();

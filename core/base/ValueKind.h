@@ -46,7 +46,7 @@ struct AcceptedText {
     [[nodiscard]] std::string text() const;
 };
 
-/// What is known of a field whatever its type: what a form needs.
+/// What is known about a field whatever its type: what a form needs.
 struct FieldInfo {
     std::string key{};
     std::string accepted{};                    ///< "a number from 0.01 to 500 V", for messages
@@ -125,7 +125,7 @@ struct ValueKind : AnyKind {
     }
 };
 
-/// The number in `value`. Errors: as of ValueKind::read().
+/// The number in `value`. Errors: those of ValueKind::read().
 [[nodiscard]] Result<double> readNumber(const nlohmann::json& value, const AcceptedNumbers& accepted,
                                         const RecordPlace& place, std::string_view key);
 [[nodiscard]] Result<void> checkNumber(double value, const AcceptedNumbers& accepted, const RecordPlace& place,

@@ -28,8 +28,8 @@ namespace tacto {
 struct CalibrationInstrument {
     std::string name;
     std::string serial;
-    std::optional<CalibrationDate> due;     ///< of its own calibration; nothing: it was not stated
-    std::optional<double> gainTolerance{};  ///< of the amplitude it read: half-width, relative; nothing: not stated
+    std::optional<CalibrationDate> due;     ///< when its own calibration is due; nothing: it was not stated
+    std::optional<double> gainTolerance{};  ///< the gain's half-width, relative; nothing: not stated
     std::string statedBy{};                 ///< "the instrument" or "the operator"; empty where it was not stated
 };
 
@@ -41,14 +41,14 @@ struct StoredLine : CalibrationLine {
 };
 
 struct StoredCalibration {
-    std::string serial;  ///< of the stimulator; not empty
+    std::string serial;  ///< the stimulator's; not empty
     std::string device;  ///< its name
     std::string unit;    ///< "V" or "mA": of the source that was calibrated, and of the amplitude's line
     StoredLine amplitude;
     std::optional<StoredLine> interval, phaseWidth, gap;  ///< s; one that lacks a line is read, and holds for nothing
     CalibrationDate made{};
     CalibrationDate validUntil{};  ///< the last day on which it counts
-    bool simulated = false;        ///< of a simulated device, or measured by one
+    bool simulated = false;        ///< whether the device, or what measured it, was simulated
     std::string session;           ///< file name of the session that holds the readings
     std::string sessionHead;       ///< head of its hash chain when this was kept: 64 hexadecimal digits
     std::size_t readings = 0;      ///< in that session, that the lines were computed from

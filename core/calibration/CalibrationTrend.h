@@ -24,8 +24,8 @@ struct TrendPoint {
     double gain = 0;
     double offset = 0;           ///< in the quantity's unit
     double uncertainty_pct = 0;  ///< U, in % of the command; NaN: unknown
-    double gainU = 0;            ///< of the gain; NaN: unknown
-    double offsetU = 0;          ///< of the offset, in its unit; NaN: unknown
+    double gainU = 0;            ///< U of the gain; NaN: unknown
+    double offsetU = 0;          ///< U of the offset, in its unit; NaN: unknown
 };
 /// The oldest first. `of` is of one stimulator, in the order in which it was stored; those of another unit, of a bench
 /// that is simulated where `simulated` is not (or the other way round), and those without that quantity are passed

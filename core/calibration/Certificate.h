@@ -21,8 +21,8 @@ namespace tacto {
 
 struct Certificate {
     std::string instrument;  ///< maker and model; not empty
-    std::string serial;      ///< of the instrument; not empty, so that two alike are told apart
-    std::string number;      ///< of the certificate; not empty
+    std::string serial;      ///< the instrument's; not empty, so that two alike are told apart
+    std::string number;      ///< the certificate's; not empty
     std::string by;          ///< the laboratory; not empty
     CalibrationDate date{};
     CalibrationDate due{};  ///< the last day on which it counts; not before `date`
@@ -47,7 +47,7 @@ inline constexpr std::array<CertificateText, 4> kCertificateTexts{
      {"by", "laboratory", &Certificate::by}}};
 struct CertificateFigure {
     std::string_view key;
-    const char* option;  ///< of the command line
+    const char* option;  ///< its option on the command line
     std::string_view title;
     std::string_view unit;
     double perUnit;  ///< relative

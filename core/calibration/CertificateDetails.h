@@ -32,7 +32,7 @@ struct CertificateDetail {
     std::string_view key;    ///< in files
     std::string_view title;  ///< on the certificate
     std::string CertificateDetails::*member;
-    bool ofLaboratory = false;  ///< the same for every order
+    bool ofLaboratory = false;  ///< said once for every order
     bool isDate = false;        ///< "2026-11-21"
 };
 /// In the order in which a certificate says them.

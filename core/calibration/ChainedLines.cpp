@@ -156,7 +156,7 @@ Result<void> ChainedLines::append(const std::function<Result<nlohmann::json>()>&
         if (const auto first = noteEnd(); !first) return first;
         hasNote_ = true;
     }
-    body->erase("sha256");  // of the line: one that it brings would count in its own digest
+    body->erase("sha256");  // the line's own: one that it brings would count in its own digest
     (*body)["end_noted"] = true;
     (*body)["previous"] = end_.head;
     const auto digest = digestOf(*body);

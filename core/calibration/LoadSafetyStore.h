@@ -31,7 +31,7 @@ enum class CheckVerdict { Begun, Pass, Fail, Indeterminate, Stopped, None };
 /// A limit set by what it holds.
 struct LimitSetHash {
     std::string id;      ///< "paper"
-    std::string sha256;  ///< of the limit file's bytes
+    std::string sha256;  ///< digest of the limit file's bytes
     bool operator==(const LimitSetHash&) const = default;
 };
 
@@ -47,7 +47,7 @@ struct TrainReach {
 
 /// What a check lets pass, per cent; nothing: not known.
 struct CheckTolerances {
-    std::optional<double> load_pct{};       ///< of a load's value
+    std::optional<double> load_pct{};       ///< tolerance of a load's value
     std::optional<double> amplitude_pct{};  ///< delivered above the command
     bool operator==(const CheckTolerances&) const = default;
 };
@@ -56,7 +56,7 @@ struct CheckTolerances {
 [[nodiscard]] std::string widerThan(const CheckTolerances& allowed, const CheckTolerances& widest);
 
 struct LoadSafetyCheck {
-    std::string serial;  ///< of the stimulator's output, as calibratedOutput() names it; not empty
+    std::string serial;  ///< serial number of the stimulator's output, as calibratedOutput() names it; not empty
     std::string device;  ///< its name
     CalibrationDate made{};
     CheckVerdict verdict = CheckVerdict::Begun;
@@ -65,7 +65,7 @@ struct LoadSafetyCheck {
     TrainReach reach;
     CheckTolerances tolerances;
     std::vector<LimitSetHash> limits;
-    std::string scriptSha256;  ///< of the protocol's bytes
+    std::string scriptSha256;  ///< digest of the protocol's bytes
     std::string session;       ///< file name of the session that holds the evidence
     std::string sessionHead;   ///< head of its hash chain when it ended; empty before
     bool operator==(const LoadSafetyCheck&) const = default;
@@ -78,7 +78,7 @@ inline constexpr std::chrono::days kLoadSafetyHolds{30};
 struct LoadSafetyNeed {
     std::string serial;
     CalibrationDate day{};
-    std::string scriptSha256;  ///< of the protocol as it is today
+    std::string scriptSha256;  ///< digest of the protocol as it is today
     SquareCentimetres area{0};
     TrainReach reach;            ///< with its loads
     CheckTolerances tolerances;  ///< the widest that count

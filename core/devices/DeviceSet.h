@@ -23,7 +23,7 @@ struct DeviceSet {
     std::unique_ptr<Stimulator> stimulator;
     std::unique_ptr<Oscilloscope> oscilloscope;
     std::unique_ptr<Massager> massager;
-    InstrumentStatement scopeStatement;  ///< of the oscilloscope, beside what its captures state themselves
+    InstrumentStatement scopeStatement;  ///< the oscilloscope's, beside what its captures state themselves
     /// The keys of its address that said so, as they were given: part of the address that identities() gives.
     std::vector<std::pair<std::string, std::string>> scopeKeys;
     std::shared_ptr<SurfacePresenter> surface;    ///< null: the operator presents surfaces

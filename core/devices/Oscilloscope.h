@@ -15,7 +15,7 @@ struct ScopeSettings {
     Hertz sampleRate{2e6};
     std::size_t samples = 20'000;   ///< per channel and capture
     double preTrigger = 0.1;        ///< fraction of the record before the trigger, 0..1
-    bool triggerOnCurrent = false;  ///< else on the voltage channel
+    bool triggerOnCurrent = false;  ///< false: it triggers on the voltage channel
     double triggerLevel = 0.5;      ///< V or A; the trigger fires where |signal| rises through it
     Volts voltageRange{50};         ///< full scale is ± this
     Milliamps currentRange{200};    ///< full scale is ± this

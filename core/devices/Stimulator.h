@@ -25,7 +25,7 @@ struct StimulatorStatus {
     std::optional<double> amplitude;  ///< V or mA by drive: the leading phase's end, as the device measured it
     std::optional<Ohms> impedance;    ///< |Z| at the end of the leading phase of the last pulse (science.md section 4)
     std::optional<double> imbalance;  ///< |net charge| / phase charge of the last pulse, tail included
-    std::optional<double> imbalanceUncertainty;  ///< of `imbalance`, 95 %
+    std::optional<double> imbalanceUncertainty;  ///< uncertainty of `imbalance`, 95 %
     std::uint64_t trainsDelivered = 0;
 };
 

@@ -23,7 +23,7 @@ struct AccelerationWindow {
     std::size_t first;
     double begin_s;
     double centre_s;
-    double end_s;  ///< of its last sample
+    double end_s;  ///< time of its last sample
 };
 
 class AccelerationTrack {

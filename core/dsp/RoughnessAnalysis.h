@@ -16,7 +16,7 @@ namespace tacto {
 struct RoughnessSummary {
     std::size_t frames = 0;
     std::size_t contactFrames = 0;
-    double rate_hz = 0;  ///< of the stream that paces the frames: acceleration, else taxels, else force
+    double rate_hz = 0;  ///< rate of the stream that paces the frames: acceleration, else taxels, else force
     double frameRate_hz = 0;
     std::vector<std::string> flags;
     Statistics h, v, R, pressure_pa, P;

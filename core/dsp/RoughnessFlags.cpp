@@ -50,7 +50,7 @@ constexpr std::array<FlagWords, kRoughnessFlags> kFlags{
 constexpr auto kFirstCounted = static_cast<std::size_t>(RoughnessFlag::ForceElsewhere);
 constexpr auto kBelowContact = static_cast<std::size_t>(RoughnessFlag::ForceBelowContact);
 
-/// Of "-1.2 to -0.8 N".
+/// The sentence for a range such as "-1.2 to -0.8 N".
 std::string belowContactSentence(std::string_view range) {
     const auto low = takeNumber(range);
     if (!low || !range.starts_with(" to ")) return {};

@@ -49,7 +49,7 @@ inline constexpr std::size_t kRoughnessFlags = 26;
 struct RoughnessFlags {
     std::array<std::uint32_t, kRoughnessFlags> times{};  ///< by RoughnessFlag; 0: not given
     double leastForce = 0, mostForce = 0;                ///< where it stays below contact
-    StreamUnit forceUnit = StreamUnit::Newton;           ///< of them
+    StreamUnit forceUnit = StreamUnit::Newton;           ///< their unit
 
     void raise(RoughnessFlag flag, bool given) noexcept { times[std::size_t(flag)] = given ? 1 : 0; }
     void count(RoughnessFlag flag, std::size_t number) noexcept {

@@ -55,8 +55,8 @@ struct RoughnessSettings {
     ReferenceScale vStatic = kSimulatedVStatic;
     ReferenceScale vDynamic = kSimulatedVDynamic;
     bool calibrated = false;                          ///< the scales in use were measured on this rig
-    std::optional<RoughnessUncertainty> uncertainty;  ///< of R under these scales; nothing: not known
-    std::optional<SensorScales> sensor;               ///< of the fingertip that they were measured with
+    std::optional<RoughnessUncertainty> uncertainty;  ///< uncertainty of R under these scales; nothing: not known
+    std::optional<SensorScales> sensor;               ///< scales of the fingertip that they were measured with
     std::optional<ReferenceSurface> smoothSurface;
     std::optional<ReferenceSurface> roughSurface;
     Seconds smoothing{0.05};           ///< τ of R's first-order smoother, > 0

@@ -1,5 +1,5 @@
-// SensorScales.h - what a sensor calibration found of one fingertip: how its force and taxels are turned into N and Pa,
-// and how far R can be trusted. Part of RoughnessSettings, and so of a profile.
+// SensorScales.h - what a sensor calibration found about one fingertip: how its force and taxels are turned into N and
+// Pa, and how far R can be trusted. Part of RoughnessSettings, and so of a profile.
 //
 // Streams are recorded as the fingertip gives them; RoughnessChain alone applies the scales.
 //
@@ -26,7 +26,7 @@ struct ValueKind;
 struct SensorLine {
     double scale = 1;                ///< N or Pa per unit of the reading; not 0
     double offset = 0;               ///< N or Pa: what a reading of 0 stands for
-    std::optional<double> scaleU{};  ///< of the scale, 95 %; nothing: not known
+    std::optional<double> scaleU{};  ///< U of the scale, 95 %; nothing: not known
     [[nodiscard]] double at(double reading) const noexcept { return scale * reading + offset; }
     bool operator==(const SensorLine&) const = default;
 };
@@ -47,7 +47,7 @@ struct RoughnessUncertainty {
 struct SensorScales {
     std::string fingertip;                      ///< its serial number; empty: it has none
     std::optional<SensorLine> force;            ///< to N; nothing: as the stream says
-    StreamUnit forceUnit = StreamUnit::Newton;  ///< of the readings it was measured in: N or count
+    StreamUnit forceUnit = StreamUnit::Newton;  ///< unit of the readings it was measured in: N or count
     std::vector<SensorLine> taxels;             ///< to Pa, one each; empty: as the stream says
     StreamUnit taxelUnit = StreamUnit::Pascal;  ///< Pa or count
     bool operator==(const SensorScales&) const = default;

@@ -26,7 +26,7 @@ public:
         : hasAcceleration_(hasAcceleration), declared_(declaredBaseline), profile_(profileMeanSquare) {}
 
     struct Frame {
-        double begin_s, end_s;  ///< of its window
+        double begin_s, end_s;  ///< the ends of its window
         double meanSquare;      ///< 5 Hz..1 kHz, force normalisation undone
         bool contact;
         double streamBegin_s;   ///< first sample of acceleration

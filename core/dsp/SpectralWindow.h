@@ -37,7 +37,7 @@ inline constexpr std::array kSpectralWindows{SpectralWindow::Hann, SpectralWindo
 
 struct SpectralPeak {
     double bin = 0;    ///< by parabola through the logarithms of three bins
-    double level = 0;  ///< of the highest bin
+    double level = 0;  ///< level of the highest bin
 };
 /// The highest local maxima of `level` (an amplitude per bin, 0 and up), `most` at most, highest first: each the
 /// largest within `apart` bins and at least `above` times the median of all.

@@ -41,7 +41,7 @@ public:
 
     struct Reading {
         double v;     ///< NaN when absent
-        double mean;  ///< of the taxels as they are; NaN without a sample near enough
+        double mean;  ///< mean of the taxels as they are; NaN without a sample near enough
     };
     /// At `t_s`, which never decreases from call to call. Needs newest_s() ≥ t_s, or silence since.
     [[nodiscard]] Reading at(double t_s, bool dynamic) noexcept;
@@ -59,7 +59,7 @@ private:
     struct Stretch {
         std::vector<double> sum;
         std::size_t count = 0;
-        double mean = 0;     // of the taxel mean, running
+        double mean = 0;     // running mean of the taxels
         double squares = 0;  // sum of squared deviations, running
         void add(const double* values) noexcept;
         void clear() noexcept;

@@ -131,7 +131,7 @@ public:
     void drive(Drive drive, double level, double slope, double T, std::size_t reserve) noexcept {
         double t = 0;
         bool limited = false;
-        double sign = 0;  // of the limit that holds
+        double sign = 0;  // sign of the limit that holds
         while (t < T || T == 0) {
             const bool last = out_.count + 1 + reserve >= SegmentResponse::kMaxPieces;
             const double now = level + slope * t;

@@ -65,7 +65,7 @@ struct EncodingProfile {
     /// Limits on the step from a train to the next; 0 = no limit. The shipped profile has the two ratios, just below
     /// two just-noticeable differences each (resources/encodings/default.json); a profile that names none has none.
     double amplitudeRatioPerTrain = 0;  ///< at most this times (or 1/this of) the amplitude before; else > 1
-    double intervalRatioPerTrain = 0;   ///< the same of the interval
+    double intervalRatioPerTrain = 0;   ///< at most this times (or 1/this of) the interval before; else > 1
     double amplitudeSlew_V_per_s = 0;   ///< largest change of the amplitude over the time between the trains
     Hold hold = Hold::Voltage;
     std::vector<Condition> conditions = fourConditions(0, 1);

@@ -44,7 +44,7 @@ struct PulseTrain {
     Amplitude amplitude = Volts(0);
     PulseShape shape = PulseShape::SymmetricBiphasic;
     Polarity polarity = Polarity::Positive;
-    Micros phaseWidth{200};     ///< of the leading phase
+    Micros phaseWidth{200};     ///< width of the leading phase
     Micros interPhaseGap{100};  ///< 0 or more
     double rechargeRatio = 10;  ///< AsymmetricBiphasic only, > 1
     int pulses = 1;             ///< n ≥ 1

@@ -15,7 +15,7 @@ namespace tacto {
 struct DeviceGrid {
     double amplitudeStep = 0;  ///< V or mA, in the train's own unit
     double amplitudeMax = 0;   ///< V or mA
-    Micros widthStep{0};       ///< of the phase width and of the gap
+    Micros widthStep{0};       ///< step of the phase width and of the gap
     Micros widthMin{0};
     Micros widthMax{0};
     int pulsesMax = 1;

@@ -10,7 +10,7 @@
 namespace tacto {
 
 struct Spread {
-    double relative = 0;  ///< of the value: 0.01 is 1 %
+    double relative = 0;  ///< share of the value: 0.01 is 1 %
     double absolute = 0;  ///< in the value's own unit
 
     /// The most and the least that a value may be. Zero stays zero: an output that is commanded 0 is off. NaN stays.

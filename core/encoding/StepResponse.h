@@ -29,7 +29,7 @@ struct StepTrain {
 /// The last train before the step, and what the step leads to.
 struct StepEnds {
     Seconds sinceOnset{0};  ///< from that train's onset to the step
-    Command before;         ///< of that train
+    Command before;         ///< the command of that train
     Command after;          ///< what is wanted from the step on
 };
 

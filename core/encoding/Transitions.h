@@ -51,8 +51,8 @@ struct LargestSteps {
 };
 
 struct TransitionReport {
-    std::vector<TransitionStep> steps;  ///< of the gradual sweep, in order
-    LargestSteps gradual;               ///< of `steps`
+    std::vector<TransitionStep> steps;  ///< the steps of the gradual sweep, in order
+    LargestSteps gradual;               ///< the largest of `steps`
     LargestSteps abrupt;                ///< when R and P jump between any two corners of the plane
 };
 

@@ -54,7 +54,7 @@ struct CaptureReading {
     Capture capture;                    ///< samples in V and A; trigger_s is NaN where the file does not say
     std::vector<std::string> warnings;  ///< sentences: what was tolerated or guessed, with line numbers
     std::string formatId;               ///< which format it was: set by CaptureFormats::read()
-    std::string formatName;             ///< likewise, for people
+    std::string formatName;             ///< its name, for people
 };
 
 /// What SCPI instruments write for a sample that has no value: 9.9E37 (infinity) or 9.91E37 (not a number), of either

@@ -14,13 +14,13 @@ namespace tacto {
 struct IsfPreamble {
     std::size_t curve = 0;   ///< place of the first byte behind ":CURVE " in the text
     std::size_t points = 0;  ///< NR_PT
-    unsigned bytes = 1;      ///< of a sample: 1 or 2
+    unsigned bytes = 1;      ///< bytes in a sample: 1 or 2
     bool text = false;       ///< numbers as text
     bool isSigned = true;
     bool mostFirst = true;  ///< byte order
     double interval_s = 0;
-    double start_s = 0;  ///< of sample 0
-    double scale = 1;    ///< of a code
+    double start_s = 0;  ///< time of sample 0
+    double scale = 1;    ///< value of one code
     double offset = 0;   ///< code that means zero
     double zero = 0;
     std::string unit;   ///< as written: "V"

@@ -47,11 +47,11 @@ private:
     std::string name_;
     std::vector<char> buffer_;
     std::size_t held_ = 0;  // bytes in buffer_
-    std::size_t used_ = 0;  // of them, given away in the last block
+    std::size_t used_ = 0;  // how many of them the last block has given away
     std::uint64_t taken_ = 0;
     bool ended_ = false;
-    std::optional<Utf16Order> order_;  // of a text in UTF-16
-    std::string raw_;                  // of it, read and not yet turned into UTF-8
+    std::optional<Utf16Order> order_;  // byte order of a text in UTF-16
+    std::string raw_;                  // its bytes that were read and not yet turned into UTF-8
 };
 
 }  // namespace tacto

@@ -157,7 +157,7 @@ bool takeOwnComment(std::string_view comment, Capture& capture) {
     return next == capture.channels.size();
 }
 
-/// What the fmt chunk says of the samples.
+/// What the fmt chunk says about the samples.
 struct Samples {
     std::uint64_t channels = 0;
     double rate_hz = 0;

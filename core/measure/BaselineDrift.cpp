@@ -14,12 +14,12 @@ constexpr std::size_t kCoarsest = 8;  // blocks in a record
 constexpr std::size_t kFinest = 4096;
 constexpr std::size_t kPerMedian = 65;   // samples of a block that its median is from
 constexpr std::size_t kJudged = 32'768;  // samples that say whether a baseline fits
-constexpr double kTail = 0.15;           // of the samples on either side may be pulses
-constexpr double kTailsApart = 2.073;    // of a Gaussian, in standard deviations
-constexpr double kMedianSpread = 1.25;   // of a median, in σ/√n
+constexpr double kTail = 0.15;           // share of the samples on either side that may be pulses
+constexpr double kTailsApart = 2.073;    // distance of a Gaussian's tails, in standard deviations
+constexpr double kMedianSpread = 1.25;   // spread of a median, in σ/√n
 constexpr double kMovesFor = 6;          // standard deviations of a median, to be a wandering baseline
 constexpr double kRests = 1.4;           // times the noise: no more is left about a baseline that fits
-constexpr double kMaxBend = 0.2;         // of the span
+constexpr double kMaxBend = 0.2;         // share of the span
 constexpr double kAsGood = 1.05;         // as the best of all
 
 std::ptrdiff_t placeOf(double share, const std::vector<double>& values) {

@@ -19,7 +19,7 @@
 namespace tacto {
 
 struct BaselineDrift {
-    std::vector<double> medians;  ///< of the blocks, at their middles
+    std::vector<double> medians;  ///< medians of the blocks, at their middles
     std::size_t block = 0;        ///< samples in one
     double span = 0;              ///< highest less lowest median
 

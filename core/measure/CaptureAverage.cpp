@@ -11,7 +11,7 @@ namespace tacto {
 namespace {
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
-constexpr double kOnTheGrid = 1e-3;   ///< of a sample: nearer than any trigger is known
+constexpr double kOnTheGrid = 1e-3;   ///< share of a sample: nearer than any trigger is known
 constexpr double kSameAmount = 1e-6;  ///< relative
 
 double beforeTrigger(const Capture& capture) { return capture.start_s - capture.trigger_s; }

@@ -34,8 +34,8 @@ namespace tacto {
 /// What the header in `text`, a file's beginning, says; nothing where there is none that can be read.
 [[nodiscard]] std::optional<Capture> headerIn(std::string_view text);
 
-/// Gives `capture`, as it was read from a file, what `header` says of it: trigger, origin and, where its channels are
-/// those of the header, their ranges, steps and tolerances.
+/// Gives `capture`, as it was read from a file, what `header` says about it: trigger, origin and, where its channels
+/// are those of the header, their ranges, steps and tolerances.
 void takeHeader(Capture& capture, const Capture& header);
 
 }  // namespace tacto

@@ -42,7 +42,7 @@ struct MaskViolation {
 struct MaskCheck {
     MaskVerdict verdict = MaskVerdict::NotJudged;
     std::size_t outside = 0;             ///< samples
-    std::optional<MaskViolation> worst;  ///< of a capture that is outside
+    std::optional<MaskViolation> worst;  ///< the worst of a capture that is outside
     std::string why;                     ///< not judged: a clause
 };
 

@@ -15,8 +15,8 @@ namespace tacto {
 /// "simulated" when it does not. Errors: Io.
 [[nodiscard]] Result<void> stateCaptureOrigin(const std::filesystem::path& folder, bool simulated);
 
-/// What the header of `file` (CaptureDescription.h) or its folder says of it. Nothing: neither says anything that can
-/// be read, so the origin is unknown.
+/// What the header of `file` (CaptureDescription.h) or its folder says about it. Nothing: neither says anything that
+/// can be read, so the origin is unknown.
 [[nodiscard]] std::optional<bool> statedSimulated(const std::filesystem::path& file);
 
 }  // namespace tacto

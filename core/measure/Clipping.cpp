@@ -11,16 +11,16 @@ namespace tacto {
 namespace {
 
 constexpr std::size_t kMinFlat = 10;             // samples that keep the extreme, where the noise says enough
-constexpr std::size_t kManyFlat = 50;            // where it does not
-constexpr double kKeeps = 0.95;                  // of the samples between the first and the last at the extreme
+constexpr std::size_t kManyFlat = 50;            // the fewest where the noise says too little
+constexpr double kKeeps = 0.95;                  // share of the samples between the first and the last at the extreme
 constexpr std::size_t kJudgedTriples = 100'000;  // triples of neighbours
-constexpr std::size_t kMinTriples = 50;          // of them
-constexpr double kEdge = 0.05;                   // of the record's span: a larger step is an edge and no noise
-constexpr double kJitters = 0.01;                // of the triples: noise of at least three codes
+constexpr std::size_t kMinTriples = 50;          // the fewest triples that are enough
+constexpr double kEdge = 0.05;                   // share of the record's span: a larger step is an edge and no noise
+constexpr double kJitters = 0.01;                // share of the triples: noise of at least three codes
 constexpr double kNoisyCodes = 2;                // a noise of which no code keeps a third of the samples
-constexpr double kNoisy = 0.3;                   // of the triples
-constexpr double kKeepsInNoise = 0.3;            // of the samples, where the noise was added to a clipped top
-constexpr double kMoves = 0.2;                   // of the steps: noise at all
+constexpr double kNoisy = 0.3;                   // share of the triples
+constexpr double kKeepsInNoise = 0.3;            // share of the samples, where the noise was added to a clipped top
+constexpr double kMoves = 0.2;                   // share of the steps: noise at all
 
 /// First and end of a phase's samples as recorded.
 struct Stretch {

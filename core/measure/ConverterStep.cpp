@@ -10,20 +10,20 @@ namespace tacto {
 namespace {
 
 constexpr std::size_t kRun = 256;          // neighbours that are looked at together
-constexpr std::size_t kRuns = 64;          // of them, over the whole record
-constexpr double kRoundedTo = 5e-7;        // of the largest value: closer than this are digits of a float
-constexpr double kOffGrid = 0.2;           // of a step
+constexpr std::size_t kRuns = 64;          // runs over the whole record
+constexpr double kRoundedTo = 5e-7;        // share of the largest value: closer than this are digits of a float
+constexpr double kOffGrid = 0.2;           // share of a step
 constexpr double kNeighbours = 6;          // steps: a wider gap says nothing, for the step is not known well enough
 constexpr std::size_t kManyCodes = 32;     // steps beside each other
 constexpr std::size_t kReturnsWithin = 4;  // samples: some instruments write each twice
 constexpr double kMinReturns = 4;          // to a code from its neighbour
 constexpr std::size_t kHeld = 3;           // samples: a stair and no edge
 constexpr std::size_t kFewCodes = 4;       // steps beside each other, climbed one by one
-constexpr double kStairs = 0.8;            // of the stairs
-constexpr double kReturns = 0.005;         // of the samples
+constexpr double kStairs = 0.8;            // share of the stairs
+constexpr double kReturns = 0.005;         // share of the samples
 constexpr std::size_t kFewValues = 64;     // that can be told one by one
-constexpr std::size_t kMinOnGrid = 2;      // of them, besides the two that are one step apart
-constexpr double kOffWholeGrid = 0.02;     // of a step: two values by chance in six hundred
+constexpr std::size_t kMinOnGrid = 2;      // values on the grid, besides the two that are one step apart
+constexpr double kOffWholeGrid = 0.02;     // share of a step: two values by chance in six hundred
 constexpr double kMinSpan = 16;            // steps: what an ideal record's few levels need not have
 
 struct Seen {

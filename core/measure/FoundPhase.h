@@ -12,9 +12,10 @@
 
 namespace tacto {
 
-/// Where a phase lies. A record may hold hundreds of thousands: all that is known of every one before any is measured.
+/// Where a phase lies. A record may hold hundreds of thousands: all that is known about every one before any is
+/// measured.
 struct PhaseSpan {
-    const SampleView* view = nullptr;  ///< where it was found and is measured
+    const SampleView* view = nullptr;  ///< the samples in which it was found and is measured
     std::size_t begin = 0;             ///< first of the view's samples beyond the threshold
     std::size_t end = 0;               ///< one past the last
     double area = 0;                   ///< ∫ of its samples' distances from the baseline, in unit times second

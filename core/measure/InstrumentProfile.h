@@ -29,7 +29,7 @@ struct SheetFigure {
     double value = kNaN;    ///< relative half-width, drift not included
     double perYear = 0;     ///< relative; of the time base alone
     std::string source{};   ///< title of the document, with its page; not empty where `value` is known
-    std::string address{};  ///< where it was read
+    std::string address{};  ///< where the figure was read
     Confidence confidence = Confidence::Low;
     std::string condition{};  ///< under which the sheet states it
 };

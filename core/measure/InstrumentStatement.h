@@ -28,7 +28,7 @@ struct Stated {
 struct ChannelStatement {
     Stated gain;        ///< relative
     Stated offset;      ///< in the channel's unit
-    Stated linearity;   ///< of full scale (high less low), relative: a gain error that is stated of full scale
+    Stated linearity;   ///< share of full scale (high less low): a gain error that is stated of full scale
     Stated probe;       ///< relative, of the probe, or of the shunt on the current channel
     Stated resolution;  ///< one step, in the channel\'s unit
 };
@@ -36,7 +36,7 @@ struct InstrumentStatement {
     ChannelStatement voltage;
     ChannelStatement current;
     Stated timeBase;  ///< relative
-    Stated stamp_s;   ///< of separate records against each other
+    Stated stamp_s;   ///< how far the stamps of separate records are off against each other
 };
 
 /// `over` wins where it states something.

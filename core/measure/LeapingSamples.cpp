@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kLeapInNoise = 8;
 constexpr double kLeapInSteps = 2.5;
-constexpr double kLeapInSpan = 0.005;  // of the record: smaller ones do not count
-constexpr float kAgree = 0.1F;         // of the leap; half of the least
+constexpr double kLeapInSpan = 0.005;  // share of the record: smaller leaps do not count
+constexpr float kAgree = 0.1F;         // share of the leap; half of the least
 constexpr std::size_t kOneIn = 100;
 
 /// Whether any sample from `first` to before `end` lies more than `least` beyond both of its neighbours. No branch, so

@@ -14,7 +14,7 @@ namespace {
 constexpr double kBeforeFrom = 2.0;  // widths before the onset: the silence the voltage counts from
 constexpr double kBeforeTo = 0.25;
 constexpr std::size_t kMinSamplesBefore = 5;  // samples of it
-constexpr double kLineFrom = 0.5;             // of the width
+constexpr double kLineFrom = 0.5;             // share of the width
 constexpr double kLineTo = 0.95;
 // A line through these n samples, read at the end of the width, is this much less certain than their mean:
 // √(1 + 12·((1 - 0.725)/0.45)²).

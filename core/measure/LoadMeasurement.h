@@ -34,11 +34,11 @@ namespace tacto {
 struct PulseLoad {
     double onset_s = kNotMeasured;
     double voltage_v = kNotMeasured;  ///< at the end of the leading phase, with its sign
-    double current_a = kNotMeasured;  ///< the same
+    double current_a = kNotMeasured;  ///< at the end of the leading phase, with its sign
     double load_ohm = kNotMeasured;   ///< negative when a probe is the wrong way round
     double impedance_ohm = kNotMeasured;
-    double charge_c = kNotMeasured;        ///< of the leading phase, with its sign
-    double secondCharge_c = kNotMeasured;  ///< of the second; NaN without one
+    double charge_c = kNotMeasured;        ///< charge of the leading phase, with its sign
+    double secondCharge_c = kNotMeasured;  ///< charge of the second phase; NaN without one
     double netCharge_c = kNotMeasured;     ///< sum of both
     double energy_j = kNotMeasured;
 };

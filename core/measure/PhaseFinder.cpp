@@ -18,7 +18,7 @@ namespace {
 // plateau. Ringing stays below this, noise below the multiple of its standard deviation.
 constexpr double kThreshold = 0.15;
 constexpr double kThresholdInNoise = 6;
-constexpr double kRelease = 0.6;         // of the threshold: hysteresis
+constexpr double kRelease = 0.6;         // share of the threshold: hysteresis
 constexpr double kReleaseInNoise = 4.5;  // below the threshold at least, so that noise on a slow edge stays one phase
 
 constexpr std::size_t kHides = 3;  // missing samples in a row: a phase of fewer is a glitch

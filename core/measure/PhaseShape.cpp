@@ -184,7 +184,7 @@ double slopeOf(const PhaseSamples& samples, const PlateauRange& range) {
     double moment = 0;
     for (Index i = range.first; i <= range.last; ++i, position += 1) moment += position * samples[i];
     const double n = static_cast<double>(range.last - range.first + 1);
-    const double squares = n * (n * n - 1) / 12;  // of the positions about their middle
+    const double squares = n * (n * n - 1) / 12;  // sum of the squared positions about their middle
     return squares > 0 ? moment / squares : 0;
 }
 
@@ -205,7 +205,7 @@ void measureShape(const PhaseSpan& span, double baseline, FoundPhase& phase) {
         phase.end50 = samples.end(end, begin, plateau);
         if (!(phase.end50 > phase.onset)) break;
         const PlateauRange between(samples, phase.onset, phase.end50);
-        if (between == range) break;  // and so would the plateau be
+        if (between == range) break;  // the plateau would not change either
         range = between;
         plateau = levelOf(samples, range);
     }

@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t kMinPhaseSamples = 10;
 constexpr std::size_t kAmplePhaseSamples = 40;
-constexpr double kRinging = 0.05;     // of the area of the phase before: more is a phase of its own
+constexpr double kRinging = 0.05;     // share of the area of the phase before: more is a phase by itself
 constexpr double kLower = 0.6;        // than the phase before: as high is a pulse of its own, however short
-constexpr double kFragment = 0.5;     // of the area of a neighbour: what is less and under-sampled is a piece of it
-constexpr double kRingsFor = 0.5;     // of the phase before, from its end
-constexpr double kFlickersFor = 0.1;  // of the phase after, before it: noise on a slow leading edge
-constexpr double kAcross = 0.15;      // of the state: a phase on the side that has none
+constexpr double kFragment = 0.5;     // share of a neighbour's area: what is less and under-sampled is a piece of it
+constexpr double kRingsFor = 0.5;     // share of the phase before, from its end
+constexpr double kFlickersFor = 0.1;  // share of the phase after, before it: noise on a slow leading edge
+constexpr double kAcross = 0.15;      // share of the state: a phase on the side that has none
 constexpr double kAcrossInNoise = 4;
 constexpr double kRings = 0.05;          // overshoot from which on the tail belongs to the charge
 constexpr double kOvershootInNoise = 6;  // times the noise: less overshoot may be noise

@@ -48,13 +48,13 @@ private:
     const Capture& capture_;
     const StateLevels& levels_;
     double gapMax_s_;
-    std::array<FoundPhase, 8> window_;  ///< of the last phases: five are looked at
+    std::array<FoundPhase, 8> window_;  ///< the last phases: five are looked at
     bool hasNewest_ = false;
     std::size_t kept_ = 0;       ///< phases that are not ringing
-    std::size_t paired_ = 0;     ///< of these, in pulses already
+    std::size_t paired_ = 0;     ///< how many of these are in pulses already
     bool chainedToCut_ = false;  ///< the next to be paired
     bool chainedToHidden_ = false;
-    bool upLeads_ = false;  ///< of the pulses with two phases so far
+    bool upLeads_ = false;  ///< whether up leads in the pulses with two phases so far
     bool downLeads_ = false;
     double widest_s_ = 0;
     std::vector<PulseMeasurement> pulses_;

@@ -22,23 +22,23 @@ constexpr double kReliable = 12;  // times the noise, from the baseline to a sta
 constexpr double kSlack = 1.1;    // white noise falls by the root of the mean's length, real noise by less
 constexpr double kWhite = 1.4;    // times what averaging leaves of white noise
 constexpr std::size_t kLongestMean = 4096;
-constexpr double kShallowest = 0.02;   // of the leading phase: less beyond the other side is not a second phase
+constexpr double kShallowest = 0.02;   // share of the leading phase: less beyond the other side is not a second phase
 constexpr double kSecondReliable = 6;  // times the noise: that it follows a leading phase is known besides
 constexpr std::size_t kJudgedPulses = 1000;
-constexpr double kOtherSide = 0.15;  // of the state: a phase on the other side
+constexpr double kOtherSide = 0.15;  // share of the state: a phase on the other side
 constexpr double kOtherSideInNoise = 4;
 constexpr double kNoNoise = 4.5;        // standard deviations of a mean
-constexpr double kUnseenInSteps = 0.2;  // of the converter
-constexpr double kUnseen = 2e-4;        // of the largest state
+constexpr double kUnseenInSteps = 0.2;  // steps of the converter
+constexpr double kUnseen = 2e-4;        // share of the largest state
 constexpr double kDithers = 0.5;
-constexpr double kMaxBeside = 0.07;  // of the largest state
-constexpr double kMaxUnrest = 0.05;  // of the way to the nearest state: a phase begins at 0.09 to 0.15
-constexpr double kMaxEdges = 0.6;    // of the width: half a sine has 0.67
+constexpr double kMaxBeside = 0.07;  // share of the largest state
+constexpr double kMaxUnrest = 0.05;  // share of the way to the nearest state: a phase begins at 0.09 to 0.15
+constexpr double kMaxEdges = 0.6;    // share of the width: half a sine has 0.67
 // What may be a pulse and is the baseline's own slow wave:
-constexpr double kTall = 0.5;       // of the largest state: surely a pulse
-constexpr double kLow = 0.4;        // of the largest state
+constexpr double kTall = 0.5;       // share of the largest state: surely a pulse
+constexpr double kLow = 0.4;        // share of the largest state
 constexpr double kLong = 3;         // times the widest that surely is one
-constexpr double kSlowEdges = 0.4;  // of its width
+constexpr double kSlowEdges = 0.4;  // share of its width
 constexpr double kPeak = 2;         // overshoot: it begins as a pulse and stays beyond the threshold
 
 double distanceOf(double state, double baseline) { return std::isfinite(state) ? std::abs(state - baseline) : 0; }
@@ -106,10 +106,10 @@ struct Attempt {
     double widest_s = 0;         // phase
     double secondStandsOut = 0;  // in its own view, where there are three states
     double unrest = 0;           // see SignalQuality
-    double levelAfter = 0;       // the same
+    double levelAfter = 0;       // as SignalQuality::levelAfter
     double levelBefore = 0;
-    double beside = 0;      ///< of the signal just beside its pulses, from the baseline
-    double mostBeside = 0;  ///< of all pulses that were looked at
+    double beside = 0;      ///< level of the signal just beside its pulses, from the baseline
+    double mostBeside = 0;  ///< the largest of all pulses that were looked at
 
     [[nodiscard]] bool hasStates() const noexcept { return levels.count != StateCount::None; }
     [[nodiscard]] bool mostlyMeasured() const {

@@ -67,11 +67,11 @@ struct PulseFlags {
 struct PulseMeasurement {
     PulseFlags flags;
     PhaseMeasurement leading;
-    Boxed<PhaseMeasurement> second;   ///< of a biphasic pulse; opposite, at most 1 ms after the leading one
+    Boxed<PhaseMeasurement> second;   ///< a biphasic pulse's second phase; opposite, at most 1 ms after the leading one
     double gap_s = kNotMeasured;      ///< 50 % to 50 %, between the phases
     double imbalance = kNotMeasured;  ///< |Q1 + Q2| / max(|Q1|, |Q2|); 1 when a biphasic channel's pulse has no
                                       ///< second phase; NaN on a monophasic channel
-    /// Where it lies in the record, to a sample; known of a flagged pulse too, so that it can be shown.
+    /// Where it lies in the record, to a sample; known about a flagged pulse too, so that it can be shown.
     double seenFrom_s = kNotMeasured;
     double seenTo_s = kNotMeasured;
     [[nodiscard]] double onset_s() const noexcept { return leading.onset_s; }
@@ -79,7 +79,7 @@ struct PulseMeasurement {
 
 /// Pulses that belong together. NaN where not measured.
 struct TrainMeasurement {
-    double onset_s = kNotMeasured;     ///< of its first pulse
+    double onset_s = kNotMeasured;     ///< onset of its first pulse
     double interval_s = kNotMeasured;  ///< to the onset of the next train; NaN for the last, or beside a flagged pulse
     double amplitude = kNotMeasured;   ///< mean of the leading plateaus' magnitudes
     double width_s = kNotMeasured;     ///< mean of the leading phases' widths
@@ -93,7 +93,7 @@ struct TrainMeasurement {
 /// How pulses are told apart and grouped. Without a rate or a gap each pulse is its own train.
 struct MeasureOptions {
     std::optional<Hertz> intraTrainRate{};  ///< pulses whose onsets are at most 1.5 / rate apart form one train
-    std::optional<Seconds> trainGap{};      ///< or at most this far apart, onset to onset; wins over the rate
+    std::optional<Seconds> trainGap{};      ///< the most between pulses of a train, onset to onset; wins over the rate
     Seconds interPhaseGapMax{1e-3};         ///< opposite phases at most this far apart form one pulse
 };
 
@@ -101,15 +101,15 @@ struct MeasureOptions {
 struct SignalQuality {
     double snr_db = kNotMeasured;  ///< largest state over the noise, as measured (averaged); infinite without noise
     std::size_t mean = 1;          ///< samples averaged into one before measuring
-    std::size_t meanOfSecond = 1;  ///< the same for the shallower side of biphasic pulses
-    double foundStep = 0;          ///< of the converter, found in the samples because none is stated; 0 = none found
-    std::size_t leaps = 0;         ///< single samples far from both of their neighbours, which were left out
-    double drift = 0;              ///< peak to peak, of the baseline that was followed; 0 = it stays
-    double unrest = 0;             ///< standard deviation of a baseline that moves and could not be followed, or what
-                                   ///< it is off just beside the pulses
-    double levelAfter = 0;         ///< of the signal after its pulses less that before them, where a second phase seems
-                                   ///< to be hidden in the noise; 0 = none
-    bool doubtful = false;         ///< too much noise: pulses may be missing or invented
+    std::size_t meanOfSecond = 1;  ///< samples averaged for the shallower side of biphasic pulses
+    double foundStep = 0;   ///< the converter's step, found in the samples because none is stated; 0 = none found
+    std::size_t leaps = 0;  ///< single samples far from both of their neighbours, which were left out
+    double drift = 0;       ///< peak to peak, of the baseline that was followed; 0 = it stays
+    double unrest = 0;      ///< standard deviation of a baseline that moves and could not be followed, or what
+                            ///< it is off just beside the pulses
+    double levelAfter = 0;  ///< level of the signal after its pulses less that before them, where a second phase seems
+                            ///< to be hidden in the noise; 0 = none
+    bool doubtful = false;  ///< too much noise: pulses may be missing or invented
 };
 
 /// Standard uncertainties (k = 1) of one reading, from what the instrument states and the record shows. NaN where the
@@ -120,9 +120,9 @@ struct MeasurementUncertainty {
     double amplitude = kNotMeasured;
     double width_s = kNotMeasured;     ///< sampling step/√6, the noise on the edges, and the time base
     double interval_s = kNotMeasured;  ///< the same, and the time stamps of separate records
-    double gap_s = kNotMeasured;       ///< as of a width; biphasic only
-    double charge = kNotMeasured;      ///< of the leading phase: gain and noise over the width, step/√6 of its edges
-    double imbalance = kNotMeasured;   ///< of both charges, without what they share; biphasic only
+    double gap_s = kNotMeasured;       ///< as width_s; biphasic only
+    double charge = kNotMeasured;  ///< charge of the leading phase: gain and noise over the width, step/√6 of its edges
+    double imbalance = kNotMeasured;  ///< without what both charges share; biphasic only
 };
 
 /// A reading lies within this many standard uncertainties of the truth in 95 of 100 cases.
@@ -162,7 +162,7 @@ struct ChannelMeasurement {
 /// What `measure` prints: every channel, or the one asked for.
 struct CaptureMeasurement {
     std::vector<ChannelMeasurement> channels;
-    std::vector<std::string> warnings;  ///< of all channels
+    std::vector<std::string> warnings;  ///< warnings about all channels
 };
 [[nodiscard]] CaptureMeasurement measureCapture(const Capture& capture, std::optional<std::size_t> channel = {},
                                                 const MeasureOptions& options = {});

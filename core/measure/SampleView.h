@@ -20,7 +20,7 @@ struct SampleView {
     std::span<const float> samples{};
     std::size_t mean = 1;  ///< recorded samples in each of `samples`
     double rate_hz = 0;
-    double start_s = 0;  ///< of the first of `samples`: the middle of what it is the mean of
+    double start_s = 0;  ///< time of the first of `samples`: the middle of what it is the mean of
 
     /// In `samples`, fractions included, and back.
     [[nodiscard]] double positionOf(double time_s) const noexcept { return (time_s - start_s) * rate_hz; }

@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::size_t kMinForLevels = 20;
 constexpr double kSpanInNoise = 8;          // Gaussian noise alone reaches 7 to 9 in a record's span
-constexpr double kSmallestBaseline = 0.05;  // of the samples, between two other states
-constexpr double kWideWindow = 0.06;        // of the way to the next state
-constexpr double kSmallestReturn = 0.2;     // of the leading phase's charge, to be a second phase and not ringing
-constexpr double kWanders = 0.15;           // of the way to the larger state: no pulses are found within it
-constexpr double kStepsApart = 2.5;         // of the converter, from the baseline to a state
-constexpr double kRestingSpread = 0.2;  // of the way to the next state; a sine has 0.24, a square wave's ringing less
+constexpr double kSmallestBaseline = 0.05;  // share of the samples, between two other states
+constexpr double kWideWindow = 0.06;        // share of the way to the next state
+constexpr double kSmallestReturn = 0.2;     // share of the leading phase's charge, to be a second phase and not ringing
+constexpr double kWanders = 0.15;           // share of the way to the larger state: no pulses are found within it
+constexpr double kStepsApart = 2.5;         // steps of the converter, from the baseline to a state
+constexpr double kRestingSpread = 0.2;      // share of the way to the next state; a sine has 0.24, ringing less
 
 /// The mode that holds most, weighing time by distance: a state, not the ringing beside one.
 const Mode* strongest(const std::vector<Mode>& modes, const Mode& from, int sign) {

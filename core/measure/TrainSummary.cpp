@@ -48,7 +48,7 @@ public:
 
 private:
     std::size_t leading_;  ///< readings of leading phases
-    std::size_t both_;     ///< of pulses with two phases
+    std::size_t both_;     ///< how many pulses have two phases
     Readings amplitude_{leading_}, width_s_{leading_}, rise_s_{leading_}, fall_s_{leading_}, overshoot_{leading_},
         droop_{leading_}, charge_{leading_}, gap_s_{both_}, imbalance_{both_};
 };
@@ -115,7 +115,7 @@ MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const Cap
     MeasurementUncertainty u;
     if (result.measuredPulses == 0) return u;
     const double amplitude = result.amplitude.mean;
-    const double step = static_cast<double>(result.quality.mean) / result.rate_hz;  // of what was measured
+    const double step = static_cast<double>(result.quality.mean) / result.rate_hz;  // time between two values
     const double width = result.width_s.mean;
     const double noise = result.states.noise / std::sqrt(std::max(1.0, 0.6 * width / step));
     // What is not stated is NaN, and so is all that needs it.

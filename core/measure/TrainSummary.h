@@ -14,7 +14,7 @@ namespace tacto {
 /// What is stated of the times that a measurement rests on: half-widths, NaN = not stated.
 struct TimeTolerance {
     double base = kNotMeasured;     ///< relative, of the time base
-    double stamp_s = kNotMeasured;  ///< of records against each other; 0 within one record
+    double stamp_s = kNotMeasured;  ///< how far records are off against each other; 0 within one record
 };
 
 /// Fills `result`'s pulses, trains, statistics, uncertainty and the warnings about pulses. result.states, quality, rate

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kHysteresis = 0.1;  ///< of the difference between the two states
+constexpr double kHysteresis = 0.1;  ///< share of the difference between the two states
 
 /// Where the waveform is beyond the reference level: `level` and a tenth of the difference on, times `sign`.
 struct Reference {

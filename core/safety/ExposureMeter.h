@@ -40,7 +40,7 @@ public:
     struct Sums {
         TrainSums overRange;
         TrainSums at500;
-        double lowestHz = 0;  ///< of the trains counted; infinite for none
+        double lowestHz = 0;  ///< lowest rate of the trains counted; infinite for none
         std::size_t trains = 0;
     };
     /// All trains that could share a window of `window` with one that starts at `now` or later.

@@ -365,7 +365,7 @@ Run enclosed(const Plan& plan, double carried) noexcept {
     // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady one. Which duration
     // makes an end may change on the way there, and the slope with it.
     constexpr int kMaxSlopes = 8;
-    constexpr double kRounding = 1e-15;  // of the voltage towards which a phase charges the capacitor
+    constexpr double kRounding = 1e-15;  // share of the voltage towards which a phase charges the capacitor
     double rounding = 0;
     for (const DriveSegment& phase : plan.pulse.span()) {
         const double ohm = phase.drive == Drive::Current ? plan.circuit.parallelOhm : 1;

@@ -41,7 +41,7 @@ struct Run {
     TrainSums inDuration;      // Over n / rate
     TrainSums whole;           // The same with the rest until the next train
     double endOfTrain = 0;     // Capacitor voltage after n / rate, V
-    double endOfInterval = 0;  // and when the next train begins
+    double endOfInterval = 0;  // when the next train begins
 };
 
 /// Everything about a run but its start: constant while one exposure is computed.
@@ -50,9 +50,9 @@ struct Plan {
     PulseSegments pulse;
     DriveSegment betweenPulses;
     std::array<double, 3> leastPulse_s{};  // each segment of the sparsest train of the range
-    double mostBetweenPulses_s = 0;        // and the rest after them
+    double mostBetweenPulses_s = 0;        // the longest rest between its pulses
     DriveSegment afterTrain;
-    double leastAfterTrain_s = 0;  // of the sparsest train of the range, whose pulses take longest
+    double leastAfterTrain_s = 0;  // rest after the sparsest train of the range, whose pulses take longest
     int pulses = 1;
     SourceLimits limits;  // Infinite: what clipping takes away is counted as delivered
 };

@@ -80,15 +80,15 @@ struct GateSetup {
     std::optional<SquareCentimetres> electrodeArea;  ///< without it density rows are not evaluated
     PulseTrain check;                   ///< shape and timing of the impedance check; its amplitude is the source's
     std::optional<PersonSetup> person;  ///< required in person mode
-    /// The last that is known of the stimulator that is connected, also where it has expired or is left aside. Trains
-    /// are what is programmed; everything is judged by the worse of programmed and delivered (H1, H9).
+    /// The last that is known about the stimulator that is connected, also where it has expired or is left aside.
+    /// Trains are what is programmed; everything is judged by the worse of programmed and delivered (H1, H9).
     KnownLines calibration;
     /// Whether it holds and trains are programmed by it: then the command is delivered, else what is programmed.
     /// Required in person mode, of all four lines.
     bool calibrated = false;
 };
 
-inline constexpr Seconds kCheckInterval{0.5};  ///< of impedance checks, at the shortest
+inline constexpr Seconds kCheckInterval{0.5};  ///< the shortest time between two impedance checks
 /// At which a check is judged: it has room to last longer than it is programmed.
 [[nodiscard]] inline Seconds checkInterval(const PulseTrain& check) noexcept {
     return std::max(kCheckInterval, 1.2 * check.duration());

@@ -19,7 +19,7 @@ namespace tacto::gate {
 
 struct State {
     std::optional<GateSetup> setup;        // Nothing: everything is refused
-    std::optional<DeliveryBounds> bounds;  // of setup
+    std::optional<DeliveryBounds> bounds;  // what the setup may deliver
     std::vector<ActiveLimit> limits;
     LoadRange load;
     double area = 0;
@@ -28,7 +28,7 @@ struct State {
 
     ExposureMeter meter;
     ResidualVoltages residuals;
-    UnitRecord* record = nullptr;  // of the unit; null: none is kept
+    UnitRecord* record = nullptr;  // the unit's; null: none is kept
 
     std::optional<Ohms> impedance;
     Instant impedanceAt{std::numeric_limits<Instant::rep>::min()};
@@ -38,7 +38,7 @@ struct State {
     std::map<std::string, AcceptedLevels> people;         // a participant who comes back keeps the accepted levels
     AcceptedLevels none;                                  // permits nothing
     AcceptedLevels* levels = &none;                       // the current participant's, in people; without one, none
-    std::map<std::string, AcceptedIntensities> vibrated;  // the same of those at a massager
+    std::map<std::string, AcceptedIntensities> vibrated;  // what each participant at a massager accepted
     AcceptedIntensities noIntensities;                    // permits nothing
     AcceptedIntensities* intensities = &noIntensities;
 

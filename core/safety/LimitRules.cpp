@@ -12,7 +12,7 @@ struct TrainAtLimit {
     const State& state;
     const JudgedTrain& train;
     const ActiveLimit& limit;
-    const ExposureMeter::Sums* window = nullptr;  // of the limit's length, the train in it; null: the train alone
+    const ExposureMeter::Sums* window = nullptr;  // sums over the limit's length with the train; null: the train alone
 
     [[nodiscard]] bool judged() const noexcept {
         if (limit.row.action != LimitAction::Refuse) return false;

@@ -40,7 +40,7 @@ struct SourceTraits {
     Seconds deadMan{0};           ///< output stops by itself this long after the last keep-alive; 0 = none
     bool readsBack = true;        ///< status() reports open, short and impedance after each train
     Milliamps checkCurrent{0.5};  ///< amplitude of the impedance check on a current source
-    Volts checkVoltage{1};        ///< the same on a voltage source
+    Volts checkVoltage{1};        ///< of the check pulse, on a voltage source
     StatedAccuracy accuracy;
 };
 

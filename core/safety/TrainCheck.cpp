@@ -38,7 +38,7 @@ struct FindingRule {
     int id;
     bool (*broken)(const ReadTrain&) noexcept;
     TrainFinding finding;
-    FixedText<159> reason;  // of net charge: its figures
+    FixedText<159> reason;  // for net charge with its figures
 };
 
 constexpr FixedText<159> kMissing = "no status from the stimulator within 50 ms after a train";

@@ -19,7 +19,7 @@ struct TrainReadBack {
     bool delivering = false;  ///< it says that a train is still in progress
     ElectrodeReading electrode = ElectrodeReading::NotMeasured;
     std::optional<double> imbalance;             ///< |net charge| / phase charge, tail included
-    std::optional<double> imbalanceUncertainty;  ///< of it, 95 %
+    std::optional<double> imbalanceUncertainty;  ///< its uncertainty, 95 %
 };
 
 enum class TrainFinding {
@@ -49,7 +49,7 @@ struct TrainJudgement {
 };
 
 inline constexpr Instant kStatusDeadline = std::chrono::milliseconds(50);
-inline constexpr double kNetChargeLimit = 0.01;         ///< of phase charge
+inline constexpr double kNetChargeLimit = 0.01;         ///< share of phase charge
 inline constexpr double kNetChargeUncertainty = 0.005;  ///< above it the net charge reads not evaluated
 
 /// `status` is the newest read-back, or nothing; `trainEnd` when the train ended; `now` when this is asked. A status

@@ -34,7 +34,7 @@ struct TrainSums {
 struct TrainExposure {
     QuantityValues values{};  ///< each in unitOf() its quantity; densities are NaN without an area
     TrainSums in1s;           ///< the most that one train puts into any second: all of it, unless it lasts longer
-    TrainSums in5s;           ///< the same for 5 s
+    TrainSums in5s;           ///< sums over the worst 5 s
     double residual_V = 0;    ///< largest |voltage| it leaves on the load's capacitor at its end
     [[nodiscard]] double at(Quantity q) const noexcept { return values[indexOf(q)]; }
 };

@@ -33,7 +33,7 @@ struct Head {
     std::int64_t quietUntil_ns = 0;  // since boot
     std::int64_t wall_s = 0;         // when it was opened
     std::int64_t process = 0;
-    std::uint64_t id = 0;  // of this record, at random: what a claim names
+    std::uint64_t id = 0;  // this record's own, at random: what a claim names
 };
 
 /// Times since boot.
@@ -41,7 +41,7 @@ struct Train {
     std::uint64_t sequence = 0;  // 0: none
     std::int64_t earliest_ns = 0, latest_ns = 0, wall_s = 0;
     double hz = 0;
-    std::array<TrainSums, 4> sums{};  // of the load range in 1 s and 5 s, of 500 ohm in 1 s and 5 s
+    std::array<TrainSums, 4> sums{};  // sums of the load range in 1 s and 5 s, then of 500 ohm in 1 s and 5 s
     std::array<double, 2> left_V{};
     std::array<std::int64_t, 2> leftAt_ns{};
 };

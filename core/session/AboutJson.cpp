@@ -107,7 +107,7 @@ json toJson(const SessionStream& stream) { return streamFields().write(stream); 
 
 SessionStream streamFrom(const json& row) {
     SessionStream stream;
-    stream.rate_hz = std::numeric_limits<double>::quiet_NaN();  // of a damaged row: not known, where 0 means none
+    stream.rate_hz = std::numeric_limits<double>::quiet_NaN();  // a damaged row: not known, where 0 means none
     static_cast<void>(streamFields().read(row, stream, kRow));
     return stream;
 }

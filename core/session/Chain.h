@@ -21,7 +21,7 @@ struct Entry {
     std::int64_t t_ns = 0;
     std::string_view name;
     std::string_view body;         ///< JSON
-    std::optional<Digest> digest;  ///< of the chunk or capture that belongs to the row
+    std::optional<Digest> digest;  ///< digest of the chunk or capture that belongs to the row
 };
 
 [[nodiscard]] Digest chainHash(const Digest& previous, const Entry& entry);

@@ -21,7 +21,7 @@ tl::unexpected<Error> failFrom(sqlite3* database, int code) {
 
 /// SQLite says of whatever keeps it from opening a file that it is unable to.
 Error whyNotOpened(sqlite3* database, int code, const std::string& target) {
-    constexpr int kSuffix = 8;  // of the journal's name, as SQLite counts it
+    constexpr int kSuffix = 8;  // length of the suffix of the journal's name, as SQLite counts it
     const auto bytes = std::filesystem::absolute(target).native().size();
     const auto most = static_cast<std::size_t>(sqlite3_vfs_find(nullptr)->mxPathname - kSuffix);
     auto error = failFrom(database, code).value();

@@ -30,7 +30,7 @@ inline constexpr const char* kReplayedUnknown = "replayed, origin not stated";
 
 /// What was put out in a session.
 struct Delivered {
-    std::uint64_t trains = 0;  ///< or vibrations; impedance checks apart
+    std::uint64_t trains = 0;  ///< trains or vibrations, without impedance checks
     std::uint64_t checks = 0;
     double most = 0;   ///< largest amplitude, in `unit`
     std::string unit;  ///< "V", "mA"; empty for a massager and for a session that does not say

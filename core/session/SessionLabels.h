@@ -1,4 +1,4 @@
-// SessionLabels.h - what people say of a session, entered or changed after it ended: operator, sample, tags, a note.
+// SessionLabels.h - what people say about a session, entered or changed after it ended: operator, sample, tags, a note.
 //
 // A change is a row of its own behind the end mark, on the same hash chain, and the recording before it stays as it is:
 // its head, which the report prints, is the hash of the end mark. The row is added to a copy, which takes the file's

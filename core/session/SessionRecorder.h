@@ -39,7 +39,7 @@ class SessionRecorder {
 public:
     static constexpr std::size_t kMaxFields = 16;   ///< more are an error in debug and left out in release
     static constexpr std::size_t kMaxText = 200;    ///< bytes; longer text is cut at a character
-    static constexpr std::size_t kMaxColumns = 63;  ///< of a stream recorded here
+    static constexpr std::size_t kMaxColumns = 63;  ///< columns of a stream recorded here
 
     struct Settings {
         bool ownThread = true;           ///< false: write at once, on the caller's thread (virtual clock)

@@ -62,7 +62,7 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
     };
     for (const char* suffix : {"", "-wal"}) {
         const auto taken = withSuffix(path, suffix);
-        std::error_code error;  // of a name that is too long, for one
+        std::error_code error;  // set by a name that is too long, for one
         if (std::filesystem::exists(taken, error)) {
             return fail(ErrorCode::InvalidArgument, "{} exists; a session is never overwritten", taken.string());
         }

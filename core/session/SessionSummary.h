@@ -1,4 +1,4 @@
-// SessionSummary.h - a session as a line of a list: what is known of it at a glance.
+// SessionSummary.h - a session as a line of a list: what is known about it at a glance.
 //
 // Thread-safety: pure but for the file that is read.
 #pragma once
@@ -14,7 +14,7 @@ struct SessionSummary {
     std::string wallStart;  ///< ISO 8601 UTC
     std::string protocol;   ///< empty: opened by hand
     std::vector<std::string> devices;
-    std::string verdict;  ///< of the last; empty: none
+    std::string verdict;  ///< the last verdict; empty: none
     SessionLabels labels;
     double duration_s = 0;
     bool simulated = false;

@@ -44,7 +44,7 @@ struct SessionDevice {
 
 struct SessionLimitSet {
     std::string id;      ///< "paper", "iec-60601-2-10", ...
-    std::string sha256;  ///< of the limit file's bytes
+    std::string sha256;  ///< digest of the limit file's bytes
     std::string from{};  ///< where the file lay; empty for a set that is built into the program
     bool operator==(const SessionLimitSet&) const = default;
 };
@@ -53,13 +53,13 @@ struct SessionLimitSet {
 struct SessionAbout {
     std::string programVersion;
     std::string protocol;        ///< name, e.g. "separability"; empty for a session without a script
-    std::string protocolSha256;  ///< of the script's bytes
+    std::string protocolSha256;  ///< digest of the script's bytes
     std::string protocolFrom;    ///< where the script came from: "shipped with the program", or its path
     nlohmann::json parameters = nlohmann::json::object();
     std::uint64_t seed = 0;
     std::vector<SessionDevice> devices;
     std::string profileJson;    ///< the encoding profile as text
-    std::string profileSha256;  ///< of profileJson; filled in by the writer when empty
+    std::string profileSha256;  ///< digest of profileJson; filled in by the writer when empty
     std::vector<SessionLimitSet> limitSets;
     bool simulated = false;     ///< true when any device is: the report is watermarked
     std::string mode;           ///< "bench load" or "person"
@@ -68,7 +68,7 @@ struct SessionAbout {
     bool virtualClock = false;  ///< filled in by the writer from its clock
 };
 
-/// What people say of a session: as entered before it began, and as changed after it ended (SessionLabels.h).
+/// What people say about a session: as entered before it began, and as changed after it ended (SessionLabels.h).
 struct SessionLabels {
     std::string operatorName;
     std::string sample;  ///< what was measured, by the laboratory's own id
@@ -102,7 +102,7 @@ struct SessionRow {
     Instant at{0};
     std::string name;     ///< event kind, command, measured quantity; a log line's level
     nlohmann::json body;  ///< a log line's text is body["text"]
-    bool sealed = false;  ///< and there is no key: name and body hold what is shown (SealedRow.h)
+    bool sealed = false;  ///< the row is sealed and there is no key: name and body hold what is shown (SealedRow.h)
 };
 
 struct SessionTrial {

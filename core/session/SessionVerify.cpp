@@ -296,7 +296,7 @@ private:
     const bool sealed_;
     VerifyReport& report_;
     std::vector<StreamSeen> streams_;
-    Digest head_{};  // of the recording: without annotations
+    Digest head_{};  // head of the recording, without annotations
     int annotations_ = 0;
     std::uint64_t sealedRows_ = 0;
     SampleBlock scratch_;

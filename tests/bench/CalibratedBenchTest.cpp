@@ -107,7 +107,7 @@ TEST_F(CalibratedBenchTest, ACorrectionGoesToTheNearestStep) {
         const double ohm = current ? seen.impedance_ohm : 1;
         const double step = current ? 0.5e-3 : 0.1;
         const double asked = (10 + 30 * strength) / ohm;
-        const double noise = current ? 0.01 * asked : 1e-9;  // of |Z|, as each train reads it
+        const double noise = current ? 0.01 * asked : 1e-9;  // noise of |Z|, as each train reads it
         const double programmed = seen.trainAmplitude * (current ? 1e-3 : 1);
         const bool atTheTop = gain * std::round(asked / gain / step) * step > 40 / ohm;
         EXPECT_GE(gain * programmed, asked - (atTheTop ? 1 : 0.5) * gain * step - noise) << trial;

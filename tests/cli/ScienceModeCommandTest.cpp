@@ -162,7 +162,7 @@ TEST_F(ScienceModeCommand, TheReadBackIsDrawnWithinEightyColumns) {
     std::size_t begin = 0;
     for (std::size_t end; (end = ran.out.find('\n', begin)) != std::string::npos; begin = end + 1) {
         const auto line = ran.out.substr(begin, end - begin);
-        const auto columns = std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; });  // of UTF-8
+        const auto columns = std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; });  // UTF-8
         EXPECT_LE(columns, 80) << line;
     }
 }

@@ -23,7 +23,7 @@ namespace tacto::test {
 /// What a row promises.
 struct Promise {
     double least = 0.92, most = 0.99;
-    double mostWithinHalf = 0.80;  ///< of the errors, at most, within half of U
+    double mostWithinHalf = 0.80;  ///< share of the errors, at most, within half of U
     std::string because{};         ///< one sentence where it is not the usual
 };
 

@@ -15,10 +15,10 @@ namespace tacto::test {
 /// What the stimulator really does, drawn for each seed.
 struct TwinTruth {
     explicit TwinTruth(std::uint64_t seed);
-    double gain, offset_v;  ///< of the amplitude
+    double gain, offset_v;  ///< errors of the amplitude
     double width_s, gap_s;  ///< added to both
     double imbalance;       ///< the second phase is weaker by this share
-    double ohms;            ///< of the load
+    double ohms;            ///< the load's resistance
     double train_hz;        ///< within a train, as it is commanded: no whole number of samples from onset to onset
     [[nodiscard]] double volts(double commanded) const { return gain * commanded + offset_v; }
 };

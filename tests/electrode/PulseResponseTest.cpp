@@ -20,7 +20,7 @@ PulseSegments biphasic(Drive drive, double level, double width, double gap, Driv
 
 DriveSegment rest(Drive drive, double duration) { return {drive, 0, 0, duration}; }
 
-/// Of 40 V into the RC load, integrated numerically (tests/reference/loads.py).
+/// The response to 40 V in the RC load, integrated numerically (tests/reference/loads.py).
 double peakByScipy(const char* when) {
     return test::figuresOf("loads").at("bench_load_40_v").at(when).get<double>() / 1e3;
 }

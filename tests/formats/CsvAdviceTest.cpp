@@ -36,7 +36,7 @@ bool expectHonest(const std::string& text, const ReadOptions& options = {}) {
 
 struct RefusedFile {
     std::string text;
-    std::string ends;  ///< of the sentence
+    std::string ends;  ///< how the sentence ends
     ReadOptions options{};
 };
 

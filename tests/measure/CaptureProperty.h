@@ -93,7 +93,7 @@ struct CaptureDraw {
     std::vector<TruePulse> pulses;
     std::size_t perTrain = 1;
     double noise = 0;        ///< standard deviation
-    double step = 0;         ///< of the converter, stated or not; of a fine one a 5000th of the height
+    double step = 0;         ///< the converter's step, stated or not; a fine one is a 5000th of the height
     double slope_per_s = 0;  ///< largest of a drift
     bool settles = false;    ///< edges have tails: between pulses nothing is quite the baseline
     double gain = 1;         ///< shown over true

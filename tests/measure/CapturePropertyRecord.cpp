@@ -143,7 +143,7 @@ struct Plan {
     UnitPulse unit;
     double amplitude = 1;
     std::vector<double> onsets;
-    std::vector<double> scales;  ///< of each pulse
+    std::vector<double> scales;  ///< one for each pulse
     double offset = 0, noise = 0, lsb = 0, codePhase = 0;
     double low = -kNever, high = kNever;  ///< in volts
     bool statesRange = false;

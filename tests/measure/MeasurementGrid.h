@@ -48,7 +48,7 @@ struct GridResult {
     double rate_hz = 0;
     int records = 0;
     int pulses = 0;    ///< that were there
-    int missed = 0;    ///< of these, neither measured nor flagged
+    int missed = 0;    ///< those that were neither measured nor flagged
     int flagged = 0;   ///< found, and said not to be measurable
     int invented = 0;  ///< measured where there was none
     int warned = 0;    ///< records with any warning

@@ -182,7 +182,7 @@ TEST_F(Certificate, WhatNobodySaidIsALineToWriteOn) {
     const auto page = text(model, "c.html");
     for (const auto& detail : kCertificateDetails) {
         const auto title = std::string(detail.title);
-        if (detail.key == "function" || detail.key == "authorised_by") continue;  // of the signature
+        if (detail.key == "function" || detail.key == "authorised_by") continue;  // the signature's own words
         if (detail.key == "model" || detail.key == "serial") {                    // the device says them
             EXPECT_THAT(page, Not(HasSubstr(title + " ____"))) << title;
         } else {

@@ -87,7 +87,7 @@ IndependentBody::Flow IndependentBody::stretch(Mode mode, double level, double l
     if (c <= 0) {
         reach = std::abs(level) * rs > compliance ? 0 : length;
     } else {
-        const double goal = side * level * rp;             // of Vc on this side
+        const double goal = side * level * rp;             // goal of Vc on this side
         const double at = compliance - side * level * rs;  // Vc at which compliance is reached
         const double now = side * vc_;
         if (now >= at) {
@@ -189,7 +189,7 @@ double IndependentBody::Power::until(double t) const {
 }
 
 double IndependentBody::worstEnergy(double window) const {
-    std::vector<double> before{0};  // of the pieces before each
+    std::vector<double> before{0};  // energy of the pieces before each
     for (const auto& piece : power_) before.push_back(before.back() + piece.until(piece.length));
     const auto until = [&](double time) {
         const auto after = std::upper_bound(power_.begin(), power_.end(), time,

@@ -23,7 +23,7 @@ struct Body {
 /// How the source behaves between phases and at its end of range.
 struct Drain {
     bool highImpedance = false;
-    double compliance = 1e9;  ///< of a current source
+    double compliance = 1e9;  ///< compliance of a current source
 };
 
 /// What flowed during one stretch.

@@ -465,7 +465,7 @@ TEST(TrainExposure, IntoACapacitorTheWorstPositionOfAWindowIsAnUpperBound) {
     RecordProperty("hazard", "H1");
     Dice dice(20261134);
     const int count = trials<int>({.local = 40, .ci = 300, .campaign = 10'000});
-    constexpr double kRounding = 1e-7;  // of a course of a thousand stretches, where a charging spike begins
+    constexpr double kRounding = 1e-7;  // error of a course of a thousand stretches, where a charging spike begins
     int far = 0;
     for (int k = 0; k < count; ++k) {
         const Repeated some = Repeated::drawn(dice, {5e-9, 2e-6});

@@ -1,4 +1,4 @@
-// CalibrationBook.h - what the store of calibrations says of a stimulator, for the window.
+// CalibrationBook.h - what the store of calibrations says about a stimulator, for the window.
 //
 // The file is small: it is read when another stimulator is opened, when a run has ended, and on read(). How a
 // calibration stands is judged by today's date (UTC) each time it is asked for, so that one which runs out overnight
@@ -37,7 +37,7 @@ enum class CalibrationState {
 struct CalibrationStanding {
     CalibrationState state = CalibrationState::Never;
     std::optional<StoredCalibration> newest;  ///< whatever its date
-    int age_d = 0;                            ///< of the newest
+    int age_d = 0;                            ///< the newest entry's age
     int left_d = 0;                           ///< whole days on which it still counts, after today; below 0: expired
     QString why;                              ///< a sentence where it does not count
 };

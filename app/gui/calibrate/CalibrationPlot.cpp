@@ -15,14 +15,14 @@ namespace {
 constexpr double kMargin = 0.06;
 constexpr int kTicks = 5;
 constexpr int kEdge = 4, kEdgeAbove = 1;         // pixels around the axes
-constexpr int kBelowTicks = 2, kBelowTitle = 0;  // and around the title below them: a small window has few to spare
+constexpr int kBelowTicks = 2, kBelowTitle = 0;  // around the title below: a small window spares few
 constexpr int kMinChars = 24;
 constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;
-constexpr double kAside = 0.006;   // of the range: readings going up stand left of their level, those down right
-constexpr double kNearest = 0.02;  // of the range: half the width of the frame around the nearest level
+constexpr double kAside = 0.006;   // share of the range: readings going up stand left of their level, those down right
+constexpr double kNearest = 0.02;  // share of the range: half the width of the frame around the nearest level
 constexpr double kNearestBottom = 0.98,
-                 kLeadFrom = 0.8;  // of the frame's height, from above: its words, and their line
+                 kLeadFrom = 0.8;  // share of the frame's height, from above: its words, and their line
 
 QCPRange rangeOf(const Reach& reach, double factor) {
     return reach.known() ? padded(reach.low * factor, reach.high * factor, kMargin) : QCPRange(0, 1);

@@ -55,7 +55,7 @@ private:
     QCPGraph* down_ = nullptr;
     QCPGraph* marked_ = nullptr;
     QCPGraph* means_ = nullptr;
-    QCPGraph* nominal_ = nullptr;  ///< of errors: the fitted line
+    QCPGraph* nominal_ = nullptr;  ///< the fitted line; null unless the plot shows errors
     QCPErrorBars* bars_ = nullptr;
     QCPItemRect* nearest_ = nullptr;
     QCPItemText* nearestText_ = nullptr;

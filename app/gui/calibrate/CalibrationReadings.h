@@ -1,4 +1,5 @@
-// CalibrationReadings.h - the readings of one calibrated quantity while they come, and what can be said of them so far.
+// CalibrationReadings.h - the readings of one calibrated quantity while they come, and what can be said about them so
+// far.
 //
 // A reading comes as the protocol records it: record.trial("amplitude up", {commanded, amplitude, ...}). Which of them
 // stand out is found with fitCalibration(), again after each; the protocol's own result has the last word.
@@ -29,13 +30,13 @@ struct ToleranceUse {
 struct CalibrationReadings {
     std::string quantity;
     QString unit;                              ///< "V", "mA" or "s"
-    double tolerance_pct = 0;                  ///< of the command at each level; 0: none is known
+    double tolerance_pct = 0;                  ///< share of the command at each level; 0: none known
     std::vector<CalibrationReading> readings;  ///< as they came, outliers marked
     std::optional<Calibration> fit;            ///< nothing before two levels were met
     double gainExpanded = NAN;                 ///< U of fit->gain; not a number before the result
-    double offsetExpanded = NAN;               ///< and of fit->offset
+    double offsetExpanded = NAN;               ///< U of fit->offset
     std::vector<double> uncertainty;           ///< U of each of fit->levels; empty before the result
-    double resolution = 0;                     ///< of the instrument, in `unit`
+    double resolution = 0;                     ///< the instrument's step, in `unit`
     std::vector<ToleranceUse> used;            ///< levels that were judged; empty before the result
     QString verdict;                           ///< "pass", ...; empty before the result
 

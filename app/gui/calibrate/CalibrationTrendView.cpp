@@ -14,7 +14,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kLaneTicks = 3;
-constexpr double kPad = 0.15;  // of a lane's span, above and below
+constexpr double kPad = 0.15;  // share of a lane's span, above and below
 constexpr double kDay_s = 86400;
 constexpr int kDayPadding = 12;  // days, where there is one calibration only
 constexpr int kMaxJumps = 2;     // in words; the plot marks all

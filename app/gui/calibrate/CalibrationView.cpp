@@ -18,7 +18,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kPlotShare = 0.82;  // of its height the plot has: with the page's edges 80 % of their column
+constexpr double kPlotShare = 0.82;  // the plot's share of the height: with the page's edges 80 % of their column
 constexpr int kCardFrom = 104;       // the width from which a card has room beside others
 constexpr int kCardsApart = 8, kCardsBelow = 0;
 constexpr int kToolHigh = 24;  // the line of the title is no higher: a small window's plot wants the rest

@@ -124,7 +124,7 @@ void CertificateTable::show(const CertificateStore& store, CalibrationDate today
 
 void CertificateTable::fitColumns() {
     for (int column = 0; column < kCertificateColumns; ++column) setColumnHidden(column, false);
-    horizontalHeader()->setStretchLastSection(false);  // else it is as wide as the rest
+    horizontalHeader()->setStretchLastSection(false);  // a stretched one would be as wide as the rest
     resizeColumnsToContents();
     for (const int column : kDroppedFirst) {
         if (horizontalHeader()->length() <= viewport()->width()) break;

@@ -63,7 +63,7 @@ struct PilotSeats {
     std::function<bool(const char* by)> takesStop = {};
 };
 
-/// A run's end, with the reports that were written of it.
+/// A run's end, with the reports that were written about it.
 struct FinishedRun {
     std::uint64_t number = 0;  ///< as run() returned it
     RunOrder order;
@@ -166,7 +166,7 @@ signals:
     void changed();                    ///< activity, open bench or profile
     void failed(const QString& what);  ///< a sentence: what happened; the output is off or unchanged
     void armed();
-    void checked(double impedance_ohm);  ///< of the electrodes; NaN where the source does not measure it
+    void checked(double impedance_ohm);  ///< the electrodes' impedance; NaN where the source does not measure it
     void marked(double at_s, const QString& word);
     /// The finger slides over another surface, for the window or a script. An empty material: it is lifted.
     void presented(const QString& material, double speed_mm_s, double force_n);
@@ -211,7 +211,7 @@ private:
     Profile profile_;
     DriveCommand lastDrive_, hand_;
     std::uint64_t lastRun_ = 0;             ///< the number of it
-    std::optional<LiveOrder> lastLive_;     ///< of the bench that is open
+    std::optional<LiveOrder> lastLive_;     ///< what the open bench was asked for
     std::optional<LiveOrder> closedByRun_;  ///< see closedByRun()
     ShippedLimits limits_;
 

@@ -46,7 +46,7 @@ private:
     [[nodiscard]] bool isToday(const char* group) const;
     void beginDay();
     const std::function<QDate()> today_;
-    const QDate began_;  // of the program: the question of that day is asked at the start
+    const QDate began_;  // the program's first day: that day's question is asked at the start
 };
 
 }  // namespace tacto::gui

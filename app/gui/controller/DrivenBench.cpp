@@ -4,7 +4,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr Seconds kLongestTurn{0.25};  // of bench time at once: stop and commands come between two
+constexpr Seconds kLongestTurn{0.25};  // the most bench time at once: stop and commands come between two turns
 
 }  // namespace
 

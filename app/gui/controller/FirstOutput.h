@@ -11,7 +11,7 @@
 
 namespace tacto::gui {
 
-/// What was ordered by hand, while that drives: until the output is armed the bench tells of the fingertip alone.
+/// What was ordered by hand, while that drives: until the output is armed the bench tells about the fingertip alone.
 [[nodiscard]] std::optional<DriveCommand> orderedByHand(const BenchController& controller, const Telemetry& telemetry);
 
 /// What the drive by hand asks for first. Nothing while something else drives or nothing does, and where nothing can be

@@ -21,14 +21,14 @@ struct LiveOrder {
     Profile profile;
     double speed = 1;  ///< times real time; devices that can live on the virtual clock only
     std::uint64_t seed = 1;
-    RunNotes notes = {};  ///< of its session; filled in by the controller, from the day's
+    RunNotes notes = {};  ///< the session's; the controller fills them in from the day's
 };
 
 /// Constant while it is open.
 struct OpenBench {
     SessionAbout about;
     std::filesystem::path session;
-    std::vector<StreamInfo> streams;       ///< of the sensor; empty without one
+    std::vector<StreamInfo> streams;       ///< the sensor's; empty without one
     std::optional<DeviceIdentity> output;  ///< what arming arms: the stimulator, else the massager
     std::optional<SourceTraits> source;
     std::optional<ScopeTraits> scope;

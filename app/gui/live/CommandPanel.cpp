@@ -16,7 +16,7 @@ QString part(double value, const QString& low, const QString& middle, const QStr
     return value < 1.0 / 3 ? low : value > 2.0 / 3 ? high : middle;
 }
 
-constexpr double kNear = 0.25;  // of the plane's sides
+constexpr double kNear = 0.25;  // share of the plane's sides
 
 /// "near rough-high · "; empty where no condition is near.
 QString nearText(const std::vector<Condition>& conditions, double roughness, double pressure) {

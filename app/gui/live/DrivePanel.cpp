@@ -15,7 +15,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kSteps = 100;            // of a slider from 0 to 1
+constexpr int kSteps = 100;            // a slider's steps from 0 to 1
 constexpr int kAnswerWithin_ms = 400;  // the bench takes a command at its next step; slowed time stretches that
 
 }  // namespace
@@ -278,7 +278,7 @@ void DrivePanel::refresh(const Telemetry& telemetry) {
                              .value_or(DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure});
         const bool known = std::isfinite(now.roughness) && std::isfinite(now.pressure);
         const bool another = !was_ || was_->source != telemetry.driving;
-        if (telemetry.driving != DriveSource::Off && (known || another)) was_ = now;  // the last that is known of it
+        if (telemetry.driving != DriveSource::Off && (known || another)) was_ = now;  // the last that is known about it
     }
     followFinger(telemetry);
     const auto output = outputText(telemetry);

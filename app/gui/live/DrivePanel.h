@@ -42,7 +42,7 @@ private:
     struct Index {
         QSlider* slider = nullptr;
         QDoubleSpinBox* box = nullptr;
-        double DriveCommand::*its = nullptr;  ///< of BenchController::hand(): the fingertip's values do not count
+        double DriveCommand::*its = nullptr;  ///< a member of BenchController::hand(), never the fingertip's
     };
     void addIndex(QGridLayout& grid, Index& index, const char* objectName, const QString& label, const QString& name,
                   const QString& tip);
@@ -68,7 +68,7 @@ private:
     std::weak_ptr<BenchTap> bench_;  // the one that they were set on
     QLabel* output_;
     QLabel* says_;
-    std::optional<DriveSource> asked_;  // of the bench, which has not answered yet
+    std::optional<DriveSource> asked_;  // what the bench was asked for and has not answered yet
     QElapsedTimer askedAt_;
     std::optional<DriveCommand> was_;      // drove last on this bench
     DriveSource last_ = DriveSource::Off;  // asked last, or what the bench turned to after that

@@ -83,7 +83,7 @@ void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
 void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry, QTime clock) {
     now_s_ = toSeconds(telemetry.at);
     while (const auto sample = tap.samples.pop()) {
-        if (sample->stream >= samples_.size()) continue;  // of a bench that was opened since
+        if (sample->stream >= samples_.size()) continue;  // a sample of a bench that was opened since
         samples_[sample->stream].push(sample->t_s, {sample->values.data(), sample->channels});
     }
     while (const auto frame = tap.frames.pop()) {

@@ -89,7 +89,7 @@ private:
 class LiveHistory {
 public:
     static constexpr double kKept_s = 60;
-    static constexpr std::size_t kMaxMarks = 64;  ///< of the kept time; the newest
+    static constexpr std::size_t kMaxMarks = 64;  ///< the newest marks in the kept time
     /// Columns of frames(): R, P, h, v; contact and sliding are 0 or 1.
     enum Column : std::size_t { kRoughness, kPressure, kSpectral, kSpatial, kContact, kSliding, kColumns };
     /// Columns of commands(): what the encoder asked for, and |Z| at that time; NaN while it asked for nothing.

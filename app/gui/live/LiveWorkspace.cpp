@@ -35,7 +35,7 @@ namespace {
 constexpr int kSideEvery_ms = 90;                 // numbers ten times a second are as fast as one reads
 constexpr int kPlaneEvery_ms = 30;                // smooth to the eye; the strips follow every picture
 constexpr int kReadingEvery_ms = 100;             // captures that are measured for the trains' strip
-constexpr int kStripChars = 32;                   // of the strips, at least
+constexpr int kStripChars = 32;                   // the least width of the strips
 constexpr int kRigLines = 34;                     // from this height on each field of the rig has a line of its own
 constexpr std::size_t kLongestReading = 100'000;  // samples; a longer one belongs to the oscilloscope workspace
 
@@ -233,7 +233,7 @@ PictureCaption LiveWorkspace::caption() const {
     caption.date = pictureDate(strips_->takenAt());
     if (open) caption.lines << deviceNames(open->about.devices);
     caption.lines << strips_->scalesText() << strips_->readingsText();
-    if (!strips_->frozen()) caption.lines << health_->text();  // of now
+    if (!strips_->frozen()) caption.lines << health_->text();  // the health as it is now
     return caption;
 }
 

@@ -79,7 +79,7 @@ private:
     BenchController& controller_;
     LiveHistory history_;
     std::shared_ptr<BenchTap> tap_;
-    std::optional<double> pendingSpeed_;  // of what was ordered here and is not open yet
+    std::optional<double> pendingSpeed_;  // the speed that was ordered here for a bench that is not open yet
     QStackedWidget* stack_;
     StripPlots* strips_ = nullptr;
     TaxelMap* taxels_ = nullptr;

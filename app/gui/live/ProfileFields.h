@@ -31,7 +31,7 @@ struct ProfileField {
     } form{};
     const FieldInfo* stored = nullptr;  ///< the field of the core
 
-    [[nodiscard]] const char* section() const noexcept;  ///< of the profile's file
+    [[nodiscard]] const char* section() const noexcept;  ///< its section in the profile's file
     [[nodiscard]] bool isChoice() const noexcept { return !stored->words.empty(); }
     /// "0.01 to 500 V".
     [[nodiscard]] QString range() const;

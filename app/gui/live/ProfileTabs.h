@@ -42,8 +42,8 @@ signals:
 private:
     struct Row {
         const ProfileField* field = nullptr;
-        QLineEdit* line = nullptr;  ///< of a number
-        QComboBox* box = nullptr;   ///< of a choice
+        QLineEdit* line = nullptr;  ///< the field of a number
+        QComboBox* box = nullptr;   ///< the field of a choice
         QLabel* label = nullptr;
         QLabel* refusal = nullptr;
     };

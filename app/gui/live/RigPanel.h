@@ -41,7 +41,7 @@ private:
     BenchController& controller_;
     QWidget* surfaces_;
     QGridLayout* fields_ = nullptr;
-    std::array<QLabel*, 3> labels_{};  // of material, speed and force
+    std::array<QLabel*, 3> labels_{};  // labels for material, speed and force
     bool low_ = false;
     QComboBox* material_;
     QDoubleSpinBox* speed_;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kWindow_s = 0.064;
 constexpr double kHop_s = 0.032;
 constexpr double kLow_hz = 5, kHigh_hz = 1000;
-constexpr double kFloor_db = -70, kRoof_db = 10;  // of (m/s²)²/Hz: below is sensor noise, above a tap
+constexpr double kFloor_db = -70, kRoof_db = 10;  // in dB of 1 (m/s²)²/Hz: below is sensor noise, above a tap
 constexpr std::int64_t kColumns = static_cast<std::int64_t>(LiveHistory::kKept_s / kHop_s);
 
 /// Perceptually even, the same to every kind of colour vision, readable in grey: dark blue to yellow (points of the

@@ -33,7 +33,7 @@ public:
     [[nodiscard]] double densityAt_db(double t_s, double hz) const noexcept;
 
 private:
-    using Index = std::int64_t;  // of a column: its window begins at base_s_ + index · hop
+    using Index = std::int64_t;  // a column's number: its window begins at base_s_ + index · hop
     void transformNew(const Series& series);
     void keep(Index column, bool whole);
     [[nodiscard]] const float* kept(Index column) const noexcept;

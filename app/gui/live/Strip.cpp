@@ -12,9 +12,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kAroundNothing = 0.5;  // of an axis on which all values are one
-constexpr double kUnderZero = 0.06;     // of the height, so that a trace at zero is seen
-constexpr double kRoomBelow = 0.1;      // of an axis from zero there is less than that below it
+constexpr double kAroundNothing = 0.5;  // half an axis on which all values are one
+constexpr double kUnderZero = 0.06;     // share of the height below zero, so that a trace at zero is seen
+constexpr double kRoomBelow = 0.1;      // share of the height: an axis from zero has less than that below it
 
 /// The next of 1, 2, 5 times a power of ten at or above `value`.
 double stepAbove(double value) {

@@ -22,7 +22,7 @@ constexpr StreamKind streamOf(StripIndex strip) noexcept {
 }
 
 constexpr std::size_t kMaxTaxels = TapSample::kMaxChannels;
-constexpr double kGapSteps = 2.5;  // of a stream's own step: beyond, a sample is missing
+constexpr double kGapSteps = 2.5;  // steps of a stream: beyond them a sample is missing
 constexpr double kFrameGap_s = 0.1;
 constexpr int kTextEvery = 4;  // pictures: as fast as one reads
 // How much of the height each strip gets.

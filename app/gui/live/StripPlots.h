@@ -75,12 +75,12 @@ private:
     const LiveHistory& history_;
     std::unique_ptr<LiveHistory> frozen_;  // while the picture stands still
     QDateTime frozenAt_;
-    QCPRange whole_;               // of it
+    QCPRange whole_;               // its whole range
     std::vector<QCPRange> views_;  // before each drag and zoom of it, the latest last
     double window_s_ = 10;
     bool sharing_ = false;
     int frame_ = 0;
-    QSharedPointer<QCPAxisTicker> ticker_;  // of every strip's time
+    QSharedPointer<QCPAxisTicker> ticker_;  // shared by the time axes of all strips
     std::deque<Strip> strips_;              // acceleration, force, taxels, spectrum, R and P, trains
     std::vector<RollingGraph*> acceleration_, force_, taxels_;
     RollingGraph* roughness_ = nullptr;

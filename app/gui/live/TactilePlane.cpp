@@ -12,7 +12,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kTrail_s = 3;
-constexpr double kHighest = 1.25;                  // of its width
+constexpr double kHighest = 1.25;                  // the largest height, as a multiple of its width
 constexpr double kNowSize = 21;                    // pixels across
 constexpr double kBesideR = 0.36, kBesideP = 0.3;  // around the square, at least
 constexpr int kAroundName = 8, kBelowName = 6;     // pixels

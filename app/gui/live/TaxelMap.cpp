@@ -12,7 +12,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kCellPad = 5, kCellHigh = 32, kCellsApart = 4;
-constexpr double kFull = 0.55;  // of the pressure's colour in a full cell: the number on it stays the text's
+constexpr double kFull = 0.55;  // share of the pressure's colour in a full cell: the number on it stays the text's
 
 }  // namespace
 

@@ -32,7 +32,7 @@ protected:
 private:
     static constexpr std::size_t kUsualTaxels = 8;
     [[nodiscard]] QSize roomFor(int cellHeight) const;
-    [[nodiscard]] int captionHeight() const;  ///< of the line that says what is simulated
+    [[nodiscard]] int captionHeight() const;  ///< height of the line that says what is simulated
     std::vector<float> values_;
     std::vector<float> rest_;  ///< the least seen of each: what it reads with nothing on it
     QString unit_;

@@ -53,7 +53,7 @@ private:
     QCPItemRect* off_ = nullptr;
     QCPItemText* offSays_ = nullptr;
     static constexpr std::size_t kReadings = 256;
-    std::vector<QCPGraphData> readings_;  // of the oscilloscope, a ring
+    std::vector<QCPGraphData> readings_;  // the oscilloscope's readings, a ring
     std::size_t nextReading_ = 0;
     QVector<double> at_, value_, measuredAt_, measuredValue_, failedAt_, failedValue_;  // reused
 };

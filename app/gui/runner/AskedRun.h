@@ -26,7 +26,8 @@ public:
     [[nodiscard]] bool isVoid(const BenchController& controller) const {
         return controller.stoppedSince(at_) || since_.nsecsElapsed() > Interlock::kConfirmWithin.count();
     }
-    /// Starts it on `controller`, unless a stop came since it was asked for. Returns the run's number. While it waits.
+    /// Starts it on `controller`, unless a stop came since it was asked for. Returns the run's number. Only while it
+    /// waits.
     std::uint64_t start(BenchController& controller) {
         return controller.run(*std::exchange(order_, std::nullopt), at_);
     }

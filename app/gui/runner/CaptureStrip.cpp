@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 namespace {
 constexpr std::size_t kPoints = 2000;                        // more than there are pixels; extremes kept
-constexpr double kVoltageReach = 1.15, kCurrentReach = 1.6;  // of what is shown
+constexpr double kVoltageReach = 1.15, kCurrentReach = 1.6;  // multiples of what is shown
 constexpr int kMargin = 15, kMarginAbove = 6;
 }  // namespace
 

@@ -30,7 +30,7 @@ private:
     QWidget* margin_;
     ScriptHighlighter* highlighter_;
     int marked_ = 0;
-    QList<QTextCursor> found_;  // of markWords()
+    QList<QTextCursor> found_;  // what markWords() found
 };
 
 }  // namespace tacto::gui

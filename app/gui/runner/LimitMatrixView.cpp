@@ -26,7 +26,7 @@ constexpr int kCellVerdict = Qt::UserRole;    // "pass", ...; none where nothing
 constexpr int kCellShare = Qt::UserRole + 1;  // "23 %"
 constexpr int kCellNear = Qt::UserRole + 2;   // 80 % or more of the limit used
 constexpr int kLineNote = Qt::UserRole;       // below a limit's title
-constexpr int kLineUnit = Qt::UserRole + 3;   // of a limit
+constexpr int kLineUnit = Qt::UserRole + 3;   // the limit's unit
 constexpr int kRow = 36, kHighRow = 44, kIconSize = 14, kPad = 8, kHeaderPad = 5;
 constexpr double kNear_pct = 80;
 constexpr int kLimitChars = 30, kLoadChars = 9;

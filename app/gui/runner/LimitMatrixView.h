@@ -51,7 +51,7 @@ private:
     bool fillsHeight_ = false;
     std::vector<QString> loads_;     // as people write them
     std::vector<QString> loadKeys_;  // as the results do
-    QStringList headings_;           // of the columns, in one line each
+    QStringList headings_;           // the columns' headings, each in one line
 };
 
 }  // namespace tacto::gui

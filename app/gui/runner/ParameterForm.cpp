@@ -216,7 +216,7 @@ void ParameterForm::addRow(Field& field) {
     auto* rows = parameter.reference ? referenceRows_ : settingsRows_;
     if (ticks) {
         rows->addRow(column);
-        field.label->installEventFilter(this);  // as of a box with words of its own, which would not wrap
+        field.label->installEventFilter(this);  // its click ticks the box; a box's own words would not wrap
     } else {
         rows->addRow(label, column);
         field.label = qobject_cast<QLabel*>(rows->labelForField(column));

@@ -35,7 +35,7 @@ public:
     void set(const std::string& name, const QString& text);
     /// Parameters whose answer is known from elsewhere, as the electrode's area from the profile: 0 will do there.
     void setKnown(std::set<std::string> names);
-    /// What is missing is said of a field only once the operator has left it, or read() or goToRefused() was called.
+    /// What is missing is said about a field only once the operator has left it, or read() or goToRefused() was called.
     void setMissingSaidOnceLeft() { missingSaidOnceLeft_ = true; }
     /// The sentence about the first parameter that decides the verdict and has no answer; empty for none.
     [[nodiscard]] QString unanswered() const;

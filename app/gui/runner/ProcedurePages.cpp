@@ -164,7 +164,7 @@ void ProcedurePages::offer(const ProtocolDeclaration& declaration) {
     form_->show(declaration);
     const bool drives = declaration.needs.contains(Role::Stimulator);
     drawing_->setVisible(drives && declaration.needs.contains(Role::Oscilloscope));
-    worst_->setVisible(drives);  // else nothing is judged
+    worst_->setVisible(drives);  // without a drive nothing is judged
 }
 
 void ProcedurePages::showStep(Step step) {

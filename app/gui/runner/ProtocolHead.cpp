@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kBelow = 4, kBeside = 12;  // between its parts
-constexpr int kLineChars = 8;            // of the title beside them, at least
+constexpr int kLineChars = 8;            // the least width of the title beside them
 }  // namespace
 
 ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)

@@ -261,7 +261,7 @@ void ProtocolWorkspace::runAsked() {
         return;
     }
     if (controller_.day().asksFirst()) return panel_->say(DayNotes::wantedText());
-    preview();  // of these settings, not of those of a moment ago
+    preview();  // previews these settings, not those of a moment ago
     if (!obstacle_.isEmpty()) {
         if (const auto part = pages_->form().goToRefused()) showStep(*part ? kReference : kSettings);
         return;

@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDamaged = 1;  // of tactoscope-report: written, of a session that was altered
+constexpr int kDamaged = 1;  // tactoscope-report's exit code: written, but the session was altered
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDots_perInch = 300;  // of the pictures of pages that go to the printer
+constexpr int kDots_perInch = 300;  // for the pictures of pages that go to the printer
 constexpr double kPoints_perInch = 72;
 
 struct Range {
@@ -53,7 +53,7 @@ void ReportPrinter::print(const QString& pdf, const std::shared_ptr<QPrinter>& p
             this, [this, what] { emit said(what); }, Qt::QueuedConnection);
     };
     const auto draw = [pdf, printer, tell, givenUp = givenUp_] {
-        QPdfDocument document;  // of this thread
+        QPdfDocument document;  // this thread's own
         document.load(pdf);
         if (document.pageCount() == 0) {
             tell(tr("%1 cannot be read, so nothing was printed.").arg(pdf));

@@ -102,7 +102,7 @@ void ReportView::zoom(double factor) {
     if (view_->zoomMode() == QPdfView::ZoomMode::FitToWidth) {
         const auto margins = view_->documentMargins();
         const double points = document_->pagePointSize(0).width();
-        const double dots = view_->screen()->logicalDotsPerInch() / 72;  // of a point at factor 1
+        const double dots = view_->screen()->logicalDotsPerInch() / 72;  // dots in a point at factor 1
         if (points > 0) now = (view_->viewport()->width() - margins.left() - margins.right()) / (points * dots);
     }
     view_->setZoomMode(QPdfView::ZoomMode::Custom);

@@ -86,7 +86,7 @@ private:
     QWidget* question_;
     QLabel* questionText_ = nullptr;
     QPushButton* arm_ = nullptr;
-    QPushButton* back_ = nullptr;  // of the question, takes the focus
+    QPushButton* back_ = nullptr;  // goes back from the question, and takes the focus
     QPushButton* run_;
     QProgressBar* bar_;
     QLabel* left_;

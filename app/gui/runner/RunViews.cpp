@@ -25,9 +25,9 @@ namespace {
 constexpr int kLogLines = 5000;           // shown; all of them are in the session
 constexpr int kBesideChars = 115;         // the waveform stands beside the plot from this width on
 constexpr int kDisclosedFromChars = 120;  // the outputs stand beside the tracing from this width on
-constexpr int kTracedFromChars = 165;     // and the tracing beside the limits from this one
-constexpr double kTracingShare = 0.18;    // of their height it has below them: the limits keep 80 % of the column
-constexpr int kRoomyLines = 34;           // of less height the bar below is as low as its buttons let it
+constexpr int kTracedFromChars = 165;     // from this width on the tracing stands beside the limits
+constexpr double kTracingShare = 0.18;    // share of the height below the limits, which keep 80 % of the column
+constexpr int kRoomyLines = 34;           // with fewer lines of height the bar below is as low as its buttons let it
 constexpr int kPageGap = 4, kViewSide = 16, kViewTop = 4, kBarPad = 12, kBarPadLow = 4;
 
 TrialPlane::Features featuresOf(RunViews::Plot plot) {
@@ -345,7 +345,7 @@ void RunViews::trace(const QString& limit, const QString& load, const QString& u
         QString trouble;
     };
     const bool ofVoltage = unit == "V";
-    reading_.drop();  // of a cell chosen before
+    reading_.drop();  // drops the reading of a cell that was chosen before
     reading_.start(
         this,
         [session = session_, load, ofVoltage]() -> Found {

@@ -83,11 +83,11 @@ private:
     void trace(const QString& limit, const QString& load, const QString& unit);
 
     Plot plot_ = Plot::Trials;
-    QString title_;                  // of the protocol
+    QString title_;                  // the protocol's title
     QString devices_;                // their names
     bool simulated_ = false;         // what they are
     QDateTime ended_;                // invalid while it runs
-    std::filesystem::path session_;  // of the run that ended
+    std::filesystem::path session_;  // the session of the run that ended
     bool showsResult_ = false;
     QVBoxLayout* body_ = nullptr;  // head and views, above the bar
     ResultHead* head_ = nullptr;
@@ -96,10 +96,10 @@ private:
     TrialPlane* plane_ = nullptr;
     LoadRows* loads_ = nullptr;            // in the plane's place where a protocol measures loads
     QSplitter* judged_ = nullptr;          // what they come to
-    LimitMatrixView* matrix_ = nullptr;    // of limits,
-    DisclosedPanel* disclosed_ = nullptr;  // and beside or below it where there is room
+    LimitMatrixView* matrix_ = nullptr;    // limits by loads,
+    DisclosedPanel* disclosed_ = nullptr;  // outputs to disclose, beside or below the limits where there is room
     Tracing tracing_ = Tracing::Below;
-    CalibrationView* calibration_ = nullptr;  // and in its place where one calibrates
+    CalibrationView* calibration_ = nullptr;  // in place of all this where a protocol calibrates
     QLabel* none_ = nullptr;
     CaptureStrip* wave_ = nullptr;
     ResultTables* tables_ = nullptr;

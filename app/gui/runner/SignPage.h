@@ -58,7 +58,7 @@ private:
     QLabel* says_ = nullptr;
     ReportMaker maker_;
     bool taken_ = false;
-    QString fault_;    // of the first report that failed
+    QString fault_;    // why the first report that failed did
     QString printed_;  // how far the printer is; empty: nothing was printed
 };
 

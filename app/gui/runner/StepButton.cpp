@@ -59,7 +59,7 @@ void StepButton::setAcross(bool across, bool named) {
 int StepButton::widthAcross(bool named) const {
     const int dot = scaledPx(kAcrossDot);
     if (!named) return 2 * scaledPx(kAloneSide) + dot;
-    const QFontMetrics name(textFont(TextSize::Body, QFont::DemiBold));  // as wide as when it is the one shown
+    const QFontMetrics name(textFont(TextSize::Body, QFont::DemiBold));  // bold, as the step that is shown
     return 2 * scaledPx(kAcrossSide) + dot + scaledPx(kAcrossGap) + name.horizontalAdvance(text()) + 1;
 }
 

@@ -43,7 +43,7 @@ private:
     [[nodiscard]] QRectF pixelsOf(const QCPGraph& graph) const;
     Features features_ = Features::Trains;
     std::vector<std::pair<QString, QCPGraph*>> conditions_;
-    std::vector<QCPItemText*> names_;  ///< of the conditions, at their points; owned by the plot
+    std::vector<QCPItemText*> names_;  ///< the conditions' names, at their points; owned by the plot
     QCPItemText* watermark_ = nullptr;
     QCPItemText* empty_ = nullptr;
     QCPTextElement* title_ = nullptr;  ///< null without one

@@ -72,7 +72,7 @@ private:
     std::optional<AskedDrive> asked_;
     CaptureAverage average_;   // the thread's
     bool gap_ = false;         // a capture was left out since the last
-    std::uint64_t epoch_ = 1;  // of the bench's captures; another since beginAnew()
+    std::uint64_t epoch_ = 1;  // numbers the bench's captures; another since beginAnew()
     int pending_ = 0;
     std::uint64_t skipped_ = 0;
     bool opening_ = false;

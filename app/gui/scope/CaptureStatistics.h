@@ -1,4 +1,4 @@
-// CaptureStatistics.h - what the captures seen so far say of each channel: every reading with its last value, mean,
+// CaptureStatistics.h - what the captures seen so far say about each channel: every reading with its last value, mean,
 // standard deviation, extremes and number.
 //
 // Readings are those of core/measure: one per measured pulse (one per train for the interval, one per capture for the
@@ -58,7 +58,7 @@ public:
         QString letter;  ///< "V"
         QString unit;
         std::array<RunningStatistics, kReadings> readings;
-        double lastOnset_s = kNotMeasured;  ///< of the last train, where an interval may begin
+        double lastOnset_s = kNotMeasured;  ///< the last train's onset, where an interval may begin
         [[nodiscard]] const RunningStatistics& of(Reading r) const { return readings[static_cast<std::size_t>(r)]; }
     };
 
@@ -79,8 +79,8 @@ private:
     std::vector<Channel> channels_;
     std::size_t captures_ = 0;
     QDateTime since_;
-    std::optional<AskedDrive> asked_;   ///< of those counted
-    double programmed_ = kNotMeasured;  ///< of the first of them
+    std::optional<AskedDrive> asked_;   ///< what those counted were asked for
+    double programmed_ = kNotMeasured;  ///< the first of them, as it was programmed
 };
 
 }  // namespace tacto::gui

@@ -23,7 +23,7 @@ double hiddenBy(const QRectF& whole, const std::vector<QRectF>& drawn) {
 
 QRectF atClearHeight(const QRectF& box, const QRectF& within, const std::vector<QRectF>& drawn) {
     constexpr double kStep = 8;           // pixels
-    constexpr double kClearlyLess = 0.8;  // of what is hidden now: noise moves no box
+    constexpr double kClearlyLess = 0.8;  // share of what is hidden now: noise moves no box
     std::vector<QRectF> below;
     std::copy_if(drawn.begin(), drawn.end(), std::back_inserter(below),
                  [&](const QRectF& its) { return its.right() > box.left() && its.left() < box.right(); });

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMinPerPixel = 2;      ///< samples; below it the samples themselves are drawn
 constexpr double kDotsFrom = 4;         ///< pixels between samples
 constexpr int kBlock = 16;              ///< columns
-constexpr double kManyPixels = 60'000;  ///< of verticals: from here on filling rows is quicker
+constexpr double kManyPixels = 60'000;  ///< pixels in verticals, from which on filling rows is quicker
 
 std::size_t indexAt(double at, std::size_t size) {
     return static_cast<std::size_t>(std::clamp(std::ceil(at), 0.0, static_cast<double>(size)));
@@ -185,7 +185,7 @@ void EnvelopeGraph::fillTall(QCPPainter& painter, const Screen& screen) {
         const auto* from = tops_.data();
         const auto* to = bottoms_.data();
         for (int block = 0; block < blocks; ++block, row += kBlock, from += kBlock, to += kBlock) {
-            std::array<QRgb, kBlock> pixels;  // of its own: nothing it could overlap with
+            std::array<QRgb, kBlock> pixels;  // a block of its own: nothing it could overlap with
             for (std::size_t x = 0; x < kBlock; ++x) {
                 pixels[x] = (0U - static_cast<QRgb>((from[x] <= y) & (y <= to[x]))) & colour;
             }

@@ -71,7 +71,7 @@ private:
     QColor clipColour_;
     // Scratch of the drawing under way; members so that a frame allocates nothing.
     QVector<QLineF> lines_;
-    double tallPixels_ = 0;  ///< of the device, in verticals
+    double tallPixels_ = 0;  ///< pixels of the device in verticals
     std::vector<std::int32_t> tops_, bottoms_;
     QImage canvas_;
     std::vector<QRectF> gaps_;

@@ -40,7 +40,7 @@ QString RoundTicker::widestIn(const QCPRange& range) const {
 
 void RoundTicker::generate(const QCPRange& range, const QLocale&, QChar, int, QVector<double>& ticks,
                            QVector<double>* subTicks, QVector<QString>* labels) {
-    constexpr double kOnTheEdge = 1e-6;  // of a step
+    constexpr double kOnTheEdge = 1e-6;  // share of a step
     ticks.clear();
     if (subTicks != nullptr) subTicks->clear();
     if (labels != nullptr) labels->clear();

@@ -32,7 +32,7 @@ private:
         QCheckBox* shown = nullptr;
         QComboBox* scale = nullptr;        ///< null for a reference
         DivisionSpin* position = nullptr;  ///< null for a reference
-        QToolButton* remove = nullptr;     ///< of a reference
+        QToolButton* remove = nullptr;     ///< removes a reference
     };
     void build();
     void addRow(const ScopeLane& lane, int row);

@@ -123,7 +123,7 @@ void MaskPanel::resetCounts() {
 }
 
 void MaskPanel::take(const ShownPtr& shown) {
-    if (!mask_ || !shown->mask || shown->judgedBy != mask_) return;  // of the mask before this one
+    if (!mask_ || !shown->mask || shown->judgedBy != mask_) return;  // the check was of the mask before this one
     counts_.add(*shown->mask);
     if (shown->mask->verdict == MaskVerdict::Outside && !first_) first_ = shown;
     if (shown->mask->verdict == MaskVerdict::NotJudged) whyNot_ = qtext(shown->mask->why);

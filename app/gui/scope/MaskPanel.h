@@ -65,7 +65,7 @@ private:
     MaskCounts counts_;
     ShownPtr first_;
     QString problem_;
-    QString whyNot_;  ///< of the last capture that was not judged
+    QString whyNot_;  ///< why the last capture was not judged
     QuantitySpin* volts_;
     QuantitySpin* amps_;
     QuantitySpin* time_;

@@ -19,9 +19,9 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kBesideTheName = 2;  ///< channels; more stand below it
-constexpr std::size_t kMaxInLine = 3;      ///< of those below; more stand in lines of two
+constexpr std::size_t kMaxInLine = 3;      ///< the most readings in a line; more stand in lines of two
 constexpr int kRowHeight = 24;
-constexpr int kEdge = 1;  ///< of the names that are buttons
+constexpr int kEdge = 1;  ///< edge of the names that are buttons
 
 /// Begins where the other lines of the column do: a tool button of its own keeps a blank on each side.
 class NameButton final : public QToolButton {

@@ -50,7 +50,7 @@ struct OverlayState {
     /// cursors enclose, unless there is much more room between them.
     struct Flag {
         struct Row {
-            QString letter;  ///< of the lane
+            QString letter;  ///< the lane's letter
             QString text;    ///< "20.1 V ↑"
             QColor colour;
         };
@@ -68,11 +68,11 @@ struct OverlayState {
     std::vector<Coming> coming;
     std::optional<Trigger> trigger;
     std::vector<double> timeCursors_s;  ///< two or none
-    std::vector<Flag> flags;            ///< of the time cursors
+    std::vector<Flag> flags;            ///< the time cursors' flags
     QString timeSpan;                   ///< between them
-    std::vector<Drawn> drawn;           ///< of the lanes shown, with time cursors
+    std::vector<Drawn> drawn;           ///< the lanes shown, with time cursors
     std::vector<double> levelCursors;   ///< two or none, heights
-    std::vector<QString> levelTexts;    ///< of the level cursors: "y₁ 40.0 V"
+    std::vector<QString> levelTexts;    ///< what the level cursors say: "y₁ 40.0 V"
     QString levelSpan;                  ///< between them
     int focusedCursor = -1;             ///< 0, 1: time; 2, 3: level
     std::optional<QRectF> box;          ///< pixels
@@ -80,7 +80,7 @@ struct OverlayState {
     std::vector<Mark> marks;  ///< in time order
     std::vector<Moment> moments;
     QStringList notes;  ///< about the whole record: "not triggered", "averaged 16"
-    QString alarm;      ///< of a failed mask test, until it is acknowledged
+    QString alarm;      ///< what a failed mask test says, until it is acknowledged
 };
 
 }  // namespace tacto::gui

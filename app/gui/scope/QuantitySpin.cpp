@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDecimals = 12;  // of the value that is held
+constexpr int kDecimals = 12;  // digits of the value that is held
 constexpr int kDigits = 4;     // significant digits of it that are shown
 
 /// No user sets a level to a millionth, or reads one.

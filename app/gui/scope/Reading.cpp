@@ -73,7 +73,7 @@ bool isCharge(Reading reading) {
 
 bool isEdge(Reading reading) { return reading == Reading::Rise || reading == Reading::Fall; }
 
-/// Between those samples that were measured: of a noisy record they are means.
+/// The time between two measured values, which are means of samples in a noisy record.
 double sampleInterval_s(const ChannelMeasurement& measured) {
     return static_cast<double>(std::max<std::size_t>(1, measured.quality.mean)) / measured.rate_hz;
 }

@@ -10,9 +10,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kLevelShare = 0.2;          ///< of the commanded amplitude, in Auto
+constexpr double kLevelShare = 0.2;          ///< share of the commanded amplitude, in Auto
 constexpr double kFollowFrom = 1.3;          ///< the level is moved only when it would change by more than this factor
-constexpr qint64 kFollowEvery_ms = 300;      ///< and no more often: a request gives up the one under way
+constexpr qint64 kFollowEvery_ms = 300;      ///< the least time between two requests: each gives up the one under way
 constexpr qint64 kNoTriggerAfter_ms = 1500;  ///< without a trigger this long it is said
 constexpr Seconds kFreeRunAfter{0.4};        ///< without a trigger, while nothing is delivered that could be one
 constexpr double kFreeRunIntervals = 1.25;   ///< while something is: of the longest interval between two trains

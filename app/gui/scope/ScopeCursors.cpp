@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kEdgeShare = 0.1;  ///< of the way between the levels at rest, over four samples
+constexpr double kEdgeShare = 0.1;  ///< share of the way between the levels at rest, over four samples
 
 CursorValue::At valueOf(const Trace& trace, double time_s) {
     const double at = (time_s - trace.start_s) * trace.rate_hz;

@@ -17,7 +17,7 @@ struct CursorReadout {
     double x1_s = kNotMeasured, x2_s = kNotMeasured;
     double at1 = kNotMeasured, at2 = kNotMeasured;  ///< the active lane there, as CursorValue has it
     double y1 = kNotMeasured, y2 = kNotMeasured;
-    QString unit;  ///< of the active lane
+    QString unit;  ///< the active lane's unit
     [[nodiscard]] double dx_s() const noexcept { return x2_s - x1_s; }
     [[nodiscard]] double dy() const noexcept { return y2 - y1; }
 };

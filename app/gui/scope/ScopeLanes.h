@@ -17,11 +17,11 @@ struct ScopeLane {
     QString title;
     QString letter;  ///< on its handle
     QString unit;
-    QString follows;  ///< of a reference: the lane it was stored from; it is drawn with that lane's scale
-    TracePtr stored;  ///< of a reference: its trace
+    QString follows;  ///< the lane that a reference was stored from; it is drawn with that lane's scale
+    TracePtr stored;  ///< a reference's trace
     bool shown = true;
     std::vector<TraceSpan> spans;   ///< oldest first
-    std::vector<TraceSpan> behind;  ///< of the captures that persist, oldest first; no trace where a capture lacks it
+    std::vector<TraceSpan> behind;  ///< the captures that persist, oldest first; no trace where a capture lacks it
     [[nodiscard]] bool reference() const noexcept { return stored != nullptr; }
     /// The lowest and the highest of what it shows, in its unit.
     [[nodiscard]] Envelope envelope() const;

@@ -1,6 +1,6 @@
 // ScopeOverlay.h - what lies over the traces of an oscilloscope and can be taken hold of: the lanes' zero marks,
 // trigger level and moment, cursors with what they read as flags; and what only shows: the zoom box, the width under
-// the mouse, pulses that were not measured, and what is said of the whole record.
+// the mouse, pulses that were not measured, and what is said about the whole record.
 //
 // Draws on a layer of its own, so that moving a cursor does not draw the traces again. It knows nothing of captures:
 // the view fills in `state` and asks what lies under the mouse.

@@ -1,4 +1,4 @@
-// ScopePicture.h - what is on the oscilloscope's screen as a picture that says of itself what it shows: title, date,
+// ScopePicture.h - what is on the oscilloscope's screen as a picture that says about itself what it shows: title, date,
 // devices, scales, readings, and that it is simulated.
 //
 // Thread-safety: the GUI thread.
@@ -35,7 +35,7 @@ struct ScopeStill {
     std::shared_ptr<const ScopeModel> model;
     std::shared_ptr<const CaptureMask> mask;
     QString alarm;
-    QSize size;  ///< of the screen
+    QSize size;  ///< the screen's size
     PictureCaption caption;
     QDateTime taken;  ///< when the capture came from the bench, or this was made of a file's
 };

@@ -57,7 +57,7 @@ TracePtr channelTrace(const std::shared_ptr<const Capture>& capture, std::size_t
 }  // namespace
 
 double Trace::valueAt(double t_s) const noexcept {
-    constexpr double kOnTheGrid = 1e-6;  // of a sample: nearer than a time on a long session's base is known
+    constexpr double kOnTheGrid = 1e-6;  // share of a sample: nearer than a time on a long session's base is known
     double at = (t_s - start_s) * rate_hz;
     if (const double nearest = std::round(at); std::abs(at - nearest) < kOnTheGrid) at = nearest;
     if (!(at >= 0) || !(at <= static_cast<double>(size()) - 1)) return kNotMeasured;

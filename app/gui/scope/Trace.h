@@ -40,14 +40,14 @@ struct Trace {
     QString title;  ///< "Voltage"
     QString unit;   ///< "V", "A", "W", "C" or "" for logic
     double rate_hz = 0;
-    double start_s = 0;  ///< of sample 0, on the session's time base
+    double start_s = 0;  ///< time of sample 0, on the session's time base
     double zero_s = 0;   ///< the trigger of its capture: time 0 on the plot
     std::shared_ptr<const std::vector<float>> samples;
     MinMaxPyramid pyramid;  ///< over `samples`
     double low = 0;         ///< the input's range; equal = unknown. At or beyond it a sample is clipped.
     double high = 0;
-    std::vector<PhaseEdges> edges;  ///< of the measured pulses, in time order
-    std::vector<PulseMark> marks;   ///< of the others
+    std::vector<PhaseEdges> edges;  ///< edges of the measured pulses, in time order
+    std::vector<PulseMark> marks;   ///< marks of the pulses that were not measured
     std::vector<double> levels;     ///< where it rests, for level cursors
 
     [[nodiscard]] std::size_t size() const noexcept { return samples ? samples->size() : 0; }
@@ -61,14 +61,14 @@ using TracePtr = std::shared_ptr<const Trace>;
 /// One record on a time axis.
 struct TraceSpan {
     TracePtr trace;
-    double key_s = 0;  ///< of its sample 0 on the axis
+    double key_s = 0;  ///< place of its sample 0 on the axis
     [[nodiscard]] double length_s() const noexcept { return static_cast<double>(trace->size()) / trace->rate_hz; }
 };
 
 /// What to calculate beside the channels.
 struct MathOptions {
     bool power = false;   ///< first channel in V times first in A
-    bool charge = false;  ///< of the first channel in A
+    bool charge = false;  ///< whether it is the charge of the first channel in A
     QString minuend;      ///< key of a channel; empty for no difference
     QString subtrahend;   ///< key of a channel of the same unit, or empty when `reference` is subtracted
     TracePtr reference;
@@ -76,7 +76,7 @@ struct MathOptions {
 
 /// What was asked of the output when a capture came.
 struct AskedDrive {
-    bool byHand = true;  ///< else the fingertip drives, and amplitude and interval follow the touch
+    bool byHand = true;  ///< false: the fingertip drives, and amplitude and interval follow the touch
     double amplitude_v = 0;
     double interval_s = 0;
 };
@@ -86,17 +86,17 @@ struct ShownCapture {
     std::size_t averaged = 0;                     ///< captures that it is the mean of; 0: as it was taken
     QString source;                               ///< "" for the bench's own, else the file's name
     QDateTime taken;                              ///< when it came from the bench; else not valid
-    std::optional<AskedDrive> asked;              ///< of a bench that delivers
+    std::optional<AskedDrive> asked;              ///< what a bench that delivers was asked for
     double zero_s = 0;                            ///< trigger, or the record's begin where there was none
     std::vector<TracePtr> traces;                 ///< channels in the capture's order, then what was calculated
-    std::vector<ChannelMeasurement> measurement;  ///< of the channels
-    std::vector<WaveformMeasurement> waveforms;   ///< the same
-    std::vector<PulseLoad> loads;                 ///< of each pulse of the current below
+    std::vector<ChannelMeasurement> measurement;  ///< one for each channel
+    std::vector<WaveformMeasurement> waveforms;   ///< one for each channel
+    std::vector<PulseLoad> loads;                 ///< one for each pulse of the current below
     std::optional<std::size_t> loadCurrent;       ///< that channel; nothing unless there are one V and one A
     std::optional<MaskCheck> mask;                ///< as it was taken, before any averaging; nothing: no mask
-    std::shared_ptr<const CaptureMask> judgedBy;  ///< of that check
+    std::shared_ptr<const CaptureMask> judgedBy;  ///< the mask of that check
     bool follows = true;                          ///< no capture was left out between the one before it and this
-    std::vector<std::string> warnings;            ///< of the measurement
+    std::vector<std::string> warnings;            ///< what the measurement warned of
 
     [[nodiscard]] TracePtr trace(const QString& key) const;
     [[nodiscard]] double end_s() const noexcept;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCrossingReach =
     1;  ///< samples: what an oscilloscope knows of its trigger without looking between them
-constexpr double kSameMoment = 1e-3;  ///< of a sample
+constexpr double kSameMoment = 1e-3;  ///< share of a sample
 
 /// Where |signal| rises through `level` nearest to `stated`, in samples from the record's begin.
 std::optional<double> crossingNear(const std::vector<float>& samples, double level, double stated) {

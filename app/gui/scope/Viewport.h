@@ -19,7 +19,7 @@ inline constexpr double kHalfUp = kDivisionsUp / 2.0;  ///< from the middle to t
 
 struct LaneScale {
     double perDivision = 1;  ///< in the lane's unit
-    double position = 0;     ///< of its zero: divisions above the middle
+    double position = 0;     ///< where its zero lies: divisions above the middle
     [[nodiscard]] double heightOf(double level) const noexcept { return level / perDivision + position; }
     [[nodiscard]] double levelAt(double height) const noexcept { return (height - position) * perDivision; }
     bool operator==(const LaneScale&) const = default;

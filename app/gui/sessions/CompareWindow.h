@@ -28,7 +28,7 @@ private:
     struct Trials {
         QCPGraph* graph = nullptr;
         QString condition;
-        int number = 0;  ///< of the condition
+        int number = 0;  ///< the condition's number
         bool first = true;
     };
     void drawTrials();
@@ -52,7 +52,7 @@ private:
     QCustomPlot* streams_;
     QComboBox* stream_;
     std::vector<Drawn> drawn_;          // as stream_ lists them
-    std::array<double, 2> begins_s_{};  // of the streams that are drawn, each on its own time base
+    std::array<double, 2> begins_s_{};  // when the streams that are drawn begin, each on its own time base
     std::unique_ptr<MarkLines> marks_;
     Background background_;
 };

@@ -55,7 +55,7 @@ public:
 private:
     void add(const QString& sentence) { all_ << Difference{about_, sentence}; }
 
-    /// No more than can be read of each part.
+    /// No more than can be read from each part.
     void keep(int found) {
         const auto shorten = [&](int from, int to) {
             const int left = to - from - kMaxPerPart;

@@ -22,7 +22,7 @@ namespace tacto::gui {
 struct SessionCourse {
     std::vector<double> frame_s, roughness, pressure;
     std::vector<double> train_s, amplitude;
-    QString unit;  ///< of the amplitudes, "V" or "mA"
+    QString unit;  ///< the amplitudes' unit, "V" or "mA"
     [[nodiscard]] bool empty() const { return frame_s.empty() && train_s.empty(); }
 };
 
@@ -35,7 +35,7 @@ struct ReadSession {
     bool elsewhere = false;  ///< another program is recording it
     std::string head;
     Instant length{0};
-    std::vector<std::string> marks;  ///< of sessionMarks()
+    std::vector<std::string> marks;  ///< as sessionMarks() gives them
     std::vector<SessionVerdict> verdicts;
     std::vector<SessionTrial> trials;
     std::vector<SessionRow> events;
@@ -44,7 +44,7 @@ struct ReadSession {
     std::vector<SessionCaptureInfo> captures;
     std::map<std::string, nlohmann::json> settings;  ///< by name: "label", "unit", "shown" of a choice
     std::optional<Figure> figure;                    ///< the first of its report that is not a plane of trials
-    QString caption;                                 ///< of it
+    QString caption;                                 ///< the figure's caption
     bool planeOfTrials = false;                      ///< its report draws the trials' amplitude over their interval
     SessionCourse course;                            ///< filled in where there is no figure and no plane
     std::uint64_t trains = 0;                        ///< delivered, impedance checks apart

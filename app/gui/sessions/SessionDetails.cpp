@@ -29,7 +29,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kDetailPoints = 4000;
-constexpr int kPlotLines = 10;  // of text: the height of a plot that can be read
+constexpr int kPlotLines = 10;  // lines of text: the height of a plot that can be read
 constexpr int kMinStreams = 2;  // rows
 
 QTableWidget* makeTable(QWidget* parent, const QString& name) {
@@ -234,7 +234,7 @@ QString SessionDetails::aboutHtml() const {
         const bool known = declared != session_->settings.end();
         const auto column = columnName(qtext(key));
         const auto unit = known ? qtext(textOr(declared->second, "unit")) : column.unit;
-        const auto shown = known ? qtext(textOr(declared->second, "shown")) : QString();  // of a choice
+        const auto shown = known ? qtext(textOr(declared->second, "shown")) : QString();  // a choice's words
         row(known ? qtext(textOr(declared->second, "label")) : column.title,
             shown.isEmpty() ? settingWords(value, unit) : shown);
     }

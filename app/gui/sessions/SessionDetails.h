@@ -61,7 +61,7 @@ private:
     QTableWidget* streams_;
     QCustomPlot* plot_;
     QCPItemText* watermark_ = nullptr;
-    std::vector<std::pair<QString, QCPAxis*>> axes_;  // of the units that are drawn; owned by the plot
+    std::vector<std::pair<QString, QCPAxis*>> axes_;  // axes of the units that are drawn; owned by the plot
     std::unique_ptr<MarkLines> marks_;
     QTableWidget* captures_;
 };

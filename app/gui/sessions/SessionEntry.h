@@ -1,4 +1,4 @@
-// SessionEntry.h - a session file as a line of a list: what is known of it at a glance, or why it cannot be read.
+// SessionEntry.h - a session file as a line of a list: what is known about it at a glance, or why it cannot be read.
 //
 // Thread-safety: values; sessionFiles() is pure but for the folders.
 #pragma once
@@ -33,7 +33,7 @@ struct SessionEntry {
 /// *.tacto of a folder, newest first by name of the file; folders inside are looked into once.
 [[nodiscard]] std::vector<std::filesystem::path> sessionFiles(const std::filesystem::path& folder);
 
-/// What was read of sessions before, for all windows of this user: in the folder of caches.
+/// What was read from sessions before, for all windows of this user: in the folder of caches.
 [[nodiscard]] SessionIndex userSessionIndex();
 
 }  // namespace tacto::gui

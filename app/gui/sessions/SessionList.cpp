@@ -20,12 +20,12 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kRow = 32;
-constexpr int kMinRows = 4;  // in sight, with that of the titles
+constexpr int kMinRows = 4;  // rows in sight, the titles' row included
 constexpr int kListIcon = 16;
 constexpr int kSeenAfter_ms = 150;
 constexpr int kMeasuredRows = 60;  // for the widths of columns
 constexpr int kRoomyChars = 88;    // from this width on all columns are shown
-constexpr int kWordyChars = 84;    // and from this one the search says where it searches
+constexpr int kWordyChars = 84;    // from this width on the search says where it searches
 constexpr int kGap = 8, kSide = 16;
 constexpr int kEdge = 2;  // lines of the sheet around a table that has no place yet
 constexpr int kChosenBar = 4;

@@ -28,8 +28,8 @@ constexpr int kShownMoments = 500;
 constexpr int kMinMoments = 3;  // lines
 constexpr int kMinNote = 16;    // characters
 constexpr int kWhyLines = 2;
-constexpr int kLowPage = 560;      // there the reason is one line
-constexpr double kWrapped = 0.85;  // of a line's width is used where words wrap
+constexpr int kLowPage = 560;      // on lower pages the reason is one line
+constexpr double kWrapped = 0.85;  // share of a line's width that is used where words wrap
 
 SessionEntry entryOf(const ReadSession& session) {
     ListedSession listed;

@@ -17,7 +17,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kCoursePoints = 3000;
-constexpr int kMinLines = 10;  // of text: the height of a plot that can be read
+constexpr int kMinLines = 10;  // lines of text: the height of a plot that can be read
 
 bool inThePlane(const SessionTrial& trial) {
     return std::isfinite(numberOr(trial.measured, "amplitude_v")) &&

@@ -13,7 +13,7 @@
 
 namespace tacto::gui {
 
-/// "Today 11:02", "Yesterday 16:20", "20 Nov 14:05"; of another year the date alone.
+/// "Today 11:02", "Yesterday 16:20", "20 Nov 14:05"; in another year the date alone.
 [[nodiscard]] QString beganText(const QDateTime& began);
 /// "1 trial", "25 trials".
 [[nodiscard]] QString trialsText(std::size_t count);
@@ -31,7 +31,7 @@ struct SessionEnding {
 
 /// A line of what happened.
 struct SessionMoment {
-    double at_s = 0;  ///< of the session's time base
+    double at_s = 0;  ///< time on the session's time base
     QString when;     ///< time of day; on a virtual clock the time since the beginning
     QString text;     ///< a sentence
     bool mark = false;

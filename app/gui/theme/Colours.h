@@ -19,7 +19,7 @@ struct Colours {
     QColor sunken;     ///< troughs of bars, tags, what the pointer is over
     QColor selection;  ///< chosen row, step or workspace
     QColor line;       ///< separators
-    QColor edge;       ///< of fields and buttons
+    QColor edge;       ///< the edge of fields and buttons
     QColor text;
     QColor quiet;        ///< secondary text
     QColor primary;      ///< the one button that goes on: ink, so that blue keeps its meaning
@@ -30,7 +30,7 @@ struct Colours {
     QColor third;        ///< the third axis, and what is computed from the two
     QColor grid;
     QColor zero;       ///< the line at 0, and older traces
-    QColor frame;      ///< of plots
+    QColor frame;      ///< the frame of plots
     QColor amber;      ///< fill of what is armed, and of a limit from 80 %
     QColor amberInk;   ///< words on it
     QColor amberText;  ///< words of warning
@@ -45,7 +45,7 @@ struct Colours {
     QColor fail;      ///< fill of the verdict and of a cell
     QColor failText;  ///< on it
     QColor hatch;     ///< not evaluated
-    QColor bar;       ///< of a limit below 80 %
+    QColor bar;       ///< the bar of a limit below 80 %
     QColor watermark;
 };
 

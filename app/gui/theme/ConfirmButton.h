@@ -39,7 +39,7 @@ protected:
 
 private:
     std::optional<SteadyTime> seen_;  // first painted with this meaning
-    QString meaning_;                 // of setMeaning()
+    QString meaning_;                 // what setMeaning() said
     bool confirms_ = true;
 };
 

@@ -31,7 +31,7 @@ private:
     void showRow(int line, const ExposureRow& row);
 
     std::vector<ExposureRow> rows_;
-    std::vector<std::pair<std::string, QString>> titles_;  ///< of the rows' sets, by id
+    std::vector<std::pair<std::string, QString>> titles_;  ///< titles of the rows' sets, by id
     bool compact_ = false;  ///< narrow: the bar under the quantity, what kind of limit it is in the tool tip
 };
 

@@ -13,7 +13,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr QChar kBeforeUnit(0x202f);
-constexpr int kMaxDecimals = 4;  // of a value just below its limit
+constexpr int kMaxDecimals = 4;  // digits of a value just below its limit
 
 ExposureFigure split(const QString& quantity) {
     const auto end = quantity.indexOf(kBeforeUnit);

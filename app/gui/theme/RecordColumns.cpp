@@ -14,8 +14,8 @@ using nlohmann::json;
 
 constexpr int kHeaderPad = 10, kRow = 30;
 constexpr int kLongestText = 44;  // characters of a column of words that is not the last
-constexpr int kMinText = 10;      // and where numbers need the room
-constexpr int kMinTextTight = 6;  // and where the table stands in less than that of a small window
+constexpr int kMinText = 10;      // the least text where numbers need the room
+constexpr int kMinTextTight = 6;  // the least text in a table narrower than a small window
 constexpr int kRoom = 860;        // pixels beside a path in a window of 1280: a wider table is set small
 
 /// As many lines as the longest title has.

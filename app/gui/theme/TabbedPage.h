@@ -15,7 +15,7 @@ class TabbedPage final : public QWidget {
     Q_OBJECT
 public:
     explicit TabbedPage(QWidget* parent);
-    /// The parent to make a page with: moved here once it is made, it takes longer.
+    /// The parent to make a page with: a page that is moved here later takes longer.
     [[nodiscard]] QWidget* room() const { return pages_; }
     /// Takes both; `tools` may be null.
     void addTab(QWidget* page, const QString& title, QWidget* tools = nullptr);

@@ -37,7 +37,7 @@ void applyTheme(Theme wanted) {
     WheelGuard::install();
     if (applied == wanted) return;
     applied = wanted;
-    qApp->setStyleSheet({});  // else it is laid on every widget with each of the three
+    qApp->setStyleSheet({});  // otherwise every widget is styled again by each of the three
     QApplication::setStyle(new MnemonicStyle);
     QApplication::setPalette(paletteOf(colours()));
     // Qt 6.8 lets a label keep the colour that the sheet of the other theme gave it.

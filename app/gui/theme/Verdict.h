@@ -16,7 +16,7 @@ struct VerdictStyle {
     QString word;   ///< "PASS"
     QColor fill;
     QColor ink;     ///< on the fill
-    QColor colour;  ///< of the word in a list
+    QColor colour;  ///< the word's colour in a list
 };
 /// `key` as RunResult::verdict(), as nameOf(RowVerdict), or "error".
 [[nodiscard]] VerdictStyle verdictStyle(const QString& key);

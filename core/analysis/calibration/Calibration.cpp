@@ -170,7 +170,7 @@ void markOutliers(Calibration& found, const std::vector<Group>& groups, double r
     std::vector<double> apart;  // every two repeats
     std::vector<std::pair<std::size_t, double>> of;
     for (const auto& group : groups) {
-        if (group.members.size() < 3) continue;  // of two, neither is the odd one
+        if (group.members.size() < 3) continue;  // among two, neither is the odd one
         const auto measured = measuredOf(found, group);
         const double middle = medianOf(measured);
         for (std::size_t k = 0; k < measured.size(); ++k) {

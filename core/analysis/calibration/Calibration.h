@@ -51,11 +51,11 @@ struct CalibrationLevel {
     double commanded = 0;
     std::size_t n = 0;  ///< measured readings
     std::size_t notMeasured = 0;
-    double mean = 0;  ///< of all its readings
+    double mean = 0;  ///< the mean of all its readings
     double meanUp = std::numeric_limits<double>::quiet_NaN();
     double meanDown = std::numeric_limits<double>::quiet_NaN();
     double s = std::numeric_limits<double>::quiet_NaN();  ///< pooled within direction
-    double degreesOfFreedom = 0;                          ///< of s
+    double degreesOfFreedom = 0;                          ///< degrees of freedom of s
     double residual = 0;                                  ///< mean less the line
 };
 
@@ -66,7 +66,7 @@ struct Calibration {
     /// from the line that repeats is not scatter. NaN when there is nothing to tell from.
     double gainStandardError = std::numeric_limits<double>::quiet_NaN();
     double offsetStandardError = std::numeric_limits<double>::quiet_NaN();
-    double degreesOfFreedom = 0;  ///< of both
+    double degreesOfFreedom = 0;  ///< degrees of freedom of both errors
     bool weighted = false;
     double fullScale = 0;  ///< magnitude of the largest command
     double residualMax_pct = 0;

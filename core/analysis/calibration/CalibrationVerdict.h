@@ -43,15 +43,15 @@ struct InstrumentErrors {
     /// A clock that runs freely shows it in the scatter of the readings already; it is a row of its own only where s
     /// is under half of step/√6, which means that every reading met the same sampling phase.
     double samplingStep = 0;
-    std::string unit{};  ///< of the readings, for sentences; empty where it is not known
+    std::string unit{};  ///< the readings' unit, for sentences; empty where it is not known
 };
 
 struct JudgedLevel {
     double commanded = 0;
-    double error = 0;               ///< of the level's mean
-    double worstError = 0;          ///< of the worse direction: what is judged
-    UncertaintyBudget budget;       ///< of the level's mean
-    UncertaintyBudget worstBudget;  ///< of the worse direction's mean, which has fewer readings: what is judged
+    double error = 0;               ///< error of the level's mean
+    double worstError = 0;          ///< error of the worse direction: what is judged
+    UncertaintyBudget budget;       ///< budget of the level's mean
+    UncertaintyBudget worstBudget;  ///< budget of the worse direction's mean, which has fewer readings: what is judged
     double tolerance = 0;           ///< in the readings' unit
     Verdict verdict = Verdict::Indeterminate;
 };
@@ -59,7 +59,7 @@ struct JudgedLevel {
 struct JudgedCalibration {
     Calibration calibration;
     std::vector<JudgedLevel> levels;  ///< as calibration.levels
-    UncertaintyBudget gain;           ///< of the fitted line
+    UncertaintyBudget gain;           ///< budget of the fitted line's gain
     UncertaintyBudget offset;
     double tolerance_pct = 0;
     Verdict verdict = Verdict::Indeterminate;

@@ -33,12 +33,12 @@ struct PersonLeftOut {
 struct FewPeople {
     std::vector<PersonResult> people;
     std::vector<PersonLeftOut> leftOut;  ///< in none of the figures
-    std::string who = "people";          ///< of whom this says something: "virtual participants"
+    std::string who = "people";          ///< whom this speaks of: "virtual participants"
     Statistics accuracy;                 ///< over those who answered test trials
-    Statistics itCorrected_bits;         ///< the same
+    Statistics itCorrected_bits;         ///< over those who answered test trials
     std::size_t aboveChance = 0;         ///< p < 0.05 each by themselves
     Estimate share;                      ///< above chance of all people, Clopper and Pearson 95 %
-    Estimate prevalence;                 ///< of everybody: Prevalence.h
+    Estimate prevalence;                 ///< over everybody: Prevalence.h
 };
 
 [[nodiscard]] FewPeople judgeFewPeople(std::vector<PersonResult> people, std::vector<PersonLeftOut> leftOut = {});

@@ -22,7 +22,7 @@ namespace tacto {
 struct ConfusionFigures {
     std::size_t n = 0;
     std::size_t hits = 0;
-    double chance = kNaN;       ///< of a right answer by guessing among the names offered
+    double chance = kNaN;       ///< probability of a right answer by guessing among the names offered
     Estimate accuracy;          ///< Wilson 95 %
     double pChance = kNaN;      ///< P(X ≥ hits) by chance, one-sided, exact; 1 without trials
     double it_bits = kNaN;      ///< information transfer as counted; NaN without trials
@@ -76,7 +76,7 @@ struct Identification {
     /// Accuracy where the trial before it in the block was of the same condition, and of another. Catch trials and the
     /// first of a block have no such trial before them.
     BlockFigures afterSame, afterOther;        // their `block` is not used
-    std::vector<double> medianResponseTime_s;  ///< of each label's rows, as presented; NaN without answers
+    std::vector<double> medianResponseTime_s;  ///< one for each label's rows, as presented; NaN without answers
 };
 
 /// `trials` in the order presented, whatever their phase; `labels` are the names offered, in the order of the rows,

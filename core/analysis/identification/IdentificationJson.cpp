@@ -27,7 +27,7 @@ json sequenceJson(const BlockFigures& after) {
     return {{"n", after.n}, {"hits", after.hits}, {"accuracy", toJson(wilsonInterval(after.hits, after.n))}};
 }
 
-/// What a result says of a trial.
+/// What a result says about a trial.
 RecordFields<IdentificationTrial> answerFields() {
     using T = IdentificationTrial;
     RecordFields<T> all;

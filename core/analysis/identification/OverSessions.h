@@ -41,7 +41,7 @@ struct OverSessions {
     /// Log odds of a right answer per day, profile likelihood; NaN for fewer than three sessions
     /// with test trials.
     Estimate trend;
-    double smallestChange = kNaN;  ///< of accuracy that two such sessions can show; NaN for fewer than two
+    double smallestChange = kNaN;  ///< change of accuracy that two such sessions can show; NaN for fewer than two
 };
 
 /// a/b of two independent positive estimates with 95 % intervals [l, u]: from a/b exp(-√(ln²(a/l_a) + ln²(u_b/b))) to

@@ -11,7 +11,7 @@ namespace {
 struct TwoRanges {
     LoadTrace wide, fine, voltage;  ///< voltage: of the fine record
     double wideOnset_s = 0, fineOnset_s = 0;
-    ChannelMeasurement pulses;  ///< of the fine record
+    ChannelMeasurement pulses;  ///< the fine record's pulses
 };
 
 std::optional<TwoRanges> twoRanges(const Capture& wide, const Capture& fine, const ExpectedTrain& expected,
@@ -59,7 +59,7 @@ void addFineRange(LoadReading& out, const LoadFigures& figures, std::span<const 
     out.impedance_ohm = out.net_charge_uc = out.imbalance = {};
     LoadTrains ends;
     double net = 0;
-    BudgetRows rows;  // of the train with the most net charge
+    BudgetRows rows;  // budget of the train with the most net charge
     for (std::size_t k = 0; k < fine.size(); ++k) {
         const auto two = twoRanges(captures[k % captures.size()], fine[k], expected, out.warnings);
         if (!two) return;

@@ -42,7 +42,7 @@ LimitCell worseOf(const LimitCell& a, const LimitCell& b) {
     return worse;
 }
 
-/// What its limit set says of it; the laboratory's own limits are in none.
+/// What its limit set says about it; the laboratory's own limits are in none.
 void describe(LimitLine& line, const std::vector<LimitSet>& sets) {
     const auto set = std::find_if(sets.begin(), sets.end(), [&](const LimitSet& each) { return each.id == line.set; });
     if (set == sets.end()) return;

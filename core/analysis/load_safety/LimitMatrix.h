@@ -22,7 +22,7 @@ struct LimitCell {
     /// (limit - value - U) / limit; below 0: not kept. For a trip what was left of the time to the next train.
     double margin_pct = std::numeric_limits<double>::quiet_NaN();
     RowVerdict verdict = RowVerdict::NotEvaluated;
-    std::string note{};  ///< of the row: what was measured beside a command
+    std::string note{};  ///< the row's note: what was measured beside a command
 };
 
 struct LimitLine {

@@ -44,14 +44,14 @@ struct Reading {
 /// What is in `rows`, as the uncertainty of `value`. Without any row that is not known, U is combine()'s.
 [[nodiscard]] Reading readingOf(double value, std::vector<Contribution> rows, const BudgetOptions& budget);
 
-/// The largest of the trains measured, unless a line says otherwise.
+/// What a load's trains measured: the largest of them, unless a line says otherwise.
 struct LoadReading {
     Reading delivered;      ///< amplitude over what each train was to have, 1 = as programmed; mean
     Reading amplitude_v;    ///< plateau of the leading phase, magnitude; of a current source at its end; mean
-    Reading highest_v;      ///< the same, of the train with the highest amplitude
+    Reading highest_v;      ///< amplitude_v of the train with the highest
     Reading amplitude_ma;   ///< at the end of the leading phase, from 80 to 97 % of its width; mean
-    Reading width_s;        ///< of the leading phase, of what the source drives; mean
-    Reading rate_hz;        ///< of the pulses in a train, from its first onset to its last; NaN for single pulses
+    Reading width_s;        ///< width of the leading phase, of what the source drives; mean
+    Reading rate_hz;        ///< rate of the pulses in a train, from its first onset to its last; NaN for single pulses
     Reading interval_s;     ///< onset to onset of trains; the shortest
     Reading impedance_ohm;  ///< voltage over current at its end, as science.md section 4 means |Z|; mean
     Reading peak_v;         ///< largest |voltage|

@@ -67,7 +67,8 @@ bool isReference(const SafetyRow& row) {
     return row.item == "reference" || row.item == "absolute_reference" || row.item == "time_reference";
 }
 
-/// What is said of those that passed is true of each: a command has no uncertainty, and a trip is judged by its time.
+/// What is said about those that passed is true of each: a command has no uncertainty, and a trip is judged by its
+/// time.
 std::string whatPassed(const std::vector<SafetyRow>& rows) {
     std::size_t withU = 0, trips = 0, commanded = 0, others = 0;
     for (const auto& row : rows) {

@@ -55,7 +55,7 @@ struct SafetyRow {
     std::string reason;  ///< a sentence unless it passed
     RowBasis basis = RowBasis::Measured;
     std::string note{};                      ///< what is to be known beside it, as a sentence; may be empty
-    double stop_s = kNaN, allowed_s = kNaN;  ///< of a trip, as TripTrial has them
+    double stop_s = kNaN, allowed_s = kNaN;  ///< a trip's times, as TripTrial has them
 };
 
 /// A command that was delivered and measured. Commands, not measurements, apart from `reading`.
@@ -88,7 +88,7 @@ struct LoadRecord {
     std::string name;  ///< as parseLoad() reads it
     Load load;
     Reading dmm_ohm;     ///< entered by the operator with its standard uncertainty; else not measured
-    std::string serial;  ///< of the resistor; may be empty
+    std::string serial;  ///< the resistor's; may be empty
     std::vector<LoadStep> steps;
     std::vector<RefusedStep> refusals;
     std::vector<UndrivenStep> undriven;
@@ -118,7 +118,7 @@ struct LoadSafetyTolerances {
     double clock_pct = 0.5;    ///< interval of the reference's trains against the computer's clock (choice)
     double imbalance_pct = 1;  ///< net charge of phase charge (hazard H5)
     double imbalanceUncertainty_pct = 0.5;  ///< above it the net charge is not evaluated (hazard H5)
-    double area_pct = 5;                    ///< of the electrode's area, 95 %; a choice, where it was not measured
+    double area_pct = 5;  ///< uncertainty of the electrode's area, 95 %; a choice, where it was not measured
 };
 
 struct LoadSafetyInput {
@@ -146,7 +146,7 @@ struct LoadLine {
     std::string serial;
     double nominal_ohm = std::numeric_limits<double>::quiet_NaN();  ///< |Z| at the end of the leading phase
     Reading measured_ohm;
-    LoadReading strongest;  ///< quantity by quantity the largest of the steps
+    LoadReading strongest;  ///< the largest of the steps, for each quantity by itself
     double powerDensity_w_cm2 = std::numeric_limits<double>::quiet_NaN();
     double currentDensity_ma_cm2 = std::numeric_limits<double>::quiet_NaN();
     std::size_t steps = 0;

@@ -231,7 +231,7 @@ bool isOhm500(const LoadRecord& record) {
     return record.load.kind == LoadKind::Resistor && std::abs(record.load.series.value() - 500) < 1e-6;
 }
 
-/// A limit on the command itself: judged on what was commanded, and what came of it said beside.
+/// A limit on the command itself: judged by what was commanded; what was measured stands beside it.
 SafetyRow commandRow(const LoadRecord& record, const LimitSet& set, const LimitRow& limit) {
     double most = kNaN;
     for (const auto& step : record.steps) most = std::fmax(most, step.command_v);

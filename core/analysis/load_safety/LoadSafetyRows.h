@@ -13,7 +13,7 @@ namespace tacto {
 /// Value, accuracy, net charge, every limit that applies, refusals: all that one load was asked.
 [[nodiscard]] std::vector<SafetyRow> rowsOf(const LoadRecord& record, const LoadSafetyInput& input);
 
-/// What a step's reading says of a quantity; not measured for what only a command has, or without an area.
+/// What a step's reading says about a quantity; not measured for what only a command has, or without an area.
 [[nodiscard]] Reading readingOf(const LoadReading& reading, Quantity quantity, const LoadSafetyInput& input);
 
 }  // namespace tacto

@@ -15,7 +15,7 @@ namespace tacto {
 struct LoadTrace {
     const CaptureChannel* channel = nullptr;
     double dt = 0;       ///< s
-    double start_s = 0;  ///< of sample 0
+    double start_s = 0;  ///< time of sample 0
     double baseline = 0;
     double noise = 0;       ///< s.d. about the baseline
     std::size_t quiet = 0;  ///< samples of the baseline; the train comes after them

@@ -7,7 +7,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kEndFrom = 0.80, kEndTo = 0.97;  // of the leading phase: where |Z| is read
+constexpr double kEndFrom = 0.80, kEndTo = 0.97;  // share of the leading phase in which |Z| is read
 
 void readCurrent(const LoadTrace& voltage, const LoadTrace& current, const ChannelMeasurement& pulses,
                  TrainFigures& out) {

@@ -5,7 +5,7 @@
 // where that is more, at most 1 mA. In each five later presentations one, drawn from the seed, is empty. After an empty
 // one that was felt the last level is presented again, and its new answer replaces the one before; a second felt empty
 // one marks the series. "Too strong" ends the series, whatever was presented, and keeps every later level below it;
-// said of an empty presentation it counts for the last level of the series and marks it.
+// said about an empty presentation it counts for the last level of the series and marks it.
 //
 // The same settings, seed and answers give the same presentations, so a record replays.
 //
@@ -20,7 +20,7 @@
 
 namespace tacto {
 
-/// What a participant says of one presentation.
+/// What a participant says about one presentation.
 enum class StrengthWord { Nothing, Weak, Strong, TooStrong };
 inline constexpr Word<StrengthWord> kStrengthWords[] = {{"nothing", StrengthWord::Nothing},
                                                         {"weak", StrengthWord::Weak},

@@ -28,7 +28,7 @@ struct DriftCheckSettings {
 enum class DriftStep { Trial, Rest, Done };
 
 struct DriftResult {
-    Estimate estimate;                                              ///< of the last check, in the grid's unit
+    Estimate estimate;                                              ///< from the last check, in the grid's unit
     double probability = std::numeric_limits<double>::quiet_NaN();  ///< P(margin α > I_min) of the last check
     std::size_t rests = 0;
     bool adapted = false;                 ///< still so after the last rest

@@ -22,7 +22,7 @@ struct PersonalRangeSettings {
     double aboveDetection = 1.25;
     double belowTooStrong = 0.8;
     std::size_t leastSteps = 2;              ///< between I_min and I_max
-    double weber = kAmplitudeWeberFraction;  ///< of the level, for the distance in JND; > 0
+    double weber = kAmplitudeWeberFraction;  ///< Weber fraction of the level, for the distance in JND; > 0
 };
 
 struct PersonalRangeResult {

@@ -19,7 +19,7 @@ namespace tacto {
 struct PredictedTrial {
     std::size_t condition = 0;
     std::size_t response = 0;           ///< index into `probabilities`
-    std::vector<double> probabilities;  ///< of each response; as many for every trial, ≥ 0, their sum 1
+    std::vector<double> probabilities;  ///< probability of each response; as many for every trial, ≥ 0, their sum 1
 };
 
 struct FitFigure {

@@ -35,7 +35,7 @@ struct QuestPlusSettings {
 };
 
 struct QuestPlusResult {
-    Estimate estimate;  ///< of α with its 95 % interval, in the grid's unit
+    Estimate estimate;  ///< estimate of α with its 95 % interval, in the grid's unit
     double sd_db = std::numeric_limits<double>::quiet_NaN();
     double slope = std::numeric_limits<double>::quiet_NaN();  ///< posterior mean of β
     /// More than 2.5 % of the posterior lies at an end of the α grid: the threshold may lie beyond, and the interval is

@@ -22,7 +22,7 @@ namespace tacto {
 struct StaircaseSettings {
     double felt = 0;                   ///< F, in the grid's unit
     std::size_t reversals = 8;         ///< that end it; ≥ 2
-    std::size_t averaged = 6;          ///< of the last reversals; 1 to `reversals`
+    std::size_t averaged = 6;          ///< how many of the last reversals are averaged; 1 to `reversals`
     std::size_t most = 60;             ///< trials; ≥ 1
     std::string stream = "staircase";  ///< name of the order of intervals
 };

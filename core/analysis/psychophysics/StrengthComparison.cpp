@@ -8,7 +8,7 @@ namespace tacto {
 namespace {
 
 constexpr double kMinWeber = 0.01;
-constexpr double kWeberStep = 0.05;  // of ln w
+constexpr double kWeberStep = 0.05;  // step of ln w
 constexpr std::size_t kWebers = 93;  // to 1
 constexpr double kPriorWeber = 0.10;
 constexpr std::size_t kWidestEvery = 8;

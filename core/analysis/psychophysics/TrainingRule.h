@@ -25,7 +25,7 @@ struct TrainingTrial {
 };
 
 struct TrainingResult {
-    std::vector<std::size_t> right;  ///< of each block begun
+    std::vector<std::size_t> right;  ///< right answers in each block that has begun
     bool reached = false;            ///< the share was reached
 };
 

@@ -22,10 +22,10 @@ struct TrialPlanSettings {
     std::size_t conditions = 4;             ///< 2 to 16
     std::size_t familiarisationRounds = 3;  ///< 0 to 20
     std::size_t trainingBlocks = 4;         ///< 0 to 20
-    std::size_t trainingPerCondition = 2;   ///< of a block, 1 to 20
-    std::size_t blocks = 5;                 ///< of the test, 1 to 50
-    std::size_t perCondition = 4;           ///< of a block, 1 to 20
-    std::size_t catchTrials = 2;            ///< of a block, 0 to 20
+    std::size_t trainingPerCondition = 2;   ///< in a block, 1 to 20
+    std::size_t blocks = 5;                 ///< in the test, 1 to 50
+    std::size_t perCondition = 4;           ///< in a block, 1 to 20
+    std::size_t catchTrials = 2;            ///< in a block, 0 to 20
 };
 
 struct PlannedTrial {

@@ -1,4 +1,5 @@
-// TwoIntervalPosterior.h - what answers of two-interval trials say of a grid of models, and which trial says most next.
+// TwoIntervalPosterior.h - what answers of two-interval trials say about a grid of models, and which trial says most
+// next.
 //
 // Each cell of the grid is a model that gives each choice (a level, a pair of levels) a probability of a right answer.
 // The next choice is that with the least expected entropy of the posterior (Watson, Journal of Vision 17(3):10, 2017).
@@ -39,7 +40,7 @@ private:
 
     std::vector<double> weights_;
     std::vector<double> right_;
-    std::vector<double> entropy_;  // of the answer when the cell is known
+    std::vector<double> entropy_;  // entropy of the answer when the cell is known
     std::vector<std::size_t> taken_;
 };
 

@@ -175,7 +175,7 @@ public:
 private:
     struct Found {
         std::vector<double> values;  // µm
-        std::size_t line = 0;        // of the last
+        std::size_t line = 0;        // number of the last line
         bool final = false;          // a row of means has spoken
     };
     struct Column {

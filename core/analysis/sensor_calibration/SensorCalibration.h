@@ -43,8 +43,8 @@ struct SurfaceResult {
     double rz_um = std::numeric_limits<double>::quiet_NaN();
     std::size_t slides = 0;
     std::array<double, kSensorFeatures.size()> features{};  ///< geometric means; NaN: absent
-    Statistics R;        ///< of the slides, under the new scale, each beyond 0..1 where it is beyond the references
-    Statistics force_n;  ///< of the slides' means
+    Statistics R;        ///< R of the slides under the new scale, each beyond 0..1 where it is beyond the references
+    Statistics force_n;  ///< from the slides' means
 };
 
 struct SensorCalibration {
@@ -52,7 +52,7 @@ struct SensorCalibration {
     std::vector<std::string> reasons;   ///< why not, one sentence each
     std::vector<std::string> warnings;  ///< what limits an accepted one
     RoughnessSettings settings;         ///< with the new scales, surfaces and rest; as they were where refused
-    std::optional<RoughnessUncertainty> uncertainty;  ///< of R under the new scales; nothing: not evaluated
+    std::optional<RoughnessUncertainty> uncertainty;  ///< uncertainty of R under the new scales; nothing: not evaluated
     std::vector<SurfaceResult> surfaces;
     std::array<std::optional<SurfaceDistance>, kSensorFeatures.size()> distances;  ///< nothing: the rig lacks it
     std::optional<SurfaceDistance> distanceR;

@@ -20,14 +20,14 @@ namespace tacto {
 struct SensorSamples {
     std::vector<StreamInfo> streams;
     std::vector<SampleBlock> blocks;  ///< one per stream
-    std::string serial{};             ///< of the fingertip: whose scales hold; empty: not known
+    std::string serial{};             ///< the fingertip's, whose scales hold; empty: not known
 };
 
 /// The fingertip at rest, touching nothing.
 struct SensorRest {
     RestLevels levels;
-    StreamUnit restUnit = StreamUnit::MetrePerSecondSquared;  ///< of levels.slidingMeanSquare, squared
-    StreamUnit taxelUnit = StreamUnit::Pascal;                ///< of levels.taxelBaseline
+    StreamUnit restUnit = StreamUnit::MetrePerSecondSquared;  ///< unit of levels.slidingMeanSquare, squared
+    StreamUnit taxelUnit = StreamUnit::Pascal;                ///< unit of levels.taxelBaseline
 };
 
 /// All samples are taken as rest. Errors: InvalidArgument where they are fewer than 250 ms can hold, or where no rest

@@ -22,10 +22,10 @@
 namespace tacto {
 
 inline constexpr double kToldApart = 1;       ///< d′
-inline constexpr std::size_t kMinSlides = 3;  ///< of each surface
+inline constexpr std::size_t kMinSlides = 3;  ///< for each surface
 
 struct SurfaceDistance {
-    Estimate d;             ///< of second less first, with its sign; the ends may be infinite where nothing scatters
+    Estimate d;             ///< second less first, with its sign; the ends may be infinite where nothing scatters
     double difference = 0;  ///< mean of the second less mean of the first
     double pooledSd = 0;
     std::size_t n1 = 0;

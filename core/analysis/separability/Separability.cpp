@@ -16,7 +16,7 @@ constexpr double kJndNeeded = 5;
 constexpr double kLargestVariation = 0.05;
 constexpr double kAccuracyNeeded = 0.95;
 constexpr std::size_t kMaxFolds = 10;
-constexpr double kUnstatedUncertainty = 0.001;  // of the pooled mean
+constexpr double kUnstatedUncertainty = 0.001;  // share of the pooled mean
 constexpr std::array<std::string_view, 4> kPaperConditions{"smooth-low", "smooth-high", "rough-low", "rough-high"};
 
 bool isMeasured(const SeparabilityTrial& trial) {

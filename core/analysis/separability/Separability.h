@@ -29,7 +29,7 @@ struct SeparabilityTrial {
     double amplitude = 0;
     double interval_s = 0;
     double amplitudeUncertainty = 0;
-    double intervalUncertainty_s = 0;  ///< of the reading: sampling and noise
+    double intervalUncertainty_s = 0;  ///< uncertainty of the reading: sampling and noise
     double timeBase = 0;  ///< relative, of the oscilloscope's time base; NaN = unknown, 0 = exact or not stated
     /// Relative: the part of amplitudeUncertainty that the channel's gain makes, the same in all trials. NaN or 0: not
     /// known to be.
@@ -70,7 +70,7 @@ struct Separability {
     std::vector<ConditionSummary> conditions;
     std::vector<PairSummary> pairs;                   ///< a before b, in the conditions' order
     std::vector<std::vector<std::size_t>> confusion;  ///< [presented][classified], cross-validated
-    Estimate accuracy;                                ///< of the cross-validation, Wilson 95 %
+    Estimate accuracy;                                ///< accuracy of the cross-validation, Wilson 95 %
     std::size_t folds = 0;                            ///< 0: too few trials to cross-validate
     double amplitudeFloor = 0;   ///< standard deviation below which no variance is taken: the measurement's own; NaN =
                                  ///< unknown

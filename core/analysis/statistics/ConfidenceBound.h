@@ -24,7 +24,7 @@ struct Bounds {
 /// The mean of one condition's readings.
 struct MeanReading {
     double mean = 0;  ///< > 0
-    double sd = 0;    ///< of single readings
+    double sd = 0;    ///< standard deviation of single readings
     std::size_t n = 0;
     double uncertainty = 0;  ///< standard uncertainty that all its readings share (the instrument's); NaN = unknown
 };

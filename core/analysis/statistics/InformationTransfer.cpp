@@ -37,8 +37,8 @@ double jackknifed(double k, double n) noexcept {
 
 /// Stimuli that were presented, with the shares of their answers.
 struct Answers {
-    std::vector<double> n, weight;  // of each row
-    Table share;                    // of a row's answers
+    std::vector<double> n, weight;  // one for each row
+    Table share;                    // shares of a row's answers
     std::vector<double> overall;    // shares of all answers
     double trials = 0;
 };

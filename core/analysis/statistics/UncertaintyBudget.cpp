@@ -108,7 +108,7 @@ Result<UncertaintyBudget> combine(std::vector<Contribution> rows, const BudgetOp
         budget.rows = std::move(rows);
         return budget;
     }
-    double fourthPowers = 0;  // of (contribution / u_c), over degrees of freedom: no under- or overflow
+    double fourthPowers = 0;  // sum of (contribution / u_c)⁴ over degrees of freedom: no under- or overflow
     if (budget.combined > 0) {
         for (const auto& row : rows) {
             const double share = row.contribution() / budget.combined;

@@ -58,7 +58,7 @@ struct UncertaintyBudget {
 
 struct BudgetOptions {
     std::uint64_t seed = 1;
-    std::size_t draws = 200'000;  ///< of the Monte Carlo; at least 1000
+    std::size_t draws = 200'000;  ///< draws of the Monte Carlo; at least 1000
 };
 
 /// Errors: InvalidArgument for no rows, a value that is infinite or negative, a divisor or degrees of freedom that

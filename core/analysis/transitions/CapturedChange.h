@@ -51,7 +51,7 @@ struct CapturedChange {
     StepCourse fastest = {};                           ///< what no sequence of trains in the wanted steps can undercut
     double from_v = kNaN, to_v = kNaN, from_s = kNaN, to_s = kNaN;
     std::vector<double> before_v = {};        ///< amplitudes of the trains before it
-    std::vector<std::int64_t> captures = {};  ///< of the train that carries it, and of the one before the step
+    std::vector<std::int64_t> captures = {};  ///< captures of the train that carries it, and of the one before the step
 };
 
 struct ChangeLimits {
@@ -77,7 +77,7 @@ struct ChangeGroup {
     std::vector<double> complete_s, fastest_s, trains, fewest;
     std::size_t late = 0;        ///< after the limit, though within reach of it
     std::size_t outOfReach = 0;  ///< the limit cannot be kept at the wanted steps
-    std::size_t tooMany = 0;     ///< of those, with more trains than the wanted steps take
+    std::size_t tooMany = 0;     ///< those with more trains than the wanted steps take
     double from_v = 0, to_v = 0, from_s = 0, to_s = 0;
     Verdict verdict = Verdict::Indeterminate;
 };

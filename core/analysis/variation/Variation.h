@@ -62,7 +62,7 @@ struct PredictedCondition {
     std::string name;
     std::size_t presented = 0;  ///< participants
     std::size_t refused = 0;
-    std::size_t notFelt = 0;  ///< of those presented: below the detection threshold
+    std::size_t notFelt = 0;  ///< trials below the detection threshold, among those presented
     std::size_t counted = 0;  ///< presented and felt
     /// Shares of all for whom there is a current, whether or not it is withheld:
     std::size_t drawsAttention = 0;  ///< at or above the attention threshold
@@ -87,7 +87,7 @@ struct Variation {
     std::map<std::string, std::size_t> withheld;  ///< participants times conditions not presented, by reason
 
     std::size_t complete = 0;    ///< participants who are presented every condition
-    Estimate presentedAccuracy;  ///< of the complete, whether or not they feel what they are presented
+    Estimate presentedAccuracy;  ///< accuracy of the complete, whether or not they feel what they are presented
 
     // Every participant is one of these:
     std::size_t served = 0;         ///< every condition counts
@@ -101,12 +101,12 @@ struct Variation {
     std::vector<std::vector<std::size_t>> confusion;  ///< sampled, [presented][answered], "none" last
     Estimate accuracy;                                ///< expected
     Estimate information;                             ///< expected, bits
-    double pooledAccuracy = 0;                        ///< of the sampled trials; NaN without any
-    double pooledInformation = 0;                     ///< of the sampled trials, bits, not corrected
+    double pooledAccuracy = 0;                        ///< accuracy over the sampled trials; NaN without any
+    double pooledInformation = 0;                     ///< information in the sampled trials, bits, not corrected
     double pooledCorrected = 0;                       ///< without what chance adds, bits
     std::vector<double> accuracies;                   ///< sorted
     std::optional<TrialsNeeded> trials;               ///< nothing without served participants
-    std::vector<PilotOutlook> pilots;  ///< of 3, 4, 5 and options.wanted.participants people; empty likewise
+    std::vector<PilotOutlook> pilots;  ///< for 3, 4, 5 and options.wanted.participants people; empty likewise
 
     Estimate impedance_ohm;  ///< over all
     Estimate detection_ma;

@@ -19,12 +19,12 @@ namespace tacto {
 
 struct BenchTolerances {
     double stimulatorGain = 0.02;  ///< relative
-    Volts stimulatorOffset{0.1};   ///< or as many volts at the nominal load, of a current source
+    Volts stimulatorOffset{0.1};   ///< at the nominal load, where the source is a current source
     double load = 0.05;            ///< relative; concerns a current source, whose voltage is read
     double scopeGain = 0.005;      ///< relative
-    double scopeOffset = 0.001;    ///< of the range, which is twice the condition's amplitude
+    double scopeOffset = 0.001;    ///< share of the range, which is twice the condition's amplitude
     double clock = 1e-4;           ///< relative, stimulator against oscilloscope
-    Micros jitter{10};             ///< of one interval
+    Micros jitter{10};             ///< spread of one interval
 };
 
 /// Median and 5 to 95 % over the draws.

@@ -14,7 +14,7 @@ namespace {
 
 /// One pulse into the participant's skin.
 struct PulseIntoSkin {
-    Milliamps mean{0};  ///< of the leading phase
+    Milliamps mean{0};  ///< mean of the leading phase
     Volts end{0};
 };
 

@@ -46,7 +46,7 @@ struct Observer {
 
 /// A condition that is never given keeps its row and column, so that indices are those of the experiment.
 struct IdentificationTask {
-    std::vector<FeltPoint> points;  ///< of every condition
+    std::vector<FeltPoint> points;  ///< one for every condition
     std::vector<bool> given;        ///< as long as `points`: presented, and learned as an answer
 };
 

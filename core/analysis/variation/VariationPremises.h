@@ -24,7 +24,7 @@ struct Premise {
     std::string spread;  ///< geometric standard deviation and its own mark, "1.4 (choice)": no source gives one; empty
                          ///< for one value for all
     PremiseMark mark = PremiseMark::Choice;
-    std::string source;  ///< of the shipped value; of a choice what it leans on, in a sentence
+    std::string source;  ///< source of the shipped value; for a choice what it leans on, in a sentence
 };
 
 /// In the order of the chain: thresholds, skin, discrimination, levels. `options` has been predicted with.

@@ -20,11 +20,11 @@
 namespace tacto {
 
 struct TrialsWanted {
-    double width = 0.1;            ///< of the 95 % interval, upper end less lower; 0.02 to 1
+    double width = 0.1;            ///< width of the 95 % interval, upper end less lower; 0.02 to 1
     double chance = 0.25;          ///< which the lower end must exceed; above 0, below 1
     double assurance = 0.8;        ///< probability with which a pilot reaches what is wanted; 0.5 to 0.999
     std::size_t conditions = 4;    ///< trials of a participant are a multiple of this
-    std::size_t participants = 5;  ///< of the pilot, for the pooled figures: the paper plans 3 to 5
+    std::size_t participants = 5;  ///< people in the pilot, for the pooled figures: the paper plans 3 to 5
     std::size_t most = 20'000;     ///< trials beyond which the search ends
 };
 /// Errors: InvalidArgument naming the field, its value and what is accepted.
@@ -41,7 +41,7 @@ struct TrialsWanted {
 
 /// One aim of a pilot that pools its participants.
 struct PooledTrials {
-    std::optional<std::size_t> total;           ///< of all participants; nothing when no number is enough
+    std::optional<std::size_t> total;           ///< trials of all participants; nothing when no number is enough
     std::optional<std::size_t> perParticipant;  ///< whole blocks
     double designEffect = 1;                    ///< at that many per participant; NaN when no number is enough
     /// Fewest participants with whom it can be reached at all, whatever each of them does.

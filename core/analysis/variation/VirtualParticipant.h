@@ -2,7 +2,7 @@
 //
 // Everything drawn is log-normal, given by its median and its geometric standard deviation (1.5: two thirds of all
 // people lie between median / 1.5 and median · 1.5), except lapses, which are uniform. What comes out is a prediction,
-// never a measurement. VariationPremises.h says of each default where it is from and which are choices.
+// never a measurement. VariationPremises.h says about each default where it is from and which are choices.
 //
 // Three thresholds are told apart, each a distribution of its own: perception (felt at all), attention (draws attention
 // to itself) and intolerance (not borne). A person's three are correlated and in this order.
@@ -44,7 +44,7 @@ struct PopulationModel {
     LogNormal detection_ma{3.5, 1.4};     ///< perception
     LogNormal attention_ma{6.9, 1.4};     ///< attention
     LogNormal intolerance_ma{13.8, 1.4};  ///< intolerance
-    double thresholdCorrelation = 0.8;    ///< of the logarithms of a person's thresholds
+    double thresholdCorrelation = 0.8;    ///< between the logarithms of a person's thresholds
     /// From where stimulation is too strong for a median person, above the median of detection. 9.8: the geometric mean
     /// of attention and intolerance.
     double discomfort_ma = 9.8;

@@ -8,7 +8,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kOnsetShare = 0.1, kRisenShare = 0.9;  // of the peak
+constexpr double kOnsetShare = 0.1, kRisenShare = 0.9;  // shares of the peak
 constexpr double kGap = 3;                              // sample periods
 
 /// Magnitudes beside their stamps, without what is there in the quiet.

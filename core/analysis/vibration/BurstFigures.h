@@ -46,7 +46,7 @@ struct BurstFigures {
     double latency_s = kNaN;
     double rise_s = kNaN;
     double interval_s = kNaN;
-    double noise_m_s2 = kNaN;  ///< of one sample
+    double noise_m_s2 = kNaN;  ///< noise of one sample
     /// Standard uncertainties of what is said above, by noise and sampling. The accelerometer's scale is not in them:
     /// it is the same for all conditions, and only ratios are judged.
     double strengthUncertainty_m_s2 = kNaN;

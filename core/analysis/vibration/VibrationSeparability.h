@@ -5,7 +5,7 @@
 // (Weber fraction 0.10) or in interval (0.16), each by its one-sided 95 % bound; no condition varies by more than 5 %;
 // and 95 % of presentations are recognised, by the lower end of the interval. A presentation in which the motor did not
 // move is a failure; one that was not measured leaves the verdict open. Without an accelerometer nothing is measured,
-// and nothing is said of the motor.
+// and nothing is said about the motor.
 //
 // Thread-safety: pure functions on values.
 #pragma once
@@ -25,7 +25,7 @@ struct VibrationTrial {
     std::string condition;
     double intensity = kNaN;  ///< commanded
     double interval_s = kNaN;
-    BurstFigures measured;  ///< of an accelerometer that was read; all NaN where it was not
+    BurstFigures measured;  ///< what an accelerometer read; all NaN where there was none
 };
 
 struct VibrationCondition {

@@ -15,7 +15,7 @@ namespace {
 /// What the columns of the first rows hold, by number from 1.
 struct ColumnsOfRows {
     std::vector<std::size_t> numbers;  ///< no text
-    std::vector<std::size_t> rising;   ///< of them, in even steps, and stamps: what times are like
+    std::vector<std::size_t> rising;   ///< those of them that rise in even steps, and stamps: what times are like
 };
 
 bool risesEvenly(const std::vector<double>& values) {

@@ -116,7 +116,7 @@ CsvColumn columnNamed(std::string_view text) {
     for (const std::string_view between : {" in ", " en ", "/", ", "}) {
         if (auto column = withUnitBehind(text, between)) return *std::move(column);
     }
-    for (const std::string_view before : {"in ", "en "}) {  // of the time again
+    for (const std::string_view before : {"in ", "en "}) {  // the unit of times by itself
         if (!text.starts_with(before)) continue;
         if (const auto unit = spelledUnit(text.substr(3)); unit && unit->unit == "s")
             return withUnit("time", text.substr(3));

@@ -75,7 +75,7 @@ tl::unexpected<Error> withAdvice(Error refusal, TextBlocks& blocks, const std::s
     if (!isOfTable || refusal.message.find(kRateInstead) != std::string::npos)
         return tl::unexpected(std::move(refusal));
     constexpr std::uint64_t kLong = 32UL * 1024 * 1024;
-    std::size_t readings = blocks.size() > kLong ? 3 : 40;  // of all rows, at most
+    std::size_t readings = blocks.size() > kLong ? 3 : 40;  // readings of all rows, at most
     for (const auto& advice : adviceToTry(text, dialect, options, blocks.name())) {
         const auto head = readCaptureHead(text, advice.options.skipRows);
         if (head.header.empty() && !head.firstRow) continue;

@@ -60,22 +60,22 @@ enum class RowTimes {
 
 struct CsvLayout {
     std::size_t width = 0;           ///< fields of a row; more may follow if they are empty
-    std::vector<std::string> names;  ///< of the columns, as the file has them
-    std::size_t dataOffset = 0;      ///< of the first row in the text
+    std::vector<std::string> names;  ///< the columns' names, as the file has them
+    std::size_t dataOffset = 0;      ///< place of the first row in the text
     std::size_t dataLine = 0;        ///< its number
-    std::size_t headerLine = 0;      ///< of the line that names the columns, for messages
+    std::size_t headerLine = 0;      ///< number of the line that names the columns, for messages
     RowTimes times = RowTimes::Column;
     std::size_t timeColumn = 0;
-    double timeFactor = 1;                    ///< of the time column to seconds
+    double timeFactor = 1;                    ///< what turns the time column into seconds
     std::optional<std::int64_t> stampOrigin;  ///< where that column holds dates and times: what they are counted from
     struct OtherTime {
         std::size_t column;
         double factor;  ///< to seconds
     };
-    std::vector<OtherTime> otherTimes;  ///< of other channels: they must agree with the time column
+    std::vector<OtherTime> otherTimes;  ///< times of other channels: they must agree with the time column
     std::optional<double> interval_s;   ///< as the header states it
     std::string noInterval;             ///< why it states none, where the rows are counted: needs a rate
-    double start_s = 0;                 ///< of sample 0 where times are an index or counted
+    double start_s = 0;                 ///< time of sample 0 where times are an index or counted
     std::optional<double> rows;         ///< how many the header announces
     /// What another number of rows means, where they are then no single record: such a table is refused.
     std::string otherRows;

@@ -11,7 +11,7 @@ namespace tacto {
 
 struct CsvMaker {
     CsvDialect dialect;
-    std::string_view id;    ///< of the format: "csv-rigol"
+    std::string_view id;    ///< the format's id: "csv-rigol"
     std::string_view name;  ///< for people
     /// Whether a table that begins so is one of the maker's. The header is not empty or there is a first row.
     bool (*recognises)(const CsvHead& head);

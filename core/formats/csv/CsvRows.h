@@ -18,7 +18,7 @@ struct RowBatch {
     static constexpr std::size_t kRows = 4096;
     std::size_t rows = 0;
     std::vector<double> times;                 ///< as the file has them; empty where no column is one
-    std::vector<std::vector<double>> others;   ///< of the layout's other columns of times
+    std::vector<std::vector<double>> others;   ///< values of the layout's other columns of times
     std::vector<std::vector<float>> channels;  ///< in V, A or 1; not finite where the field is empty or says so
     std::vector<std::size_t> lines;            ///< in the file, from 1
 };
@@ -44,7 +44,7 @@ public:
     [[nodiscard]] std::size_t endLine() const noexcept { return endLine_; }
 
 private:
-    /// A column of the file; what is read of it waits here until the batch is full.
+    /// A column of the file; what is read from it waits here until the batch is full.
     struct Use {
         bool ignored = true;
         std::vector<double> values{};
@@ -53,7 +53,7 @@ private:
         std::size_t noValues = 0;
         bool stamps = false;  ///< dates and times
         static constexpr std::size_t kTime = static_cast<std::size_t>(-1);
-        static constexpr std::size_t kOther = kTime / 2;  ///< and the number of the other column of times
+        static constexpr std::size_t kOther = kTime / 2;  ///< added to the number of another column of times
     };
     /// Takes rows from text_ until the batch is full or the block is used up.
     [[nodiscard]] Result<void> takeRows();
@@ -71,8 +71,8 @@ private:
     std::vector<Use> uses_;
     RowBatch batch_;
     std::vector<std::string_view> fields_;
-    std::string_view text_;  ///< of the block, not taken yet
-    std::size_t line_;       ///< of the text's first byte
+    std::string_view text_;  ///< what the block has left
+    std::size_t line_;       ///< line of the text's first byte
     std::size_t skip_;       ///< bytes before the first row
     std::uint64_t bytes_ = 0;
     std::uint64_t rows_ = 0;

@@ -45,7 +45,7 @@ public:
 
     /// Notes the first row whose channels have other times.
     void compareTimes(const RowBatch& batch, const CsvLayout& layout) {
-        constexpr double kAgreeing = 0.05;  // of a step: rounding, and nothing that a pulse's edges would show
+        constexpr double kAgreeing = 0.05;  // share of a step: rounding, and nothing that a pulse's edges would show
         if (rows == 0 && batch.rows > 1 && !batch.others.empty()) {
             agreeing_s_ = kAgreeing * std::abs(batch.times[batch.rows - 1] - batch.times[0]) * layout.timeFactor /
                           static_cast<double>(batch.rows - 1);

@@ -12,7 +12,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kTolerance = 0.5 + 1e-9;  // of a step: accepted; the rest is rounding
+constexpr double kTolerance = 0.5 + 1e-9;  // share of a step that is accepted; the rest is rounding
 constexpr double kCalm = 0.26;             // not worth a word: what rounding to half a step's digits does
 
 /// What the steps are like, as far as a message needs it.

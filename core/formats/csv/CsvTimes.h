@@ -81,7 +81,7 @@ private:
         std::size_t rows = 0;
         double last = 0;
         double farthestStated = 0;  ///< from the line that rises by the header's interval
-        std::size_t mark = 0;       ///< of line_
+        std::size_t mark = 0;       ///< a mark of line_
     };
     /// The header's interval, where the stamps are held against it.
     [[nodiscard]] std::optional<double> stated() const noexcept;
@@ -94,7 +94,7 @@ private:
     const CsvLayout& layout_;
     std::vector<double> stamps_;  ///< in s or samples: the first kKept, or all
     Seen seen_, kept_;
-    std::optional<LineOfStamps> line_;  ///< of those behind the first kKept
+    std::optional<LineOfStamps> line_;  ///< the line of the stamps behind the first kKept
     /// Row and line, where the line is not the one behind the last row's.
     std::vector<std::pair<std::size_t, std::size_t>> jumps_;
     std::size_t nextLine_ = 0;

@@ -14,7 +14,7 @@ namespace tacto {
 /// Sample interval and number of rows, as "Sample Interval" or "Sample Rate", and "Record Length", state them.
 void readRecordKeys(const CsvHead& head, CsvLayout& layout);
 
-/// Errors: Unsupported where "Horizontal Units" are stated and not seconds, as of a spectrum.
+/// Errors: Unsupported where "Horizontal Units" are stated and not seconds, as in a spectrum.
 [[nodiscard]] Result<void> checkHorizontalUnit(const CsvHead& head, std::string_view file);
 
 /// Whether keys stand in columns 1 and 2 of rows whose columns 4 and 5 hold time and value.

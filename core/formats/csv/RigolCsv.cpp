@@ -66,7 +66,7 @@ bool isRigol(const CsvHead& head) {
                                     hasUnitsInNames(head) || isUltraScope(head));
 }
 
-/// Start and increment stand behind the units; where that line is missing, nothing is known of either.
+/// Start and increment stand behind the units; where that line is missing, nothing is known about either.
 CsvDraft startAndIncrement(const CsvHead& head, std::string_view file) {
     const auto& names = head.header[0];
     const auto* units = head.header.size() > 1 ? &head.header[1] : nullptr;

@@ -15,7 +15,7 @@ constexpr std::size_t kDraws = 2000;
 /// In how many of the runs the interval held the truth.
 struct Covered {
     std::array<int, 3> level{};  ///< lowest, middle, largest command
-    std::array<int, 3> worst{};  ///< of the worse direction's mean, which is what is judged
+    std::array<int, 3> worst{};  ///< from the worse direction's mean, which is what is judged
     int gain = 0;
     int offset = 0;
     int monteCarlo = 0;  ///< budgets at the largest command that were propagated

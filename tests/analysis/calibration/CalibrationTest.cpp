@@ -152,7 +152,7 @@ TEST(Calibration, CommandsThatDifferALittleAreOneLevelAndTheirDifferenceNoScatte
 TEST(Calibration, MarksFewOfAHealthyDevicesReadings) {
     std::size_t marked = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) marked += fitCalibration(CalibrationTwin{}.run(seed))->outliers;
-    EXPECT_LE(marked, 1U);  // of 22 000
+    EXPECT_LE(marked, 1U);  // among 22 000
 }
 
 TEST(Calibration, AReadingThatWasNotMeasuredIsCounted) {

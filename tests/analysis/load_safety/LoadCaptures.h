@@ -20,18 +20,18 @@ struct LoadTruth {
     double interval_s = 0.5;
     int pulses = 1;
     double train_hz = 100;  ///< within the train
-    double second = 1;      ///< of the leading phase's amplitude
+    double second = 1;      ///< share of the leading phase's amplitude
     double rate_hz = 10e6;
-    double gain_v = 1, gain_i = 1;      ///< of the instrument
-    double offset_v = 0, offset_a = 0;  ///< of the instrument
+    double gain_v = 1, gain_i = 1;      ///< the instrument's gain errors
+    double offset_v = 0, offset_a = 0;  ///< the instrument's offsets
     double gainTolerance = 0.005;
     double shuntTolerance = 0;
     double timeBaseTolerance = 0;
     double timeBase = 1;     ///< what the instrument makes of a second
-    double noise = 0;        ///< of the range, r.m.s.
+    double noise = 0;        ///< share of the range, r.m.s.
     double scatter = 0;      ///< relative, of the trains' amplitudes
-    std::uint64_t seed = 1;  ///< of noise and scatter
-    int bits = 12;           ///< of a range of 1.5 times the peak
+    std::uint64_t seed = 1;  ///< draws noise and scatter
+    int bits = 12;           ///< for a range of 1.5 times the peak
 };
 
 /// `trains` captures, one per train. Edges last 100 ns, as a fast source's do.
@@ -40,7 +40,7 @@ struct LoadTruth {
     const double edge = 100e-9, before = 120e-6;
     const double end = before + (truth.pulses - 1) / truth.train_hz + 2 * truth.width_s + truth.gap_s + 150e-6;
     Random random(truth.seed, "load captures");
-    double shift = 0;  // of the train against the samples
+    double shift = 0;  // where the train begins between two samples
     const auto level = [&](double stated) {
         const double t = stated / truth.timeBase - shift;
         // A trapezoid whose width at half height is the phase's.

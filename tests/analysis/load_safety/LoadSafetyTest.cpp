@@ -128,7 +128,7 @@ protected:
         return cells.at(static_cast<std::size_t>(at)).value();
     }
 
-    LimitMatrix matrix;  // of the last line() or cell()
+    LimitMatrix matrix;  // where line() or cell() looked last
 };
 
 TEST_F(LoadSafetyTrips, AreALineOfTheMatrixWithTheLongerTime) {

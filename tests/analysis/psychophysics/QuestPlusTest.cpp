@@ -43,7 +43,7 @@ TEST(QuestPlus, AsksForTheLevelsAndKnowsThePosteriorOfAnIndependentComputation) 
         }
         EXPECT_TRUE(quest.done());
         EXPECT_FALSE(quest.next());
-        // Of α in cells of 0.5 dB, the first 12 dB below what was felt.
+        // The prior of α in cells of 0.5 dB, the first 12 dB below what was felt.
         const auto expected = run.at("posterior").get<std::vector<double>>();
         ASSERT_EQ(expected.size(), 43U);
         const auto aboveCell = [&](std::size_t i) {

@@ -96,7 +96,7 @@ TEST(StrengthComparison, WhoIsAlwaysRightOrGuessesIsAtTheEdgeOfWhatIsKnown) {
 }
 
 struct WeberRecovery {
-    double bias = 0, sd = 0, cover = 0;  // of ln(estimate/truth); share of intervals
+    double bias = 0, sd = 0, cover = 0;  // errors of ln(estimate/truth), and share of intervals
 };
 
 /// `factor`: their Weber fraction is so many times the one held against the estimate.

@@ -55,7 +55,7 @@ TEST(InformationTransfer, AllRightIsAllThereIsAndTheIntervalSaysWhatTheTrialsAll
 struct Channel {
     const char* name;
     Table answers;                 // [stimulus][answer], rows of 1
-    std::vector<int> presented{};  // of each stimulus
+    std::vector<int> presented{};  // how often each stimulus came
     [[nodiscard]] double truth() const {
         double bits = 0, n = 0;
         for (const int each : presented) n += each;

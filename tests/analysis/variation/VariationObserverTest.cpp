@@ -27,7 +27,7 @@ TEST(VariationObserver, TwoConditionsAlongOneDimensionFollowTheClosedForm) {
             const double expected = phi(d / (2 * sigma));
             for (const auto& task : {taskOf({{20, 3}, {20 + d, 3}}), taskOf({{20, 3}, {20, 3 + d}})}) {
                 const auto p = responseProbabilities(task, {sigma});
-                const double right = d == 0 ? 1 : expected;  // of equal points the first is answered
+                const double right = d == 0 ? 1 : expected;  // the first of equal points is answered
                 EXPECT_NEAR(p[0][0], right, 1e-9) << d << " " << sigma;
                 EXPECT_NEAR(p[1][1], d == 0 ? 0 : expected, 1e-9) << d << " " << sigma;
             }

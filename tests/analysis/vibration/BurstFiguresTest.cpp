@@ -13,7 +13,7 @@ constexpr double kRate = 4000, kGravity = 9.81, kHertz = 100;
 
 struct Shaking {
     double amplitude = 4;     // m/s²
-    double latency_s = 0.02;  // of every burst
+    double latency_s = 0.02;  // latency of every burst
     double ramp_s = 0;        // until the amplitude is reached
     double noise = 0;         // an axis
 };

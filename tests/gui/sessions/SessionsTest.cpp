@@ -200,7 +200,7 @@ TEST_F(Recorded, IsFoundVerifiedAndSearchedInTheWorkspace) {
 TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
     gui::Background background;
     std::atomic<bool> let{false};
-    std::vector<std::string> order;  // of the threads, one after the other
+    std::vector<std::string> order;  // the threads' turns, one after the other
     bool first = false, second = false;
     background.start(
         [&](const gui::WorkPort&) -> Result<void> {  // deaf to cancel

@@ -19,7 +19,7 @@ struct WrittenSession {
     std::string name;
     std::string protocol = "separability";
     std::string verdict = "pass";
-    double amplitude_v = 39.8;  ///< of the condition rough-high
+    double amplitude_v = 39.8;  ///< amplitude of the condition rough-high
     std::string wallStart = "2026-11-20T10:02:05Z";
     bool simulated = true;
 };
@@ -70,7 +70,7 @@ public:
         for (int trial = 0; wanted.protocol == "separability" && trial < 100; ++trial) {
             pass(1);
             const auto& [condition, features] = conditions[trial % 4];
-            const double noise = 0.02 * (trial / 4 % 5 - 2);  // of mean 0
+            const double noise = 0.02 * (trial / 4 % 5 - 2);  // noise with mean 0
             EXPECT_TRUE(session.trial(clock.now(), condition,
                                       {{"amplitude_v", features.first + noise}, {"interval_s", features.second}}));
         }

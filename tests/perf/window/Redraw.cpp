@@ -30,8 +30,8 @@ constexpr double kGoal_percent = 25;
 const QSize kScreen(1280, 720);
 
 struct Cost {
-    double window_percent = 0;   ///< of one core, the window's thread
-    double process_percent = 0;  ///< of one core, all threads
+    double window_percent = 0;   ///< share of one core that the window's thread takes
+    double process_percent = 0;  ///< share of one core that all threads take
     double frames_hz = 0;        ///< pictures that were really drawn
 };
 

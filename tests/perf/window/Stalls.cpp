@@ -27,7 +27,7 @@ using test::Stalls;
 using test::stallsWhile;
 
 constexpr int kLive = 0, kSeparability = 3, kSessions = 5;  // workspaces, from the top
-constexpr int kExported_s = 600;                            // of simulated bench
+constexpr int kExported_s = 600;                            // seconds of simulated bench
 constexpr int kLimit_ms = 120'000;
 
 class Table {

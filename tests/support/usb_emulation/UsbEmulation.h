@@ -69,7 +69,7 @@ struct EmulatedUsbDevice::Emulation {
     UsbWire wire;
     UMockdevIoctlBase* const handler;  // the device's: it keeps this
     std::unique_ptr<UsbNode> node;     // null: unplugged
-    std::string path;                  // of the node, as "/dev/bus/usb/001/002"
+    std::string path;                  // path of the node, as "/dev/bus/usb/001/002"
     unsigned mode = 0666;
     bool kernelBound = false;
     std::set<const void*> connected;  // open files of this plug-in; those of an earlier one stay dead

@@ -9,7 +9,7 @@
 namespace tacto::test {
 
 namespace {
-constexpr std::uint8_t kInput = 0x80;  // of an endpoint address
+constexpr std::uint8_t kInput = 0x80;  // mark of an endpoint address for input
 }
 
 void ReleaseIoctlData::operator()(_UMockdevIoctlData* data) const noexcept { g_object_unref(data); }

@@ -38,16 +38,16 @@ struct EmulatedBoardSettings {
     std::string serial = "EMU-0001";
     std::string firmware = TACTOSCOPE_VERSION;
     std::uint8_t lowestVersion = 1, highestVersion = 1;
-    double tickRate_hz = 4000;  ///< of the signal's steps; every stream's rate divides it
+    double tickRate_hz = 4000;  ///< rate of the signal's steps; every stream's rate divides it
     double rate_hz = 4000;
     double slowRate_hz = 200;
     std::uint8_t blockSamples = 32, slowBlockSamples = 2;
     bool wideForce = false;                ///< force as int32
-    std::optional<std::uint8_t> unit;      ///< of acceleration, in place of the right one
+    std::optional<std::uint8_t> unit;      ///< unit of acceleration, in place of the right one
     std::optional<std::uint8_t> done;      ///< the command that each DONE names, in place of the right one
     double drift_ppm = 0;                  ///< how much faster than the host's its clock runs
     std::uint64_t powerUp_us = 1'234'567;  ///< its clock when it is made
-    Seconds latency{300e-6};               ///< of a frame on its way, at least
+    Seconds latency{300e-6};               ///< delay of a frame on its way, at least
     Seconds jitter{0};                     ///< mean of an exponential delay on top
     LineFlaws flaws;
     std::size_t bufferBytes = 65536;  ///< beyond these, new blocks are thrown away

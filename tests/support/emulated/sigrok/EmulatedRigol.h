@@ -83,7 +83,7 @@ private:
     double level_V_ = 0;
     State state_ = State::Running;
     double searchFrom_s_ = 0;
-    std::optional<double> trigger_s_;  // of the record that is taken, or was
+    std::optional<double> trigger_s_;  // trigger of the record that is taken, or was
     bool complete_ = false;            // that record has come to its end
     std::size_t depth_ = kMemory;
     bool memory_ = false;  // :WAV:MODE RAW
