@@ -101,7 +101,7 @@ Result<void> checkLimits(const GateSetup& setup) {
 
 // --- source ---------------------------------------------------------------------------------------------------------
 
-/// The first stated accuracy that is none.
+/// The first stated accuracy that cannot be one.
 std::optional<Spread> unsoundAccuracy(const SourceTraits& s) noexcept {
     const auto& of = s.accuracy;
     for (const auto& stated : {of.amplitude, of.phaseWidth, of.gap, of.interval, of.rate}) {

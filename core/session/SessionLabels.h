@@ -37,10 +37,10 @@ inline constexpr std::size_t kMaxTags = 20;
 /// Takes over into `onto` each field in which `edited` differs from `shown`. The list of tags is one field.
 void takeEdit(const SessionLabels& shown, const SessionLabels& edited, SessionLabels& onto);
 
-/// Keeps in the session what a person who was shown `shown` made of it; nothing is written where it has that already.
-/// Returns the labels that the session has then. Blocks while the file is copied. Errors: as checkLabels(),
-/// SessionReader and takesLabels(); Io when it is locked by another program or cannot be written. The session is as it
-/// was then.
+/// Keeps in the session the fields that a person edited, who was shown `shown`; writes nothing where it has them
+/// already. Returns the labels that the session has then. Blocks while the file is copied. Errors: as checkLabels(),
+/// SessionReader and takesLabels(); Io when it is locked by another program or cannot be written. After an error the
+/// session is as it was.
 [[nodiscard]] Result<SessionLabels> saveLabels(const std::filesystem::path& session, const SessionLabels& shown,
                                                const SessionLabels& edited);
 

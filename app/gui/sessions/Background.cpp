@@ -29,7 +29,7 @@ void Background::start(Work work, std::function<void(Result<void>)> then) {
     then_ = std::move(then);
     const auto promise = std::make_shared<QPromise<Result<void>>>();
     promise->start();
-    newest_.setFuture(promise->future());  // and the one before it is forgotten
+    newest_.setFuture(promise->future());  // forgets the one before it
     emit busyChanged(true);
     thread_.start([promise, work = std::move(work), cancelled = cancelled_] {
         promise->addResult(work({cancelled, [&](int done, int total) {

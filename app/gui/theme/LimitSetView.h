@@ -22,7 +22,7 @@ class LimitSetView final : public QWidget {
 public:
     /// `sets` outlives it.
     explicit LimitSetView(const std::vector<LimitSet>& sets, QWidget* parent);
-    /// By id; one that is not there is left alone.
+    /// Shows the set with that id; nothing changes where there is none.
     void choose(const QString& id);
 
 private:
