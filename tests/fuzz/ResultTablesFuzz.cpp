@@ -54,7 +54,7 @@ void checkIdentification(std::string_view text) {
     const auto participants = parseIdentificationTrials(text, "fuzz.csv");
     if (refusedByName(participants)) return;
     if (participants->empty()) std::abort();
-    for (const auto& [participant, trials] : *participants) {
+    for (const auto& [participant, basis, trials] : *participants) {
         const auto identified = identifyAsMet(trials);
         if (!identified && identified.error().message.empty()) std::abort();
         if (!identified) continue;
