@@ -26,8 +26,8 @@ struct ResultColumn {
         LimitSet,
         Quantity  ///< a calibrated one by its id: "Phase width" of "width"
     };
-    std::string title;
-    std::string at;  ///< the member; "a.b" for a member of a member
+    std::string title{};
+    std::string at{};  ///< the member; "a.b" for a member of a member
     As as = As::Text;
     std::string unit{};    ///< of a number; "@b": the record's own, which its member b states
     std::string beside{};  ///< the member that stands beside it: U (95 %) in the number's unit, or the bound
@@ -48,8 +48,8 @@ struct ResultTable {
         InTheTerminal,  ///< the terminal leaves it out: too long for a screen
         InBoth
     };
-    std::string title;
-    std::string at;  ///< "changes.groups"; empty: the results themselves; "a|b": the records a and b as rows
+    std::string title{};
+    std::string at{};  ///< "changes.groups"; empty: the results themselves; "a|b": the records a and b as rows
     Shape shape = Shape::Rows;
     std::vector<ResultColumn> columns{};
     std::string but{};   ///< Rows: those with this verdict are left out, as they say nothing
