@@ -48,6 +48,7 @@ void printRows(const ResultTable& table, const json& records) {
     }
     say("\n  {}", table.title);
     lines.print();
+    if (!table.note.empty()) say("  {}\n", table.note);
 }
 
 /// Counts, row by column; the names are those of the conditions.

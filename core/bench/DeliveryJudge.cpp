@@ -184,7 +184,12 @@ std::optional<LoopFault> DeliveryJudge::load(const SeenLoad& seen, bool permitte
 }
 
 std::optional<LoopFault> DeliveryJudge::silence(Instant trainEnd, bool goesOn, Instant now) const {
-    const auto status = goesOn ? std::optional(TrainReadBack{.at = now, .delivering = true}) : std::nullopt;
+    std::optional<TrainReadBack> status;
+    if (goesOn) {
+        status.emplace();
+        status->at = now;
+        status->delivering = true;
+    }
     const auto judgement = judgeTrain(mode_, status, trainEnd, now);
     if (!judgement.stops() || interlock_.state() == InterlockState::Faulted) return std::nullopt;
     return LoopFault{causeOf(judgement.finding), judgement.reason.view()};

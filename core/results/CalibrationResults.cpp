@@ -11,7 +11,8 @@ ResultTraits stimulatorCalibration() {
         {verdict(), as(As::Quantity, "Quantity", "quantity"), number("Gain", "gain", "", "gain_expanded_uncertainty"),
          number("k", "gain_coverage_factor"), number("Offset", "offset", "@unit", "offset_expanded_uncertainty"),
          number("k", "offset_coverage_factor"), spread("Residual", "residual_max_pct_fs", "%"),
-         spread("Repeatability", "repeatability_pct_fs", "%"), spread("Hysteresis", "hysteresis_pct_fs", "%")})};
+         spread("Repeatability", "repeatability_pct_fs", "%"), spread("Hysteresis", "hysteresis_pct_fs", "%")},
+        Else::InTheWindow)};
     for (const auto& one : kCalibratedQuantities)
         all.push_back({.title = std::string(one.title),
                        .at = std::string(one.id),

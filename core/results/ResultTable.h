@@ -46,7 +46,8 @@ struct ResultTable {
         Nowhere,
         InTheReport,    ///< a report has it as a figure, a matrix or on its first page
         InTheTerminal,  ///< the terminal leaves it out: too long for a screen
-        InBoth
+        InBoth,
+        InTheWindow  ///< the window has what it says in a panel of its own
     };
     std::string title{};
     std::string at{};  ///< "changes.groups"; empty: the results themselves; "a|b": the records a and b as rows

@@ -4,35 +4,36 @@
 namespace tacto::describe {
 
 ResultTraits separability() {
-    return {
-        .kind = ResultKind::Separability,
-        .name = "separability",
-        .decisionRule =
-            "Separable when each pair of conditions is at least 5 just-noticeable differences apart in one "
-            "dimension and no coefficient of variation exceeds 5 %, each judged by its one-sided 95 % confidence "
-            "bound, and the accuracy's 95 % interval begins at 95 % or above. The 5 differences and the 5 % are "
-            "choices of this program.",
-        .tables = withBasis(
-            {facts("Recognition", "",
-                   {as(As::Share, "Recognised", "accuracy"), number("Folds of the cross-validation", "folds"),
-                    number("Instrument's floor, amplitude", "floor.amplitude_v", "V"),
-                    number("Instrument's floor, interval", "floor.interval_s", "s")}),
-             rows("Reference surfaces", "references",
-                  {text("Material", "material"), number("Vibration h", "h"), number("Taxels v", "v"),
-                   number("Frames", "frames")},
-                  Else::InTheTerminal),
-             rows("Conditions: coefficient of variation with its 95 % upper bound", "conditions",
-                  {text("Condition", "name"), number("n", "n"), number("Amplitude, mean and s.d.", "amplitude_v", "V"),
-                   number("Interval, mean and s.d.", "interval_s", "s"),
-                   as(As::Share, "Variation of amplitude", "amplitude_variation", "amplitude_variation_high"),
-                   as(As::Share, "Variation of interval", "interval_variation", "interval_variation_high"),
-                   number("Not measured", "not_measured")}),
-             rows("Pairs: distance in just-noticeable differences with its 95 % lower bound", "pairs",
-                  {text("Condition", "a"), text("Against", "b"),
-                   as(As::AtLeast, "Amplitude (JND)", "amplitude_jnd", "amplitude_jnd_low"),
-                   as(As::AtLeast, "Interval (JND)", "interval_jnd", "interval_jnd_low"),
-                   number("Mahalanobis distance", "mahalanobis")}),
-             confusion()})};
+    return {.kind = ResultKind::Separability,
+            .name = "separability",
+            .decisionRule =
+                "Separable when each pair of conditions is at least 5 just-noticeable differences apart in one "
+                "dimension and no coefficient of variation exceeds 5 %, each judged by its one-sided 95 % confidence "
+                "bound, and the accuracy's 95 % interval begins at 95 % or above. The 5 differences and the 5 % are "
+                "choices of this program.",
+            .tables = withBasis(
+                {facts("Recognition", "",
+                       {as(As::Share, "Recognised", "accuracy"), number("Folds of the cross-validation", "folds"),
+                        number("Instrument's floor, amplitude", "floor.amplitude_v", "V"),
+                        number("Instrument's floor, interval", "floor.interval_s", "s")}),
+                 rows("Reference surfaces", "references",
+                      {text("Material", "material"), number("Vibration h", "h"), number("Taxels v", "v"),
+                       number("Frames", "frames")},
+                      Else::InTheTerminal),
+                 noted(rows("Conditions", "conditions",
+                            {text("Condition", "name"), number("n", "n"),
+                             number("Amplitude, mean and s.d.", "amplitude_v", "V"),
+                             number("Interval, mean and s.d.", "interval_s", "s"),
+                             as(As::Share, "Variation of amplitude", "amplitude_variation", "amplitude_variation_high"),
+                             as(As::Share, "Variation of interval", "interval_variation", "interval_variation_high"),
+                             number("Not measured", "not_measured")}),
+                       "At most and at least: the one-sided 95 % confidence bound, by which each is judged."),
+                 rows("Pairs", "pairs",
+                      {text("Condition", "a"), text("Against", "b"),
+                       as(As::AtLeast, "Amplitude (JND)", "amplitude_jnd", "amplitude_jnd_low"),
+                       as(As::AtLeast, "Interval (JND)", "interval_jnd", "interval_jnd_low"),
+                       number("Mahalanobis distance", "mahalanobis")}),
+                 confusion()})};
 }
 
 ResultTraits encodingComparison() {

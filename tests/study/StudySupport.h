@@ -7,6 +7,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <set>
 #include <string>
 
 #include "core/base/Clock.h"
@@ -126,12 +127,15 @@ protected:
         EXPECT_TRUE(session.close());
         return session.chainHead();
     }
-    /// Everything in a folder, as bytes.
+    /// Everything in a folder, as bytes, file by file in the order of their names.
     static std::string everythingBelow(const std::filesystem::path& below) {
-        std::string all;
+        std::set<std::filesystem::path> files;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(below)) {
-            if (!entry.is_regular_file()) continue;
-            std::ifstream in(entry.path(), std::ios::binary);
+            if (entry.is_regular_file()) files.insert(entry.path());
+        }
+        std::string all;
+        for (const auto& file : files) {
+            std::ifstream in(file, std::ios::binary);
             all.append(std::istreambuf_iterator<char>(in), {});
         }
         return all;

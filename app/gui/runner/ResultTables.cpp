@@ -50,7 +50,9 @@ void ResultTables::show(const json& results) {
     body_ = new QWidget(this);
     column_ = new QVBoxLayout(body_);
     column_->setContentsMargins(0, 0, 0, 0);
-    for (const auto& table : tablesOf(results)) add(table, results);
+    for (const auto& table : tablesOf(results)) {
+        if (table.shown != ResultTable::Else::InTheWindow) add(table, results);
+    }
     column_->addStretch();
     layout_->addWidget(body_);
     tabInPlace(*this);
@@ -80,6 +82,7 @@ void ResultTables::add(const ResultTable& table, const json& results) {
 void ResultTables::addHeading(const std::string& title) {
     auto* head = new QLabel(qtext(title), body_);
     head->setTextFormat(Qt::PlainText);
+    head->setWordWrap(true);
     setTextSize(*head, TextSize::Body, true);
     column_->addSpacing(8);
     column_->addWidget(head);
