@@ -400,7 +400,9 @@ TEST_F(DeliveredTruth, WhatWasAskedOfNoCommandAndIsOverTheLimitIsAFault) {
         ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0));
         const auto waited = bench_->wait(Seconds(6));
         EXPECT_EQ(waited.has_value(), !over) << volts << " V: " << reason();
-        if (over) EXPECT_THAT(reason(), HasSubstr("beside what was set: more than the limit"));
+        if (over) {
+            EXPECT_THAT(reason(), HasSubstr("beside what was set: more than the limit"));
+        }
     }
 }
 
