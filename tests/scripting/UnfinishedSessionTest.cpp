@@ -78,7 +78,9 @@ TEST_F(UnfinishedSessionTest, AnswersLieInOneWayForAParticipantAndInEachWayEqual
         auto& ways = waysOf[who.isVirtual()];
         ++ways[answers];
         const int n = ++enrolled[who.isVirtual()];
-        if (random.below(5) == 0) EXPECT_TRUE(study_->withdraw(who.code));  // their place stays theirs
+        if (random.below(5) == 0) {  // their place stays theirs
+            EXPECT_TRUE(study_->withdraw(who.code));
+        }
         if (n % 8 != 0) continue;
         EXPECT_EQ(ways.size(), 8U);
         for (const auto& [each, times] : ways) EXPECT_EQ(times, n / 8);

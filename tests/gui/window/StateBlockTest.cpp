@@ -146,7 +146,9 @@ TEST_F(StateOnTheBar, NoTrainIsSaidToFollowWhileALimitRefusesThem) {
         now.interval_s = 0.5;
         bar.refresh(now);
         EXPECT_EQ(says().text().contains("a limit refuses it"), refused) << says().text().toStdString();
-        if (refused) EXPECT_FALSE(says().text().contains("very 500")) << says().text().toStdString();
+        if (refused) {
+            EXPECT_FALSE(says().text().contains("very 500")) << says().text().toStdString();
+        }
     }
     now.driving = DriveSource::Off;
     ++now.trainsRefused;
