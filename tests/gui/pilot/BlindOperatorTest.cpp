@@ -218,10 +218,11 @@ TEST_F(BlindOperator, WhatIsSaidOfAFaultIsTheSameForEveryTrain) {
                 looks.insert(std::move(texts));
                 static_cast<void>(seen(Telemetry(), blind));
             }
-            if (blind)
+            if (blind) {
                 EXPECT_EQ(looks.size(), 1U) << "fault " << int(cause);
-            else
+            } else {
                 EXPECT_GT(looks.size(), 10U) << "they would be told apart";
+            }
         }
     }
 }
