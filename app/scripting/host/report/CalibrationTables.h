@@ -15,9 +15,5 @@ namespace tacto::host::report {
 
 /// Report items for the result of analysis.calibration(): levels, budget, coverage, marked readings.
 [[nodiscard]] nlohmann::json calibrationItems(const nlohmann::json& found);
-/// The table of the rows that analysis.calibrationCheck() returned.
-[[nodiscard]] nlohmann::json calibrationCheckTable(const nlohmann::json& rows);
-/// Several of them side by side.
-[[nodiscard]] nlohmann::json calibrationSummary(const nlohmann::json& all);
 
 }  // namespace tacto::host::report
