@@ -78,7 +78,7 @@ void printCounts(const ResultTable& table, const json& results) {
 void printTables(std::string_view kind, const json& results) {
     using Shape = ResultTable::Shape;
     for (const auto& table : resultTraits(kind).tables) {
-        if (table.shown == ResultTable::Else::InTheTerminal || table.shown == ResultTable::Else::InBoth) continue;
+        if (!isInTerminal(table.shown)) continue;
         const auto& value = table.at.empty() ? results : memberAt(results, table.at);
         if (table.shape == Shape::Rows)
             printRows(table, rowsOf(table, results));

@@ -201,7 +201,7 @@ void addResults(const nlohmann::json& results, Captions& captions, std::vector<R
         if (!block.rows.empty() && !block.columns.empty()) blocks.emplace_back(std::move(block));
     };
     for (const auto& table : tablesOf(results)) {
-        if (table.shown == ResultTable::Else::InTheReport || table.shown == ResultTable::Else::InBoth) continue;
+        if (!isInReport(table.shown)) continue;
         const auto title = QString::fromStdString(table.title) + partial;
         const auto& value = table.at.empty() ? results : memberAt(results, table.at);
         const auto before = blocks.size();

@@ -21,9 +21,7 @@ nlohmann::json shownInReports(const nlohmann::json& results) {
     const auto& kind = memberAt(results, "kind");
     if (!kind.is_string()) return {};
     auto tables = resultTraits(kind.get_ref<const std::string&>()).tables;
-    std::erase_if(tables, [](const ResultTable& table) {
-        return table.shown == ResultTable::Else::InTheReport || table.shown == ResultTable::Else::InBoth;
-    });
+    std::erase_if(tables, [](const ResultTable& table) { return !isInReport(table.shown); });
     if (tables.empty()) return {};
     auto shown = shownIn(tables, results);
     for (const char* key : {"kind", "partial"}) {

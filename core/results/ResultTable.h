@@ -58,6 +58,13 @@ struct ResultTable {
     Else shown = Else::Nowhere;
 };
 
+[[nodiscard]] constexpr bool isInReport(ResultTable::Else shown) noexcept {
+    return shown != ResultTable::Else::InTheReport && shown != ResultTable::Else::InBoth;
+}
+[[nodiscard]] constexpr bool isInTerminal(ResultTable::Else shown) noexcept {
+    return shown != ResultTable::Else::InTheTerminal && shown != ResultTable::Else::InBoth;
+}
+
 /// The member at "a.b"; null where there is none.
 [[nodiscard]] const nlohmann::json& memberAt(const nlohmann::json& record, const std::string& path);
 

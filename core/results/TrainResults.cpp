@@ -41,9 +41,7 @@ ResultTraits encodingComparison() {
             .name = "encoding-comparison",
             .decisionRule = "A comparison: the encodings are set side by side, and none is judged.",
             .tables = withBasis(
-                {facts("Conclusion", "",
-                       {text("Found", "conclusion"), text("Compared with", "default"),
-                        jnd("Asymmetry (JND)", "asymmetry_jnd")},
+                {facts("Comparison", "", {text("Compared with", "default"), jnd("Asymmetry (JND)", "asymmetry_jnd")},
                        Else::InTheTerminal),
                  rows("Encodings: smallest distances in just-noticeable differences", "encodings",
                       {text("Encoding", "name"), jnd("Amplitude (JND)", "smallest_amplitude_jnd"),
