@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "core/base/QuantityText.h"
-#include "core/bench/DeliveryJudge.h"
+#include "core/bench/delivery/DeliveryJudge.h"
 #include "core/safety/TrainCheck.h"
 #include "drivers/sciencemode/ReadBack.h"
 

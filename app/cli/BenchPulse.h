@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bench/StimulatorSession.h"
+#include "core/bench/delivery/StimulatorSession.h"
 #include "core/safety/Interlock.h"
 #include "core/safety/UnitRecord.h"
 #include "drivers/sciencemode/ScienceModeStimulator.h"

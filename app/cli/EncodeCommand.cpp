@@ -6,7 +6,7 @@
 #include "app/run/Shipped.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
-#include "core/bench/CommandPreview.h"
+#include "core/bench/arming/CommandPreview.h"
 
 namespace tacto::cli {
 

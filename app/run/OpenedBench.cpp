@@ -6,7 +6,7 @@
 #include "app/run/OpenDevices.h"
 #include "app/run/ScopeStatement.h"
 #include "core/base/JsonText.h"
-#include "core/bench/ProfileReach.h"
+#include "core/bench/arming/ProfileReach.h"
 #include "core/devices/ReplayedDevice.h"
 #include "core/safety/UnitFolders.h"
 #include "core/session/Origin.h"

@@ -12,7 +12,7 @@
 #include "app/run/RunNotes.h"
 #include "app/run/Shipped.h"
 #include "core/bench/Bench.h"
-#include "core/bench/BenchTap.h"
+#include "core/bench/sensing/BenchTap.h"
 #include "core/devices/DeviceUri.h"
 #include "core/devices/Registry.h"
 #include "core/session/SessionWriter.h"

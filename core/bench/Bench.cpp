@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/bench/BenchState.h"
-#include "core/bench/CheckCapture.h"
-#include "core/bench/FaultExit.h"
+#include "core/bench/arming/CheckCapture.h"
+#include "core/bench/arming/FaultExit.h"
 
 namespace tacto {
 

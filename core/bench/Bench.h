@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "core/bench/ControlLoop.h"
-#include "core/bench/Presentation.h"
 #include "core/bench/Profile.h"
 #include "core/bench/Telemetry.h"
+#include "core/bench/delivery/Presentation.h"
 #include "core/devices/DeviceSet.h"
 #include "core/measure/Capture.h"
 #include "core/safety/Interlock.h"
@@ -105,7 +105,7 @@ public:
     /// The same check of the load, after which the bench is always disarmed. Nothing but the check pulse
     /// is delivered. The value is |Z|, or nothing where the stimulator does not read back. Errors: as arm().
     [[nodiscard]] Result<std::optional<Ohms>> checkImpedance(const ArmRequest& request);
-    /// What the operator confirms before this load is armed. See core/bench/ArmingText.h.
+    /// What the operator confirms before this load is armed. See core/bench/arming/ArmingText.h.
     [[nodiscard]] std::string armingText(const Load& load) const;
     /// Whether what would be armed is a device and no simulation: then arm() takes no request without its text.
     [[nodiscard]] bool outputIsReal() const noexcept;

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/bench/BenchPerson.h"
 #include "core/bench/LoopJournal.h"
+#include "core/bench/arming/BenchPerson.h"
 #include "core/measure/LoadMeasurement.h"
 
 namespace tacto {

@@ -6,14 +6,14 @@
 
 #include <atomic>
 
-#include "core/bench/ArmingTerms.h"
-#include "core/bench/BenchCalibration.h"
-#include "core/bench/BenchLevels.h"
 #include "core/bench/BenchNotes.h"
-#include "core/bench/BenchOutput.h"
 #include "core/bench/BenchTime.h"
-#include "core/bench/ScopeSession.h"
-#include "core/bench/StandingOrder.h"
+#include "core/bench/arming/ArmingTerms.h"
+#include "core/bench/arming/BenchCalibration.h"
+#include "core/bench/arming/BenchLevels.h"
+#include "core/bench/arming/StandingOrder.h"
+#include "core/bench/delivery/BenchOutput.h"
+#include "core/bench/sensing/ScopeSession.h"
 #include "core/safety/Heartbeat.h"
 #include "core/safety/SafetyGate.h"
 #include "core/safety/UnitRecord.h"

@@ -9,12 +9,12 @@
 #include <functional>
 #include <memory>
 
-#include "core/bench/BenchOutput.h"
 #include "core/bench/ControlLoop.h"
 #include "core/bench/DeviceThread.h"
-#include "core/bench/ScopeSession.h"
-#include "core/bench/SensorSession.h"
-#include "core/bench/StandingOrder.h"
+#include "core/bench/arming/StandingOrder.h"
+#include "core/bench/delivery/BenchOutput.h"
+#include "core/bench/sensing/ScopeSession.h"
+#include "core/bench/sensing/SensorSession.h"
 
 namespace tacto {
 

@@ -16,21 +16,21 @@
 #include <vector>
 
 #include "core/base/Latest.h"
-#include "core/bench/ArmingSequence.h"
-#include "core/bench/DeliveryJudge.h"
-#include "core/bench/ExposureWatch.h"
-#include "core/bench/FingerWatch.h"
 #include "core/bench/LevelRequests.h"
 #include "core/bench/LoopInbox.h"
 #include "core/bench/LoopJournal.h"
-#include "core/bench/MassagerSession.h"
-#include "core/bench/MassagerWatch.h"
-#include "core/bench/OwnerWatchdog.h"
-#include "core/bench/PresentationRun.h"
-#include "core/bench/ReadingWatch.h"
-#include "core/bench/SampleTaps.h"
-#include "core/bench/StimulatorSession.h"
-#include "core/bench/TrainDispatch.h"
+#include "core/bench/arming/ArmingSequence.h"
+#include "core/bench/arming/OwnerWatchdog.h"
+#include "core/bench/delivery/DeliveryJudge.h"
+#include "core/bench/delivery/ExposureWatch.h"
+#include "core/bench/delivery/MassagerSession.h"
+#include "core/bench/delivery/PresentationRun.h"
+#include "core/bench/delivery/ReadingWatch.h"
+#include "core/bench/delivery/StimulatorSession.h"
+#include "core/bench/delivery/TrainDispatch.h"
+#include "core/bench/sensing/FingerWatch.h"
+#include "core/bench/sensing/MassagerWatch.h"
+#include "core/bench/sensing/SampleTaps.h"
 
 namespace tacto {
 

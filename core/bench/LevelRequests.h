@@ -8,7 +8,7 @@
 #include <mutex>
 #include <optional>
 
-#include "core/bench/Presentation.h"
+#include "core/bench/delivery/Presentation.h"
 #include "core/safety/SafetyGate.h"
 
 namespace tacto {

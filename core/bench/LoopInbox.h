@@ -8,12 +8,12 @@
 #include <mutex>
 #include <optional>
 
-#include "core/bench/ArmingSequence.h"
-#include "core/bench/CaptureLoad.h"
-#include "core/bench/FingerInput.h"
-#include "core/bench/Presentation.h"
 #include "core/bench/Telemetry.h"
-#include "core/bench/TrainPlanner.h"
+#include "core/bench/arming/ArmingSequence.h"
+#include "core/bench/delivery/Presentation.h"
+#include "core/bench/delivery/TrainPlanner.h"
+#include "core/bench/sensing/CaptureLoad.h"
+#include "core/bench/sensing/FingerInput.h"
 
 namespace tacto {
 

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/bench/FingerInput.h"
 #include "core/bench/Telemetry.h"
-#include "core/bench/TrainPlanner.h"
-#include "core/bench/TrainReport.h"
+#include "core/bench/delivery/TrainPlanner.h"
+#include "core/bench/delivery/TrainReport.h"
+#include "core/bench/sensing/FingerInput.h"
 #include "core/devices/DeviceReport.h"
 #include "core/session/SessionRecorder.h"
 

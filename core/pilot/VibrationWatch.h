@@ -13,7 +13,7 @@
 
 #include "core/analysis/vibration/BurstFigures.h"
 #include "core/bench/Bench.h"
-#include "core/bench/BenchTap.h"
+#include "core/bench/sensing/BenchTap.h"
 
 namespace tacto {
 

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <random>
 
-#include "core/bench/CaptureLoad.h"
+#include "core/bench/sensing/CaptureLoad.h"
 #include "core/session/Marks.h"
 #include "core/session/SessionReader.h"
 #include "drivers/simulated/SimulatedStimulator.h"

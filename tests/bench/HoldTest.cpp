@@ -1,5 +1,5 @@
 // Delivering into a load that changes: what the profile holds stays, the limits hold, and what jumps ends it.
-#include "core/bench/CaptureLoad.h"
+#include "core/bench/sensing/CaptureLoad.h"
 #include "core/measure/PulseMeasurement.h"
 #include "tests/bench/BenchFixture.h"
 #include "tests/bench/LoopRig.h"

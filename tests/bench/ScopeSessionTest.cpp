@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <new>
 
-#include "core/bench/ScopeSession.h"
+#include "core/bench/sensing/ScopeSession.h"
 
 namespace tacto::test {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/bench/StimulatorSession.h"
+#include "core/bench/delivery/StimulatorSession.h"
 #include "tests/bench/FakeStimulator.h"
 
 namespace tacto {

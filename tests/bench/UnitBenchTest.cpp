@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/SystemTime.h"
-#include "core/bench/ArmingText.h"
 #include "core/bench/Bench.h"
+#include "core/bench/arming/ArmingText.h"
 #include "core/electrode/Load.h"
 #include "core/safety/UnitRecord.h"
 #include "tests/bench/FakeStimulator.h"

@@ -5,7 +5,7 @@
 
 #include "app/gui/controller/DrivenBench.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
-#include "core/bench/ArmingText.h"
+#include "core/bench/arming/ArmingText.h"
 
 namespace tacto::gui {
 
@@ -348,8 +348,8 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
         return end();
     }
     auto& run = *prepared->run;
-    published_.publish(&run.bench());  // from here on a stop reaches it
-    published_.forgetStops();          // what came before is start()'s to see: the order is older than it
+    published_.publish(&run.bench());                // from here on a stop reaches it
+    published_.forgetStops();                        // what came before is start()'s to see: the order is older than it
     const auto bench = describeBench(run.opened());  // asks the devices: not beside the script that uses them
     RunRequest hooks;
     hooks.operatorDesk = &operator_;

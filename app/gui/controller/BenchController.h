@@ -29,7 +29,7 @@
 #include "app/gui/controller/WindowOperator.h"
 #include "app/run/PilotRun.h"
 #include "app/run/ProtocolRun.h"
-#include "core/bench/BenchTap.h"
+#include "core/bench/sensing/BenchTap.h"
 
 namespace tacto::gui {
 

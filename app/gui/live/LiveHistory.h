@@ -19,8 +19,8 @@
 
 #include "app/gui/theme/MarkLines.h"
 #include "core/base/Stream.h"
-#include "core/bench/BenchTap.h"
 #include "core/bench/Telemetry.h"
+#include "core/bench/sensing/BenchTap.h"
 
 namespace tacto::gui {
 

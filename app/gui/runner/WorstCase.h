@@ -17,7 +17,7 @@ struct WorstCase {
     QString refused;  ///< the limit that would be broken, in words; empty when none is
 };
 
-/// The preview (core/bench/CommandPreview.h) of the profile's largest amplitude at its shortest interval.
+/// The preview (core/bench/arming/CommandPreview.h) of the profile's largest amplitude at its shortest interval.
 /// Errors: as parseLoad() and previewOf().
 [[nodiscard]] Result<WorstCase> worstCase(const Profile& profile, const std::vector<LimitSet>& limits,
                                           const std::string& load);

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "core/bench/StimulatorSession.h"
+#include "core/bench/delivery/StimulatorSession.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
 #include "tests/support/Allocations.h"
 #include "tests/support/InTime.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/acquisition/StreamHealth.h"
-#include "core/bench/FingerInput.h"
+#include "core/bench/sensing/FingerInput.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
 
 namespace tacto::test {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <thread>
 
-#include "core/bench/StimulatorSession.h"
+#include "core/bench/delivery/StimulatorSession.h"
 #include "core/safety/SafetyGate.h"
 #include "drivers/sciencemode/ScienceModeStimulator.h"
 #include "drivers/usb/UsbPorts.h"

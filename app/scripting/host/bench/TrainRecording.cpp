@@ -5,7 +5,7 @@
 #include "app/scripting/host/bench/TrainCaptures.h"
 #include "app/scripting/host/measure/CaptureClock.h"
 #include "app/scripting/host/measure/GivenCaptures.h"
-#include "core/bench/ScopeSession.h"
+#include "core/bench/sensing/ScopeSession.h"
 
 namespace tacto::host::bench {
 

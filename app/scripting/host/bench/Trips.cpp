@@ -8,7 +8,7 @@
 #include "app/scripting/host/bench/BenchObject.h"
 #include "app/scripting/host/bench/TrainCaptures.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/bench/ScopeSession.h"
+#include "core/bench/sensing/ScopeSession.h"
 
 namespace tacto::host::bench {
 

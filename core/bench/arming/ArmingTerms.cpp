@@ -1,0 +1,69 @@
+#include "core/bench/arming/ArmingTerms.h"
+
+#include "core/bench/arming/ArmingText.h"
+#include "core/devices/ReplayedDevice.h"
+
+namespace tacto {
+
+GateSetup ArmingTerms::setupFor(const Load& load) const {
+    GateSetup setup;
+    setup.mode = config_.mode;
+    setup.source = output_.source();
+    setup.load = config_.mode == OutputMode::BenchLoad
+                     ? LoadRange::declared(load)
+                     : LoadRange::between(config_.profile.loadLow, config_.profile.loadHigh);
+    setup.limits = config_.limits;
+    setup.ceilings = config_.profile.ceilings;
+    setup.electrodeArea = config_.profile.electrodeArea;
+    setup.check = config_.profile.encoding.train;
+    setup.check.pulses = 1;
+    setup.person = config_.person;
+    setup.calibration = config_.calibration;
+    setup.calibrated = calibration_.applied().has_value();
+    return setup;
+}
+
+std::string ArmingTerms::text(const Load& load) const {
+    const Device* output = output_.device();
+    if (output == nullptr) return {};
+    const auto* stimulated = config_.devices.stimulator ? &output_.source() : nullptr;
+    return armingText(output->identity(), stimulated, config_.profile, config_.mode, load);
+}
+
+/// A confirmation of another text is none: a device, profile or area may have changed since it was shown.
+Result<void> ArmingTerms::checkConfirmed(const ArmRequest& request, const Load& load) const {
+    if (request.confirmed.empty() && !output_.isReal()) return {};
+    const auto shown = text(load);
+    if (request.confirmed == shown) return {};
+    if (request.confirmed.empty())
+        return fail(ErrorCode::NotArmed, "not armed: the operator has not confirmed \"{}\"", shown);
+    return fail(ErrorCode::NotArmed, "not armed: the operator confirmed \"{}\", and what would be armed is \"{}\"",
+                request.confirmed, shown);
+}
+
+ArmCommand ArmingTerms::commandFor(const ArmRequest& request, const Load& load, StopMark asked) const {
+    ArmCommand command;
+    command.asked = asked;
+    command.setup = setupFor(load);
+    // |Z| depends on the pulse: the range is that of the check pulse on the two ends of the load range.
+    const auto& source = output_.source();
+    const auto leading = segmentsOf(checkTrainOf(command.setup), source.gap).items[0];
+    auto& evidence = command.evidence;
+    evidence.limitsLoaded = !config_.limits.empty();
+    const Device* output = output_.device();
+    evidence.deviceIdentified = output != nullptr && !output->identity().name.empty();
+    evidence.operatorConfirmed = request.operatorConfirmed;
+    evidence.needsImpedance = config_.devices.stimulator != nullptr;
+    evidence.readsBack = source.readsBack;
+    evidence.impedanceLow = effectiveImpedance(command.setup.load.min, leading);
+    evidence.impedanceHigh = effectiveImpedance(command.setup.load.max, leading);
+    // Files show what they always showed: they confirm no pulse.
+    const auto* scope = config_.devices.oscilloscope.get();
+    const bool sees = scope != nullptr && dynamic_cast<const ReplayedDevice*>(scope) == nullptr;
+    command.confirmByCapture = sees && config_.devices.stimulator && !source.readsBack;
+    if (sees && !source.readsBack) command.declared = effectiveImpedance(command.setup.load.nominal, leading);
+    evidence.declaredLoadConfirmed = request.declaredLoadConfirmed && config_.mode == OutputMode::BenchLoad;
+    return command;
+}
+
+}  // namespace tacto

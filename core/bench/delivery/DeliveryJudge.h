@@ -1,0 +1,78 @@
+// DeliveryJudge.h - judges what the stimulator and the oscilloscope say about a train that was delivered: its status,
+// its amplitude, its load. The control loop acts on the fault that is found.
+//
+// Thread-safety: none; the control loop owns it. Allocates for a fault alone.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/bench/Telemetry.h"
+#include "core/bench/arming/ArmingSequence.h"
+#include "core/bench/delivery/TrainReport.h"
+#include "core/bench/sensing/CaptureLoad.h"
+#include "core/safety/FixedText.h"
+#include "core/safety/TrainCheck.h"
+
+namespace tacto {
+
+/// What ends delivery, and why.
+struct LoopFault {
+    FaultCause cause;
+    FixedText<255> reason;  ///< no heap before the output is off
+};
+
+/// What the report's status says of the train.
+[[nodiscard]] TrainReadBack readBackOf(const TrainReport& report) noexcept;
+
+class DeliveryJudge {
+public:
+    /// All outlive the judge, which keeps `load` up to date. `source`: the stimulator's.
+    DeliveryJudge(OutputMode mode, SafetyGate& gate, const Interlock& interlock, ArmedLoad& load,
+                  const SourceTraits& source)
+        : mode_(mode), gate_(gate), interlock_(interlock), load_(load), source_(source) {
+        rows_.reserve(kMaxExposureRows);
+    }
+
+    /// The amplitude that the train that was posted last should come out with, V or mA.
+    void expect(double amplitude) noexcept { expected_ = amplitude; }
+
+    /// What a train or a check pulse says; `permitted`: trains like it may still be posted, so its reading counts.
+    [[nodiscard]] std::optional<LoopFault> delivered(const TrainReport& report, bool permitted);
+    /// What its status says.
+    [[nodiscard]] TrainJudgement status(const TrainReport& report) const noexcept;
+    [[nodiscard]] bool wasCutOff(const TrainReport& report) const noexcept;
+    /// Whether what is read back is the amplitude that was commanded.
+    [[nodiscard]] std::optional<LoopFault> readBack(const TrainReport& report);
+    /// The same from a capture.
+    [[nodiscard]] std::optional<LoopFault> amplitude(const SeenAmplitude& seen);
+    /// What was measured of the output since it was armed; nothing measured yet: NaN.
+    [[nodiscard]] const MeasuredOutput& measured() const noexcept { return measured_; }
+    void forgetMeasured() noexcept { measured_ = {}; }
+    /// The unit of amplitudes: "V" or "mA".
+    [[nodiscard]] const char* unit() const noexcept { return amplitudeUnit(source_.drive); }
+    /// Where the stimulator does not read back: what a capture shows of the load.
+    [[nodiscard]] std::optional<LoopFault> load(const SeenLoad& seen, bool permitted, Instant now);
+    /// A train that should have ended at `trainEnd` and of which nothing, or only that it goes on, is known by `now`.
+    [[nodiscard]] std::optional<LoopFault> silence(Instant trainEnd, bool goesOn, Instant now) const;
+
+private:
+    [[nodiscard]] std::optional<LoopFault> updateImpedance(Ohms measured, Instant at);
+    [[nodiscard]] std::optional<LoopFault> reading(const TrainReport& report);
+    [[nodiscard]] std::optional<LoopFault> overLimit(const SeenAmplitude& seen);
+    [[nodiscard]] std::optional<LoopFault> unasked(const SeenAmplitude& seen);
+    void keep(const SeenAmplitude& seen, bool beyond) noexcept;
+    [[nodiscard]] double voltsOf(double amplitude) const noexcept;
+
+    OutputMode mode_;
+    SafetyGate& gate_;
+    const Interlock& interlock_;
+    ArmedLoad& load_;
+    const SourceTraits& source_;
+    double expected_ = NAN;
+    bool readsAmplitude_ = false;  // it did once
+    MeasuredOutput measured_;
+    std::vector<ExposureRow> rows_;
+};
+
+}  // namespace tacto

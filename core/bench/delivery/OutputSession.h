@@ -1,0 +1,134 @@
+// OutputSession.h - what the sessions of a stimulator and of a massager share: one approved order at a time from the
+// control loop, a report of each back to it, output off at any moment, and off when the loop is silent.
+//
+// Thread-safety: idle() and forceOff() any thread. takeReport() and post() have one caller, the control loop; the
+// protected rest has one, the device's thread (on the virtual clock, the bench).
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "core/base/Clock.h"
+#include "core/base/SpscRing.h"
+#include "core/bench/delivery/TrainReport.h"
+#include "core/safety/Heartbeat.h"
+
+namespace tacto {
+
+/// `Order`: an approval and its `onset`, and what its report needs.
+template <class Device, class Order>
+class OutputSession {
+public:
+    OutputSession(const OutputSession&) = delete;
+    OutputSession& operator=(const OutputSession&) = delete;
+
+    /// False from post() until the report is made.
+    [[nodiscard]] bool idle() const noexcept { return !busy_.load(std::memory_order_acquire); }
+    [[nodiscard]] std::optional<TrainReport> takeReport() noexcept { return reports_.pop(); }
+
+    /// Output off now, and again after a write that is in flight. The bench latches the gate first.
+    void forceOff() noexcept {
+        offs_.fetch_add(1, std::memory_order_acq_rel);
+        device_.forceOff();
+    }
+
+    /// How long the loop had been silent when the output had been switched off for it, the last time; 0 = never. Any
+    /// thread.
+    [[nodiscard]] Instant silencedAfter() const noexcept {
+        return Instant(silencedAfter_.load(std::memory_order_relaxed));
+    }
+
+    [[nodiscard]] const Device& device() const noexcept { return device_; }
+
+protected:
+    /// All arguments outlive the session. `wake` is called after post(), so that a thread waiting for serve()'s
+    /// due time looks again; may be empty.
+    OutputSession(Device& device, const SafetyGate& gate, const Heartbeat& heartbeat, const Clock& clock,
+                  std::function<void()> wake)
+        : device_(device), clock_(clock), gate_(gate), heartbeat_(heartbeat), wake_(std::move(wake)) {}
+    ~OutputSession() = default;
+
+    void post(Order&& order) noexcept {
+        {
+            const std::scoped_lock lock(mailbox_);
+            pending_.emplace(std::move(order));
+            busy_.store(true, std::memory_order_release);
+        }
+        if (wake_) wake_();
+    }
+
+    /// The order whose onset has come; else `next` is that onset at the latest.
+    [[nodiscard]] std::optional<Order> takeDue(Instant now, Instant& next) noexcept {
+        const std::scoped_lock lock(mailbox_);
+        if (pending_ && now >= pending_->onset) return std::exchange(pending_, std::nullopt);
+        if (pending_) next = std::min(next, pending_->onset);
+        return std::nullopt;
+    }
+
+    /// Has `write` carry out what is approved, and switches off where that failed. Nothing, and nothing written, when
+    /// the approval is void or the loop silent.
+    template <class Approved, class Write>
+    [[nodiscard]] std::optional<Result<void>> writeIfCurrent(const Approved& approved, Write write) noexcept {
+        const auto offsBefore = offs_.load(std::memory_order_acquire);
+        if (!gate_.isCurrent(approved) || !loopAlive()) return std::nullopt;
+        Result<void> written = write();
+        // A stop that came while the write was in flight may have reached the device before it: off again. So may a
+        // standstill of the process, or of the computer, that the write waited through.
+        if (!written || offs_.load(std::memory_order_acquire) != offsBefore || !loopAlive()) device_.forceOff();
+        return written;
+    }
+
+    /// False while the loop is silent. Then what the device still does on its own has to end; reported once, for the
+    /// loop to find when it comes back.
+    [[nodiscard]] bool watchLoop(Instant now) noexcept {
+        if (loopAlive()) {
+            everServed_ = true;
+            silenced_ = false;
+            return true;
+        }
+        if (std::exchange(silenced_, true) || !everServed_) return false;
+        device_.forceOff();
+        const auto silence = heartbeat_.silence(clock_.elapsed()).value_or(Instant(0));
+        silencedAfter_.store(silence.count(), std::memory_order_relaxed);
+        TrainReport silent;
+        silent.outcome = TrainOutcome::LoopSilent;
+        silent.onset = silent.statusAt = now;
+        silent.error = std::string_view("the control loop was silent for more than 100 ms");
+        note(silent);
+        return false;
+    }
+
+    /// A report that belongs to no order.
+    void note(const TrainReport& made) noexcept { reports_.push(made); }
+    void report(const TrainReport& made) noexcept {
+        reports_.push(made);
+        busy_.store(false, std::memory_order_release);
+    }
+
+    Device& device_;
+    const Clock& clock_;
+    std::mutex mailbox_;  // guards pending_; held for a move only
+
+private:
+    [[nodiscard]] bool loopAlive() const noexcept { return heartbeat_.alive(clock_.elapsed()); }
+
+    const SafetyGate& gate_;
+    const Heartbeat& heartbeat_;
+    const std::function<void()> wake_;
+
+    std::atomic<bool> busy_{false};
+    std::atomic<std::uint64_t> offs_{0};  // forceOff() calls; a write that saw one pass switches off again
+    std::atomic<Instant::rep> silencedAfter_{0};
+    std::optional<Order> pending_;
+    SpscRing<TrainReport> reports_{16};
+
+    // The device thread's own:
+    bool silenced_ = false;    // the heartbeat was found dead and the output switched off
+    bool everServed_ = false;  // the heartbeat was once alive
+};
+
+}  // namespace tacto

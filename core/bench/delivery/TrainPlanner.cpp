@@ -1,0 +1,143 @@
+#include "core/bench/delivery/TrainPlanner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/safety/SourceTrain.h"
+
+namespace tacto {
+
+namespace {
+
+/// The programmed value stays this near to the command with any calibration.
+constexpr double kMaxCorrection = 0.2;
+
+double levelOf(const PulseTrain& train) noexcept {
+    return std::visit([](auto amplitude) { return amplitude.value(); }, train.amplitude);
+}
+
+Result<void> staysNear(std::string_view what, double programmed, double command) {
+    if (std::abs(programmed - command) <= kMaxCorrection * command) return {};
+    return fail(ErrorCode::LimitExceeded,
+                "the calibration would program {:.4g} for {} {:.4g}; it must be within 20 %: the stimulator is out of "
+                "order, or the calibration is not its own",
+                programmed, what, command);
+}
+
+Result<void> timesStayNear(const PulseTrain& programmed, const PulseTrain& command) {
+    if (auto near = staysNear("the phase width", programmed.phaseWidth.count(), command.phaseWidth.count()); !near)
+        return near;
+    return staysNear("the gap", programmed.interPhaseGap.count(), command.interPhaseGap.count());
+}
+
+Result<void> staysNear(const PulseTrain& programmed, const PulseTrain& command) {
+    if (auto near = staysNear("the amplitude", levelOf(programmed), levelOf(command)); !near) return near;
+    return timesStayNear(programmed, command);
+}
+
+/// As SafetyGate: what decimal steps lose in binary.
+bool isOnGrid(double value, double step) noexcept {
+    return step == 0 || std::abs(value / step - std::round(value / step)) <= 1e-6;
+}
+
+Result<void> canBeSet(Milliamps level, const SourceTraits& source) {
+    const double mA = level.value();
+    if (!(mA > 0 && mA <= source.amplitudeMax)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "a level of {} mA; above 0 to {:g} mA, the device's largest, is accepted", mA, source.amplitudeMax);
+    }
+    if (isOnGrid(mA, source.amplitudeStep)) return {};
+    return fail(ErrorCode::InvalidArgument, "a level of {} mA; multiples of the device's step, {:g} mA, are accepted",
+                mA, source.amplitudeStep);
+}
+
+}  // namespace
+
+Result<PulseTrain> levelTrain(const EncodingProfile& profile, const SourceTraits& source, const KnownLines& calibration,
+                              Milliamps level) {
+    if (source.drive != Drive::Current)
+        return fail(ErrorCode::Unsupported, "a level of {} mA of a voltage source; a current source is needed",
+                    level.value());
+    if (auto settable = canBeSet(level, source); !settable) return failure(settable);
+    PulseTrain wanted = profile.train;
+    wanted.amplitude = level;
+    PulseTrain programmed = programmedFor(wanted, calibration);
+    programmed.amplitude = level;
+    if (auto near = timesStayNear(programmed, wanted); !near) return failure(near);
+    auto rounded = roundToDevice(programmed, gridOf(source), calibration ? RoundedTo::Nearest : RoundedTo::Zero);
+    if (!rounded) return failure(rounded);
+    rounded->train.amplitude = level;
+    return rounded->train;
+}
+
+TrainPlanner::TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
+                           const KnownLines& calibration)
+    : source_(source), calibration_(calibration), gate_(gate), series_(profile, calibration) {}
+
+Result<void> TrainPlanner::want(double roughness, std::optional<double> pressure, Instant now) {
+    const auto encoded = encoder().encode(roughness, pressure);
+    if (!encoded) {
+        wantNothing();
+        return failure(encoded);
+    }
+    series_.want(*encoded, now);
+    return {};
+}
+
+void TrainPlanner::wantNothing() noexcept { series_.wantNothing(); }
+
+Result<PlannedBurst> TrainPlanner::planBurst(Instant now) {
+    const Instant onset = std::max(series_.due().value_or(now), now);
+    const Command command = series_.begin(onset);
+    auto approved = gate_.approve(VibrationBurst{.intensity = encoder().massagerIntensity(command.amplitude)});
+    if (!approved) return failure(approved);
+    series_.delivered();
+    return PlannedBurst{std::move(*approved), onset, command};
+}
+
+Result<PlannedLevel> TrainPlanner::planLevel(Milliamps level, Seconds interval, Instant onset) {
+    const auto train = levelTrain(encoder().profile(), source_, calibration_, level);
+    if (!train) return failure(train);
+    auto approved = gate_.approve(TrainRequest{*train, programmed(interval), onset});
+    if (!approved) return failure(approved);
+    const double expected = calibration_ ? calibration_->amplitude.delivered(level.value()) : level.value();
+    return PlannedLevel{std::move(*approved), onset, expected};
+}
+
+/// A correction to the nearest step, unless more than the profile's largest amplitude, `top`, would come out.
+Result<RoundedTrain> TrainPlanner::onGrid(PulseTrain programmed, double top) const {
+    if (!calibration_) return roundToDevice(programmed, gridOf(source_));
+    const double wanted = levelOf(programmed), step = source_.amplitudeStep;
+    if (calibration_->amplitude.delivered(toNearest(wanted, step)) > top)
+        programmed = trainAt(programmed, source_.drive, towardZero(wanted, step));
+    return roundToDevice(programmed, gridOf(source_), RoundedTo::Nearest);
+}
+
+Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedance) {
+    const Instant onset = std::max(series_.due().value_or(now), now);
+    const Command command = series_.begin(onset);
+    const auto held =
+        heldAmplitude(encoder().profile().hold, command.amplitude, armed_, impedance ? impedance : armed_);
+    if (!held) return failure(held);
+    const auto train = trainFor(source_.drive, encoder().profile(), *held, impedance);
+    if (!train) return failure(train);
+    const PulseTrain programmed = programmedFor(*train, calibration_);
+    if (auto near = staysNear(programmed, *train); !near) return failure(near);
+    const Seconds interval = programmedFor(command.interval, calibration_);
+    if (auto near = staysNear("the interval", interval.count(), command.interval.count()); !near) return failure(near);
+    const double top = levelOf(*train) * (encoder().profile().amplitudeMax / *held);
+    const auto rounded = onGrid(programmed, top);
+    if (!rounded) return failure(rounded);
+    auto approved = gate_.approve(TrainRequest{rounded->train, interval, onset});
+    if (!approved) return failure(approved);
+    series_.delivered();
+    const double level = levelOf(rounded->train);
+    return PlannedTrain{std::move(*approved),
+                        onset,
+                        command,
+                        *held,
+                        *rounded,
+                        calibration_ ? calibration_->amplitude.delivered(level) : level};
+}
+
+}  // namespace tacto

@@ -1,0 +1,34 @@
+// BenchTap.h - a look into the running bench for displays: samples, roughness frames and trains as they pass through
+// the control loop.
+//
+// The loop pushes without waiting; a display that looks too rarely loses the oldest and nothing else. What must not be
+// lost is in the session file.
+//
+// Thread-safety: the control loop pushes; pop from one thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/SpscRing.h"
+#include "core/bench/delivery/TrainReport.h"
+#include "core/dsp/RoughnessChain.h"
+
+namespace tacto {
+
+/// One sample of one stream, in the unit that the sensor's StreamInfo names.
+struct TapSample {
+    static constexpr std::size_t kMaxChannels = 32;  ///< what a display can show; channels beyond are left out
+    double t_s = 0;
+    std::uint32_t stream = 0;  ///< index into the sensor's streams()
+    std::uint32_t channels = 0;
+    std::array<float, kMaxChannels> values{};
+};
+
+struct BenchTap {
+    SpscRing<TapSample> samples{16'384};  ///< about 4 s of a 4 kHz finger
+    SpscRing<RoughnessFrame> frames{2048};
+    SpscRing<TrainReport> trains{256};  ///< every outcome, impedance checks included
+};
+
+}  // namespace tacto

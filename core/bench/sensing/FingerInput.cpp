@@ -1,0 +1,123 @@
+#include "core/bench/sensing/FingerInput.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tacto {
+
+namespace {
+constexpr std::size_t kFramesPerStep = 256;  // a step after a stall of seconds still finds room
+// A frame stands for the middle of its window: half of 64 ms, one hop, and the next force sample behind.
+constexpr double kFrameLatency_s = 0.032 + 0.016 + 0.03;
+
+/// Beyond these no fingertip works: 200 g, 1 kN, 100 MPa. Counts have no scale.
+double largestPlausible(const StreamInfo& stream) noexcept {
+    switch (stream.unit) {
+        case StreamUnit::MetrePerSecondSquared:
+            return 2000;
+        case StreamUnit::Newton:
+            return 1000;
+        case StreamUnit::Pascal:
+            return 1e8;
+        case StreamUnit::Count:
+            break;
+    }
+    return std::numeric_limits<double>::infinity();
+}
+}  // namespace
+
+Result<std::unique_ptr<FingerInput>> FingerInput::create(SensorSession& session, const RoughnessSettings& settings) {
+    auto chain = RoughnessChain::create(session.device().streams(), settings, session.device().declared(),
+                                        session.device().identity().serial);
+    if (!chain) return failure(chain);
+    return std::unique_ptr<FingerInput>(new FingerInput(session, std::move(*chain)));
+}
+
+FingerInput::FingerInput(SensorSession& session, std::unique_ptr<RoughnessChain> chain)
+    : session_(session), chain_(std::move(chain)) {
+    for (const auto& stream : session.device().streams()) {
+        health_.emplace_back(stream.rate_hz);
+        still_.emplace_back(stream.channels, stream.kind == StreamKind::Acceleration);
+        blocks_.emplace_back();
+        // A second's worth, so that a step never has to grow it.
+        const auto samples = static_cast<std::size_t>(std::max(64.0, stream.rate_hz));
+        blocks_.back().t_s.reserve(samples);
+        blocks_.back().values.reserve(samples * stream.channels);
+    }
+    frames_.reserve(kFramesPerStep);
+}
+
+void FingerInput::update() {
+    const bool over = session_.finished();  // asked first: what it left behind is collected now
+    session_.collect(blocks_);
+    const auto streams = session_.device().streams();
+    for (std::size_t s = 0; s < blocks_.size(); ++s) {
+        health_[s].feed(blocks_[s], streams[s].channels);
+        still_[s].feed(blocks_[s]);
+        watchRange(s);
+    }
+    frames_.clear();
+    chain_->feed(blocks_, frames_);
+    if (over && !finished_) {
+        finished_ = true;
+        chain_->finish(frames_);
+    }
+    if (!frames_.empty()) latest_ = frames_.back();
+}
+
+double FingerInput::age_s(double now_s) const noexcept {
+    double oldest = 0;
+    for (const auto& health : health_) oldest = std::max(oldest, health.age_s(now_s));
+    const auto since = standsStillSince();
+    return since ? std::max(oldest, now_s - *since) : oldest;
+}
+
+/// No axis of an accelerometer is still by itself: its noise is larger than its steps. Force and taxels may be, but for
+/// an array that is touched and has moved all the time.
+std::optional<double> FingerInput::standsStillSince() const noexcept {
+    constexpr std::size_t kArray = 4;  // taxels that are not all filtered to the same values
+    const auto streams = session_.device().streams();
+    std::optional<double> latest;  // when the last of them came to stand
+    bool all = !still_.empty();
+    for (std::size_t s = 0; s < still_.size(); ++s) {
+        const auto since = still_[s].since();
+        const bool accelerates = streams[s].kind == StreamKind::Acceleration;
+        if (since && accelerates) return since;
+        const bool array = streams[s].kind == StreamKind::Taxels && streams[s].channels >= kArray && latest_.contact;
+        if (const auto repeats = still_[s].repeatsSince(); repeats && (accelerates || array)) return repeats;
+        all = all && since;
+        if (since) latest = std::max(latest.value_or(*since), *since);
+    }
+    return all ? latest : std::nullopt;
+}
+
+FingerStanding FingerInput::standing(double now_s) const noexcept {
+    if (std::abs(now_s - implausible_s_) <= StreamHealth::kStale_s) return FingerStanding::Implausible;
+    // A stamp ahead of time says nothing of how old the data are: as bad as a stale one.
+    const auto current = [&](double age_s, double allowed_s) {
+        return age_s <= StreamHealth::kStale_s + allowed_s && age_s >= -StreamHealth::kStale_s;
+    };
+    const bool streams =
+        std::ranges::all_of(health_, [&](const StreamHealth& health) { return current(health.age_s(now_s), 0); });
+    return streams && !standsStillSince() && current(now_s - latest_.t_s, kFrameLatency_s) ? FingerStanding::Fresh
+                                                                                           : FingerStanding::Stale;
+}
+
+void FingerInput::watchRange(std::size_t stream) noexcept {
+    const auto& block = blocks_[stream];
+    const auto& info = chain_->streams()[stream];
+    const double largest = largestPlausible(info);
+    for (std::size_t i = 0; i < block.values.size(); ++i) {
+        const double value = chain_->inUse(stream, i % info.channels, block.values[i]);
+        if (!(std::abs(value) <= largest)) implausible_s_ = block.t_s[i / info.channels];
+    }
+}
+
+std::uint64_t FingerInput::gaps() const noexcept {
+    std::uint64_t found = 0;
+    for (const auto& health : health_) found += health.report().gaps + health.report().clockSteps;
+    return found;
+}
+
+}  // namespace tacto

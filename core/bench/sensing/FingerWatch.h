@@ -1,0 +1,53 @@
+// FingerWatch.h - what the control loop makes of its finger: what displays see of it, the flags of R, which stay when a
+// profile brings another finger, and what the sensor failed at or lost.
+//
+// Thread-safety: none; the control loop owns it. Allocates for a failure and for a report alone.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/bench/LoopInbox.h"
+#include "core/bench/LoopJournal.h"
+#include "core/bench/delivery/DeliveryJudge.h"
+#include "core/bench/sensing/SampleTaps.h"
+#include "core/devices/DeviceReport.h"
+
+namespace tacto {
+
+class FingerWatch {
+public:
+    /// `finger` is null without a sensor. `report` is the sensor, if it reports on itself, else null. All outlive this.
+    FingerWatch(std::unique_ptr<FingerInput> finger, const ReportingDevice* report, LoopJournal& journal,
+                SampleTaps& taps) noexcept
+        : finger_(std::move(finger)), report_(report), journal_(journal), taps_(taps) {}
+
+    /// Null without a sensor.
+    [[nodiscard]] const FingerInput* input() const noexcept { return finger_.get(); }
+    /// The flags of the one before stay, but for those of calibration where R was not shown and drove nothing.
+    void replace(NextFinger next) noexcept;
+
+    /// Takes what arrived, for journal, taps and `shown`.
+    void read(Instant now, StepTelemetry& shown) noexcept;
+    /// What has failed since the last time: a sensor that is gone ends the output of any source. A plug was
+    /// pulled at the finger.
+    [[nodiscard]] std::optional<LoopFault> failure() noexcept;
+    /// Losses that the sensor reports, once in ten seconds while it goes on losing.
+    void noteLosses(Instant now) noexcept;
+    /// R drives the output: every flag of it is in the session before the bench closes, since it may never close.
+    void noteFlags(Instant now) noexcept;
+    /// Flags of all fingers so far.
+    [[nodiscard]] RoughnessFlags flags() const noexcept;
+
+private:
+    std::unique_ptr<FingerInput> finger_;
+    const ReportingDevice* const report_;
+    LoopJournal& journal_;
+    SampleTaps& taps_;
+    RoughnessFlags flagsKept_;  // of fingers before this one, and what has driven the output
+    std::uint64_t failuresSeen_ = 0;
+    std::uint64_t lossesNoted_ = 0;
+    Instant lossesDue_{0};  // not before then
+};
+
+}  // namespace tacto
