@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Random.h"
 #include "tests/perf/Windows.h"

@@ -5,13 +5,13 @@
 #include <QSplitter>
 #include <QVBoxLayout>
 
-#include "app/gui/scope/MeasurementTable.h"
-#include "app/gui/scope/Remembered.h"
-#include "app/gui/scope/ScopeControls.h"
-#include "app/gui/scope/ScopeScreen.h"
-#include "app/gui/scope/ScopeStatus.h"
-#include "app/gui/scope/ScopeTools.h"
-#include "app/gui/scope/SpectrumPanel.h"
+#include "app/gui/scope/measurements/MeasurementTable.h"
+#include "app/gui/scope/measurements/SpectrumPanel.h"
+#include "app/gui/scope/model/Remembered.h"
+#include "app/gui/scope/panels/ScopeControls.h"
+#include "app/gui/scope/panels/ScopeStatus.h"
+#include "app/gui/scope/panels/ScopeTools.h"
+#include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

@@ -6,10 +6,10 @@
 #include <QMenu>
 #include <QTemporaryDir>
 
-#include "app/gui/scope/CapturePipe.h"
-#include "app/gui/scope/MeasurementTable.h"
-#include "app/gui/scope/ScopeExport.h"
-#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/scope/measurements/MeasurementTable.h"
+#include "app/gui/scope/model/CapturePipe.h"
+#include "app/gui/scope/model/ScopeExport.h"
+#include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Text.h"
 #include "app/run/CaptureFormatsList.h"

@@ -6,7 +6,7 @@
 #include <QObject>
 #include <functional>
 
-#include "app/gui/scope/ScopePicture.h"
+#include "app/gui/scope/screen/ScopePicture.h"
 
 class QMenu;
 class QWidget;

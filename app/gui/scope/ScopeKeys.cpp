@@ -3,8 +3,8 @@
 #include <QShortcut>
 
 #include "app/gui/scope/ScopeFiles.h"
-#include "app/gui/scope/ScopeTools.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/scope/panels/ScopeTools.h"
 
 namespace tacto::gui {
 

@@ -9,16 +9,16 @@
 #include <cmath>
 #include <utility>
 
-#include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/ScopeColumns.h"
-#include "app/gui/scope/ScopeControls.h"
 #include "app/gui/scope/ScopeEmpty.h"
 #include "app/gui/scope/ScopeFiles.h"
-#include "app/gui/scope/ScopeGestures.h"
 #include "app/gui/scope/ScopeKeys.h"
-#include "app/gui/scope/ScopeStatus.h"
-#include "app/gui/scope/ScopeTools.h"
-#include "app/gui/scope/SpectrumPanel.h"
+#include "app/gui/scope/measurements/MeasurementTable.h"
+#include "app/gui/scope/measurements/SpectrumPanel.h"
+#include "app/gui/scope/panels/ScopeControls.h"
+#include "app/gui/scope/panels/ScopeStatus.h"
+#include "app/gui/scope/panels/ScopeTools.h"
+#include "app/gui/scope/screen/ScopeGestures.h"
 #include "app/gui/theme/PictureTools.h"
 #include "app/gui/theme/Theme.h"
 #include "app/run/CaptureFormatsList.h"

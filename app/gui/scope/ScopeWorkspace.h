@@ -10,11 +10,11 @@
 
 #include <QWidget>
 
-#include "app/gui/scope/CapturePipe.h"
-#include "app/gui/scope/ChosenReadings.h"
-#include "app/gui/scope/ScopeAcquisition.h"
-#include "app/gui/scope/ScopeFeed.h"
-#include "app/gui/scope/ScopeModel.h"
+#include "app/gui/scope/measurements/ChosenReadings.h"
+#include "app/gui/scope/model/CapturePipe.h"
+#include "app/gui/scope/model/ScopeModel.h"
+#include "app/gui/scope/panels/ScopeAcquisition.h"
+#include "app/gui/scope/panels/ScopeFeed.h"
 
 class QStackedWidget;
 

@@ -9,7 +9,7 @@
 #include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/ResultHead.h"
 #include "app/gui/runner/TrialPlane.h"
-#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/sessions/SessionDetails.h"
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/TabbedPage.h"

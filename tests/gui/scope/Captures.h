@@ -5,7 +5,7 @@
 
 #include <QTest>
 
-#include "app/gui/scope/ScopeGestures.h"
+#include "app/gui/scope/screen/ScopeGestures.h"
 #include "tests/measure/SyntheticPulses.h"
 
 namespace tacto::test {

@@ -1,7 +1,7 @@
 // The envelope on the raster engine, pixel by pixel: what is drawn is the extremes, whichever way it is drawn.
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/EnvelopeGraph.h"
+#include "app/gui/scope/screen/EnvelopeGraph.h"
 #include "core/base/Random.h"
 
 namespace tacto::test {

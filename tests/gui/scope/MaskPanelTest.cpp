@@ -1,7 +1,7 @@
 // The mask: captures inside and outside of it are counted from its making or its reset on.
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/MaskPanel.h"
+#include "app/gui/scope/panels/MaskPanel.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/scope/Captures.h"
 

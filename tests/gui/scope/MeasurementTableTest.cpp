@@ -5,7 +5,7 @@
 #include <QTableWidget>
 #include <gmock/gmock.h>
 
-#include "app/gui/scope/MeasurementTable.h"
+#include "app/gui/scope/measurements/MeasurementTable.h"
 #include "app/report/NumberText.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/scope/Captures.h"

@@ -1,9 +1,9 @@
 // Scales of the oscilloscope: their steps, values as people write them, and where numbers stand on an axis.
 #include <gmock/gmock.h>
 
-#include "app/gui/scope/Graticule.h"
-#include "app/gui/scope/QuantitySpin.h"
-#include "app/gui/scope/Steps.h"
+#include "app/gui/scope/model/Steps.h"
+#include "app/gui/scope/panels/QuantitySpin.h"
+#include "app/gui/scope/screen/Graticule.h"
 #include "core/base/Random.h"
 #include "tests/gui/Person.h"
 

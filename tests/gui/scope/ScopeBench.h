@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/MeasurementTable.h"
-#include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/scope/measurements/MeasurementTable.h"
+#include "app/gui/scope/screen/ScopeScreen.h"
 #include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
 

@@ -5,7 +5,7 @@
 #include <QToolButton>
 #include <gmock/gmock.h>
 
-#include "app/gui/scope/MeasurementSummary.h"
+#include "app/gui/scope/measurements/MeasurementSummary.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/scope/Captures.h"

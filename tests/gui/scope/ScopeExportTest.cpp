@@ -5,9 +5,9 @@
 #include <QTimeZone>
 #include <gmock/gmock.h>
 
-#include "app/gui/scope/Reading.h"
-#include "app/gui/scope/ScopeExport.h"
-#include "app/gui/scope/ScopePicture.h"
+#include "app/gui/scope/measurements/Reading.h"
+#include "app/gui/scope/model/ScopeExport.h"
+#include "app/gui/scope/screen/ScopePicture.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "core/formats/csv/CsvFormat.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/ScopeModel.h"
+#include "app/gui/scope/model/ScopeModel.h"
 #include "tests/gui/scope/Captures.h"
 
 namespace tacto::test {

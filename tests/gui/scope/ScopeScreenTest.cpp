@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/LaneColours.h"
+#include "app/gui/scope/screen/LaneColours.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Random.h"
 #include "tests/gui/Looks.h"

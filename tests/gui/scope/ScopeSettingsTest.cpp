@@ -6,7 +6,7 @@
 #include <QToolButton>
 #include <gmock/gmock.h>
 
-#include "app/gui/scope/QuantitySpin.h"
+#include "app/gui/scope/panels/QuantitySpin.h"
 #include "tests/gui/scope/Captures.h"
 #include "tests/gui/scope/ScopeBench.h"
 #include "tests/support/InTime.h"

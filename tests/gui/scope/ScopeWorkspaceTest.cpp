@@ -14,9 +14,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "app/gui/scope/MeasurementTable.h"
-#include "app/gui/scope/QuantitySpin.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/scope/measurements/MeasurementTable.h"
+#include "app/gui/scope/panels/QuantitySpin.h"
 #include "app/gui/theme/Theme.h"
 #include "core/formats/csv/CsvFormat.h"
 #include "core/measure/CaptureFile.h"

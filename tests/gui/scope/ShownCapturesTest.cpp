@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/ScopeMarks.h"
-#include "app/gui/scope/ShownCaptures.h"
+#include "app/gui/scope/model/ScopeMarks.h"
+#include "app/gui/scope/model/ShownCaptures.h"
 #include "tests/gui/scope/Captures.h"
 
 namespace tacto::test {

@@ -3,7 +3,7 @@
 #include <QComboBox>
 #include <gmock/gmock.h>
 
-#include "app/gui/scope/SpectrumPanel.h"
+#include "app/gui/scope/measurements/SpectrumPanel.h"
 #include "core/base/Random.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/PlotLooks.h"

@@ -1,7 +1,7 @@
 // What the time cursors read stands beside them, inside the screen, off each other and off the traces.
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/TimeFlags.h"
+#include "app/gui/scope/screen/TimeFlags.h"
 
 namespace tacto::test {
 namespace {

@@ -1,7 +1,7 @@
 // Traces that are computed of others: power, charge, difference.
 #include <gmock/gmock.h>
 
-#include "app/gui/scope/TraceMath.h"
+#include "app/gui/scope/model/TraceMath.h"
 #include "tests/gui/scope/Captures.h"
 
 namespace tacto::test {

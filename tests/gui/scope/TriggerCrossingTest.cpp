@@ -1,8 +1,8 @@
 // Where the screen has its time 0: at the crossing of the trigger level, wherever the samples fall on the edge.
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/ScopeModel.h"
-#include "app/gui/scope/TriggerCrossing.h"
+#include "app/gui/scope/model/ScopeModel.h"
+#include "app/gui/scope/model/TriggerCrossing.h"
 #include "tests/gui/scope/Captures.h"
 
 namespace tacto::test {

@@ -18,7 +18,7 @@
 #include <set>
 
 #include "app/gui/live/StripPlots.h"
-#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/DockColumn.h"

@@ -10,8 +10,8 @@
 #include <QToolButton>
 
 #include "app/gui/pilot/PilotWorkspace.h"
-#include "app/gui/scope/ScopeModel.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/OwnDataHome.h"

@@ -10,10 +10,10 @@
 #include <QTreeWidget>
 #include <gmock/gmock.h>
 
-#include "app/gui/scope/MeasurementTable.h"
-#include "app/gui/scope/ScopeModel.h"
 #include "app/gui/scope/ScopeWorkspace.h"
-#include "app/gui/scope/SpectrumPanel.h"
+#include "app/gui/scope/measurements/MeasurementTable.h"
+#include "app/gui/scope/measurements/SpectrumPanel.h"
+#include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"

@@ -9,8 +9,8 @@
 
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/live/StripPlots.h"
-#include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/MainWindow.h"
 #include "tests/gui/Person.h"

@@ -1,0 +1,86 @@
+// CapturePipe.h - from a capture to something that can be looked at, on a thread of its own: reading files, measuring,
+// averaging, judging by a mask, building pyramids. Nothing here makes the window wait.
+//
+// Work is done in order. A bench that triggers faster than captures can be measured loses some of them here and reports
+// it by skipped(); the session file is not this one's business.
+//
+// Thread-safety: the GUI thread; results arrive there.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <atomic>
+#include <cstdint>
+#include <stop_token>
+
+#include "app/gui/controller/SideWork.h"
+#include "app/gui/scope/model/Trace.h"
+#include "app/gui/scope/model/TriggerCrossing.h"
+#include "core/measure/CaptureAverage.h"
+
+namespace tacto::gui {
+
+class CapturePipe final : public QObject {
+    Q_OBJECT
+public:
+    explicit CapturePipe(QObject* parent = nullptr);
+    ~CapturePipe() override;  ///< waits for the work at hand
+
+    /// How many of the bench's captures are averaged from now on; 1: none. Another number restarts the mean.
+    void setAverage(std::size_t captures);
+    /// Judges the bench's captures from now on; null: none is.
+    void setMask(std::shared_ptr<const CaptureMask> mask) { mask_ = std::move(mask); }
+    /// What the bench's captures are triggered with: they are shown from where they cross its level. Nothing: from
+    /// where the oscilloscope states.
+    void setTrigger(const std::optional<ScopeSettings>& settings) { trigger_ = settings; }
+    /// What is asked of the output while the captures come that are taken from now on.
+    void setAsked(const std::optional<AskedDrive>& asked) { asked_ = asked; }
+    /// What comes next does not follow on what came last: the oscilloscope was set again.
+    void breakOff() { gap_ = true; }
+    /// Another bench or another load: nothing of the one before goes into a mean, and its captures that are on their
+    /// way do not come.
+    void beginAnew();
+    void setMathOptions(const MathOptions& math) { mathOptions_ = math; }
+    void take(std::shared_ptr<const Capture> capture, const QString& source = {});
+    void open(const QString& path);
+    /// A file that is being read is read no further, and not shown.
+    void cancelOpen();
+    /// The same capture with the present math.
+    void recalculate(const ShownPtr& shown);
+
+    /// saveData() in the background; ends with saved() or failed().
+    void save(const ShownPtr& shown, double from_s, double to_s, const QString& path);
+
+    [[nodiscard]] bool opening() const noexcept { return opening_; }
+    /// Progress of the file that is being read, 0 to 100. openingChanged() reports each.
+    [[nodiscard]] int percentRead() const noexcept { return percentRead_; }
+    [[nodiscard]] std::uint64_t skippedCaptures() const noexcept { return skipped_; }
+
+signals:
+    void prepared(tacto::gui::ShownPtr shown);
+    void recalculated(tacto::gui::ShownPtr shown);
+    void openingChanged();
+    void saved(const QString& path);
+    void failed(const QString& what);
+
+private:
+    void tellRead(double part);  // on the thread that reads
+
+    MathOptions mathOptions_;
+    std::shared_ptr<const CaptureMask> mask_;
+    std::optional<ScopeSettings> trigger_;
+    std::optional<AskedDrive> asked_;
+    CaptureAverage average_;   // the thread's
+    bool gap_ = false;         // a capture was left out since the last
+    std::uint64_t epoch_ = 1;  // numbers the bench's captures; another since beginAnew()
+    int pending_ = 0;
+    std::uint64_t skipped_ = 0;
+    bool opening_ = false;
+    std::uint64_t openNumber_ = 0;
+    std::stop_source reading_;
+    std::atomic<int> percentRead_{0};
+    std::atomic<std::uint64_t> wantedOpen_{0};  // read by the thread: a reading given up is not measured
+    SideWork work_;                             // last: it uses the others
+};
+
+}  // namespace tacto::gui

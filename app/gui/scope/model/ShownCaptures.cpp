@@ -1,0 +1,51 @@
+#include "app/gui/scope/model/ShownCaptures.h"
+
+#include <algorithm>
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr std::size_t kMaxInRoll = 600;
+constexpr std::size_t kMaxSamplesKept = 40'000'000;
+
+}  // namespace
+
+void ShownCaptures::setPersistence(int captures) { persistence_ = std::clamp(captures, 0, kMaxBehind); }
+
+void ShownCaptures::setRoll(bool roll) {
+    roll_ = roll;
+    if (!roll_ || !newest_) dropOldest();
+}
+
+bool ShownCaptures::isFollowedBy(const ShownCapture& next) const {
+    return newest_ && newest_->source.isEmpty() && next.source.isEmpty();
+}
+
+void ShownCaptures::show(ShownPtr next) {
+    if (isFollowedBy(*next))
+        behind_.push_front(std::move(newest_));
+    else
+        behind_.clear();
+    newest_ = std::move(next);
+    dropOldest();
+}
+
+void ShownCaptures::clear() {
+    newest_.reset();
+    behind_.clear();
+}
+
+void ShownCaptures::dropOldest() {
+    const std::size_t most = roll_ ? kMaxInRoll : static_cast<std::size_t>(kMaxBehind);
+    std::size_t keep = 0;
+    std::size_t samples = 0;
+    while (keep < behind_.size() && keep < most) {
+        samples += behind_[keep]->capture->samples() * behind_[keep]->traces.size();
+        if (samples > kMaxSamplesKept) break;
+        ++keep;
+    }
+    behind_.resize(keep);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,132 @@
+#include "app/gui/scope/model/Viewport.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/scope/model/Steps.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kShortest_s = 1e-9;  // a division
+constexpr double kLongest_s = 1e4;
+constexpr double kFinest = 1e-12;  // a division, in V, A, W or C
+constexpr double kCoarsest = 1e6;
+constexpr qint64 kOneTurn_ms = 700;
+constexpr std::size_t kRemembered = 100;
+
+double stepWithin(double value, double low, double high) {
+    return std::isfinite(value) ? std::clamp(value, low, high) : low;
+}
+
+}  // namespace
+
+double onGrid(double value, double perDivision) {
+    const double grain = perDivision / 50;
+    return std::round(value / grain) * grain;
+}
+
+double leastPerDivision(double rate_hz) {
+    constexpr double kSamplesAcross = 4;
+    return stepNotBelow(std::max(kShortest_s, kSamplesAcross / rate_hz / kDivisionsAcross));
+}
+
+Viewport withTimeBase(Viewport view, double perDivision_s, double anchor_s) {
+    view.left_s = onGrid(anchor_s - (anchor_s - view.left_s) * perDivision_s / view.perDivision_s, perDivision_s);
+    view.perDivision_s = perDivision_s;
+    return view;
+}
+
+Viewport zoomedInTime(const Viewport& view, int steps, double anchor_s, double least_s) {
+    // What is narrower already, because the record before had more samples, is not made wider by a zoom into it.
+    const double shortest_s = std::max(kShortest_s, std::min(least_s, view.perDivision_s));
+    return withTimeBase(view, stepWithin(stepAlong(view.perDivision_s, steps), shortest_s, kLongest_s), anchor_s);
+}
+
+Viewport spanningTime(Viewport view, double from_s, double to_s, double least_s) {
+    view.perDivision_s = stepWithin((to_s - from_s) / kDivisionsAcross, std::max(kShortest_s, least_s), kLongest_s);
+    view.left_s = (from_s + to_s) / 2 - view.width_s() / 2;
+    return view;
+}
+
+Viewport framingPulse(Viewport view, double from_s, double to_s) {
+    constexpr double kShare = 1.0 / 3;
+    const double wanted = stepWithin((to_s - from_s) / kShare / kDivisionsAcross, kShortest_s, kLongest_s);
+    const double digit = std::pow(10, std::floor(std::log10(wanted)) - 1);
+    view.perDivision_s = std::round(wanted / digit) * digit;
+    view.left_s = onGrid((from_s + to_s) / 2 - view.width_s() / 2, view.perDivision_s);
+    return view;
+}
+
+Viewport showingTime(Viewport view, double from_s, double to_s) {
+    view.perDivision_s =
+        stepWithin(stepNotBelow(std::max(to_s - from_s, kShortest_s) / kDivisionsAcross), kShortest_s, kLongest_s);
+    view.left_s = onGrid((from_s + to_s) / 2 - view.width_s() / 2, view.perDivision_s);
+    return view;
+}
+
+LaneScale zoomedInLevel(const LaneScale& lane, int steps, double anchor) {
+    LaneScale zoomed;
+    zoomed.perDivision = stepWithin(stepAlong(lane.perDivision, steps), kFinest, kCoarsest);
+    zoomed.position = onGrid(anchor - (anchor - lane.position) * lane.perDivision / zoomed.perDivision, 1);
+    return zoomed;
+}
+
+LaneScale showingHeights(const LaneScale& lane, double bottom, double top) {
+    const double low = lane.levelAt(bottom), high = lane.levelAt(top);
+    LaneScale shown;
+    shown.perDivision = stepWithin((high - low) / kDivisionsUp, kFinest, kCoarsest);
+    shown.position = -(low + high) / 2 / shown.perDivision;
+    return shown;
+}
+
+LaneScale fittingLevels(double low, double high, double middle, double height) {
+    LaneScale lane;
+    lane.perDivision = stepWithin(stepNotBelow(std::max((high - low) / height, kFinest)), kFinest, kCoarsest);
+    lane.position = onGrid(middle - (low + high) / 2 / lane.perDivision, 1);
+    return lane;
+}
+
+LaneScale aroundZero(double low, double high, double position) {
+    constexpr double kEitherWay = 2.45;  // 2.5 less the noise on it
+    const double most = std::max({std::abs(low), std::abs(high), kFinest});
+    return {stepWithin(stepNotBelow(most / kEitherWay), kFinest, kCoarsest), position};
+}
+
+LaneScale restingLevels(double low, double high, double middle, double height) {
+    constexpr double kInside = kDivisionsUp / 2.0 - 0.1;
+    constexpr double kHalfDivision = 0.5;
+    LaneScale lane = fittingLevels(low, high, middle, height);
+    for (int tries = 0; tries < 3; ++tries) {
+        lane.position = std::round(lane.position / kHalfDivision) * kHalfDivision;
+        const double top = high / lane.perDivision, bottom = low / lane.perDivision;
+        const double most = std::floor((kInside - top) / kHalfDivision) * kHalfDivision;
+        const double least = std::ceil((-kInside - bottom) / kHalfDivision) * kHalfDivision;
+        if (least <= most) {
+            lane.position = std::clamp(lane.position, least, most);
+            break;
+        }
+        lane = fittingLevels(low, high, middle, (high - low) / stepAlong(lane.perDivision, 1));
+    }
+    return lane;
+}
+
+void ViewHistory::remember(const Viewport& view, const QString& kind) {
+    const bool sameTurn = !kind.isEmpty() && kind == lastKind_ && since_.isValid() && since_.elapsed() < kOneTurn_ms;
+    lastKind_ = kind;
+    since_.start();
+    if (sameTurn && !views_.empty()) return;
+    views_.push_back(view);
+    if (views_.size() > kRemembered) views_.erase(views_.begin());
+}
+
+std::optional<Viewport> ViewHistory::undo() {
+    lastKind_.clear();
+    if (views_.empty()) return std::nullopt;
+    auto view = std::move(views_.back());
+    views_.pop_back();
+    return view;
+}
+
+}  // namespace tacto::gui

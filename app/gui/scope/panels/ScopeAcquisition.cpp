@@ -1,0 +1,199 @@
+#include "app/gui/scope/panels/ScopeAcquisition.h"
+
+#include <cmath>
+
+#include "app/gui/scope/panels/AcquisitionPanel.h"
+#include "app/gui/theme/Text.h"
+#include "app/report/NumberText.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kLevelShare = 0.2;          ///< share of the commanded amplitude, in Auto
+constexpr double kFollowFrom = 1.3;          ///< the level is moved only when it would change by more than this factor
+constexpr qint64 kFollowEvery_ms = 300;      ///< the least time between two requests: each gives up the one under way
+constexpr qint64 kNoTriggerAfter_ms = 1500;  ///< without a trigger this long it is said
+constexpr Seconds kFreeRunAfter{0.4};        ///< without a trigger, while nothing is delivered that could be one
+constexpr double kFreeRunIntervals = 1.25;   ///< while something is: of the longest interval between two trains
+
+bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
+    return a.sampleRate == b.sampleRate && a.samples == b.samples && a.preTrigger == b.preTrigger &&
+           a.triggerOnCurrent == b.triggerOnCurrent && a.triggerLevel == b.triggerLevel &&
+           a.voltageRange == b.voltageRange && a.currentRange == b.currentRange;
+}
+
+}  // namespace
+
+ScopeAcquisition::ScopeAcquisition(BenchController& controller, AcquisitionPanel& panel)
+    : controller_(controller), panel_(panel) {
+    panel_.setLevelHeld(levelFollows());
+    connect(&controller_, &BenchController::scopeStopped, this, &ScopeAcquisition::fail);
+}
+
+bool ScopeAcquisition::possible() const {
+    return controller_.activity() == Activity::Live && controller_.open() && controller_.open()->scope;
+}
+
+bool ScopeAcquisition::benchChanged(bool seen) {
+    if (possible()) {
+        panel_.setTraits(*controller_.open()->scope);
+        if (!wanted_ || running_ || !seen) return false;
+        run();
+        return true;
+    }
+    const bool over = failed_;
+    if (running_ || failed_) wanted_ = true;  // goes on with the next bench
+    failed_ = running_ = false;
+    return over;
+}
+
+void ScopeAcquisition::setMode(ScopeMode mode) {
+    mode_ = mode;
+    panel_.setLevelHeld(levelFollows());
+    followAmplitude();
+}
+
+void ScopeAcquisition::run() {
+    wanted_ = true;
+    failed_ = false;
+    if (!possible()) return;
+    running_ = true;
+    taken_ = 0;
+    sinceCapture_.start();
+    request();
+}
+
+void ScopeAcquisition::hold() {
+    wanted_ = false;
+    if (running_) controller_.stopScope();
+    running_ = false;
+}
+
+void ScopeAcquisition::settingsChanged() {
+    if (running_) request();
+}
+
+void ScopeAcquisition::request() {
+    requested_ = panel_.settings();
+    requestedWait_ = untriggeredAfter();
+    sinceRequest_.start();
+    controller_.runScope(requested_, mode_ == ScopeMode::Single, requestedWait_);
+    emit requested();
+}
+
+/// In Auto (and Roll) there is a picture even without a trigger. While trains are delivered it waits for the slowest
+/// of them first: a picture that jumps between triggered and not is worse than a late one.
+std::optional<Seconds> ScopeAcquisition::untriggeredAfter() const {
+    if (!levelFollows() || !controller_.open() || !controller_.open()->untriggered) return {};
+    if (telemetry_.state != InterlockState::Delivering) return kFreeRunAfter;
+    return kFreeRunIntervals * controller_.profile().encoding.intervalMax;
+}
+
+/// The bench goes on, and so does the output: it is only no longer seen.
+void ScopeAcquisition::fail(const QString& why) {
+    running_ = false;
+    wanted_ = false;  // asking again is no use before the user has looked at it
+    failed_ = true;
+    auto what = why;
+    while (what.endsWith('.')) what.chop(1);
+    const auto state = controller_.telemetry().state;
+    const bool on =
+        state == InterlockState::Armed || state == InterlockState::Delivering || state == InterlockState::Checking;
+    emit stopped(
+        tr("⚠ The oscilloscope stopped: %1. %2 The last capture stays. When the oscilloscope is back, press Run.")
+            .arg(what, on ? tr("This does not switch the output off; it continues unmeasured. STOP ends it.")
+                          : tr("The output was off.")));
+}
+
+/// In Auto (and Roll) the level is a fifth of what is commanded: above the noise, below the pulse.
+void ScopeAcquisition::followAmplitude() {
+    if (!levelFollows()) return;
+    double level = kLevelShare * telemetry_.amplitude_v;
+    // On the current channel the commanded voltage says something only with the impedance.
+    if (panel_.triggersOnCurrent()) level /= telemetry_.impedance_ohm;
+    if (!std::isfinite(level) || !(level > 0)) return;
+    const double now = requested_.triggerLevel;
+    if (running_ && level < now * kFollowFrom && level > now / kFollowFrom) return;
+    if (running_ && sinceRequest_.isValid() && sinceRequest_.elapsed() < kFollowEvery_ms) return;
+    panel_.setLevel(level);
+    if (running_ && !sameSettings(panel_.settings(), requested_)) request();
+}
+
+void ScopeAcquisition::refresh(const Telemetry& telemetry) {
+    telemetry_ = telemetry;
+    followAmplitude();
+    if (running_ && untriggeredAfter() != requestedWait_) request();
+}
+
+bool ScopeAcquisition::take(const ShownCapture& shown) {
+    if (!running_) return false;
+    if (shown.capture->untriggered) return true;
+    ++taken_;
+    sinceCapture_.start();
+    if (mode_ == ScopeMode::Single) running_ = wanted_ = false;
+    return true;
+}
+
+QString ScopeAcquisition::outputText() const {
+    switch (telemetry_.state) {
+        case InterlockState::Disconnected:
+            return tr("No output is connected.");
+        case InterlockState::Disarmed:
+            return tr("Output is disarmed.");
+        case InterlockState::Checking:
+            return tr("Output is being checked.");
+        case InterlockState::Armed:
+            return tr("Output is armed.");
+        case InterlockState::Delivering:
+            return tr("Trains are being delivered.");
+        case InterlockState::Paused:
+            return tr("Output is paused.");
+        case InterlockState::Faulted:
+            break;
+    }
+    return tr("The stimulator is in a fault.");
+}
+
+QString ScopeAcquisition::runningText(const ShownCapture* shown, std::uint64_t skipped) const {
+    const auto level = quantityText(requested_.triggerLevel, requested_.triggerOnCurrent ? "A" : "V", 3);
+    if (taken_ == 0 || sinceCapture_.elapsed() > kNoTriggerAfter_ms) {
+        if (shown != nullptr && shown->source.isEmpty() && shown->capture->untriggered) {
+            return tr("No trigger at %1. Showing an untriggered record; no measurements. %2").arg(level, outputText());
+        }
+        return tr("Waiting for a trigger at %1. %2").arg(level, outputText());
+    }
+    auto text = taken_ == 1 ? tr("Trigger at %1 · 1 capture").arg(level)
+                            : tr("Trigger at %1 · %2 captures").arg(level).arg(taken_);
+    if (skipped > 0) text += tr(" · %1 came too fast to be shown").arg(skipped);
+    return text;
+}
+
+QString ScopeAcquisition::statusText(const ShownCapture* shown, std::uint64_t skipped) const {
+    if (running_) return runningText(shown, skipped);
+    if (shown != nullptr && !shown->source.isEmpty()) {
+        return tr("%1 · %2 samples at %3")
+            .arg(shown->source)
+            .arg(countText(shown->capture->samples()))
+            .arg(settingText(shown->capture->rate_hz, "S/s"));
+    }
+    switch (controller_.activity()) {
+        case Activity::Running:
+            return tr("A protocol is using the oscilloscope. Capturing continues after it.");
+        case Activity::Closed:
+            return tr("No bench is open. The last capture stays.");
+        case Activity::Opening:
+        case Activity::Closing:
+            return tr("The bench is opening or closing.");
+        case Activity::Live:
+            break;
+    }
+    if (!possible()) return tr("The open bench has no oscilloscope.");
+    if (mode_ == ScopeMode::Single && shown != nullptr)
+        return tr("One capture taken. S takes another. The output is not touched.");
+    return tr("On hold: the picture stays. The output is not touched.");
+}
+
+}  // namespace tacto::gui
+
+#include "moc_ScopeAcquisition.cpp"

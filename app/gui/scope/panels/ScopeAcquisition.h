@@ -1,0 +1,83 @@
+// ScopeAcquisition.h - when the oscilloscope takes captures of the open bench, and with which trigger: the four modes,
+// run and hold. "Hold" keeps the picture and touches no output: only STOP does that.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QObject>
+
+#include "app/gui/controller/BenchController.h"
+#include "app/gui/scope/model/Trace.h"
+
+namespace tacto::gui {
+
+class AcquisitionPanel;
+
+enum class ScopeMode {
+    Auto,    ///< the level follows the commanded amplitude; untriggered when no trigger comes
+    Normal,  ///< the level is the user's
+    Single,  ///< one capture, then hold
+    Roll,    ///< captures one after the other on the session's time
+};
+
+class ScopeAcquisition final : public QObject {
+    Q_OBJECT
+public:
+    /// Both outlive this.
+    ScopeAcquisition(BenchController& controller, AcquisitionPanel& panel);
+
+    [[nodiscard]] ScopeMode mode() const noexcept { return mode_; }
+    /// Does not begin to run.
+    void setMode(ScopeMode mode);
+    /// The level is not the user's to set.
+    [[nodiscard]] bool levelFollows() const noexcept { return mode_ == ScopeMode::Auto || mode_ == ScopeMode::Roll; }
+    /// As telemetry said last: trains are on their way, also between two of them.
+    [[nodiscard]] bool delivering() const noexcept { return telemetry_.state == InterlockState::Delivering; }
+    [[nodiscard]] bool running() const noexcept { return running_; }
+    /// A bench is open, and it has an oscilloscope that no protocol uses.
+    [[nodiscard]] bool possible() const;
+    void run();
+    void hold();
+    /// Runs as soon as it may, as at first: what held it is over.
+    void wantAgain() { wanted_ = true; }
+    /// Runs if it should and somewhere the captures are seen. Returns whether an earlier failure is over.
+    bool benchChanged(bool seen);
+    void settingsChanged();
+    void refresh(const Telemetry& telemetry);
+    /// A capture of the bench was measured. False: it was under way when the picture was held, and is not shown.
+    bool take(const ShownCapture& shown);
+    /// What the running capture was asked with.
+    [[nodiscard]] const ScopeSettings& requestedSettings() const noexcept { return requested_; }
+    /// What it does, in a sentence, while `shown` is on the screen.
+    [[nodiscard]] QString statusText(const ShownCapture* shown, std::uint64_t skipped) const;
+
+signals:
+    /// The oscilloscope was set again: what it takes from now on does not follow on what it took.
+    void requested();
+    /// The oscilloscope failed; why, and what that means for the output.
+    void stopped(const QString& problem);
+
+private:
+    void request();
+    void followAmplitude();
+    void fail(const QString& why);
+    [[nodiscard]] std::optional<Seconds> untriggeredAfter() const;
+    [[nodiscard]] QString runningText(const ShownCapture* shown, std::uint64_t skipped) const;
+    [[nodiscard]] QString outputText() const;
+
+    BenchController& controller_;
+    AcquisitionPanel& panel_;
+    ScopeMode mode_ = ScopeMode::Auto;
+    bool wanted_ = true;  ///< runs as soon as there is a bench
+    bool running_ = false;
+    bool failed_ = false;  ///< the oscilloscope stopped by itself; until the user lets it run again
+    Telemetry telemetry_;
+    ScopeSettings requested_;
+    std::optional<Seconds> requestedWait_;
+    QElapsedTimer sinceRequest_;
+    QElapsedTimer sinceCapture_;
+    int taken_ = 0;
+};
+
+}  // namespace tacto::gui

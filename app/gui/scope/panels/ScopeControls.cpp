@@ -1,0 +1,49 @@
+#include "app/gui/scope/panels/ScopeControls.h"
+
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+ScopeControls::ScopeControls(ScopeModel& model, ScopeScreen& screen, QWidget* parent) : ControlColumn(parent) {
+    setObjectName("scopeControls");
+    auto* inside = new QWidget(this);
+    auto* lanes = new LanePanel(model, screen, inside);
+    view_ = new ViewPanel(model, inside);
+    acquisition_ = new AcquisitionPanel(inside);
+    mask_ = new MaskPanel(inside);
+    auto* column = new QVBoxLayout(inside);
+    column->setContentsMargins(4, 0, 8, 0);
+    column->setSpacing(8);
+    for (const auto& [title, panel] :
+         std::initializer_list<std::pair<QString, QWidget*>>{{tr("Lanes"), lanes},
+                                                             {tr("View"), view_},
+                                                             {tr("Trigger and record"), acquisition_},
+                                                             {tr("Mask"), mask_}}) {
+        auto* name = new QLabel(title, inside);
+        setTextSize(*name, TextSize::Body, true);
+        column->addWidget(name);
+        column->addWidget(panel);
+        column->addSpacing(8);
+    }
+    column->addStretch();
+    setWidget(inside);
+}
+
+void ScopeControls::save(QSettings& settings) const {
+    acquisition_->save(settings);
+    view_->save(settings);
+    mask_->save(settings);
+}
+
+void ScopeControls::restore(const QSettings& settings) {
+    acquisition_->restore(settings);
+    mask_->restore(settings);
+    view_->restore(settings);
+}
+
+}  // namespace tacto::gui
+
+#include "moc_ScopeControls.cpp"

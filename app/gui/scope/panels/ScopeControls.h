@@ -1,0 +1,34 @@
+// ScopeControls.h - the column beside the oscilloscope's screen: lanes, view, mask, trigger and record; what is chosen
+// in it is remembered.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include "app/gui/scope/panels/AcquisitionPanel.h"
+#include "app/gui/scope/panels/ControlColumn.h"
+#include "app/gui/scope/panels/LanePanel.h"
+#include "app/gui/scope/panels/MaskPanel.h"
+#include "app/gui/scope/panels/ViewPanel.h"
+
+namespace tacto::gui {
+
+class ScopeControls final : public ControlColumn {
+    Q_OBJECT
+public:
+    /// Model and screen outlive this.
+    ScopeControls(ScopeModel& model, ScopeScreen& screen, QWidget* parent);
+
+    [[nodiscard]] ViewPanel& view() const { return *view_; }
+    [[nodiscard]] MaskPanel& mask() const { return *mask_; }
+    [[nodiscard]] AcquisitionPanel& acquisition() const { return *acquisition_; }
+
+    void save(QSettings& settings) const;
+    void restore(const QSettings& settings);
+
+private:
+    ViewPanel* view_;
+    MaskPanel* mask_;
+    AcquisitionPanel* acquisition_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,84 @@
+// EnvelopeGraph.h - draws traces of any length in the time of a screenful: a vertical of one pixel per column from the
+// pyramid's extremes, the samples themselves as a line with dots where there are fewer than two to a pixel.
+//
+// Few pixels of verticals are one drawLines(). A screen full of them (noise) is filled row by row into an image
+// instead: Qt's verticals stride through memory and take 3 ms where that takes a third of one.
+//
+// The key axis is in seconds from a zero that each span is given; the value axis is in divisions: a sample x stands at
+// x / perDivision + position. Nothing is antialiased, no pen is wider than a pixel, and nothing is drawn outside the
+// axes (an SVG would show it). Missing samples are left open and hatched; samples at the ends of the input's range are
+// marked.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QImage>
+#include <cstdint>
+#include <qcustomplot.h>
+#include <vector>
+
+#include "app/gui/scope/model/Trace.h"
+
+namespace tacto::gui {
+
+class EnvelopeGraph final : public QCPAbstractPlottable {
+    Q_OBJECT
+public:
+    EnvelopeGraph(QCPAxis* keyAxis, QCPAxis* valueAxis);
+
+    void setSpans(std::vector<TraceSpan> spans);
+    [[nodiscard]] const std::vector<TraceSpan>& spans() const noexcept { return spans_; }
+    void setScale(double perDivision, double position);
+    /// Hatches gaps and marks clipping; off for what lies behind (older captures).
+    void setMarked(bool marked) { marked_ = marked; }
+    void setClipColour(const QColor& colour) { clipColour_ = colour; }
+
+    /// What the last drawing showed, for those who cannot see it: columns with missing and with clipped samples.
+    [[nodiscard]] int gapColumns() const noexcept { return gapColumns_; }
+    [[nodiscard]] int clippedColumns() const noexcept { return clippedColumns_; }
+    [[nodiscard]] bool drewSamples() const noexcept { return drewSamples_; }
+
+    double selectTest(const QPointF& pos, bool onlySelectable, QVariant* details) const override;
+    QCPRange getKeyRange(bool& found, QCP::SignDomain domain) const override;
+    QCPRange getValueRange(bool& found, QCP::SignDomain domain, const QCPRange& keys) const override;
+
+protected:
+    void draw(QCPPainter* painter) override;
+    void drawLegendIcon(QCPPainter* painter, const QRectF& rect) const override;
+
+private:
+    /// Pixels of this drawing: value → y, key → x, in the painter's units; `pixel` is one of the device.
+    struct Screen {
+        QRectF area;
+        double pixel = 1;
+        double thickness = 1;  ///< device pixels that a flat line covers
+        double xOfKey0 = 0, xPerKey = 1;
+        double yOfZero = 0, yPerUnit = -1;
+        [[nodiscard]] double y(double value) const { return yOfZero + yPerUnit * value; }
+    };
+    [[nodiscard]] Screen screenOf(const QCPPainter& painter) const;
+    void drawColumns(const TraceSpan& span, const Screen& screen);
+    void drawSamples(QCPPainter& painter, const TraceSpan& span, const Screen& screen, double pixelsPerSample);
+    void addVertical(double x, double top, double bottom, const Screen& screen);
+    void fillTall(QCPPainter& painter, const Screen& screen);
+    void noteGap(double fromX, double toX);
+    void drawMarks(QCPPainter& painter, const Screen& screen) const;
+
+    std::vector<TraceSpan> spans_;
+    double perDivision_ = 1;
+    double position_ = 0;
+    bool marked_ = true;
+    QColor clipColour_;
+    // Scratch of the drawing under way; members so that a frame allocates nothing.
+    QVector<QLineF> lines_;
+    double tallPixels_ = 0;  ///< pixels of the device in verticals
+    std::vector<std::int32_t> tops_, bottoms_;
+    QImage canvas_;
+    std::vector<QRectF> gaps_;
+    std::vector<QRectF> clips_;
+    int gapColumns_ = 0;
+    int clippedColumns_ = 0;
+    bool drewSamples_ = false;
+};
+
+}  // namespace tacto::gui

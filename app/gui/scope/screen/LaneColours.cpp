@@ -1,0 +1,30 @@
+#include "app/gui/scope/screen/LaneColours.h"
+
+#include <algorithm>
+
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+QColor laneColour(const ScopeModel& model, const ScopeLane& lane) {
+    const auto& c = colours();
+    if (lane.reference()) return c.zero;
+    const bool dark = currentTheme() == Theme::Dark;
+    if (lane.key == "math/power") return c.third;
+    if (lane.key == "math/charge") return dark ? c.third.lighter(125) : c.third.darker(140);
+    if (lane.key == "math/difference") return c.text;
+    if (lane.letter == "V" || lane.letter == "V1") return c.voltage;
+    if (lane.letter == "I" || lane.letter == "I1") return c.current;
+    // Further channels of an unusual instrument: the palette's others, in the order they come.
+    const auto& all = model.lanes();
+    const auto at = std::find_if(all.begin(), all.end(), [&](const ScopeLane& l) { return l.key == lane.key; });
+    return conditionInTheme({}, static_cast<int>(at - all.begin())).color;
+}
+
+QColor laneInk(const ScopeModel& model, const ScopeLane& lane) {
+    const auto& c = colours();
+    const auto colour = laneColour(model, lane);
+    return colour == c.current ? c.currentText : legible(colour, c.base);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,245 @@
+#include "app/gui/scope/screen/ScopeOverlay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/scope/screen/ComingLines.h"
+#include "app/gui/scope/screen/TimeFlags.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kReach = 5;  ///< pixels beside a line within which it is taken hold of
+constexpr int kWordChars = 24;
+
+}  // namespace
+
+ScopeOverlay::ScopeOverlay(QCPAxis* keyAxis, QCPAxis* valueAxis)
+    : QCPLayerable(keyAxis->parentPlot(), "overlay"), plane_(keyAxis, valueAxis) {}
+
+void ScopeOverlay::applyDefaultAntialiasingHint(QCPPainter* painter) const { painter->setAntialiasing(false); }
+
+QRect ScopeOverlay::clipRect() const { return plane_.area().adjusted(-1, -1, 2, 2).toRect(); }
+
+Pennant ScopeOverlay::lanePennant(int lane) const {
+    const auto& its = state.lanes[static_cast<std::size_t>(lane)];
+    return plane_.pennant(its.right ? Qt::RightEdge : Qt::LeftEdge, plane_.y(its.height), its.letter);
+}
+
+/// At its level; inwards of a lane's handle that stands there.
+Pennant ScopeOverlay::triggerPennant() const {
+    auto its = plane_.pennant(Qt::RightEdge, plane_.y(*state.trigger->height), "T");
+    for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
+        if (!state.lanes[static_cast<std::size_t>(lane)].right) continue;
+        const auto other = lanePennant(lane).shape.boundingRect();
+        if (!other.intersects(its.shape.boundingRect())) continue;
+        const double inwards = other.left() - 2 - its.box.right();
+        its.box.translate(inwards, 0);
+        its.shape.translate(inwards, 0);
+    }
+    return its;
+}
+
+Pennant ScopeOverlay::levelTag(int cursor) const {
+    const auto i = static_cast<std::size_t>(cursor);
+    // Opposite the handle of their lane.
+    const bool left = std::any_of(state.lanes.begin(), state.lanes.end(),
+                                  [](const OverlayState::Lane& lane) { return lane.active && lane.right; });
+    return plane_.pennant(left ? Qt::LeftEdge : Qt::RightEdge, plane_.y(state.levelCursors[i]), state.levelTexts[i]);
+}
+
+GripAt ScopeOverlay::at(const QPointF& pixel) const {
+    const auto a = plane_.area();
+    if (!a.adjusted(-1, -1, 1, 1).contains(pixel)) return {};
+    const auto within = [&](const Pennant& p) { return p.shape.boundingRect().adjusted(-2, -2, 2, 2).contains(pixel); };
+    // Marks first, then lines: what is drawn last is found first.
+    const auto flags = TimeFlags(plane_, state).boxes();
+    for (int c = static_cast<int>(flags.size()) - 1; c >= 0; --c) {
+        if (flags[static_cast<std::size_t>(c)].contains(pixel)) return {Grip::TimeCursor, c};
+    }
+    for (int c = static_cast<int>(state.levelCursors.size()) - 1; c >= 0; --c) {
+        if (within(levelTag(c))) return {Grip::LevelCursor, c};
+    }
+    if (state.trigger) {
+        const auto& t = *state.trigger;
+        if (t.height && within(triggerPennant())) return {Grip::TriggerLevel, 0};
+        if (t.moment_s && within(plane_.pennant(Qt::TopEdge, plane_.x(*t.moment_s), "T")))
+            return {Grip::TriggerMoment, 0};
+    }
+    for (int lane = static_cast<int>(state.lanes.size()) - 1; lane >= 0; --lane) {
+        if (within(lanePennant(lane))) return {Grip::Lane, lane};
+    }
+    for (int c = 0; c < static_cast<int>(state.timeCursors_s.size()); ++c) {
+        if (std::abs(plane_.x(state.timeCursors_s[static_cast<std::size_t>(c)]) - pixel.x()) <= kReach) {
+            return {Grip::TimeCursor, c};
+        }
+    }
+    for (int c = 0; c < static_cast<int>(state.levelCursors.size()); ++c) {
+        if (std::abs(plane_.y(state.levelCursors[static_cast<std::size_t>(c)]) - pixel.y()) <= kReach) {
+            return {Grip::LevelCursor, c};
+        }
+    }
+    return {};
+}
+
+void ScopeOverlay::draw(QCPPainter* painter) {
+    if (plane_.area().isEmpty()) return;  // not laid out yet
+    painter->setFont(plane_.font());
+    drawMarks(*painter);
+    drawMoments(*painter);
+    drawTrigger(*painter);
+    ComingLines(plane_, state).draw(*painter);
+    for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
+        const auto& its = state.lanes[static_cast<std::size_t>(lane)];
+        plane_.drawPennant(*painter, lanePennant(lane), its.letter, its.colour, its.active);
+    }
+    drawLevelCursors(*painter);
+    TimeFlags(plane_, state).draw(*painter);
+    drawHover(*painter);
+    drawNotes(*painter);
+    drawAlarm(*painter);
+    if (!state.box) return;
+    auto fill = colours().frame;
+    fill.setAlpha(40);
+    painter->setPen(QPen(colours().frame, 1));
+    painter->setBrush(fill);
+    painter->drawRect(state.box->intersected(plane_.area()));
+}
+
+void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
+    if (!state.trigger) return;
+    const auto& t = *state.trigger;
+    const auto a = plane_.area();
+    if (t.moment_s) {
+        const double at = plane_.x(*t.moment_s);
+        if (at >= a.left() && at <= a.right()) {
+            plane_.drawLine(painter, QLineF(at, a.top(), at, a.bottom()), colours().zero, Qt::DotLine);
+        }
+        plane_.drawPennant(painter, plane_.pennant(Qt::TopEdge, at, "T"), "T", t.colour, true);
+    }
+    if (t.height) {
+        const double at = plane_.y(*t.height);
+        if (at >= a.top() && at <= a.bottom()) {
+            plane_.drawLine(painter, QLineF(a.left(), at, a.right(), at), t.colour, Qt::DotLine);
+        }
+        plane_.drawPennant(painter, triggerPennant(), "T", t.colour, !t.held);
+    }
+    if (!t.text.isEmpty())
+        plane_.drawTag(painter, QPointF(a.center().x(), a.top() + a.height() * 0.12), t.text, t.colour);
+}
+
+void ScopeOverlay::drawLevelCursors(QCPPainter& painter) const {
+    if (state.levelCursors.size() != 2) return;
+    const auto& c = colours();
+    const auto a = plane_.area();
+    for (int i = 0; i < 2; ++i) {
+        const bool focused = state.focusedCursor == 2 + i;
+        const auto which = static_cast<std::size_t>(i);
+        const double at = plane_.y(state.levelCursors[which]);
+        const auto colour = focused ? c.text : c.quiet;
+        if (at >= a.top() && at <= a.bottom()) {
+            plane_.drawLine(painter, QLineF(a.left(), at, a.right(), at), colour, Qt::DashLine);
+        }
+        plane_.drawPennant(painter, levelTag(i), state.levelTexts[which], colour, focused);
+    }
+    const double top =
+        std::clamp(plane_.y(std::max(state.levelCursors[0], state.levelCursors[1])), a.top(), a.bottom());
+    const double bottom =
+        std::clamp(plane_.y(std::min(state.levelCursors[0], state.levelCursors[1])), a.top(), a.bottom());
+    const double at = std::round(a.left() + a.width() * 0.85);
+    plane_.drawLine(painter, QLineF(at, top, at, bottom), c.text, Qt::SolidLine);
+    plane_.drawTag(painter, QPointF(at, (top + bottom) / 2), state.levelSpan, c.text);
+}
+
+void ScopeOverlay::drawMarks(QCPPainter& painter) const {
+    const auto a = plane_.area();
+    const QFontMetricsF metrics(plane_.font());
+    const double line = metrics.height();
+    const double top = a.top() + line * 1.6;
+    double written = -1e9;  // where the last word ends: words that would lie on it are left out
+    double marked = -1e9;
+    for (const auto& mark : state.marks) {
+        const double from = std::max(plane_.x(mark.from_s), a.left());
+        const double to = std::min(std::max(plane_.x(mark.to_s), plane_.x(mark.from_s) + 2), a.right());
+        if (to < a.left() || from > a.right() || to <= marked + 1) continue;
+        marked = to;
+        painter.fillRect(QRectF(from, top, std::max(2.0, to - from), 3), colours().amber);
+        const double width = metrics.horizontalAdvance(mark.why) + 8;
+        double left = std::clamp((from + to - width) / 2, a.left(), std::max(a.left(), a.right() - width));
+        if (left < written) continue;
+        written = left + width + 4;
+        auto ground = colours().base;
+        ground.setAlpha(225);
+        painter.fillRect(QRectF(left, top + 4, width, line), ground);
+        painter.setPen(colours().text);
+        painter.setBrush(Qt::NoBrush);
+        painter.drawText(QRectF(left, top + 4, width, line), Qt::AlignCenter, mark.why);
+    }
+}
+
+/// As in the live plots: a dashed line, the word at its top on a ground of ink.
+void ScopeOverlay::drawMoments(QCPPainter& painter) const {
+    const auto a = plane_.area();
+    const auto& c = colours();
+    const QFontMetricsF metrics(plane_.font());
+    for (const auto& moment : state.moments) {
+        const double at = plane_.x(moment.at_s);
+        plane_.drawLine(painter, QLineF(at, a.top(), at, a.bottom()), c.text, Qt::DashLine);
+        const auto word = metrics.elidedText(moment.word, Qt::ElideRight, metrics.averageCharWidth() * kWordChars);
+        QRectF box(at, a.top(), metrics.horizontalAdvance(word) + 6, metrics.height());
+        if (box.right() > a.right()) box.moveRight(at);
+        painter.fillRect(box, c.text);
+        painter.setPen(c.base);
+        painter.drawText(box, Qt::AlignCenter, word);
+    }
+}
+
+/// In the corner, one below the other: the middle belongs to the signal, the edges to handles.
+void ScopeOverlay::drawNotes(QCPPainter& painter) const {
+    const QFontMetricsF metrics(plane_.font());
+    const auto a = plane_.area();
+    double at = a.top() + metrics.height();
+    for (const auto& note : state.notes) {
+        const double width = metrics.horizontalAdvance(note) + 12;
+        plane_.drawTag(painter, QPointF(a.right() - width / 2 - metrics.height() * 2, at), note, colours().text);
+        at += metrics.height() * 1.6;
+    }
+}
+
+/// Ink, as every verdict that is not passed: red is for STOP and faults.
+void ScopeOverlay::drawAlarm(QCPPainter& painter) const {
+    if (state.alarm.isEmpty()) return;
+    const auto& c = colours();
+    const auto a = plane_.area();
+    const auto large = textFont(TextSize::Large, QFont::DemiBold);
+    const QFontMetricsF metrics(large);
+    QRectF box(0, 0, std::min(metrics.horizontalAdvance(state.alarm) + metrics.height(), a.width()),
+               metrics.height() * 1.4);
+    box.moveCenter(QPointF(a.center().x(), a.bottom() - metrics.height() * 0.9));
+    painter.fillRect(box, c.fail);
+    painter.setFont(large);
+    painter.setPen(c.failText);
+    painter.drawText(box, Qt::AlignCenter, metrics.elidedText(state.alarm, Qt::ElideRight, box.width()));
+    painter.setFont(plane_.font());
+}
+
+void ScopeOverlay::drawHover(QCPPainter& painter) const {
+    if (!state.hover) return;
+    const auto a = plane_.area();
+    const auto& h = *state.hover;
+    const double from = std::clamp(plane_.x(h.from_s), a.left(), a.right());
+    const double to = std::clamp(plane_.x(h.to_s), a.left(), a.right());
+    const double at = a.bottom() - QFontMetricsF(plane_.font()).height() * 3.2;
+    painter.setPen(QPen(colours().text, 1));
+    painter.drawLine(QLineF(from, at, to, at));
+    painter.drawLine(QLineF(from, at - 4, from, at + 4));
+    painter.drawLine(QLineF(to, at - 4, to, at + 4));
+    plane_.drawTag(painter, QPointF((from + to) / 2, at + QFontMetricsF(plane_.font()).height()), h.text,
+                   colours().text);
+}
+
+}  // namespace tacto::gui
+
+#include "moc_ScopeOverlay.cpp"

@@ -1,0 +1,135 @@
+#include "app/gui/scope/screen/TimeFlags.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/scope/screen/ClearPlace.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kFlagWidth = 136;
+constexpr double kFlagPadding = 8;
+constexpr double kArrow = 6;
+
+}  // namespace
+
+QSizeF TimeFlags::sizeOf(const OverlayState::Flag& flag) const {
+    const QFontMetricsF metrics(plane_.font()), strong(textFont(TextSize::Small, QFont::DemiBold));
+    const double between = metrics.height();
+    double width = strong.horizontalAdvance(flag.name) + between + strong.horizontalAdvance(flag.position);
+    for (const auto& row : flag.rows) {
+        width = std::max(width, strong.horizontalAdvance(row.letter) + between + metrics.horizontalAdvance(row.text));
+    }
+    const double line = metrics.height();
+    const double rows = flag.rows.empty() ? 0 : static_cast<double>(flag.rows.size()) * line + kFlagPadding;
+    return {std::max<double>(width + 2 * kFlagPadding, scaledPx(kFlagWidth)), line + kFlagPadding / 2 + rows};
+}
+
+std::vector<QRectF> TimeFlags::boxes() const {
+    std::vector<QRectF> boxes;
+    if (state_.flags.size() != 2) return boxes;
+    const auto a = plane_.area();
+    const bool ordered = state_.timeCursors_s[0] <= state_.timeCursors_s[1];
+    const double top = a.top() + QFontMetricsF(plane_.font()).height() * 1.6;  // below the trigger's mark
+    const QRectF room(a.left(), top, a.width(), a.bottom() - top);
+    auto drawn = drawnBoxes();
+    drawn.push_back(spanBox(drawn));
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto size = sizeOf(state_.flags[i]);
+        const double at = plane_.x(state_.timeCursors_s[i]);
+        const auto beside = [&](bool left) {
+            const double from = std::clamp(left ? at - size.width() : at, a.left(), a.right() - size.width());
+            return atClearHeight(QRectF(QPointF(from, top), size), room, drawn);
+        };
+        bool left = ordered == (i == 0);
+        const bool fitsLeft = at - size.width() >= a.left(), fitsRight = at + size.width() <= a.right();
+        if (fitsLeft != fitsRight) left = fitsLeft;
+        auto box = beside(left);
+        if (const auto other = beside(!left);
+            fitsLeft && fitsRight && hiddenBy(other, drawn) < hiddenBy(box, drawn) / 2)
+            box = other;
+        boxes.push_back(box);
+        drawn.push_back(boxes.back());
+    }
+    if (boxes[0].intersects(boxes[1])) boxes[1].moveTop(boxes[0].bottom() + kFlagPadding);
+    return boxes;
+}
+
+std::vector<QRectF> TimeFlags::drawnBoxes() const {
+    constexpr double kBeside = 3;  // pixels: a line that is touched is hidden
+    std::vector<QRectF> boxes;
+    boxes.reserve(state_.drawn.size() + 1);
+    for (const auto& its : state_.drawn) {
+        boxes.push_back(QRectF(QPointF(plane_.x(its.from_s), plane_.y(its.high) - kBeside),
+                               QPointF(plane_.x(its.to_s), plane_.y(its.low) + kBeside)) &
+                        plane_.area());
+    }
+    return boxes;
+}
+
+QRectF TimeFlags::spanBox(const std::vector<QRectF>& drawn) const {
+    const auto a = plane_.area();
+    const auto within = [&](double key_s) { return std::clamp(plane_.x(key_s), a.left(), a.right()); };
+    const double middle = (within(state_.timeCursors_s[0]) + within(state_.timeCursors_s[1])) / 2;
+    const auto box = plane_.tagBox(QPointF(middle, std::round(a.center().y())), state_.timeSpan);
+    return atClearHeight(box, a.adjusted(0, a.height() / 4, 0, -a.height() / 4), drawn);
+}
+
+void TimeFlags::drawFlag(QCPPainter& painter, const QRectF& box, const OverlayState::Flag& flag, bool focused) const {
+    const auto& c = colours();
+    const double line = QFontMetricsF(plane_.font()).height();
+    const QRectF head(box.left(), box.top(), box.width(), line + kFlagPadding / 2);
+    painter.setPen(QPen(focused ? c.text : c.quiet, 1));
+    painter.setBrush(c.base);
+    painter.drawRect(box);
+    painter.fillRect(head, focused ? c.text : c.quiet);
+    painter.setFont(textFont(TextSize::Small, QFont::DemiBold));
+    painter.setPen(c.base);
+    const auto inside = [](const QRectF& row) { return row.adjusted(kFlagPadding, 0, -kFlagPadding, 0); };
+    painter.drawText(inside(head), Qt::AlignLeft | Qt::AlignVCenter, flag.name);
+    painter.drawText(inside(head), Qt::AlignRight | Qt::AlignVCenter, flag.position);
+    QRectF row(box.left(), head.bottom() + kFlagPadding / 2, box.width(), line);
+    for (const auto& its : flag.rows) {
+        painter.setFont(textFont(TextSize::Small, QFont::DemiBold));
+        painter.setPen(its.colour);
+        painter.drawText(inside(row), Qt::AlignLeft | Qt::AlignVCenter, its.letter);
+        painter.setFont(plane_.font());
+        painter.setPen(c.text);
+        painter.drawText(inside(row), Qt::AlignRight | Qt::AlignVCenter, its.text);
+        row.translate(0, line);
+    }
+    painter.setFont(plane_.font());
+}
+
+void TimeFlags::draw(QCPPainter& painter) const {
+    if (state_.timeCursors_s.size() != 2) return;
+    const auto& c = colours();
+    const auto a = plane_.area();
+    for (int i = 0; i < 2; ++i) {
+        const double at = plane_.x(state_.timeCursors_s[static_cast<std::size_t>(i)]);
+        if (at < a.left() || at > a.right()) continue;
+        plane_.drawLine(painter, QLineF(at, a.top(), at, a.bottom()), state_.focusedCursor == i ? c.text : c.quiet,
+                        Qt::DashLine);
+    }
+    const double from =
+        std::clamp(plane_.x(std::min(state_.timeCursors_s[0], state_.timeCursors_s[1])), a.left(), a.right());
+    const double to =
+        std::clamp(plane_.x(std::max(state_.timeCursors_s[0], state_.timeCursors_s[1])), a.left(), a.right());
+    const auto span = spanBox(drawnBoxes());
+    const double half = std::round(span.center().y());
+    plane_.drawLine(painter, QLineF(from, half, to, half), c.text, Qt::SolidLine);
+    for (const auto& [end, inwards] : {std::pair(from, kArrow), std::pair(to, -kArrow)}) {
+        plane_.drawLine(painter, QLineF(end, half, end + inwards, half - kArrow / 2), c.text, Qt::SolidLine);
+        plane_.drawLine(painter, QLineF(end, half, end + inwards, half + kArrow / 2), c.text, Qt::SolidLine);
+    }
+    plane_.drawTag(painter, span.center(), state_.timeSpan, c.text);
+    const auto placed = boxes();
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        drawFlag(painter, placed[i], state_.flags[i], state_.focusedCursor == static_cast<int>(i));
+    }
+}
+
+}  // namespace tacto::gui
