@@ -303,11 +303,11 @@ protected:
                  window.askToArm();
                  deliver();
              },
-             "ArmQuestion"},
+             "ArmDialog"},
             menu("File", "Open…", "MainWindow"),
             menu("File", "Open recording folder…", "MainWindow"),
             menu("View", "Messages", "RecordingLine"),
-            menu("Help", "Keys", "Menus"),
+            menu("Help", "Keys", "HelpWindow"),
             menu("Help", "Definitions and limits", "HelpWindow"),
             menu("Help", "About Tactoscope", "Menus"),
             {"Not saved", [this] { failToSave(); }, "PlotPicture"},

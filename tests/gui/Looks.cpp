@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 #include <utility>
 
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/HeightLooks.h"
 #include "tests/gui/Person.h"

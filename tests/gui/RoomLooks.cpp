@@ -13,7 +13,7 @@
 #include <QTextDocument>
 #include <QTreeView>
 
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "tests/gui/ShownWidgets.h"
 
 namespace tacto::test {

@@ -6,7 +6,7 @@
 #include "app/gui/calibrate/CalibrationCard.h"
 #include "app/gui/calibrate/CalibrationHistory.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/TabbedPage.h"
 
 namespace tacto::gui {

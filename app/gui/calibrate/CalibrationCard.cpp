@@ -3,10 +3,9 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TurningRow.h"
+#include "app/gui/theme/ToolRow.h"
 
 namespace tacto::gui {
 

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "app/gui/calibrate/CalibrationTrendView.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 

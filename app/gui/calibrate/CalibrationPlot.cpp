@@ -1,6 +1,5 @@
 #include "app/gui/calibrate/CalibrationPlot.h"
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/PlotSheet.h"

@@ -6,11 +6,10 @@
 
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/ToleranceCard.h"
-#include "app/gui/theme/ElidedLabel.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/PageStack.h"
-#include "app/gui/theme/PictureTools.h"
-#include "app/gui/theme/TabOrder.h"
+#include "app/gui/theme/Labels.h"
+#include "app/gui/theme/Pages.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 

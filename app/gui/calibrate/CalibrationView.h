@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationReadings.h"
-#include "app/gui/theme/PictureCaption.h"
+#include "app/gui/theme/PlotPicture.h"
 
 namespace tacto::gui {
 

@@ -6,8 +6,8 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
-#include "app/gui/theme/DayField.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/EntryFields.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Text.h"

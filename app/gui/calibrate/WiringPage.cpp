@@ -8,7 +8,6 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 

@@ -3,7 +3,7 @@
 #include <QMetaObject>
 #include <cmath>
 
-#include "app/gui/controller/DrivenBench.h"
+#include "app/gui/controller/OpenBench.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/bench/arming/ArmingText.h"
 

@@ -25,7 +25,6 @@
 #include "app/gui/controller/PublishedBench.h"
 #include "app/gui/controller/RunFeed.h"
 #include "app/gui/controller/TaskThread.h"
-#include "app/gui/controller/WindowHeartbeat.h"
 #include "app/gui/controller/WindowOperator.h"
 #include "app/run/PilotRun.h"
 #include "app/run/ProtocolRun.h"

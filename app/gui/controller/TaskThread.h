@@ -1,9 +1,12 @@
-// TaskThread.h - a thread that carries out tasks in the order in which they were posted, and something of its own
-// between them.
+// TaskThread.h - the bench's thread, and whether that of the window still runs.
 //
-// Thread-safety: post() any thread; the rest its owner.
+// Thread-safety: post() and runs() any thread; the rest their owner.
 #pragma once
 
+#include <QObject>
+#include <QTimer>
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -12,6 +15,7 @@
 
 namespace tacto::gui {
 
+/// A thread that carries out tasks in the order in which they were posted, and something of its own between them.
 class TaskThread {
 public:
     /// Carries out `turn` after each task, and every few milliseconds as long as it returns true; `end` at the end.
@@ -32,6 +36,23 @@ private:
     std::deque<std::function<void()>> tasks_;  // guarded by mutex_
     bool quitting_ = false;                    // guarded by mutex_
     std::thread thread_;                       // last: starts when all else is ready
+};
+
+/// Whether the window's thread still runs: one that hangs shows no STOP and hears no Esc, so what
+/// it ordered is then unattended (hazard H2).
+class WindowHeartbeat final : public QObject {
+    Q_OBJECT
+public:
+    static constexpr std::chrono::milliseconds kBeat{100};
+    static constexpr std::chrono::milliseconds kHangs{1000};  ///< without a beat for that long
+    WindowHeartbeat();
+    [[nodiscard]] bool runs() const noexcept;
+
+private:
+    using Time = std::chrono::steady_clock;
+    void beat() noexcept { seen_.store(Time::now().time_since_epoch().count(), std::memory_order_release); }
+    QTimer timer_;
+    std::atomic<Time::rep> seen_{0};
 };
 
 }  // namespace tacto::gui

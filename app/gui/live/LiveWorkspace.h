@@ -14,7 +14,7 @@
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/live/LiveHistory.h"
-#include "app/gui/theme/PictureCaption.h"
+#include "app/gui/theme/PlotPicture.h"
 
 namespace tacto::gui {
 

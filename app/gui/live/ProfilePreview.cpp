@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "core/encoding/Encoder.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 

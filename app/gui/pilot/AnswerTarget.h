@@ -9,7 +9,7 @@
 #include <QStringList>
 #include <algorithm>
 
-#include "app/gui/theme/InputTime.h"
+#include "app/gui/theme/ConfirmButton.h"
 
 class QPainter;
 

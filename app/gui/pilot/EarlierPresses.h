@@ -6,7 +6,7 @@
 #include <chrono>
 #include <map>
 
-#include "app/gui/theme/InputTime.h"
+#include "app/gui/theme/ConfirmButton.h"
 
 namespace tacto::gui {
 

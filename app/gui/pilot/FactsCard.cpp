@@ -2,9 +2,8 @@
 
 #include <QVBoxLayout>
 
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

@@ -5,7 +5,6 @@
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/ShownText.h"

@@ -10,7 +10,7 @@
 #include <map>
 #include <memory>
 
-#include "app/gui/theme/InputTime.h"
+#include "app/gui/theme/ConfirmButton.h"
 #include "core/devices/ButtonDevice.h"
 
 namespace tacto::gui {

@@ -8,9 +8,8 @@
 #include "app/gui/pilot/ImpedanceTrend.h"
 #include "app/gui/pilot/SessionPath.h"
 #include "app/gui/theme/ConfirmButton.h"
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 

@@ -5,8 +5,7 @@
 
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/theme/ConfirmButton.h"
-#include "app/gui/theme/ElidedLabel.h"
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

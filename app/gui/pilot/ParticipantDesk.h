@@ -2,7 +2,7 @@
 // waits, a window answers, a stop ends the wait.
 //
 // A response time runs from the moment at which a window says that the targets are on the screen to the moment of the
-// press (InputTime.h).
+// press (ConfirmButton.h).
 //
 // Thread-safety: the calls of PilotParticipant as it says; the others on the GUI thread, which also gets the signals.
 #pragma once
@@ -15,7 +15,7 @@
 #include <mutex>
 #include <set>
 
-#include "app/gui/theme/InputTime.h"
+#include "app/gui/theme/ConfirmButton.h"
 #include "core/base/Clock.h"
 #include "core/pilot/Participant.h"
 

@@ -6,7 +6,6 @@
 #include "app/gui/pilot/ParticipantField.h"
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/ShareBars.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/analysis/identification/IdentificationText.h"

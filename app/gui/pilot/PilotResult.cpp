@@ -7,11 +7,8 @@
 #include <cmath>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/OutputWords.h"
-#include "app/gui/theme/PageFoot.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
-#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/analysis/identification/IdentificationJson.h"

@@ -11,11 +11,11 @@
 #include "app/gui/study/StudyList.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/PageStack.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 

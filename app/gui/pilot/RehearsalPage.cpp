@@ -9,9 +9,7 @@
 #include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/PageFoot.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 

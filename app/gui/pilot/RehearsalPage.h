@@ -14,8 +14,8 @@
 
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SeatRows.h"
-#include "app/gui/theme/FolderRow.h"
-#include "app/gui/theme/TroubleLine.h"
+#include "app/gui/theme/EntryFields.h"
+#include "app/gui/theme/Labels.h"
 
 namespace tacto::gui {
 

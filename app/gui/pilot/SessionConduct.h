@@ -22,7 +22,7 @@
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SessionInputs.h"
 #include "app/gui/pilot/SessionStops.h"
-#include "app/gui/theme/InputTime.h"
+#include "app/gui/theme/ConfirmButton.h"
 
 namespace tacto::gui {
 

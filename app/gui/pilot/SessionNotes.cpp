@@ -3,8 +3,8 @@
 #include <QHBoxLayout>
 #include <QTime>
 
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

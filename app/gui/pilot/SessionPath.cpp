@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "app/gui/runner/StepList.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

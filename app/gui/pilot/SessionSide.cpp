@@ -6,7 +6,6 @@
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/SessionConduct.h"
 #include "app/gui/pilot/TheirScreen.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

@@ -9,12 +9,10 @@
 #include "app/gui/pilot/ProcedureRows.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/PageFoot.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TurningRow.h"
+#include "app/gui/theme/ToolRow.h"
 
 namespace tacto::gui {
 

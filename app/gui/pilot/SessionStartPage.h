@@ -11,7 +11,7 @@
 
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SeatRows.h"
-#include "app/gui/theme/TroubleLine.h"
+#include "app/gui/theme/Labels.h"
 #include "core/study/Study.h"
 
 namespace tacto::gui {

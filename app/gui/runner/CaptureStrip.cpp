@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"

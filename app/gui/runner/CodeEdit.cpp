@@ -4,7 +4,6 @@
 #include <QPainter>
 #include <QTextBlock>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

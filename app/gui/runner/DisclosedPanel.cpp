@@ -9,10 +9,10 @@
 
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/LoadCaptures.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/WholeRows.h"
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
 #include "core/base/JsonFields.h"
@@ -64,7 +64,7 @@ DisclosedPanel::DisclosedPanel(QWidget* parent)
       layout_(new QBoxLayout(QBoxLayout::LeftToRight, this)),
       outputs_(new QWidget(this)),
       table_(new QTableWidget),
-      area_(new WholeRows(makePage(*table_), outputs_)),
+      area_(scrollingRows(makePage(*table_), outputs_)),
       none_(new QLabel(tr("No limit set asks for outputs to be disclosed."), outputs_)),
       peak_(new QLabel(this)),
       wave_(new CaptureStrip(this)) {

@@ -12,12 +12,12 @@
 
 #include "core/measure/Capture.h"
 
+class QScrollArea;
 class QTableWidget;
 
 namespace tacto::gui {
 
 class CaptureStrip;
-class WholeRows;
 
 class DisclosedPanel final : public QWidget {
     Q_OBJECT
@@ -43,7 +43,7 @@ private:
     QBoxLayout* layout_;
     QWidget* outputs_;
     QTableWidget* table_;
-    WholeRows* area_;
+    QScrollArea* area_;
     QLabel* none_;
     QLabel* peak_;
     CaptureStrip* wave_;

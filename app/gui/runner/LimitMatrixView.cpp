@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"

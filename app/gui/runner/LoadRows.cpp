@@ -2,7 +2,6 @@
 
 #include <QHeaderView>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"

@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/RecordColumns.h"
-#include "app/gui/theme/TabOrder.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "core/results/ResultKind.h"
 

@@ -7,10 +7,9 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "app/gui/theme/DayField.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/TabOrder.h"
+#include "app/gui/theme/EntryFields.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/JsonText.h"

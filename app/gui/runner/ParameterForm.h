@@ -14,7 +14,7 @@
 #include <functional>
 #include <set>
 
-#include "app/gui/theme/TroubleLine.h"
+#include "app/gui/theme/Labels.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
 namespace tacto::gui {

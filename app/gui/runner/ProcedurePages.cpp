@@ -9,10 +9,9 @@
 #include "app/gui/runner/SignPage.h"
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstPage.h"
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TurningRow.h"
-#include "app/gui/theme/WholeRows.h"
+#include "app/gui/theme/ToolRow.h"
 
 namespace tacto::gui {
 
@@ -151,7 +150,7 @@ QWidget* ProcedurePages::buildSettings(DayNotes& day) {
     below->addWidget(form_);
     notes_ = new NotesPanel(day, parts);
     below->addWidget(notes_);
-    auto* fields = dressed(new WholeRows(formColumn(parts), page));
+    auto* fields = dressed(scrollingRows(formColumn(parts), page));
     worst_ = new WorstPage(page);
     row->addWidget(fields, 2);
     row->addWidget(worst_, 3);

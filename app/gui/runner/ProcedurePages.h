@@ -5,7 +5,7 @@
 
 #include <QBoxLayout>
 
-#include "app/gui/theme/PageStack.h"
+#include "app/gui/theme/Pages.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
 namespace tacto::gui {

@@ -8,9 +8,9 @@
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
-#include "app/gui/theme/HeightAt.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TurningRow.h"
+#include "app/gui/theme/ToolRow.h"
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
 

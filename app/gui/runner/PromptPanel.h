@@ -9,7 +9,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/controller/WindowOperator.h"
-#include "app/gui/theme/TroubleLine.h"
+#include "app/gui/theme/Labels.h"
 
 namespace tacto::gui {
 

@@ -2,7 +2,7 @@
 
 #include <QPushButton>
 
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"

@@ -17,11 +17,10 @@
 #include "app/gui/runner/StepList.h"
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstPage.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/OutputWords.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
-#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/TableContent.h"
 #include "core/base/JsonText.h"
 

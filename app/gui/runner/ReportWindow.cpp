@@ -5,7 +5,7 @@
 
 #include "app/gui/runner/ReportView.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 
 namespace tacto::gui {
 

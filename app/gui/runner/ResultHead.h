@@ -8,7 +8,7 @@
 #include <QWidget>
 
 #include "app/gui/controller/BenchController.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Verdict.h"
 
 namespace tacto::gui {

@@ -4,8 +4,7 @@
 #include <QLabel>
 
 #include "app/gui/calibrate/CalibrationResult.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/TabOrder.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"

@@ -5,7 +5,7 @@
 
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/ProgressBar.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 

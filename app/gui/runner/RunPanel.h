@@ -11,7 +11,7 @@
 #include <QPushButton>
 #include <QWidget>
 
-#include "app/gui/theme/TroubleLine.h"
+#include "app/gui/theme/Labels.h"
 #include "app/scripting/engine/ScriptRun.h"
 #include "core/base/Units.h"
 

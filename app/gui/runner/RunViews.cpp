@@ -12,7 +12,7 @@
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/ResultHead.h"
 #include "app/gui/runner/ResultTables.h"
-#include "app/gui/theme/PictureTools.h"
+#include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"

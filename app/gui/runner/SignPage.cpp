@@ -6,11 +6,9 @@
 
 #include "app/gui/runner/ReportPrinter.h"
 #include "app/gui/runner/ReportView.h"
-#include "app/gui/theme/ElidedLabel.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/ProgressBar.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TurningRow.h"
+#include "app/gui/theme/ToolRow.h"
 
 namespace tacto::gui {
 

@@ -3,7 +3,6 @@
 #include <QPainter>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "app/gui/runner/StepButton.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

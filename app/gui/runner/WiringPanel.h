@@ -9,7 +9,7 @@
 #include <QSpinBox>
 #include <QWidget>
 
-#include "app/gui/theme/TroubleLine.h"
+#include "app/gui/theme/Labels.h"
 #include "app/run/ProtocolRun.h"
 
 namespace tacto::gui {

@@ -9,12 +9,10 @@
 #include "app/gui/runner/WorstCase.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ExposureTable.h"
-#include "app/gui/theme/HeightAt.h"
 #include "app/gui/theme/LimitSetView.h"
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/WholeRows.h"
 #include "app/report/TableContent.h"
 
 namespace tacto::gui {
@@ -36,7 +34,6 @@ WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTabl
     worst_->setToolTip(
         tr("The strongest command into 80 to 120 % of the declared load, from an ideal voltage source. "
            "Hatched: not evaluated, and never a pass."));
-    keepRowsWhole(*worst_);
     const auto least = [this] {
         worst_->setMinimumHeight(worst_->horizontalHeader()->sizeHint().height() + 2 * worst_->frameWidth() +
                                  kMinRows * worst_->verticalHeader()->defaultSectionSize());

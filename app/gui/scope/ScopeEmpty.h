@@ -3,9 +3,9 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
 

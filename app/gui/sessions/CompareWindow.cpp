@@ -6,7 +6,6 @@
 
 #include "app/gui/sessions/Differences.h"
 #include "app/gui/sessions/SessionWords.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"

@@ -7,15 +7,13 @@
 
 #include "app/gui/sessions/SessionOverview.h"
 #include "app/gui/sessions/SessionWords.h"
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/RecordColumns.h"
-#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
-#include "app/gui/theme/WholeRows.h"
 #include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
 #include "app/report/Reach.h"
@@ -42,7 +40,6 @@ QTableWidget* makeTable(QWidget* parent, const QString& name) {
     table->verticalHeader()->hide();
     table->horizontalHeader()->setHighlightSections(false);
     table->setWordWrap(false);
-    keepRowsWhole(*table);
     return table;
 }
 

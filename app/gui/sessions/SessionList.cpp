@@ -9,10 +9,8 @@
 #include <algorithm>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/WholeRows.h"
 #include "app/run/RunFiles.h"
 
 namespace tacto::gui {
@@ -128,7 +126,6 @@ void SessionList::buildTable() {
     setTextSize(*table_->horizontalHeader(), TextSize::Small);
     table_->verticalHeader()->hide();
     table_->setWordWrap(false);
-    keepRowsWhole(*table_);
     table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // the last column takes the rest and elides
     table_->setTabKeyNavigation(false);                            // Tab leaves the table
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/gui/runner/TrialPlane.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"

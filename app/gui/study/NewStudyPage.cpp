@@ -7,8 +7,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 

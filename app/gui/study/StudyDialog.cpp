@@ -2,8 +2,8 @@
 
 #include <QDialogButtonBox>
 
-#include "app/gui/theme/GrowingDialog.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 

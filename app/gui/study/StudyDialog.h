@@ -10,7 +10,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/study/OpenStudy.h"
-#include "app/gui/theme/TroubleLine.h"
+#include "app/gui/theme/Labels.h"
 
 namespace tacto::gui {
 

@@ -5,7 +5,7 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TurningRow.h"
+#include "app/gui/theme/ToolRow.h"
 #include "app/run/StudyProgram.h"
 
 namespace tacto::gui {

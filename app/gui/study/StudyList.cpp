@@ -16,12 +16,11 @@
 #include "app/gui/study/StudySessions.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
-#include "app/gui/theme/ScrollingPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TurningRow.h"
+#include "app/gui/theme/ToolRow.h"
 #include "core/study/StudyFiles.h"
 
 namespace tacto::gui {

@@ -7,8 +7,7 @@
 #include "app/gui/study/PassphraseDialog.h"
 #include "app/gui/study/StudyList.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/PageStack.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 

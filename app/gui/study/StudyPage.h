@@ -9,7 +9,7 @@
 #include <QWidget>
 
 #include "app/gui/study/OpenStudy.h"
-#include "app/gui/theme/TroubleLine.h"
+#include "app/gui/theme/Labels.h"
 
 namespace tacto::gui {
 

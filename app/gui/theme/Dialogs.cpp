@@ -3,17 +3,21 @@
 #include <QAbstractItemView>
 #include <QApplication>
 #include <QDesktopServices>
+#include <QDialogButtonBox>
+#include <QEvent>
 #include <QFileDialog>
 #include <QFileIconProvider>
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLayout>
 #include <QLineEdit>
 #include <QListView>
 #include <QScreen>
 #include <QShortcut>
 #include <QTreeView>
 #include <QUrl>
+#include <utility>
 
 namespace tacto::gui {
 
@@ -198,6 +202,12 @@ void openDialog(QDialog* dialog) {
     dialog->activateWindow();
 }
 
+void addCloseButton(QDialog& dialog, QLayout& layout) {
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, &dialog);
+    QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::close);
+    layout.addWidget(buttons);
+}
+
 QString openOnDesktop(const QString& path) {
     if (QDesktopServices::openUrl(QUrl::fromLocalFile(path))) return {};
     return QObject::tr("This desktop has no program that opens %1.").arg(path);
@@ -209,5 +219,42 @@ void askForFile(QWidget& asking, const FileQuestion& question, std::function<voi
     QObject::connect(chooser, &QFileDialog::fileSelected, &asking, std::move(then));
     openDialog(chooser);
 }
+
+namespace {
+
+class ContentGrowth final : public QObject {
+public:
+    explicit ContentGrowth(QDialog& dialog) : QObject(&dialog), dialog_(dialog) { dialog.installEventFilter(this); }
+    bool eventFilter(QObject* /*watched*/, QEvent* event) override {
+        const bool changed = event->type() == QEvent::LayoutRequest || event->type() == QEvent::Show;
+        if (!changed || std::exchange(queued_, true)) return false;
+        const auto turn = [this] {
+            queued_ = false;
+            grow();
+        };
+        QMetaObject::invokeMethod(this, turn, Qt::QueuedConnection);
+        return false;
+    }
+
+private:
+    void grow() {
+        const auto* layout = dialog_.layout();
+        if (layout == nullptr) return;
+        auto wanted = dialog_.size().expandedTo(layout->totalMinimumSize());
+        if (layout->hasHeightForWidth())
+            wanted.setHeight(std::max(wanted.height(), layout->totalHeightForWidth(wanted.width())));
+        const auto frame = dialog_.frameGeometry().size() - dialog_.size();
+        wanted = wanted.boundedTo((dialog_.screen()->availableSize() - frame).expandedTo(dialog_.size()));
+        if (wanted != dialog_.size()) dialog_.resize(wanted);
+        const int bottom = dialog_.screen()->availableGeometry().bottom();
+        if (dialog_.isVisible() && dialog_.frameGeometry().bottom() > bottom) place(dialog_);
+    }
+    QDialog& dialog_;
+    bool queued_ = false;
+};
+
+}  // namespace
+
+void growWithContent(QDialog& dialog) { new ContentGrowth(dialog); }
 
 }  // namespace tacto::gui

@@ -22,6 +22,9 @@ void openDialog(QDialog* dialog);
 /// Without a parent it stays where it is.
 void place(QWidget& dialog);
 
+/// Adds a button at the end of `layout` that closes the dialog.
+void addCloseButton(QDialog& dialog, QLayout& layout);
+
 /// Opens a file or folder with the desktop's program for it. Where there is none, the value says where it lies.
 [[nodiscard]] QString openOnDesktop(const QString& path);
 
@@ -39,5 +42,9 @@ struct FileQuestion {
 /// question is cancelled or `asking` is deleted first. A file that exists is replaced only after a second press, which
 /// the dialog asks for in place.
 void askForFile(QWidget& asking, const FileQuestion& question, std::function<void(const QString& path)> then);
+
+/// From now on the dialog grows as far as the screen allows when its content needs more room: a text that got longer,
+/// or larger, is not cut.
+void growWithContent(QDialog& dialog);
 
 }  // namespace tacto::gui

@@ -1,9 +1,9 @@
 #include "app/gui/theme/LimitSetView.h"
 
-#include <QDialogButtonBox>
 #include <QHeaderView>
 #include <QVBoxLayout>
 
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -126,9 +126,7 @@ QDialog* makeLimitSetWindow(const std::vector<LimitSet>& sets, const QString& id
     auto* view = new LimitSetView(sets, dialog);
     view->choose(id);
     column->addWidget(view, 1);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, dialog);
-    QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
-    column->addWidget(buttons);
+    addCloseButton(*dialog, *column);
     const auto metrics = dialog->fontMetrics();
     dialog->resize(metrics.averageCharWidth() * 130, metrics.height() * 22);
     return dialog;

@@ -7,9 +7,15 @@
 #include <QPdfWriter>
 #include <QPicture>
 #include <QSvgGenerator>
+#include <QWidget>
+#include <cmath>
 #include <utility>
 
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/theme/ToolRow.h"
+#include "app/report/NumberText.h"
 #include "core/base/WholeFile.h"
 
 namespace tacto::gui {
@@ -194,4 +200,106 @@ void addPlotMenu(QCustomPlot& plot, const QString& name) {
     plot.setFocusPolicy(Qt::StrongFocus);
 }
 
+namespace {
+
+constexpr int kCaptionAbove = PictureCaption::kMargin, kCaptionBelow = 8;
+constexpr int kAxisDigits = 4;
+
+QFont titleFont() { return textFont(TextSize::Large, QFont::DemiBold); }
+
+/// Words that have no room go on in another line.
+constexpr int kWrapped = int(Qt::AlignLeft | Qt::AlignTop) | Qt::TextWordWrap;
+
+int heightOf(const QString& text, const QFont& font, int width) {
+    const QRect room(0, 0, width - 2 * PictureCaption::kMargin, QWIDGETSIZE_MAX);
+    return text.isEmpty() ? 0 : QFontMetrics(font).boundingRect(room, kWrapped, text).height();
+}
+
+QString boundText(double value) { return settingText(QString::number(value, 'g', kAxisDigits).toDouble(), {}); }
+
+}  // namespace
+
+QString pictureTitle(const QString& title, bool simulated) {
+    return simulated ? QObject::tr("%1 · simulated").arg(title) : title;
+}
+
+QString pictureDate(const QDateTime& taken) {
+    const auto minutes = taken.offsetFromUtc() / 60;
+    const auto zone = minutes == 0 ? QString()
+                                   : QStringLiteral("%1%2:%3")
+                                         .arg(minutes < 0 ? QStringLiteral("−") : QStringLiteral("+"))
+                                         .arg(std::abs(minutes) / 60, 2, 10, QLatin1Char('0'))
+                                         .arg(std::abs(minutes) % 60, 2, 10, QLatin1Char('0'));
+    return QLocale::c().toString(taken, "yyyy-MM-dd HH:mm:ss") + " UTC" + zone;
+}
+
+QString deviceNames(const std::vector<SessionDevice>& devices) {
+    QStringList names;
+    for (const auto& device : devices) {
+        auto name = qtext(device.name);
+        if (!device.serial.empty()) name += " " + qtext(device.serial);
+        if (device.simulated && !name.contains(QObject::tr("simulated"))) name += QObject::tr(" (simulated)");
+        names << name;
+    }
+    return names.join(QStringLiteral(" · "));
+}
+
+QString axesText(const QCustomPlot& plot) {
+    QStringList parts;
+    for (const auto* axes : plot.axisRects()) {
+        for (const auto side : {QCPAxis::atBottom, QCPAxis::atLeft, QCPAxis::atRight}) {
+            for (const auto* axis : axes->axes(side)) {
+                if (!axis->visible() || axis->label().isEmpty()) continue;
+                parts << QObject::tr("%1 %2 to %3")
+                             .arg(axis->label(), boundText(axis->range().lower), boundText(axis->range().upper));
+            }
+        }
+    }
+    return parts.join(QStringLiteral(" · "));
+}
+
+CaptionLines::CaptionLines(const PictureCaption& caption, int width) : title_(caption.title), width_(width) {
+    if (caption.empty()) return;
+    QStringList rest;
+    for (const auto& line : QStringList{caption.date} + caption.lines)
+        if (!line.isEmpty()) rest << line;
+    rest_ = rest.join('\n');
+    height_ = kCaptionAbove + heightOf(title_, titleFont(), width) + heightOf(rest_, textFont(TextSize::Small), width) +
+              kCaptionBelow;
+}
+
+void CaptionLines::draw(QPainter& painter) const {
+    if (height_ == 0) return;
+    painter.setPen(colours().text);
+    int top = kCaptionAbove;
+    for (const auto& [text, font] : {std::pair(title_, titleFont()), {rest_, textFont(TextSize::Small)}}) {
+        const int height = heightOf(text, font, width_);
+        painter.setFont(font);
+        painter.drawText(QRect(PictureCaption::kMargin, top, width_ - 2 * PictureCaption::kMargin, height), kWrapped,
+                         text);
+        top += height;
+    }
+}
+
+PictureTools::PictureTools(QWidget* parent)
+    : QObject(parent),
+      save_(makeTool(tr("Save picture"), tr("Saves what is shown as a picture: PNG, SVG or PDF."), "save", parent)),
+      copy_(makeTool(tr("Copy picture"), tr("Copies what is shown to the clipboard, as a picture."), "copy", parent)),
+      plotOnly_(makeTool(tr("Plot only"), tr("F11: the safety bar and the plot alone; F11 again brings the rest back."),
+                         "plot-only", parent)) {
+    connect(plotOnly_, &QToolButton::clicked, this, &PictureTools::plotOnlyWanted);
+}
+
+void PictureTools::addTo(QLayout& row) {
+    for (auto* button : buttons()) row.addWidget(button);
+}
+
+void PictureTools::takeFrom(const std::function<Still()>& shown, const QString& name) {
+    connect(save_, &QToolButton::clicked, this,
+            [this, shown, name] { askSavePicture(*save_->parentWidget(), shown(), name); });
+    connect(copy_, &QToolButton::clicked, this, [shown] { copyPicture(shown()); });
+}
+
 }  // namespace tacto::gui
+
+#include "moc_PlotPicture.cpp"

@@ -3,15 +3,58 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QDateTime>
 #include <QImage>
-#include <QString>
+#include <QLayout>
+#include <QPainter>
+#include <QStringList>
+#include <QToolButton>
+#include <array>
 #include <functional>
 #include <optional>
 #include <qcustomplot.h>
+#include <vector>
 
-#include "app/gui/theme/PictureCaption.h"
+#include "core/session/SessionTypes.h"
 
 namespace tacto::gui {
+
+// What stands above a saved picture and says what it shows: title, date, devices, scale, readings,
+// and that it is simulated.
+
+/// Empty lines are left out.
+struct PictureCaption {
+    QString title;      ///< "Oscilloscope · simulated"
+    QString date;       ///< "2026-11-26 16:59:39 UTC+01:00"
+    QStringList lines;  ///< devices, scale, readings
+    [[nodiscard]] bool empty() const { return title.isEmpty() && date.isEmpty() && lines.isEmpty(); }
+    /// Around the plot, in px, so that plot and caption share an edge; 0 without a caption.
+    [[nodiscard]] int margin() const { return empty() ? 0 : kMargin; }
+    static constexpr int kMargin = 16;
+};
+
+/// "Oscilloscope · simulated".
+[[nodiscard]] QString pictureTitle(const QString& title, bool simulated);
+/// With its zone.
+[[nodiscard]] QString pictureDate(const QDateTime& taken);
+/// "twin SIM-1 (simulated) · Demo device".
+[[nodiscard]] QString deviceNames(const std::vector<SessionDevice>& devices);
+/// "Interval (s) 0 to 2.2 · Amplitude (V) 0 to 44": the axes that have a title.
+[[nodiscard]] QString axesText(const QCustomPlot& plot);
+
+/// A caption laid out for a width: a line that has no room goes on in another.
+class CaptionLines {
+public:
+    CaptionLines(const PictureCaption& caption, int width);
+    /// 0 for an empty caption.
+    [[nodiscard]] int height() const { return height_; }
+    /// From the painter's origin on.
+    void draw(QPainter& painter) const;
+
+private:
+    QString title_, rest_;
+    int width_ = 0, height_ = 0;
+};
 
 /// The picture of a moment, its caption above it: it is saved as it was then, however long a dialog asks for the
 /// file's name.
@@ -52,5 +95,29 @@ void askSavePicture(QWidget& parent, const Still& still, const QString& name);
 
 /// A context menu, also by the menu key: copy as picture, save. `name` is the file that is proposed.
 void addPlotMenu(QCustomPlot& plot, const QString& name);
+
+/// What a plot is saved, copied and looked at alone with, as buttons: the same ones in every workspace.
+class PictureTools final : public QObject {
+    Q_OBJECT
+public:
+    /// `parent` is that of the buttons and of the dialog, and outlives this.
+    explicit PictureTools(QWidget* parent);
+    [[nodiscard]] QToolButton& save() const { return *save_; }
+    [[nodiscard]] QToolButton& copy() const { return *copy_; }
+    [[nodiscard]] QToolButton& plotOnly() const { return *plotOnly_; }
+    [[nodiscard]] std::array<QToolButton*, 3> buttons() const { return {save_, copy_, plotOnly_}; }
+    void addTo(QLayout& row);
+    /// Save and copy take what `shown` gives when they are clicked; `name` is the file that is proposed.
+    void takeFrom(const std::function<Still()>& shown, const QString& name);
+
+signals:
+    /// The plot without what is around it, or back.
+    void plotOnlyWanted();
+
+private:
+    QToolButton* save_;
+    QToolButton* copy_;
+    QToolButton* plotOnly_;
+};
 
 }  // namespace tacto::gui

@@ -2,8 +2,7 @@
 
 #include <QVBoxLayout>
 
-#include "app/gui/theme/TabOrder.h"
-#include "app/gui/theme/TurningRow.h"
+#include "app/gui/theme/ToolRow.h"
 
 namespace tacto::gui {
 
@@ -58,12 +57,43 @@ void TabbedPage::addTab(QWidget* page, const QString& title, QWidget* tools) {
     tools_->addWidget(tools);
     tabAfter(*bar_, *tools);
     bar_->addTab(title);
-    keys_.add(title);
+    auto* key = new QShortcut(QKeySequence::mnemonic(title), this);
+    key->setEnabled(false);
+    connect(key, &QShortcut::activated, this, [this, index = int(keys_.size())] { setCurrentIndex(index); });
+    keys_.push_back(key);
 }
 
 void TabbedPage::setHeadVisible(bool visible) {
     head_->setVisible(visible);
-    keys_.setEnabled(!visible);
+    for (auto* key : keys_) key->setEnabled(!visible);
+}
+
+namespace {
+
+/// Returns the last one.
+QWidget* chain(QWidget* before, const QWidget& place) {
+    for (auto* each : place.findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
+        if (each->isWindow()) continue;
+        // A part that hands its focus on is reached with what it hands it to.
+        if ((each->focusPolicy() & Qt::TabFocus) != 0 && each->focusProxy() == nullptr) {
+            QWidget::setTabOrder(before, each);
+            before = each;
+        }
+        before = chain(before, *each);
+    }
+    return before;
+}
+
+}  // namespace
+
+void tabAfter(QWidget& before, QWidget& place) {
+    // setTabOrder() takes none that has no focus: the last one before it that has.
+    auto* last = &before;
+    do {
+        if (last->focusPolicy() != Qt::NoFocus) break;
+        last = last->previousInFocusChain();
+    } while (last != &before);
+    chain(last, place);
 }
 
 }  // namespace tacto::gui

@@ -3,11 +3,12 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QShortcut>
 #include <QTabBar>
 #include <QWidget>
+#include <vector>
 
-#include "app/gui/theme/PageStack.h"
-#include "app/gui/theme/TabKeys.h"
+#include "app/gui/theme/Pages.h"
 
 namespace tacto::gui {
 
@@ -37,7 +38,14 @@ private:
     QTabBar* bar_;
     PageStack* tools_;
     PageStack* pages_;
-    TabKeys keys_{*this, [this](int index) { setCurrentIndex(index); }};
+    std::vector<QShortcut*> keys_;  ///< of the tabs while their row is hidden: until then the tab bar has them
 };
+
+/// The order of Tab where widgets are made late: Qt puts each one that is made at the end of its window. Tab goes from
+/// `before` through what stands in `place`, in the order in which that was made, and then to what came after `before`.
+/// Call it again when `place` holds something new. Neither has to take the focus itself.
+void tabAfter(QWidget& before, QWidget& place);
+/// The same where `place` itself stands in the order.
+inline void tabInPlace(QWidget& place) { tabAfter(place, place); }
 
 }  // namespace tacto::gui

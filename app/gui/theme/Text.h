@@ -14,6 +14,7 @@
 #include "core/base/QuantityText.h"
 #include "core/base/Result.h"
 #include "core/results/ResultKind.h"
+#include "core/safety/Interlock.h"
 
 namespace tacto::gui {
 
@@ -70,5 +71,15 @@ namespace tacto::gui {
     return words.replace(QObject::tr("Output is off."), QObject::tr("The output was switched off."));
 }
 [[nodiscard]] inline QString sentence(const Error& error) { return sentence(qtext(error.message)); }
+
+/// Whether `why` says that the device does not obey.
+[[nodiscard]] inline bool saysMayBeOn(const QString& why) {
+    return why.contains(qtext(outputAfter(FaultCause::StuckOn)));
+}
+/// `why` something ended, and what that leaves of the output, `off`, behind it, unless it says that or that the output
+/// may still be on.
+[[nodiscard]] inline QString withOutput(const QString& why, const QString& off) {
+    return saysMayBeOn(why) || why.contains(off) ? why : why + ' ' + off;
+}
 
 }  // namespace tacto::gui

@@ -1,5 +1,6 @@
 #include "app/gui/theme/Theme.h"
 
+#include <QEvent>
 #include <QLabel>
 #include <QPainterPath>
 #include <QPushButton>
@@ -8,10 +9,10 @@
 #include <map>
 #include <optional>
 #include <typeinfo>
+#include <utility>
 
-#include "app/gui/theme/MnemonicStyle.h"
-#include "app/gui/theme/StyleSheet.h"
-#include "app/gui/theme/WheelGuard.h"
+#include "app/gui/theme/Colours.h"
+#include "app/gui/theme/Style.h"
 
 namespace tacto::gui {
 
@@ -335,6 +336,61 @@ EmptyState::EmptyState(const QString& what, const QString& next, QWidget* parent
         layout->addWidget(button, 0, Qt::AlignCenter);
     }
     layout->addStretch();
+}
+
+namespace {
+
+/// Follows a change of the font, of the palette too with `all`; at once, or once in the turn after it.
+class LookChange final : public QObject {
+public:
+    LookChange(QWidget& widget, bool all, Qt::ConnectionType when, std::function<void()> follow)
+        : QObject(&widget), all_(all), when_(when), follow_(std::move(follow)) {
+        widget.installEventFilter(this);
+    }
+    bool eventFilter(QObject*, QEvent* event) override {
+        const auto type = event->type();
+        const bool queued = when_ == Qt::QueuedConnection;
+        const bool look = type == QEvent::PaletteChange || (queued && type == QEvent::StyleChange);
+        if (type != QEvent::FontChange && !(all_ && look)) return false;
+        if (!queued) return follow_(), false;
+        if (std::exchange(waits_, true)) return false;
+        const auto turn = [this] {
+            waits_ = false;
+            follow_();
+        };
+        QMetaObject::invokeMethod(this, turn, when_);
+        return false;
+    }
+
+private:
+    const bool all_;
+    const Qt::ConnectionType when_;
+    const std::function<void()> follow_;
+    bool waits_ = false;
+};
+
+}  // namespace
+
+void onLookChange(QWidget& widget, std::function<void()> follow) {
+    new LookChange(widget, true, Qt::DirectConnection, std::move(follow));
+}
+void onFontChange(QWidget& widget, std::function<void()> follow) {
+    new LookChange(widget, false, Qt::DirectConnection, std::move(follow));
+}
+void afterLookChange(QWidget& widget, std::function<void()> follow) {
+    new LookChange(widget, true, Qt::QueuedConnection, std::move(follow));
+}
+
+void boundWidth(QWidget& widget, int atMost_px) {
+    const auto bound = [&widget, atMost_px] { widget.setMaximumWidth(scaledPx(atMost_px)); };
+    bound();
+    onFontChange(widget, bound);
+}
+
+void fixWidth(QWidget& widget, int px) {
+    const auto fix = [&widget, px] { widget.setFixedWidth(scaledPx(px)); };
+    fix();
+    onFontChange(widget, fix);
 }
 
 }  // namespace tacto::gui

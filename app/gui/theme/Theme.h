@@ -12,6 +12,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QWidget>
+#include <functional>
 #include <qcustomplot.h>
 
 #include "app/gui/theme/Colours.h"
@@ -42,7 +43,7 @@ void setTone(QLabel& label, Tone tone);
 /// `px` at text of 10.5 pt, in the current size of text.
 [[nodiscard]] int scaledPx(int px);
 
-/// The filled button of a screen; one that has no edge until the pointer is over it. See StyleSheet.h.
+/// The filled button of a screen; one that has no edge until the pointer is over it.
 void makePrimary(QPushButton& button, bool primary = true);
 void makeQuiet(QPushButton& button);
 /// While a page yields, its filled button looks as the others do: what comes next is elsewhere.
@@ -99,5 +100,19 @@ public:
 signals:
     void nextStep();
 };
+
+/// Calls `follow` from now on whenever `widget` has another palette or another font.
+void onLookChange(QWidget& widget, std::function<void()> follow);
+/// The same for another font alone.
+void onFontChange(QWidget& widget, std::function<void()> follow);
+
+/// Calls `follow` in the next turn of the event loop after a change of palette, font or style, when the widgets within
+/// have it too: for one that gives them fonts, places or a style sheet of its own. (The theme's new sheet takes them
+/// those fonts; a sheet that is set while the theme's is being laid may keep the colours of the theme before.)
+void afterLookChange(QWidget& widget, std::function<void()> follow);
+
+/// Bounds of a widget's width that grow and shrink with the size of text: pixels of text at 100 % (scaledPx()).
+void boundWidth(QWidget& widget, int atMost_px);
+void fixWidth(QWidget& widget, int px);
 
 }  // namespace tacto::gui

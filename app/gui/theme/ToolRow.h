@@ -1,10 +1,11 @@
-// ToolRow.h - buttons in a row; those that do not fit stand in the menu of a "More" button at its end.
+// ToolRow.h - rows of parts that suit the room they have.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QLayout>
+#include <QBoxLayout>
 #include <QToolButton>
+#include <functional>
 #include <memory>
 #include <set>
 #include <vector>
@@ -15,6 +16,7 @@ namespace tacto::gui {
 /// the text is the owner's.
 [[nodiscard]] QToolButton* makeTool(const QString& name, const QString& tip, const QString& iconName, QWidget* parent);
 
+/// Buttons in a row; those that do not fit stand in the menu of a "More" button at its end.
 class ToolRow final : public QLayout {
 public:
     /// The parts that are added are buttons.
@@ -46,6 +48,29 @@ private:
     QWidget* between_ = nullptr;
     std::size_t fits_ = 0;     // so many have room
     std::set<QWidget*> away_;  // hidden here, and shown again once there is room
+};
+
+/// Parts beside each other where there is room, else one below the other.
+class TurningRow final : public QBoxLayout {
+    Q_OBJECT
+public:
+    /// `from`: the width from which its parts stand beside each other, asked whenever it is laid out: it may follow the
+    /// size of text. Without it: as wide as its parts like to be.
+    explicit TurningRow(std::function<int()> from = {}, QWidget* parent = nullptr)
+        : QBoxLayout(LeftToRight, parent), from_(std::move(from)) {}
+    void setGeometry(const QRect& room) override;
+    /// From where its parts stand beside each other, whichever way they stand now.
+    [[nodiscard]] QSize sizeHint() const override;
+    /// As wide as its widest part, whichever way it stands: it can always turn.
+    [[nodiscard]] QSize minimumSize() const override;
+
+signals:
+    /// It stands the other way now.
+    void turned(bool beside);
+
+private:
+    [[nodiscard]] int from() const;
+    std::function<int()> from_;
 };
 
 }  // namespace tacto::gui

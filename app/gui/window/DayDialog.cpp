@@ -6,7 +6,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/runner/NotesPanel.h"
-#include "app/gui/theme/GrowingDialog.h"
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

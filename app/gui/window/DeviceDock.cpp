@@ -1,14 +1,15 @@
 #include "app/gui/window/DeviceDock.h"
 
+#include <QCoreApplication>
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
 
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/WholeRows.h"
-#include "app/gui/window/DeviceText.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/run/ScopeStatement.h"
 
@@ -23,6 +24,74 @@ constexpr int kObstacleRole = Qt::UserRole + 2;
 constexpr int kRoleRole = Qt::UserRole + 3;  // of those that can be ticked
 constexpr int kSerialRole = Qt::UserRole + 4;
 constexpr qint64 kDescribeEvery_ms = 500;  // what a device reports on itself
+
+QString tr(const char* text) { return QCoreApplication::translate("DeviceDock", text); }
+
+QString orDash(const std::string& text) { return text.empty() ? "–" : QString::fromStdString(text).toHtmlEscaped(); }
+
+std::string schemeOf(const std::string& uri) { return uri.substr(0, uri.find(':')); }
+
+/// Whether `present` is the device that was opened as `open`: by its URI, by its serial number, or as the one that a
+/// URI without a name ("sensor:") stands for.
+bool isSame(const SessionDevice& open, const DeviceIdentity& present) {
+    if (present.placeholder || open.role != nameOf(present.role)) return false;
+    if (open.uri == present.uri) return true;
+    const auto uri = DeviceUri::parse(open.uri);
+    if (!uri || uri->scheme != schemeOf(present.uri)) return false;
+    if (present.simulated) return open.name == present.name;
+    // A terminal is not among what is plugged in.
+    const bool terminal = std::ranges::any_of(uri->parameters, [](const auto& one) { return one.first == "tty"; });
+    if (terminal) return false;
+    return uri->path.empty() || uri->path == present.serial || (!open.serial.empty() && open.serial == present.serial);
+}
+
+/// Whether an open device was among those plugged in (`seen`, URIs) and is not any more.
+bool unpluggedWhileOpen(const SessionDevice& open, const std::vector<DeviceIdentity>& present,
+                        const std::set<std::string>& seen) {
+    return seen.contains(open.uri) &&
+           std::ranges::none_of(present, [&](const auto& device) { return isSame(open, device); });
+}
+
+/// Identity and abilities of an open device.
+QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
+    QStringList lines;
+    lines << tr("Serial %1, firmware %2").arg(orDash(device.serial), orDash(device.firmware));
+    if (device.simulated) lines << tr("Simulated: none of its numbers were measured on hardware.");
+    if (device.is(Role::Stimulator) && open.source) {
+        const auto drive = open.source->drive;
+        lines << tr("%1 source, at most %2")
+                     .arg(drive == Drive::Current ? tr("Current") : tr("Voltage"),
+                          settingText(open.source->amplitudeMax, amplitudeUnit(drive)));
+    }
+    if (device.is(Role::Sensor)) {
+        for (const auto& stream : open.streams) {
+            const auto kind = nameOf(stream.kind);
+            lines << tr("%1: %2, %3")
+                         .arg(titled(qtext(kind)),
+                              stream.channels == 1 ? tr("1 channel") : tr("%1 channels").arg(stream.channels),
+                              settingText(stream.rate_hz, "Hz"));
+        }
+    }
+    if (device.is(Role::Oscilloscope) && open.scope) {
+        lines << tr("%1 bits, up to %2").arg(open.scope->bits).arg(settingText(open.scope->maxRate.value(), "S/s"));
+    }
+    return lines;
+}
+
+/// What it reports on itself, but for counts of 0 and what is not known.
+QStringList rowsOf(const DeviceReport& report) {
+    QStringList lines;
+    for (const auto& row : report.rows()) {
+        const bool count = row.unit[0] == 0;
+        if (!std::isfinite(row.value) || (count && row.value == 0)) continue;
+        const auto value = count                               ? decimalText(row.value, 0)
+                           : std::string_view(row.unit) == "s" ? settingText(row.value, "s")
+                                                               : decimalText(row.value, 1, row.unit);
+        lines << QString("%1: %2").arg(titled(QString(row.name)), value);
+    }
+    lines << (report.losses > 0 ? tr("⚠ Something was lost between it and this program.") : tr("Nothing was lost."));
+    return lines;
+}
 
 }  // namespace
 
@@ -74,7 +143,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     buttons->addWidget(close_, 2, 1);
     layout->addLayout(buttons);
     layout->addStretch(1);
-    auto* area = new WholeRows(body, this);
+    auto* area = scrollingRows(body, this);
     area->setMinimumWidth(body->minimumSizeHint().width());
     setContent(area);
 

@@ -7,9 +7,12 @@
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QPushButton>
+#include <QStringList>
 #include <QTreeWidget>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/controller/BenchController.h"

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

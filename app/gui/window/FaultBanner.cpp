@@ -3,7 +3,6 @@
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 

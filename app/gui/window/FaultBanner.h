@@ -7,7 +7,7 @@
 #include <QFrame>
 #include <QTime>
 
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "core/bench/Telemetry.h"
 
 namespace tacto::gui {

@@ -8,11 +8,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/gui/theme/HeightAt.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/WholeRows.h"
 
 namespace tacto::gui {
 
@@ -71,7 +69,7 @@ void FoldingDock::setContent(QWidget* content, Room room) {
         rows->setContentsMargins(0, 0, kDockPadding, 0);
         rows->addWidget(content);
         rows->addStretch();
-        auto* area = new WholeRows(inside_, body);
+        auto* area = scrollingRows(inside_, body);
         area->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
         area->setFocusPolicy(Qt::NoFocus);
         bar_ = area->verticalScrollBar();

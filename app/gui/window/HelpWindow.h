@@ -1,9 +1,8 @@
-// HelpWindow.h - the guide and the limits, the keys, and what has the focus.
+// HelpWindow.h - the guide, with the keys and the limits, and what has the focus.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QDialog>
 #include <QWidget>
 
 #include "app/run/Shipped.h"
@@ -17,9 +16,6 @@ class Workspaces;
 
 /// Opens the guide at that file, beside the limit sets in force with their sources. A guide that is open turns to it.
 void openGuide(const ShippedLimits& limits, const QString& page, QWidget* parent);
-
-/// Every key, by topic.
-[[nodiscard]] QDialog* makeShortcutSheet(QWidget* parent);
 
 /// Says what the widget under the focus is for: its tool tip, or that of what holds it.
 void explainFocus(QWidget* window);

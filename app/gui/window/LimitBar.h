@@ -9,6 +9,7 @@
 #include <QWidget>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/safety/Exposure.h"
 
@@ -60,5 +61,29 @@ private:
 /// evaluated and was not comes before all.
 [[nodiscard]] std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows,
                                                   const std::vector<Quantity>& quantities);
+
+/// Limit bars beside each other, as many as fit: those that are nearest to their limits. One that is
+/// seen stays until another is clearly nearer. Where there is room for one alone it is narrow, and says its share.
+class LimitBarRow final : public QWidget {
+public:
+    LimitBarRow(const QStringList& titles, QWidget* parent);
+    void show(std::size_t index, const std::optional<ExposureRow>& row, std::span<const LimitSet> sets = {}) {
+        bars_[index]->show(row, sets);
+    }
+    void setTitle(std::size_t index, const QString& title) { bars_[index]->setTitle(title); }
+    /// After the last show(): chooses which bars are seen.
+    void arrange();
+    /// In pixels: the least in which the nearest limit is shown.
+    [[nodiscard]] int oneBarWidth() const;
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override { return {0, sizeHint().height()}; }
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    std::vector<LimitBar*> bars_;
+    std::vector<LimitBar*> seen_;
+};
 
 }  // namespace tacto::gui

@@ -6,6 +6,7 @@
 #include <QMenuBar>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScreen>
 #include <QSettings>
 #include <QSplitter>
 #include <QStatusBar>
@@ -22,25 +23,23 @@
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/scope/measurements/MeasurementSummary.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/window/ArmQuestion.h"
+#include "app/gui/window/ArmDialog.h"
 #include "app/gui/window/Attendance.h"
 #include "app/gui/window/CloseQuestion.h"
 #include "app/gui/window/DayDialog.h"
 #include "app/gui/window/DeviceDock.h"
 #include "app/gui/window/DockColumn.h"
-#include "app/gui/window/DriveDock.h"
-#include "app/gui/window/ExposureDock.h"
 #include "app/gui/window/MarkLine.h"
 #include "app/gui/window/Menus.h"
 #include "app/gui/window/NoticeBanner.h"
+#include "app/gui/window/OutputDocks.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/gui/window/SimulatedBenchDialog.h"
-#include "app/gui/window/SmallStop.h"
 #include "app/gui/window/StateWords.h"
+#include "app/gui/window/StopButton.h"
 #include "app/gui/window/StopKeys.h"
 #include "app/gui/window/WelcomeTour.h"
-#include "app/gui/window/WindowPlace.h"
 #include "app/gui/window/WorkspaceRail.h"
 #include "app/gui/window/Workspaces.h"
 #include "core/bench/BlindTelemetry.h"
@@ -53,6 +52,41 @@ constexpr int kFrame_ms = 33;
 constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 constexpr int kDocksFrom = 960;      // narrower windows, as with large text, begin with the docks in a strip
 constexpr int kAllDocksFrom = 480;   // in lower ones all docks but that of the drive begin folded to their headers
+
+/// Moves and shrinks the window until it lies on its screen, for STOP is in its corner, even if the screen has changed
+/// since; a maximised one is left alone. Before a window is shown its frame is not known: called again after that, it
+/// takes the frame off.
+void keepOnScreen(QWidget& window) {
+    if (window.isMaximized() || window.isFullScreen()) return;
+    const auto room = window.screen()->availableGeometry();
+    const auto frame = window.frameGeometry().size() - window.geometry().size();
+    window.resize(window.size().boundedTo(room.size() - frame));
+    auto place = window.frameGeometry();
+    place.moveRight(std::min(place.right(), room.right()));
+    place.moveBottom(std::min(place.bottom(), room.bottom()));
+    place.moveLeft(std::max(place.left(), room.left()));
+    place.moveTop(std::max(place.top(), room.top()));
+    if (place.topLeft() != window.frameGeometry().topLeft()) window.move(place.topLeft());
+}
+
+/// As a splitter shares its room at first: each part what it asks for, what is left by their stretch.
+void layOutAnew(QSplitter& splitter) {
+    const bool across = splitter.orientation() == Qt::Horizontal;
+    const int count = splitter.count();
+    QList<int> sizes, stretches;
+    int left = across ? splitter.width() : splitter.height(), shares = 0;
+    for (int i = 0; i < count; ++i) {
+        const auto* part = splitter.widget(i);
+        const auto policy = part->sizePolicy();
+        const auto wanted = part->sizeHint().expandedTo(part->minimumSizeHint()).expandedTo(part->minimumSize());
+        sizes << std::max(0, across ? wanted.width() : wanted.height());
+        stretches << (across ? policy.horizontalStretch() : policy.verticalStretch());
+        left -= sizes.back();
+        shares += stretches.back();
+    }
+    for (int i = 0; i < count && left > 0; ++i) sizes[i] += shares > 0 ? left * stretches[i] / shares : left / count;
+    splitter.setSizes(sizes);
+}
 
 }  // namespace
 
@@ -380,7 +414,6 @@ void MainWindow::showEvent(QShowEvent* event) {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QMainWindow::resizeEvent(event);
-    rail_->fit();
     const bool changed = hasRoomForDocks_ != (width() >= scaledPx(kDocksFrom)) ||
                          hasRoomForAllDocks_ != (height() >= scaledPx(kAllDocksFrom));
     if (docks_ != nullptr && changed) enterDocks();

@@ -10,11 +10,10 @@
 #include "app/gui/window/DockColumn.h"
 #include "app/gui/window/HelpWindow.h"
 #include "app/gui/window/MainWindow.h"
-#include "app/gui/window/RecentFiles.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
-#include "app/gui/window/SmallStop.h"
 #include "app/gui/window/StateWords.h"
+#include "app/gui/window/StopButton.h"
 #include "app/gui/window/Workspaces.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
@@ -148,8 +147,7 @@ void Menus::addHelp() {
                     [this, open] { open(guidePageOf(*window_.findChild<Workspaces*>())); });
     help->addAction(tr("&Explain what has the focus"), QKeySequence(Qt::SHIFT | Qt::Key_F1), &window_,
                     [this] { explainFocus(&window_); });
-    help->addAction(tr("&Keys"), QKeySequence(Qt::Key_Question), &window_,
-                    [this] { openDialog(makeShortcutSheet(&window_)); });
+    help->addAction(tr("&Keys"), QKeySequence(Qt::Key_Question), &window_, [open] { open("keys.md"); });
     help->addAction(tr("&Definitions and limits"), &window_, [open] { open("definitions.md"); });
     help->addAction(tr("&Tour"), &window_, &MainWindow::beginTour);
     help->addSeparator();

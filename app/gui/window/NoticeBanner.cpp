@@ -7,10 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "app/gui/theme/OutputWords.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/window/ExposureNow.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/StateWords.h"
 #include "app/report/NumberText.h"

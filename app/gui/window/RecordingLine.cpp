@@ -2,15 +2,13 @@
 
 #include <QDateTime>
 #include <QDialog>
-#include <QDialogButtonBox>
 #include <QFileInfo>
 #include <QPlainTextEdit>
 #include <QVBoxLayout>
 #include <utility>
 
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/ElidedLabel.h"
-#include "app/gui/theme/LookChange.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Printable.h"
@@ -137,9 +135,7 @@ void RecordingLine::showLog() {
     text->setReadOnly(true);
     text->setTabChangesFocus(true);
     layout->addWidget(text);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, dialog);
-    connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
-    layout->addWidget(buttons);
+    addCloseButton(*dialog, *layout);
     dialog->resize(text->fontMetrics().averageCharWidth() * 90, text->fontMetrics().height() * 24);
     openDialog(dialog);
 }

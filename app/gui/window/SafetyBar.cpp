@@ -5,13 +5,12 @@
 #include <algorithm>
 
 #include "app/gui/theme/ConfirmButton.h"
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/window/ExposureNow.h"
 #include "app/gui/window/FaultBanner.h"
-#include "app/gui/window/LimitBarRow.h"
+#include "app/gui/window/LimitBar.h"
 #include "app/gui/window/StateBlock.h"
 #include "app/gui/window/StateWords.h"
 #include "app/gui/window/StopButton.h"

@@ -5,7 +5,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "app/gui/theme/GrowingDialog.h"
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/electrode/Load.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

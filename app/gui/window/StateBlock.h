@@ -6,7 +6,7 @@
 #include <QFrame>
 #include <QLabel>
 
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "core/safety/Interlock.h"
 
 namespace tacto::gui {

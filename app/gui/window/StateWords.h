@@ -1,9 +1,11 @@
-// StateWords.h - the sentence under the state's word: what is being done, by whom, and what to do next.
+// StateWords.h - the state in words: what is being done, by whom, and what to do next; and the gate's exposure as
+// displays show it: what it holds now, and not what it was before the output went off.
 //
 // Thread-safety: pure.
 #pragma once
 
 #include <QString>
+#include <vector>
 
 #include "core/bench/Telemetry.h"
 
@@ -18,5 +20,13 @@ namespace tacto::gui {
 
 /// Checking, armed, delivering or paused: there is something to disarm.
 [[nodiscard]] bool isOn(InterlockState state) noexcept;
+
+/// Whether no train is delivered, and none follows before the operator arms: disconnected, disarmed, faulted.
+[[nodiscard]] bool outputIsOff(InterlockState state);
+
+/// The rows of `telemetry`. While the output is off a quantity of single pulses and trains is 0, for none is delivered;
+/// one over a window still has the trains of that window in it, as the gate counts them. What was not evaluated stays
+/// so. None while the output is off and nothing has been judged against a limit yet: unknown is not 0.
+[[nodiscard]] std::vector<ExposureRow> exposureNow(const Telemetry& telemetry);
 
 }  // namespace tacto::gui

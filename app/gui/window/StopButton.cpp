@@ -1,12 +1,14 @@
 #include "app/gui/window/StopButton.h"
 
 #include <QApplication>
+#include <QGuiApplication>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QScreen>
+#include <QVBoxLayout>
 #include <QWindow>
 #include <utility>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -96,6 +98,28 @@ void StopButton::paintEvent(QPaintEvent*) {
     painter.setPen(QPen(style.ink, 2));
     painter.drawRect(rect().adjusted(2, 2, -3, -3));
 }
+
+SmallStop::SmallStop(std::function<void()> stop, const QWidget& beside)
+    : QWidget(nullptr, Qt::Tool | Qt::CustomizeWindowHint | Qt::WindowTitleHint | Qt::WindowStaysOnTopHint |
+                           Qt::WindowDoesNotAcceptFocus),
+      stop_(new StopButton(std::move(stop), this)) {
+    setObjectName("smallStop");
+    setWindowTitle(tr("Tactoscope"));
+    setAttribute(Qt::WA_ShowWithoutActivating);
+    setAttribute(Qt::WA_QuitOnClose, false);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(stop_);
+    showState(InterlockState::Disconnected);
+    const auto screen = beside.screen()->availableGeometry();
+    constexpr int kMargin = 32;
+    resize(sizeHint());
+    move(screen.right() - width() - kMargin, screen.bottom() - height() - kMargin);
+}
+
+void SmallStop::showState(InterlockState state) { stop_->setHint(stateStyle(state).word); }
+
+bool SmallStop::staysAbove() { return !QGuiApplication::platformName().startsWith("wayland"); }
 
 }  // namespace tacto::gui
 

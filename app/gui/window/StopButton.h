@@ -9,8 +9,11 @@
 #pragma once
 
 #include <QPushButton>
+#include <QWidget>
 #include <functional>
 #include <optional>
+
+#include "core/safety/Interlock.h"
 
 namespace tacto::gui {
 
@@ -33,6 +36,20 @@ private:
     bool taken_ = false;  // the press of which the release comes next
     const std::function<void()> stop_;
     QString hint_;
+};
+
+/// STOP in a small window by itself, with the state of the output below the word, that stays above the windows of other
+/// programs and takes no focus.
+class SmallStop final : public QWidget {
+public:
+    /// `stop` as of StopButton. It begins at the lower right of the screen that `beside` is on.
+    SmallStop(std::function<void()> stop, const QWidget& beside);
+    void showState(InterlockState state);
+    /// Whether this display lets a program keep a window above others: Wayland does not.
+    [[nodiscard]] static bool staysAbove();
+
+private:
+    StopButton* stop_;
 };
 
 }  // namespace tacto::gui

@@ -2,7 +2,9 @@
 
 #include <QEvent>
 #include <QHBoxLayout>
+#include <QPainter>
 #include <QScrollArea>
+#include <QStyle>
 #include <QVBoxLayout>
 #include <limits>
 #include <utility>
@@ -15,10 +17,8 @@ namespace {
 
 constexpr int kLookInterval_ms = 60;
 constexpr int kWidthChars = 46;
-constexpr int kTallest = 10'000;        // px, of a text that has all the room
-constexpr int kMargin = 24;             // from the window's edges
-constexpr int kAboveStatus = 48;        // from its lower edge
-constexpr double kControlCounts = 100;  // as much as so many of what else the text speaks of
+constexpr int kMargin = 24;       // from the window's edges
+constexpr int kAboveStatus = 48;  // from its lower edge
 
 }  // namespace
 
@@ -128,44 +128,25 @@ void Tour::bringIntoView(QWidget* control) {
     }
 }
 
-/// Where it hides least of the control, then of what else the text speaks of; the lower right corner first, and below
-/// the safety bar: STOP is never covered.
+/// Where it hides least of the control, the lower right corner first; below the safety bar: STOP is never covered.
 void Tour::place() {
     // Never half of the window: a control beside it has room.
-    const int wide =
-        std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() / 2 - 4 * kMargin);
-    // Measured here: the label's own answer is that of the size of text before, when that has just changed.
-    const auto lines = text_->fontMetrics().boundingRect(QRect(0, 0, wide, kTallest), Qt::TextWordWrap, text_->text());
-    text_->setFixedSize(wide, lines.height() + 2);
-    layout()->activate();
-    const auto size = sizeHint();
-    const auto room = parentWidget()->rect();
-    int top = kMargin;
+    text_->setFixedWidth(
+        std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() / 2 - 4 * kMargin));
+    adjustSize();
+    auto room = parentWidget()->rect().adjusted(kMargin, kMargin, -kMargin, -kAboveStatus);
     if (const auto* bar = parentWidget()->findChild<QWidget*>("safetyBar"))
-        top += bar->mapTo(parentWidget(), QPoint(0, bar->height())).y();
-    const int right = room.width() - size.width() - kMargin;
-    const int bottom = std::max(top, room.height() - size.height() - kAboveStatus);
-    QRect control;
-    if (frame_ && frame_->isVisible() && frame_->parentWidget() == parentWidget()) control = frame_->geometry();
-    std::vector<QRect> others;
-    if (const auto& about = steps_[step_].about) {
-        for (auto* widget : about()) {
-            if (widget != nullptr && widget->window() == window()) others.push_back(visiblePart({widget}));
-        }
-    }
-    const auto areaOf = [](const QRect& part) { return part.isEmpty() ? 0.0 : double(part.width()) * part.height(); };
+        room.setTop(bar->mapTo(parentWidget(), QPoint(0, bar->height())).y());
+    const bool beside = frame_ && frame_->isVisible() && frame_->parentWidget() == parentWidget();
+    const auto control = beside ? frame_->geometry() : QRect();
     QRect best;
-    double least = std::numeric_limits<double>::max();
-    const int centre = (room.width() - size.width()) / 2, middle = (top + bottom) / 2;
-    // The usual places first, then those right beside the control.
-    for (const int y : {bottom, top, middle, control.top() - size.height(), control.bottom() + 1}) {
-        for (const int x : {right, kMargin, centre, control.left() - size.width(), control.right() + 1}) {
-            if (x < 0 || x > right + kMargin || y < top - kMargin || y > bottom) continue;
-            const QRect here(QPoint(x, y), size);
-            double hides = kControlCounts * areaOf(here & control);
-            for (const auto& other : others) hides += areaOf(here & other);
-            if (hides >= least) continue;
-            least = hides;
+    int least = std::numeric_limits<int>::max();
+    for (const auto down : {Qt::AlignBottom, Qt::AlignTop, Qt::AlignVCenter}) {
+        for (const auto across : {Qt::AlignRight, Qt::AlignLeft, Qt::AlignHCenter}) {
+            const auto here = QStyle::alignedRect(Qt::LeftToRight, across | down, size(), room);
+            const auto hidden = (here & control).size();
+            if (hidden.width() * hidden.height() >= least) continue;
+            least = hidden.width() * hidden.height();
             best = here;
         }
     }
@@ -177,6 +158,61 @@ void Tour::place() {
 bool Tour::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::Resize && isVisible()) place();
     return QFrame::eventFilter(watched, event);
+}
+
+namespace {
+
+constexpr int kLine = 3;  // px at the designed size of text
+constexpr int kHalo = 1;  // on either side of it, so that it stands out on any ground
+
+/// What can be seen of it, in the coordinates of its window; empty where nothing can.
+QRect visiblePart(const TourTarget& target) {
+    auto* widget = target.widget;
+    if (widget == nullptr || !widget->isVisible()) return {};
+    auto seen = widget->rect();
+    if (!target.part.isNull()) seen &= target.part;
+    // What its ancestors cut off. Not visibleRegion(): what lies over it, as the frame does, would be taken off.
+    for (auto* inside = widget; !inside->isWindow() && inside->parentWidget() != nullptr;) {
+        seen.translate(inside->pos());
+        inside = inside->parentWidget();
+        seen &= inside->rect();
+    }
+    return seen;
+}
+
+}  // namespace
+
+TourFrame::TourFrame(QWidget* window) : QWidget(window) {
+    setObjectName("tourFrame");
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setFocusPolicy(Qt::NoFocus);
+    hide();
+}
+
+void TourFrame::follow(const TourTarget& target) {
+    const auto seen = visiblePart(target);
+    if (seen.isEmpty()) return hide();
+    // A dialog is a window of its own: the frame goes there. Deleted with it, it is made anew by the tour.
+    auto* window = target.widget->window();
+    if (parentWidget() != window) setParent(window);
+    const int line = scaledPx(kLine) + 2 * kHalo;
+    const auto around = seen.adjusted(-line, -line, line, line) & window->rect();
+    if (geometry() != around) setGeometry(around);
+    if (!isVisible()) show();
+    raise();
+}
+
+void TourFrame::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    const auto& c = colours();
+    const double line = scaledPx(kLine);
+    const double inset = kHalo + line / 2;
+    const auto frame = QRectF(rect()).adjusted(inset, inset, -inset, -inset);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(c.base, line + 2 * kHalo));
+    painter.drawRect(frame);
+    painter.setPen(QPen(c.text, line));
+    painter.drawRect(frame);
 }
 
 }  // namespace tacto::gui

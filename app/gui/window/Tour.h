@@ -1,9 +1,8 @@
 // Tour.h - the first run's tour, on the simulated bench: steps that are done, not read.
 //
-// A panel in the window, where it covers neither the safety bar nor the control that it talks about, and least of what
-// else its text speaks of; and a frame around that control. A step is over when what it asks for was done at the
-// window's own controls; Next passes it over, Back returns. Never modal: STOP, its keys and all else stay within reach.
-// What is left can be resumed.
+// A panel in the window, where it covers neither the safety bar nor the control that it talks about; and a frame around
+// that control. A step is over when what it asks for was done at the window's own controls; Next passes it over, Back
+// returns. Never modal: STOP, its keys and all else stay within reach. What is left can be resumed.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -14,12 +13,30 @@
 #include <QPointer>
 #include <QPushButton>
 #include <QTimer>
+#include <QWidget>
 #include <functional>
 #include <vector>
 
-#include "app/gui/window/TourFrame.h"
-
 namespace tacto::gui {
+
+/// A part of a widget, or all of it where `part` is null.
+struct TourTarget {
+    QWidget* widget = nullptr;
+    QRect part{};
+};
+
+/// A frame around a control that the tour talks about. It lies in the control's own window and takes neither clicks nor
+/// keys.
+class TourFrame final : public QWidget {
+    Q_OBJECT
+public:
+    explicit TourFrame(QWidget* window);
+    /// Goes around what can be seen of it; hides where nothing can.
+    void follow(const TourTarget& target);
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+};
 
 struct TourStep {
     QString title;
@@ -28,7 +45,6 @@ struct TourStep {
     std::function<TourTarget()> target;  ///< as things stand now; may be empty
     std::function<bool()> done;          ///< since enter()
     int linger_ms = 1200;                ///< how long it stays when it is done, to be seen
-    std::function<std::vector<QWidget*>()> about = {};  ///< what else the text speaks of; may be empty
 };
 
 class Tour final : public QFrame {

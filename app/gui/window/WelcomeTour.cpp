@@ -6,12 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "app/gui/runner/ParameterForm.h"
-#include "app/gui/runner/ResultHead.h"
-#include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/sessions/SessionDetails.h"
-#include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/FoldingDock.h"
@@ -127,10 +123,7 @@ std::vector<TourStep> WelcomeTour::onTheBench() {
                     "what is felt.")),
          [this] { window_.showDock("driveDock"); }, [this] { return TourTarget{named("driveFingertip")}; },
          [this] { return state() == InterlockState::Delivering && controller_.telemetry().trainsDelivered > 0; },
-         kSee_ms,
-         [this] {
-             return std::vector{named("exposureDock"), named("driveDock")};
-         }},
+         kSee_ms},
     };
 }
 
@@ -140,8 +133,7 @@ std::vector<TourStep> WelcomeTour::toTheVerdict() {
          whileOn(tr("Open the oscilloscope. What really came out is captured, and each pulse is measured: amplitude, "
                     "phase width and gap stand under Measurements, charge further down.")),
          [this] { window_.showDock("measurementDock"); }, [this] { return scopeTarget(); },
-         [this] { return showsScope() && captured_ > 0; }, kReadFor_ms,
-         [this] { return std::vector<QWidget*>{window_.findChild<ScopeScreen*>()}; }},
+         [this] { return showsScope() && captured_ > 0; }, kReadFor_ms},
         {tr("Disarm"),
          say("Done with the output: the same button switches it off."),
          {},
@@ -156,8 +148,7 @@ std::vector<TourStep> WelcomeTour::toTheVerdict() {
          {},
          [this] { return runTarget(); },
          [this] { return judged_ > 0; },
-         kReadFor_ms,
-         [this] { return ofTheRun(); }},
+         kReadFor_ms},
         {tr("Everything is kept"),
          say("Each bench and each run is a session. Open Sessions and look at the newest one: its verdict, trials and "
              "captures, and below them Report, Replay and Open capture. ? shows all keys, F1 opens the guide."),
@@ -195,19 +186,6 @@ QString WelcomeTour::surfaceText() {
                                   : tr("What it feels now is smooth. Choose P120, a coarse sandpaper.");
     return tr("%1 Acceleration, force and taxels become roughness R and pressure P: the point in the tactile plane.")
         .arg(choice);
-}
-
-std::vector<QWidget*> WelcomeTour::ofTheRun() const {
-    std::vector<QWidget*> all;
-    const auto add = [&](const auto& found) {
-        for (auto* widget : found)
-            if (widget->isVisible()) all.push_back(widget);
-    };
-    add(window_.findChildren<ParameterForm*>());
-    add(window_.findChildren<ResultHead*>());
-    add(window_.findChildren<ExposureTable*>());
-    add(window_.findChildren<TrialPlane*>());
-    return all;
 }
 
 /// Once they are open, the newest one.

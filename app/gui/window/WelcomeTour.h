@@ -34,7 +34,6 @@ private:
     [[nodiscard]] TourTarget openTarget() const;
     [[nodiscard]] QString surfaceText();
     [[nodiscard]] TourTarget scopeTarget() const;
-    [[nodiscard]] std::vector<QWidget*> ofTheRun() const;
     [[nodiscard]] TourTarget sessionsTarget();
     [[nodiscard]] TourTarget runTarget() const;
     [[nodiscard]] bool showsScope() const;

@@ -1,8 +1,18 @@
 #include "app/gui/window/WorkspaceRail.h"
 
-#include "app/gui/window/RailButton.h"
+#include <QToolButton>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
+
+namespace {
+
+constexpr int kRailIcon = 24;
+constexpr double kIconsAloneFrom_pt = 15;  // with text this large the words would take the room of the data
+
+}  // namespace
 
 WorkspaceRail::WorkspaceRail(QWidget* parent)
     : QToolBar(tr("Workspaces"), parent), workspaces_(new QActionGroup(this)) {
@@ -25,16 +35,29 @@ WorkspaceRail::WorkspaceRail(QWidget* parent)
     };
     int index = 0;
     for (const auto& [name, iconName, tip] : entries) {
-        auto* action = new QAction(name, this);
+        auto* action = addAction(icon(iconName), name);
         action->setCheckable(true);
         action->setShortcut(QKeySequence(Qt::CTRL | static_cast<Qt::Key>(Qt::Key_1 + index)));
         action->setToolTip(tr("%1 (%2)").arg(tip, action->shortcut().toString(QKeySequence::NativeText)));
         workspaces_->addAction(action);
         connect(action, &QAction::triggered, this, [this, index] { emit chosen(index); });
-        addWidget(new RailButton(action, iconName, this));
+        auto* button = qobject_cast<QToolButton*>(widgetForAction(action));
+        button->setObjectName("workspaceButton");
+        button->setAccessibleName(name);
+        button->setFocusPolicy(Qt::TabFocus);
+        button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+        setTextSize(*button, TextSize::Small);
         parentWidget()->addAction(action);  // its key, wherever the focus is
         ++index;
     }
+    fit();
+    onFontChange(*this, [this] { fit(); });
+}
+
+void WorkspaceRail::fit() {
+    setIconSize({scaledPx(kRailIcon), scaledPx(kRailIcon)});
+    const bool words = font().pointSizeF() <= kIconsAloneFrom_pt;
+    setToolButtonStyle(words ? Qt::ToolButtonTextUnderIcon : Qt::ToolButtonIconOnly);
 }
 
 void WorkspaceRail::setCurrent(int index) { workspaces_->actions().at(index)->setChecked(true); }
@@ -49,10 +72,6 @@ void WorkspaceRail::keepTo(std::optional<int> index, const QString& reason) {
         if (!allowed) action->setToolTip(reason);
         action->setEnabled(allowed);
     }
-}
-
-void WorkspaceRail::fit() {
-    for (auto* button : findChildren<RailButton*>()) button->updateGeometry();
 }
 
 }  // namespace tacto::gui

@@ -18,14 +18,13 @@ public:
     void setCurrent(int index);
     /// All but one, or none, are out of reach, for a reason that their tool tips say.
     void keepTo(std::optional<int> index, const QString& reason);
-    /// The window has another height: in a low one the buttons are low.
-    void fit();
 
 signals:
     /// By click, key or menu.
     void chosen(int index);
 
 private:
+    void fit();
     QActionGroup* workspaces_;
 };
 

@@ -1,6 +1,7 @@
 #include "app/gui/window/Workspaces.h"
 
 #include <QFileInfo>
+#include <QSettings>
 #include <algorithm>
 #include <iterator>
 
@@ -11,10 +12,9 @@
 #include "app/gui/scope/ScopeFiles.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/window/RecentFiles.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/CaptureFormatsList.h"
 
@@ -30,7 +30,18 @@ Workspace* makeIn(ScrollingPage& page, Arguments&&... arguments) {
     return workspace;
 }
 
+void rememberRecentFile(const QString& path) {
+    constexpr qsizetype kMaxFiles = 8;
+    auto files = recentFiles();
+    const auto absolute = QFileInfo(path).absoluteFilePath();
+    files.removeAll(absolute);
+    files.prepend(absolute);
+    QSettings().setValue("recent", QStringList(files.mid(0, kMaxFiles)));
+}
+
 }  // namespace
+
+QStringList recentFiles() { return QSettings().value("recent").toStringList(); }
 
 Workspaces::Workspaces(BenchController& controller, CalibrationBook& calibrations, QWidget* parent)
     : QStackedWidget(parent), controller_(controller), calibrations_(calibrations) {

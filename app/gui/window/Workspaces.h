@@ -5,6 +5,7 @@
 #pragma once
 
 #include <QStackedWidget>
+#include <QStringList>
 #include <memory>
 #include <vector>
 
@@ -80,5 +81,8 @@ private:
     ProtocolWorkspace* protocols_ = nullptr;
     bool plotOnly_ = false;
 };
+
+/// The files that were opened last, newest first, from one start to the next.
+[[nodiscard]] QStringList recentFiles();
 
 }  // namespace tacto::gui

@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/calibrate/CertificateDialog.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"

@@ -14,7 +14,7 @@
 #include "app/gui/live/StripPlots.h"
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/live/TaxelMap.h"
-#include "app/gui/theme/PictureCaption.h"
+#include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "tests/gui/Looks.h"

@@ -18,7 +18,7 @@
 #include "app/gui/sessions/SessionModel.h"
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
 #include "core/session/Digest.h"
 #include "core/session/SessionLabels.h"

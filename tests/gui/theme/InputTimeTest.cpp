@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/gui/theme/InputTime.h"
+#include "app/gui/theme/ConfirmButton.h"
 
 namespace tacto::test {
 namespace {

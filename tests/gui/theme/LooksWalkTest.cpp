@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <qcustomplot.h>
 
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/ShownText.h"
 #include "tests/gui/HeightLooks.h"

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <qcustomplot.h>
 
-#include "app/gui/theme/ElidedLabel.h"
-#include "app/gui/theme/PictureTools.h"
+#include "app/gui/theme/Labels.h"
+#include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
 #include "tests/gui/Person.h"

@@ -15,12 +15,11 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/PageStack.h"
-#include "app/gui/theme/ProgressBar.h"
+#include "app/gui/theme/Labels.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TurningRow.h"
+#include "app/gui/theme/ToolRow.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/VerdictMark.h"
 #include "tests/gui/Looks.h"
@@ -297,66 +296,6 @@ TEST_P(InTheme, TheTickOfACheckBoxIsSeen) {
     EXPECT_GT(pixelsOf(picture, gui::colours().primary), 60) << "its ground";
 }
 
-/// What is seen of a slider's handle above and below its groove, from `least` to 1 on.
-QRect handleOf(QSlider& slider, double least) {
-    const auto picture = slider.grab().toImage();
-    const auto ground = picture.pixelColor(0, 0);
-    const int groove = gui::scaledPx(4);
-    QRect seen;
-    for (int y = 0; y < picture.height(); ++y) {
-        if (std::abs(y - picture.height() / 2) < groove) continue;
-        for (int x = 0; x < picture.width(); ++x)
-            if (contrast(picture.pixelColor(x, y), ground) >= least) seen |= QRect(x, y, 1, 1);
-    }
-    return seen;
-}
-
-/// But for the pixels between an edge of another colour and its ground.
-bool isLike(const QSize& one, const QSize& other) {
-    return std::abs(one.width() - other.width()) <= 2 && std::abs(one.height() - other.height()) <= 2;
-}
-
-TEST_P(InTheme, TheHandleOfASliderIsWholeAndSeenFromEndToEnd) {
-    constexpr double kThere = 1.2, kSeen = 3, kStandsOut = 7;  // contrasts to what is behind it
-    for (const int percent : {100, 200}) {
-        gui::applyTextSize(percent);
-        QWidget window;
-        auto* column = new QVBoxLayout(&window);
-        auto* slider = new QSlider(Qt::Horizontal, &window);
-        auto* other = new QPushButton("Off", &window);
-        column->addWidget(slider);
-        column->addWidget(other);
-        slider->setRange(0, 100);
-        window.resize(240 * percent / 100, 120 * percent / 100);
-        window.show();
-        window.activateWindow();
-        ASSERT_IN_TIME(QTest::qWaitForWindowActive(&window));
-        other->setFocus();
-        std::vector<QRect> places;
-        for (const int value : {0, 50, 100}) {
-            slider->setValue(value);
-            const auto seen = handleOf(*slider, kSeen);
-            EXPECT_GE(seen.width(), 12 * percent / 100) << percent << ", at " << value;
-            EXPECT_GE(seen.height(), 14 * percent / 100) << percent << ", at " << value;
-            places.push_back(handleOf(*slider, kThere));
-        }
-        const auto size = places[1].size();
-        for (const auto& place : places) EXPECT_EQ(place.size(), size) << "cut at an end, at " << percent;
-        EXPECT_LE(places[0].left(), 2 * percent / 100);
-        EXPECT_GE(places[2].right(), slider->width() - 1 - 2 * percent / 100);
-        EXPECT_NEAR(places[1].center().x(), slider->width() / 2.0, 2);
-        slider->setValue(50);
-        slider->setFocus();
-        EXPECT_TRUE(isLike(handleOf(*slider, kThere).size(), size));
-        EXPECT_FALSE(handleOf(*slider, kStandsOut).isEmpty()) << "while it has the keys";
-        other->setFocus();
-        EXPECT_TRUE(handleOf(*slider, kStandsOut).isEmpty());
-        slider->setEnabled(false);  // while the fingertip drives it shows what that feels
-        EXPECT_TRUE(isLike(handleOf(*slider, kThere).size(), size));
-        EXPECT_TRUE(handleOf(*slider, kSeen).isEmpty()) << "and does not look as if it took a hand";
-    }
-}
-
 TEST_P(InTheme, EdgesOfFieldsAreSeen) {
     for (const auto& ground : {gui::colours().base, gui::colours().window})
         EXPECT_GE(contrast(gui::colours().edge, ground), 3) << ground.name().toStdString();
@@ -378,16 +317,6 @@ TEST_P(InTheme, EdgesOfFieldsAreSeen) {
         EXPECT_GE(contrast(edge, picture.pixelColor(4, picture.height() / 2)), 3) << each->metaObject()->className();
     }
     EXPECT_GT(shareSeenOn(*tick, {7, tick->height() / 2}), 0.01) << "an empty box";
-}
-
-TEST_P(InTheme, StatesDifferInWordAndShape) {
-    std::set<QString> words, shapes;
-    for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
-        words.insert(gui::stateStyle(InterlockState(state)).word);
-        shapes.insert(gui::stateStyle(InterlockState(state)).shape);
-    }
-    EXPECT_EQ(words.size(), 7U);
-    EXPECT_EQ(shapes.size(), 7U);
 }
 
 TEST_P(InTheme, RedIsForStopAndFaultsAndNothingElse) {

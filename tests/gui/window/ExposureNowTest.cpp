@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/window/ExposureDock.h"
-#include "app/gui/window/ExposureNow.h"
+#include "app/gui/window/OutputDocks.h"
+#include "app/gui/window/StateWords.h"
 #include "tests/gui/window/WindowFixture.h"
 
 namespace tacto::test {

@@ -19,7 +19,7 @@
 #include <gmock/gmock.h>
 #include <set>
 
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/window/WindowFixture.h"
@@ -120,19 +120,13 @@ TEST_F(Habits, AForeignFileThatIsDroppedIsRefusedInWords) {
 
 TEST_F(Habits, TheKeysAreOneKeyAway) {
     key(Qt::Key_Question);
-    QDialog* sheet = nullptr;
-    ASSERT_IN_TIME(comesTrue([&] {
-        for (auto* dialog : window.findChildren<QDialog*>()) {
-            if (dialog->isVisible() && dialog->windowTitle() == "Keys") sheet = dialog;
-        }
-        return sheet != nullptr;
-    }));
-    shot(*sheet, "keys");
-    QString words;
-    for (const auto* label : sheet->findChildren<QLabel*>()) words += label->text();
+    QTextBrowser* guide = nullptr;
+    ASSERT_IN_TIME(comesTrue([&] { return (guide = find<QTextBrowser>(window, "guide")) != nullptr; }));
+    shot(*guide->window(), "keys");
+    const auto words = guide->toPlainText();
     for (const auto* wanted : {"Esc", "Space", "Ctrl+1", "F5", "F1"})
         EXPECT_THAT(words.toStdString(), HasSubstr(wanted));
-    sheet->close();
+    guide->window()->close();
 }
 
 TEST_F(Habits, F1OpensTheGuideAtTheWorkspaceInFront) {

@@ -24,17 +24,6 @@ protected:
         visit(3);
         runsToItsEnd();
     }
-    /// The bench live under the finger and delivering, with a mark.
-    void recordLive() {
-        ASSERT_NO_FATAL_FAILURE(open());
-        window.controller().present("P120", 50, 1);
-        ASSERT_NO_FATAL_FAILURE(arm());
-        ASSERT_NO_FATAL_FAILURE(deliver());
-        ASSERT_IN_TIME(comesTrue([this] { return window.controller().telemetry().trainsDelivered >= 3; }));
-        EXPECT_TRUE(window.controller().markMoment(window.controller().telemetry().at, "table bumped"));
-        window.controller().close();
-        ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
-    }
     void choose(int row, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
         auto& table = *window.findChild<QTableView*>("sessionsTable");
         ASSERT_IN_TIME(comesTrue([&] { return table.model()->rowCount() > row; }));
@@ -78,32 +67,6 @@ TEST_F(LayoutOfSessions, EachPageOfARunIsReadWhole) {
     };
     ASSERT_IN_TIME(comesTrue(filled)) << "trials, streams and captures";
     ASSERT_NO_FATAL_FAILURE(walk(details(), window, {1280, 720}, "session-run"));
-}
-
-TEST_F(LayoutOfSessions, EachStreamOfALiveSessionIsReadWhole) {
-    ASSERT_NO_FATAL_FAILURE(recordLive());
-    visit(5);
-    ASSERT_NO_FATAL_FAILURE(choose(0));
-    auto& streams = *details().findChild<QTableWidget*>("streamsTable");
-    ASSERT_IN_TIME(comesTrue([&] { return streams.rowCount() > 2; }));
-    const auto* plot = details().findChild<QCustomPlot*>("chosenStream");
-    for (const int percent : {100, 200}) {
-        gui::applyTextSize(percent);
-        window.resize(1280, 720);
-        for (int row = 0; row < streams.rowCount(); ++row) {
-            details().setCurrentIndex(2);
-            ASSERT_IN_TIME(comesTrue([&] {
-                if (streams.currentRow() != row) streams.setCurrentCell(row, 0);  // it may be filled anew
-                return plot->graphCount() > 0;
-            })) << row;
-            static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 2000));
-            const auto at = QString("session-stream-%1-%2").arg(row).arg(percent);
-            shot(window, at);
-            EXPECT_EQ(faultsOf(window), "") << at.toStdString();
-        }
-    }
-    streams.setCurrentCell(0, 0);
-    ASSERT_NO_FATAL_FAILURE(walk(details(), window, {1280, 720}, "session-live"));
 }
 
 TEST_F(LayoutOfSessions, TheComparisonOfTwoIsReadWhole) {

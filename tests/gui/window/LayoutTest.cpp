@@ -65,44 +65,7 @@ protected:
         return *window.findChild<QWidget*>("centre")->findChild<QStackedWidget*>()->currentWidget();
     }
     QToolBar& bar(const char* name) { return *window.findChild<QToolBar*>(name); }
-    /// The plot's share of the whole window, with what is written around the plot.
-    double shareOf(const QWidget& plot) const {
-        const auto area = [](const QSize& size) { return double(size.width()) * size.height(); };
-        return area(plot.size()) / area(window.size());
-    }
 };
-
-TEST_F(Layout, TheOscilloscopesScreenHasTheRoomWithTheDocksOpen) {
-    open();
-    visit(0);
-    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
-    auto* screen = window.findChild<gui::ScopeScreen*>();
-    ASSERT_IN_TIME(comesTrue([&] { return screen->isVisible(); }));
-    for (const auto& [size, share] : {std::pair(QSize(1280, 720), 0.55), {QSize(1920, 1080), 0.70}}) {
-        window.resize(size);
-        const bool besideTools = size.width() > 1500;
-        const auto captionBeside = [&] {
-            return window.findChild<QWidget*>("scopeStatus")->mapTo(&window, QPoint()).y() <
-                   screen->mapTo(&window, QPoint()).y() - 20;
-        };
-        // Docks and rows of tools share the room in turns of the event loop, and the axes follow with the next picture.
-        static_cast<void>(comesTrue([&] {
-            return dock("driveDock").isVisible() && shareOf(*screen) >= share && captionBeside() == besideTools &&
-                   screen->width() - screen->axisRect()->right() <= 66 &&
-                   screen->axisRect()->bottom() < screen->height();
-        }));
-        ASSERT_TRUE(dock("driveDock").isVisible());
-        EXPECT_GE(shareOf(*screen), share) << size.width() << ": the plot alone, without tools and caption";
-        EXPECT_LE(screen->axisRect()->left(), 66) << "and little of it is for numbers";
-        EXPECT_LE(screen->width() - screen->axisRect()->right(), 66);
-        const auto frame = screen->axisRect()->size();
-        const double framed = double(frame.width()) * frame.height() / (double(size.width()) * size.height());
-        EXPECT_GE(framed, size.width() < 1500 ? 0.425 : 0.6) << "within the axes";
-        RecordProperty(QString("axes %1").arg(size.width()).toStdString(), std::to_string(framed));
-        EXPECT_EQ(captionBeside(), besideTools) << "the caption stands beside the tools where there is room";
-        shot(window, QString("scope-share-%1").arg(size.width()));
-    }
-}
 
 TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     RecordProperty("hazard", "H2");
@@ -162,26 +125,6 @@ TEST_F(Layout, TheOscilloscopesToolsHaveTheKeysForAMarkAndForThePlotAlone) {
     ASSERT_NE(mark, nullptr);
     click(*mark);
     EXPECT_IN_TIME(comesTrue([this] { return window.findChild<QWidget*>("markLine")->isVisible(); }));
-}
-
-TEST_F(Layout, TouchHasTheToolsOfAPictureAtTheRightEndOfItsTabs) {
-    open();
-    visit(0);
-    auto& head = *window.findChild<QWidget*>("livePage")->findChild<QWidget*>("tabRow");
-    for (const int width : {1280, 1920}) {
-        window.resize(width, width * 9 / 16);
-        letLive(50);
-        EXPECT_LT(head.height(), 50) << "one row of tools at " << width;
-        for (const auto* name : {"Save picture", "Copy picture", "Plot only"}) {
-            const auto* tool = find<QToolButton>(head, name);
-            ASSERT_NE(tool, nullptr) << name << " is in sight at " << width;
-            EXPECT_GE(tool->mapTo(&head, QPoint()).x(), head.width() - 160) << name << " at " << width;
-        }
-    }
-    click(*find<QToolButton>(head, "Plot only"));
-    EXPECT_IN_TIME(comesTrue([this] { return !bar("workspaces").isVisible(); })) << "as F11";
-    key(Qt::Key_F11);
-    EXPECT_IN_TIME(comesTrue([this] { return bar("workspaces").isVisible(); }));
 }
 
 TEST_F(Layout, F11HidesTheTabsAndTheirKeysStay) {
@@ -357,40 +300,6 @@ TEST_F(Layout, InLargeTextEveryDockIsInSightInTheStrip) {
     visit(0);
 }
 
-/// The rows from the first to the last pixel of text's colour, without a word beside the icon.
-int inkHeight(const QWidget& widget) {
-    const QRect icon(5, 0, widget.width() - 10, std::min(widget.width(), widget.height()));
-    const auto picture = widget.window()->grab(icon.translated(widget.mapTo(widget.window(), QPoint()))).toImage();
-    int first = -1, last = -1;
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            if (contrast(picture.pixelColor(x, y), gui::colours().text) > 1.5) continue;
-            if (first < 0) first = y;
-            last = y;
-        }
-    }
-    return last - first + 1;
-}
-
-TEST_F(Layout, IconsGrowWithTheText) {
-    window.resize(1280, 600);  // the rail without words at either size
-    visit(5);
-    auto& rail = *bar("workspaces").findChild<QToolButton*>("workspaceButton");
-    auto& strip = *find<QToolButton>(bar("dockStrip"), "Drive");
-    const int railBefore = inkHeight(rail), stripBefore = inkHeight(strip);
-    ASSERT_GT(railBefore, 5);
-    ASSERT_GT(stripBefore, 5);
-    gui::applyTextSize(200);
-    window.resize(1280, 720);
-    EXPECT_IN_TIME(comesTrue([&] { return inkHeight(rail) >= 1.5 * railBefore; })) << inkHeight(rail);
-    EXPECT_IN_TIME(comesTrue([&] { return inkHeight(strip) >= 1.8 * stripBefore; })) << inkHeight(strip);
-    for (const auto* button : bar("workspaces").findChildren<QToolButton*>("workspaceButton"))
-        EXPECT_TRUE(bar("workspaces").rect().contains(button->geometry())) << button->accessibleName().toStdString();
-    EXPECT_LE(bar("workspaces").width(), 60) << "the data keep the room";
-    gui::applyTextSize(100);
-    visit(0);
-}
-
 TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
     open();
     visit(0);
@@ -415,22 +324,6 @@ TEST_F(Layout, InLargeTextToolsWithoutRoomStandInAMenu) {
     window.resize(1920, 1080);
     EXPECT_IN_TIME(comesTrue([&] { return spectrum->isVisible() && !more->isVisible(); }));
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
-}
-
-TEST_F(Layout, InLargeTextSessionsStandBelowTheirListAndItKeepsRows) {
-    open();
-    gui::applyTextSize(200);
-    window.resize(1280, 720);
-    visit(5);
-    const auto* list = window.findChild<QTableView*>("sessionsTable");
-    ASSERT_IN_TIME(comesTrue([&] { return list->isVisible(); }));
-    EXPECT_IN_TIME(comesTrue([&] {
-        return list->viewport()->height() >= 3 * list->verticalHeader()->defaultSectionSize() - 8;
-    })) << list->viewport()->height();
-    EXPECT_LE(list->width(), 1280);
-    window.resize(1920, 1080);
-    gui::applyTextSize(100);
-    visit(0);
 }
 
 TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen) {
@@ -525,17 +418,6 @@ TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
     gui::applyTheme(gui::Theme::Light);
     gui::applyTextSize(100);
     visit(0);
-}
-
-TEST_F(Layout, AfterLargeTextTheDocksAreAsNarrowAsBefore) {
-    window.resize(1920, 1080);
-    visit(0);
-    letLive(100);
-    const int before = dock("driveDock").width();
-    gui::applyTextSize(200);
-    EXPECT_IN_TIME(comesTrue([&] { return dock("driveDock").width() > 1.8 * before; })) << dock("driveDock").width();
-    gui::applyTextSize(100);
-    EXPECT_IN_TIME(comesTrue([&] { return dock("driveDock").width() == before; })) << dock("driveDock").width();
 }
 
 TEST_F(Layout, ADockFoldsToItsHeader) {

@@ -19,7 +19,7 @@
 
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/theme/ConfirmButton.h"
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/MainWindow.h"

@@ -2,10 +2,10 @@
 #include <QImage>
 #include <gmock/gmock.h>
 
-#include "app/gui/theme/ExposureText.h"
+#include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/window/ExposureNow.h"
 #include "app/gui/window/LimitBar.h"
+#include "app/gui/window/StateWords.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 

@@ -7,7 +7,7 @@
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/FoldingDock.h"
-#include "app/gui/window/LimitBarRow.h"
+#include "app/gui/window/LimitBar.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/gui/window/StateBlock.h"
 #include "tests/gui/Looks.h"
@@ -28,13 +28,6 @@ ExposureRow row(Quantity quantity, double value, double limit, const char* unit)
     made.within = value <= limit;
     made.set = "paper";
     return made;
-}
-
-TEST(LimitBar, SaysValueAndLimitAndTheShareOfIt) {
-    gui::LimitBar bar("5 s RMS");
-    bar.show(row(Quantity::RmsCurrent5s, 2.5, 10, "mA"));
-    EXPECT_EQ(bar.text().replace(QChar(0x202f), ' ').replace(QChar(0x2009), ' '), "2.50 of 10 mA");
-    EXPECT_DOUBLE_EQ(bar.share(), 0.25);
 }
 
 TEST(LimitBar, IsNoFinerThanAHundredthOfALimitInPercentThatIsFar) {
@@ -263,26 +256,6 @@ TEST_F(Bar, AfterAStopTheImpedanceStaysToBeReadWithItsAgeUntilAFault) {
     says(later);
     later.state = InterlockState::Disarmed;
     EXPECT_EQ(says(later), "Impedance not measured") << "the electrode may be open";
-}
-
-TEST_F(Bar, KeysFocusOnStopCoversNoneOfItsWords) {
-    auto& stop = *bar.findChild<QPushButton*>("stopButton");
-    stop.window()->activateWindow();
-    ASSERT_IN_TIME(QTest::qWaitForWindowActive(stop.window()));
-    bar.setFocus();
-    const auto ink = gui::stateStyle(InterlockState::Faulted).ink;
-    const auto plain = stop.grab().toImage();
-    stop.setFocus(Qt::TabFocusReason);
-    stop.window()->setAttribute(Qt::WA_KeyboardFocusChange);
-    const auto framed = stop.grab().toImage();
-    ASSERT_NE(plain, framed);
-    int touching = 0;
-    for (int y = 0; y < plain.height(); ++y)
-        for (int x = 0; x < plain.width(); ++x)
-            touching += plain.pixelColor(x, y) != gui::stateStyle(InterlockState::Faulted).ground &&
-                        framed.pixelColor(x, y) != plain.pixelColor(x, y);
-    EXPECT_EQ(touching, 0) << "the frame runs through a word";
-    EXPECT_GT(pixelsOf(framed, ink), pixelsOf(plain, ink));
 }
 
 TEST_F(Bar, StopAndTheButtonsAreWholeOnANarrowScreen) {

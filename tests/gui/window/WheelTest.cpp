@@ -12,8 +12,8 @@
 #include <random>
 
 #include "app/gui/pilot/PilotWorkspace.h"
+#include "app/gui/theme/Style.h"
 #include "app/gui/theme/TabbedPage.h"
-#include "app/gui/theme/WheelGuard.h"
 #include "tests/gui/window/WindowFixture.h"
 
 namespace tacto::test {

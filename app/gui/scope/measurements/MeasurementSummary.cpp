@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/theme/TabOrder.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 

@@ -15,10 +15,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/WholeRows.h"
 
 namespace tacto::gui {
 
@@ -59,7 +57,6 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     table_->horizontalHeader()->setHighlightSections(false);
     for (QWidget* small : {static_cast<QWidget*>(table_), static_cast<QWidget*>(table_->horizontalHeader())})
         setTextSize(*small, TextSize::Small);
-    keepRowsWhole(*table_);
     choose_->setToolTip(tr("Chooses the rows, here and in the dock."));
     choose_->setMenu(makeReadingsMenu(chosen_, choose_));
     reset_->setToolTip(tr("Forgets the captures seen so far, and what is averaged; the next one is the first."));

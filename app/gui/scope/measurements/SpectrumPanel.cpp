@@ -16,7 +16,7 @@
 #include "app/gui/scope/model/ScopeLanes.h"
 #include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/scope/screen/LaneColours.h"
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"

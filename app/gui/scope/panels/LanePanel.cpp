@@ -15,7 +15,6 @@
 #include "app/gui/scope/panels/StepBox.h"
 #include "app/gui/scope/screen/LaneColours.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 

@@ -8,7 +8,7 @@
 
 #include "app/gui/scope/model/Steps.h"
 #include "app/gui/theme/Icons.h"
-#include "app/gui/theme/PictureTools.h"
+#include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
 
@@ -53,7 +53,7 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     connect(controls_, &QToolButton::clicked, this, &ScopeTools::controlsClicked);
     row->addWidget(controls_);
     row->addWidget(&pictures_->plotOnly());
-    pictures_->plotOnly().raise();  // the last of them for Tab, which goes by this order (TabOrder.h)
+    pictures_->plotOnly().raise();  // the last of them for Tab, which goes by this order (TabbedPage.h)
 }
 
 /// Its icon and its tip say it where a word would put other tools away.

@@ -11,7 +11,7 @@
 #include <memory>
 #include <optional>
 
-#include "app/gui/theme/PictureCaption.h"
+#include "app/gui/theme/PlotPicture.h"
 #include "core/measure/CaptureMask.h"
 #include "core/session/SessionTypes.h"
 

@@ -5,7 +5,6 @@
 
 #include "app/gui/scope/screen/LaneColours.h"
 #include "app/gui/scope/screen/OverlayOf.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/ShownText.h"
 

@@ -1,5 +1,4 @@
-// ExposureDock.h - every limit that holds for what the bench delivers, the nearest first and what was not evaluated
-// last, with the way to what it lacks.
+// OutputDocks.h - the docks of the output: how far it is from its limits, and what drives it.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -9,15 +8,17 @@
 #include <vector>
 
 #include "app/gui/controller/BenchController.h"
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/LimitBar.h"
 #include "core/bench/Telemetry.h"
 
 namespace tacto::gui {
 
-class WholeRows;
+class DrivePanel;
 
+/// Every limit that holds for what the bench delivers, the nearest first and what was not evaluated last, with the way
+/// to what it lacks.
 class ExposureDock final : public FoldingDock {
     Q_OBJECT
 public:
@@ -29,11 +30,7 @@ public:
 signals:
     void areaWanted();  ///< of the electrode, which current and power density need
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
-    void giveRoom();
     void putInOrder(std::vector<ExposureRow>& rows) const;
     void build(const std::vector<ExposureRow>& rows);
 
@@ -42,12 +39,25 @@ private:
     ElidedLabel* now_;  ///< whether any of it is delivered
     QPushButton* enterArea_;
     QVBoxLayout* column_;
-    WholeRows* rows_ = nullptr;
     std::vector<LimitBar*> bars_;
     QStringList titles_;  ///< of the bars
     Instant shownAt_{-1};
     InterlockState shownState_ = InterlockState::Disconnected;
     QString nearest_;
+};
+
+/// What drives the output, in every workspace: off, two sliders, or the fingertip, and what that asks for.
+class DriveDock final : public FoldingDock {
+    Q_OBJECT
+public:
+    DriveDock(BenchController& controller, QWidget* parent);
+    void refresh(const Telemetry& telemetry);
+    /// To what drives now: arrows choose from there. Choosing is not done by this.
+    void takeFocus();
+    [[nodiscard]] QString keyFigure() const override;
+
+private:
+    DrivePanel* panel_;
 };
 
 }  // namespace tacto::gui

@@ -1,10 +1,12 @@
-// MnemonicStyle.h - the program's style: Fusion, whose letters for Alt are underlined only while Alt is held, and whose
+// Style.h - the program's style: Fusion, whose letters for Alt are underlined only while Alt is held, and whose
 // icons grow with the text and stand a little before it, and whose layouts lie on the grid.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QProxyStyle>
+
+class QWidget;
 
 namespace tacto::gui {
 
@@ -24,6 +26,22 @@ protected:
 private:
     void underline(bool held);
     bool held_ = false;
+};
+
+/// The wheel changes no setting that has not the focus, and gives none: a list, a number, a slider or the
+/// tabs under a pointer that scrolls by stay as they are, and what they stand in scrolls (hazard H12).
+class WheelGuard final : public QObject {
+public:
+    /// For every window of the program, from now on; again: nothing.
+    static void install();
+    /// What a turn of the wheel would change.
+    [[nodiscard]] static bool isSetting(const QWidget& widget);
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    using QObject::QObject;
 };
 
 }  // namespace tacto::gui

@@ -1,15 +1,44 @@
-#include "app/gui/theme/DayField.h"
+#include "app/gui/theme/EntryFields.h"
 
 #include <QCalendarWidget>
 #include <QDate>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QMenu>
+#include <QPushButton>
 #include <QWidgetAction>
 
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
 
 namespace tacto::gui {
+
+PathField::PathField(const QString& path, const QString& tip, QWidget* parent) : QLineEdit(parent) {
+    connect(this, &QLineEdit::textChanged, this, [this, tip](const QString& text) {
+        if (!hasFocus()) setCursorPosition(0);
+        setToolTip(text.isEmpty() ? tip : text + "\n" + tip);
+    });
+    setToolTip(tip);
+    setText(path);
+}
+
+FolderRow::FolderRow(const QString& path, const QString& tip, const QString& question, QWidget* parent)
+    : QWidget(parent), line_(new PathField(path, tip, this)) {
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(8);
+    auto* choose = new QPushButton(tr("Ch&oose…"), this);
+    choose->setAutoDefault(false);
+    choose->setToolTip(tr("Chooses the folder from a list."));
+    connect(choose, &QPushButton::clicked, this, [this, question] {
+        FileQuestion asked;
+        asked.title = question;
+        asked.wants = FileQuestion::Wants::NewFolder;
+        askForFile(*this, asked, [this](const QString& chosen) { line_->setText(chosen); });
+    });
+    row->addWidget(line_, 1);
+    row->addWidget(choose);
+}
 
 void placeInLine(QWidget& holder, QLineEdit& line, QToolButton& button) {
     auto* row = new QHBoxLayout(&holder);
@@ -67,4 +96,4 @@ bool DayField::eventFilter(QObject* watched, QEvent* event) {
 
 }  // namespace tacto::gui
 
-#include "moc_DayField.cpp"
+#include "moc_EntryFields.cpp"

@@ -1,15 +1,16 @@
-#include "app/gui/window/ExposureDock.h"
+#include "app/gui/window/OutputDocks.h"
 
+#include <QAbstractButton>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "app/gui/live/DrivePanel.h"
 #include "app/gui/theme/ExposureTable.h"
-#include "app/gui/theme/ExposureText.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/WholeRows.h"
-#include "app/gui/window/ExposureNow.h"
+#include "app/gui/window/StateWords.h"
 
 namespace tacto::gui {
 
@@ -61,18 +62,17 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
     now_->setObjectName("exposureNow");
     setTextSize(*now_, TextSize::Small);
     setTone(*now_, Tone::Quiet);
-    column_->addWidget(now_);
-    now_->hide();
     enterArea_->setObjectName("enterArea");
     enterArea_->setToolTip(
         tr("Current and power density need the electrode’s area: opens the encoding profile there."));
     connect(enterArea_, &QPushButton::clicked, this, &ExposureDock::areaWanted);
+    column_->addWidget(now_);  // below the bars: the nearest limit comes first
     column_->addWidget(enterArea_, 0, Qt::AlignLeft);
-    enterArea_->hide();
+    for (QWidget* later : {static_cast<QWidget*>(now_), static_cast<QWidget*>(enterArea_)}) later->hide();
     column_->addStretch();
-    rows_ = new WholeRows(body, this);
-    rows_->setAccessibleName(tr("Exposure against limits"));
-    setContent(rows_);
+    auto* rows = scrollingRows(body, this);
+    rows->setAccessibleName(tr("Exposure against limits"));
+    setContent(rows);
 }
 
 /// Bars stay where they are and only their numbers change, until another one is clearly nearer to its limit than the
@@ -98,21 +98,10 @@ void ExposureDock::build(const std::vector<ExposureRow>& rows) {
     for (const auto& row : rows) {
         bars_.push_back(new LimitBar(shortRowTitle(row), widget(), LimitBar::Shape::Line));
         bars_.back()->setAccessibleName(titled(rowTitle(row)));
-        column_->insertWidget(column_->count() - 2, bars_.back());
+        column_->insertWidget(column_->count() - 3, bars_.back());
     }
     empty_->setVisible(rows.empty());
-    giveRoom();
-}
-
-/// In a low dock the nearest limit comes first, and the line above the bars gives way to it.
-void ExposureDock::giveRoom() {
-    now_->setVisible(!bars_.empty() && rows_->height() >= now_->sizeHint().height() + column_->spacing() +
-                                                              bars_.front()->sizeHint().height());
-}
-
-void ExposureDock::resizeEvent(QResizeEvent* event) {
-    FoldingDock::resizeEvent(event);
-    giveRoom();
+    now_->setVisible(!rows.empty());
 }
 
 void ExposureDock::refresh(const Telemetry& telemetry) {
@@ -134,6 +123,22 @@ void ExposureDock::refresh(const Telemetry& telemetry) {
     for (std::size_t i = 0; i < rows.size(); ++i) bars_[i]->show(rows[i], controller_.limits().sets);
 }
 
+DriveDock::DriveDock(BenchController& controller, QWidget* parent)
+    : FoldingDock(tr("Drive"), "drive", "driveDock", parent), panel_(new DrivePanel(controller, this)) {
+    setContent(panel_, Room::First);
+    connect(&controller, &BenchController::changed, panel_, &DrivePanel::begin);
+}
+
+void DriveDock::refresh(const Telemetry& telemetry) { panel_->refresh(telemetry); }
+
+void DriveDock::takeFocus() {
+    for (auto* button : panel_->findChildren<QAbstractButton*>()) {
+        if (button->isChecked() && button->isVisible()) return button->setFocus(Qt::ShortcutFocusReason);
+    }
+}
+
+QString DriveDock::keyFigure() const { return panel_->headline(); }
+
 }  // namespace tacto::gui
 
-#include "moc_ExposureDock.cpp"
+#include "moc_OutputDocks.cpp"

@@ -1,0 +1,70 @@
+// Pages.h - pages that scroll, pages of which one is shown, and what stands below a page.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QBoxLayout>
+#include <QLayout>
+#include <QScrollArea>
+#include <QStackedLayout>
+#include <QWidget>
+
+namespace tacto::gui {
+
+/// A page with scroll bars where there is less room than it needs: no page makes the window larger than the screen.
+class ScrollingPage final : public QScrollArea {
+    Q_OBJECT
+public:
+    explicit ScrollingPage(QWidget* parent);
+    /// Takes the page. One that was made with viewport() as its parent stays where it is; any other moves here, and
+    /// each widget in it takes its style again.
+    void hold(QWidget* page);
+    /// None of the page's: one that stands within another scrolls by itself.
+    [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
+};
+
+/// A list of rows that scrolls where it has less room than it needs, as wide as its place, and takes the arrow keys.
+[[nodiscard]] QScrollArea* scrollingRows(QWidget* rows, QWidget* parent);
+
+/// The widget's width, or that of the scrolling page around it where that is less: what has to suit the room goes by
+/// this, for a page is never narrower than what stands in it.
+[[nodiscard]] int widthInSight(const QWidget& widget);
+
+/// How high a layout is at a width: words that wrap make it higher where it is narrow.
+[[nodiscard]] inline int wholeHeightAt(const QLayout& layout, int width) {
+    return layout.hasHeightForWidth() ? layout.totalHeightForWidth(width) : layout.totalSizeHint().height();
+}
+/// With all that scrolls or stretches as low as it may be.
+[[nodiscard]] inline int leastHeightAt(const QLayout& layout, int width) {
+    return layout.hasHeightForWidth() ? layout.totalMinimumHeightForWidth(width) : layout.totalMinimumSize().height();
+}
+
+/// From the edges of a page to what stands in it.
+inline constexpr int kPagePad = 16;
+
+/// Adds what stands below a page and stays in sight to `page`, the layout of `parent`, from edge to edge: a line, and
+/// below it a row for what can be done with the page.
+[[nodiscard]] QBoxLayout* addPageFoot(QVBoxLayout& page, QWidget* parent,
+                                      QBoxLayout::Direction direction = QBoxLayout::LeftToRight);
+
+/// Pages of which one is shown. It asks for the room of that page alone: a hidden page that is wide or
+/// high makes no other scroll.
+class PageStack : public QWidget {
+    Q_OBJECT
+public:
+    explicit PageStack(QWidget* parent = nullptr);
+    /// Takes it; the first one is shown.
+    void addWidget(QWidget* page) { pages_->addWidget(page); }
+    void setCurrentIndex(int index) { pages_->setCurrentIndex(index); }
+    /// -1 without pages.
+    [[nodiscard]] int currentIndex() const { return pages_->currentIndex(); }
+    /// Null without pages.
+    [[nodiscard]] QWidget* currentWidget() const { return pages_->currentWidget(); }
+    [[nodiscard]] QWidget* widget(int index) const { return pages_->widget(index); }
+    [[nodiscard]] int indexOf(const QWidget* page) const { return pages_->indexOf(page); }
+
+private:
+    QStackedLayout* pages_;
+};
+
+}  // namespace tacto::gui
