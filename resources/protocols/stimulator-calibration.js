@@ -100,102 +100,23 @@ protocol({
 const RATES = { "500k": 500e3, "1M": 1e6, "2M": 2e6, "5M": 5e6, "10M": 10e6 };
 const TITLES = { amplitude: "Amplitude", interval: "Interval", width: "Phase width", gap: "Inter-phase gap" };
 
-function quantitiesOf(p) {
-  return p.quantities === "all" ? Object.keys(TITLES) : [p.quantities];
-}
+function run(p) {
+  const stored = bench.stimulatorCalibration.begin(Object.assign({ rate_hz: RATES[p.rate] }, p));
+  operator.wired(p.load);
+  if (!bench.stimulatorCalibration.knownLoad(p)) return verdict(bench.stimulatorCalibration.conclude());
 
-// What would be refused at the end is refused before an hour's work.
-function checkParameters(p) {
-  calibration.checkRanges(p);
-  if (!p.store || p.mode !== "full") return;
-  if (p.quantities !== "all") throw new Error("quantities is " + p.quantities + "; all is expected to keep a result");
-}
-
-// A gain error that voltage and current share shows only on a voltage of known size.
-function readAbsolute(p) {
-  if (!(p.reference_v > 0)) return null;
-  if (!(p.reference_u_pct > 0)) throw new Error("reference_u_pct is 0; above 0 is expected with a reference source");
-  return bench.readReference(p.reference_v, p.reference_u_pct, p.tolerance_pct);
-}
-
-function indeterminate(results, reason) {
-  return verdict(Object.assign(results, { verdict: "indeterminate", reasons: [reason + "; nothing was calibrated"] }));
-}
-
-// What stands if the run ends early.
-function keep(quantity, rows, results) {
-  record.partial(Object.assign({}, results, { [quantity]: { readings: rows } }), [
-    { caption: TITLES[quantity] + ", readings", rows: rows, columns: ["commanded", "measured", "direction", "repeat"] },
-  ]);
-}
-
-// Fully up and fully down, again and again.
-function calibrate(quantity, settings, results) {
-  const rows = [];
-  calibration.beginLevels(quantity, settings);
-  for (const step of progress(random.sweeps(settings.levels, settings.repeats), TITLES[quantity])) {
-    const level = calibration.readLevel(quantity, step, settings);
-    rows.push(level.row);
-    record.trial(quantity + " " + step.direction, level.reading);
-    if (rows.length % settings.levels === 0) keep(quantity, rows, results);
+  const found = [];
+  for (const quantity of p.quantities === "all" ? Object.keys(TITLES) : [p.quantities]) {
+    const levels = bench.stimulatorCalibration.levels(quantity);
+    for (const level of progress(levels, TITLES[quantity])) bench.stimulatorCalibration.read(level);
+    found.push(bench.stimulatorCalibration.judge());
   }
-  bench.disarm();
-  return calibration.judge(quantity, rows, settings);
-}
+  if (p.mode === "check") return verdict(bench.stimulatorCalibration.conclude());
 
-// Does the stored calibration still hold?
-function checkStored(stored, settings, results) {
-  const few = Object.assign(calibration.knownRanges(stored, settings), { levels: 3, repeats: 2 });
-  calibration.checkRanges(few);
-  const checks = [];
-  results.check = [];
-  for (const quantity of quantitiesOf(settings)) {
-    const tolerance_pct = quantity === "amplitude" ? settings.tolerance_pct : settings.timing_tolerance_pct;
-    const check = analysis.calibrationCheck(calibrate(quantity, few, results), stored[quantity], tolerance_pct);
-    checks.push(check);
-    results.check.push(...check.rows);
-  }
-  return verdict(Object.assign(results, { type: "check" }, calibration.checkVerdict(checks, stored)));
-}
-
-function calibrateAll(stored, settings, results) {
-  const all = [];
-  for (const quantity of quantitiesOf(settings)) {
-    const found = calibrate(quantity, settings, results);
-    record.measurement("calibration of " + quantity, found);
-    results[quantity] = found;
-    all.push(found);
-  }
-  for (const found of all) report.calibration(found);
+  for (const each of found) report.calibration(each);
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
-
-  const clock = calibration.timeBase(results.interval === undefined ? null : results.interval);
-  if (settings.store && clock === "") {
-    const validity = { valid_days: settings.valid_days, scope_due: settings.scope_due };
-    results.stored = record.calibration(results, validity);
-    record.event("calibration stored", results.stored);
-  }
-  report.certificate(all, stored);
-  return verdict(Object.assign(results, calibration.stimulatorVerdict(all, clock, settings.store)));
-}
-
-function run(p) {
-  checkParameters(p);
-  const stored = bench.calibration;
-  bench.useCalibration(false); // what it delivers for what it is told, not for what a calibration makes of it
-  report.text("Stored calibration: " + stored.text + ".");
-  if (p.mode === "check" && !stored.calibrated) throw new Error(stored.text + "; there is nothing to check");
-
-  operator.wired(p.load);
-  const settings = Object.assign({ rate_hz: RATES[p.rate] }, p);
-  const reading = calibration.readKnownLoad(settings);
-  const known = record.reference(reading, p.load, p.reference_tolerance_pct, p.load_tolerance_pct);
-  const absolute = readAbsolute(p);
-  const results = absolute === null ? { reference: known } : { reference: known, absolute: absolute };
-  if (absolute !== null && !absolute.passed) return indeterminate(results, "the absolute reference: " + absolute.text);
-  if (!known.passed) return indeterminate(results, known.reason);
-
-  calibration.warmUp(p.load, p.warm_up_s);
-  return p.mode === "check" ? checkStored(stored, settings, results) : calibrateAll(stored, settings, results);
+  const results = bench.stimulatorCalibration.conclude();
+  report.certificate(found, stored);
+  return verdict(results);
 }

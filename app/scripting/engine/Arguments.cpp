@@ -33,6 +33,11 @@ std::string shown(const nlohmann::json& value) {
     return shownJson(value);
 }
 
+tl::unexpected<Error> otherThanExpected(std::string_view function, std::string_view name, const nlohmann::json& value,
+                                        std::string_view accepted) {
+    return fail(ErrorCode::InvalidArgument, "{}: {} is {}, {} is expected", function, name, shown(value), accepted);
+}
+
 const std::vector<HostParameter>& Arguments::parameters() const noexcept {
     return function_.passes.empty() ? function_.parameters : function_.passes;
 }
@@ -62,8 +67,7 @@ const nlohmann::json& Arguments::passed(std::string_view name) const {
 
 tl::unexpected<Error> Arguments::wrong(std::string_view name, const nlohmann::json& value,
                                        std::string_view accepted) const {
-    return fail(ErrorCode::InvalidArgument, "{}: {} is {}, {} is expected", function_.fullName(), name, shown(value),
-                accepted);
+    return otherThanExpected(function_.fullName(), name, value, accepted);
 }
 
 /// A typing error in an option must not silently leave a default in force.

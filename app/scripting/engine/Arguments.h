@@ -43,6 +43,9 @@ public:
     /// Everything that was passed, in order.
     [[nodiscard]] const nlohmann::json& all() const noexcept { return list_; }
 
+    /// "bench.loadSafety", of the function that was called.
+    [[nodiscard]] std::string_view object() const noexcept { return function_.object; }
+
     /// For what a function finds wrong itself: "bench.wait: seconds is 3, ACCEPTED is expected".
     [[nodiscard]] tl::unexpected<Error> wrong(std::string_view name, const nlohmann::json& value,
                                               std::string_view accepted) const;
@@ -58,6 +61,10 @@ private:
     const HostFunction& function_;
     const nlohmann::json& list_;
 };
+
+/// "analysis.calibration: direction is 3, "up", "down" or "" is expected".
+[[nodiscard]] tl::unexpected<Error> otherThanExpected(std::string_view function, std::string_view name,
+                                                      const nlohmann::json& value, std::string_view accepted);
 
 /// The answer of a host function that returns nothing.
 template <class T>

@@ -44,7 +44,7 @@ public:
 /// Whether a script's text names a host function that asks this question.
 bool mayAsk(const QString& text, std::string_view question) {
     return std::ranges::any_of(hostFunctions(), [&](const HostFunction& function) {
-        if (function.asks != question) return false;
+        if (std::ranges::find(function.asks, question) == function.asks.end()) return false;
         const auto of = [](std::string_view word) {
             return QRegularExpression::escape(QString::fromUtf8(word.data(), static_cast<qsizetype>(word.size())));
         };
@@ -70,7 +70,8 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
         }
     }
     // In this order, as a form shows them.
-    for (const std::string_view question : {"wiring", kConfirmArming, "surface-*", "fit-load"}) {
+    for (const std::string_view question :
+         {"setup", "dmm-*", "dmm-u-*", "serial-*", "wiring", kConfirmArming, "surface-*", "fit-load"}) {
         if (mayAsk(text, question)) declaration.questions.emplace_back(question);
     }
 }

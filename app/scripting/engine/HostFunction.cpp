@@ -4,6 +4,15 @@
 
 namespace tacto {
 
+/// The tables, each beside what it describes.
+using HostTable = std::vector<HostFunction>();
+HostTable generalFunctions, randomFunctions, outputFunctions, captureFunctions, surfaceFunctions, stateFunctions,
+    settingFunctions, knownLoadFunctions, absoluteReferenceFunctions, fingertipFunctions, loadSafetyFunctions,
+    stimulatorCalibrationFunctions, sensorCalibrationFunctions, transitionFunctions, encodingComparisonFunctions,
+    variationFunctions, operatorFunctions, pilotFunctions, rowFunctions, referenceFunctions, calibrationRecords,
+    reportFunctions, trainFunctions, pulseFunctions, separabilityAnalysis, calibrationAnalysis, transitionAnalysis,
+    variationAnalysis, plotFunctions;
+
 std::string HostFunction::fullName() const {
     return object.empty() ? std::string(name) : fmt::format("{}.{}", object, name);
 }
@@ -11,24 +20,35 @@ std::string HostFunction::fullName() const {
 const std::vector<HostFunction>& hostFunctions() {
     static const std::vector<HostFunction> all = [] {
         std::vector<HostFunction> out;
-        const auto add = [&out](std::string_view object, std::vector<HostFunction> table) {
-            for (auto& function : table) {
-                function.object = object;
-                out.push_back(std::move(function));
-            }
+        // An object after the one that it is within.
+        const std::pair<std::string_view, std::vector<HostTable*>> objects[] = {
+            {"", {generalFunctions}},
+            {"random", {randomFunctions}},
+            {"bench",
+             {outputFunctions, captureFunctions, surfaceFunctions, stateFunctions, settingFunctions, knownLoadFunctions,
+              absoluteReferenceFunctions, fingertipFunctions}},
+            {"bench.loadSafety", {loadSafetyFunctions}},
+            {"bench.stimulatorCalibration", {stimulatorCalibrationFunctions}},
+            {"bench.sensorCalibration", {sensorCalibrationFunctions}},
+            {"bench.transitions", {transitionFunctions}},
+            {"bench.encodingComparison", {encodingComparisonFunctions}},
+            {"bench.variation", {variationFunctions}},
+            {"operator", {operatorFunctions}},
+            {"pilot", {pilotFunctions}},
+            {"record", {rowFunctions, referenceFunctions, calibrationRecords}},
+            {"report", {reportFunctions}},
+            {"measure", {trainFunctions, pulseFunctions}},
+            {"analysis", {separabilityAnalysis, calibrationAnalysis, transitionAnalysis, variationAnalysis}},
+            {"plot", {plotFunctions}},
         };
-        add("", generalFunctions());
-        add("random", randomFunctions());
-        add("bench", benchFunctions());
-        add("loads", loadsFunctions());
-        add("calibration", calibrationFunctions());
-        add("operator", operatorFunctions());
-        add("pilot", pilotFunctions());
-        add("record", recordFunctions());
-        add("report", reportFunctions());
-        add("measure", measureFunctions());
-        add("analysis", analysisFunctions());
-        add("plot", plotFunctions());
+        for (const auto& [object, tables] : objects) {
+            for (const auto table : tables) {
+                for (auto& function : table()) {
+                    function.object = object;
+                    out.push_back(std::move(function));
+                }
+            }
+        }
         return out;
     }();
     return all;

@@ -28,16 +28,17 @@ enum class HostKind {
 };
 
 struct HostFunction {
-    std::string_view object = {};  ///< "bench"; empty for a global function; set by hostFunctions()
+    /// "bench", "bench.loadSafety"; empty for a global function; set by hostFunctions().
+    std::string_view object = {};
     std::string_view name = {};
     HostKind kind = HostKind::Function;
     std::vector<HostParameter> parameters = {};
-    std::string_view text = {};      ///< what it does, one or two sentences
-    std::string_view returns = {};   ///< empty for nothing
-    std::string_view errors = {};    ///< when it throws; empty when it does so for wrong arguments only
-    std::string_view asks = {};      ///< a question that it may ask the operator, where scripts are searched for it
-    std::optional<Role> needs = {};  ///< without a device of this role the call fails
-    bool failsDisarmed = false;      ///< a failure, of its arguments too, leaves the output disarmed
+    std::string_view text = {};               ///< what it does, one or two sentences
+    std::string_view returns = {};            ///< empty for nothing
+    std::string_view errors = {};             ///< when it throws; empty when it does so for wrong arguments only
+    std::vector<std::string_view> asks = {};  ///< questions to the operator that scripts are searched for
+    std::optional<Role> needs = {};           ///< without a device of this role the call fails
+    bool failsDisarmed = false;               ///< a failure, of its arguments too, leaves the output disarmed
     HostCall* call = nullptr;
     /// For functions that must hand the script's own values back: an expression for the function, in which `native`
     /// is the call above. Runs in strict mode before the script does.
@@ -53,19 +54,5 @@ struct HostFunction {
 
 /// The option with that path, "analysis.variation.detection_ma". Null where there is none.
 [[nodiscard]] const HostParameter* hostOption(std::string_view path);
-
-// The table of each object.
-[[nodiscard]] std::vector<HostFunction> generalFunctions();
-[[nodiscard]] std::vector<HostFunction> benchFunctions();
-[[nodiscard]] std::vector<HostFunction> loadsFunctions();
-[[nodiscard]] std::vector<HostFunction> calibrationFunctions();
-[[nodiscard]] std::vector<HostFunction> operatorFunctions();
-[[nodiscard]] std::vector<HostFunction> recordFunctions();
-[[nodiscard]] std::vector<HostFunction> measureFunctions();
-[[nodiscard]] std::vector<HostFunction> analysisFunctions();
-[[nodiscard]] std::vector<HostFunction> plotFunctions();
-[[nodiscard]] std::vector<HostFunction> reportFunctions();
-[[nodiscard]] std::vector<HostFunction> randomFunctions();
-[[nodiscard]] std::vector<HostFunction> pilotFunctions();
 
 }  // namespace tacto

@@ -9,13 +9,21 @@ namespace tacto {
 
 namespace {
 
-/// Makes `value` what a script gets of it: NaN and the infinities are null.
-void noNaN(nlohmann::json& value) {
-    if (value.is_number_float() && !std::isfinite(value.get<double>())) value = nullptr;
-    if (value.is_structured()) std::for_each(value.begin(), value.end(), noNaN);
+void makePlain(nlohmann::json& value) {
+    constexpr double kExact = 9007199254740992.0;
+    if (value.is_structured()) std::for_each(value.begin(), value.end(), makePlain);
+    if (!value.is_number_float()) return;
+    const double x = value.get<double>();
+    if (!std::isfinite(x)) value = nullptr;
+    if (std::abs(x) < kExact && x == std::floor(x)) value = static_cast<std::int64_t>(x);
 }
 
 }  // namespace
+
+nlohmann::json asScriptsSeeIt(nlohmann::json value) {
+    makePlain(value);
+    return value;
+}
 
 std::int64_t RunReadings::add(OwnReading reading) {
     readings_.push_back(std::move(reading));
@@ -48,10 +56,7 @@ Result<std::vector<const OwnReading*>> RunReadings::readings(const std::vector<s
     return found;
 }
 
-void RunReadings::note(nlohmann::json made) {
-    noNaN(made);
-    made_.push_back(std::move(made));
-}
+void RunReadings::note(nlohmann::json made) { made_.push_back(asScriptsSeeIt(std::move(made))); }
 
 bool RunReadings::noted(const nlohmann::json& said) const {
     return std::find(made_.begin(), made_.end(), said) != made_.end();

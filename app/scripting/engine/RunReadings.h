@@ -55,6 +55,9 @@ struct OwnCalibration {
     bool calibrationApplied = false;      ///< in one of the readings
 };
 
+/// What a script gets of `value`, and hands back: NaN and the infinities are null, whole numbers have no fraction.
+[[nodiscard]] nlohmann::json asScriptsSeeIt(nlohmann::json value);
+
 class RunReadings {
 public:
     [[nodiscard]] std::int64_t add(OwnReading reading);

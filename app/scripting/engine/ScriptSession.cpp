@@ -218,7 +218,33 @@ std::optional<double> ScriptSession::operatorsNumber(const std::string& name) co
     return given->get<double>();
 }
 
-Result<int> ScriptSession::addTrial(const std::string& condition, const nlohmann::json& measured) {
+Result<void> ScriptSession::reportItem(const nlohmann::json& item) {
+    if (writer() == nullptr) return {};
+    if (auto written = writer()->reportItem(now(), item); !written) return failure(written);
+    return {};
+}
+
+Result<void> ScriptSession::keepEvent(const std::string& kind, const nlohmann::json& details) {
+    if (writer() == nullptr) return {};
+    if (auto written = writer()->event(now(), "script: " + kind, asScriptsSeeIt(details)); !written)
+        return failure(written);
+    return {};
+}
+
+bool ScriptSession::isSimulated() const {
+    const auto all = request_.bench->devices().identities();
+    return std::ranges::all_of(all, &DeviceIdentity::simulated);
+}
+
+Result<void> ScriptSession::keepMeasurement(std::string_view name, const nlohmann::json& values) {
+    if (writer() == nullptr) return {};
+    if (auto written = writer()->measurement(now(), std::string(name), asScriptsSeeIt(values)); !written)
+        return failure(written);
+    return {};
+}
+
+Result<int> ScriptSession::addTrial(const std::string& condition, const nlohmann::json& given) {
+    const auto measured = asScriptsSeeIt(given);
     int number = static_cast<int>(trials_.size()) + 1;
     if (request_.session != nullptr) {
         auto written = request_.session->trial(now(), condition, measured);
@@ -281,8 +307,8 @@ void ScriptSession::recordExposure() {
 }
 
 void ScriptSession::keepPartial(nlohmann::json results, nlohmann::json tables) {
-    partial_ = std::move(results);
-    partialTables_ = std::move(tables);
+    partial_ = asScriptsSeeIt(std::move(results));
+    partialTables_ = asScriptsSeeIt(std::move(tables));
 }
 
 nlohmann::json ScriptSession::takePartial() {

@@ -7,6 +7,7 @@
 // Thread-safety: none; ScriptRun lets one thread in at a time.
 #pragma once
 
+#include <any>
 #include <deque>
 #include <filesystem>
 #include <map>
@@ -15,6 +16,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <typeindex>
 #include <vector>
 
 #include "app/scripting/engine/Operator.h"
@@ -75,6 +77,26 @@ public:
     [[nodiscard]] bool isOperatorsText(const std::string& text) const;
     /// The profile as the operator chose it, before the script changed anything for its run.
     [[nodiscard]] const Profile& chosenProfile() const noexcept { return chosen_; }
+
+    /// Every device is a twin.
+    [[nodiscard]] bool isSimulated() const;
+    /// A procedure of several steps keeps one T from its first step on. Errors: InvalidArgument naming `procedure`
+    /// where it has not begun, and where it begins again.
+    template <class T>
+    [[nodiscard]] Result<T*> begun(std::string_view procedure);
+    template <class T>
+    [[nodiscard]] Result<T*> begin(std::string_view procedure, T first);
+
+    /// Writes an item of the report, or a measured value; nothing where the run is not recorded. Errors: of the session
+    /// file.
+    [[nodiscard]] Result<void> reportItem(const nlohmann::json& item);
+    [[nodiscard]] Result<void> reportText(const std::string& text) {
+        return reportItem({{"kind", "text"}, {"text", text}});
+    }
+    /// As the event "script: KIND": no event of the program begins like this, and "script not started" is one (hazard
+    /// H9).
+    [[nodiscard]] Result<void> keepEvent(const std::string& kind, const nlohmann::json& details);
+    [[nodiscard]] Result<void> keepMeasurement(std::string_view name, const nlohmann::json& values);
 
     /// Records a trial with the captures it was measured on. Errors: of the session file, of the capture folder.
     [[nodiscard]] Result<int> addTrial(const std::string& condition, const nlohmann::json& measured);
@@ -139,6 +161,7 @@ private:
     std::vector<nlohmann::json> trials_;
     std::vector<Exemplar> exemplars_;
     RunReadings own_;
+    std::map<std::type_index, std::any> procedures_;
     std::uint64_t expectedFaults_ = 0;
     nlohmann::json partial_, partialTables_;
     std::vector<std::string> log_;
@@ -146,5 +169,19 @@ private:
     std::vector<std::string> reasons_;
     nlohmann::json results_;
 };
+
+template <class T>
+Result<T*> ScriptSession::begun(std::string_view procedure) {
+    const auto found = procedures_.find(typeid(T));
+    if (found != procedures_.end()) return std::any_cast<T>(&found->second);
+    return fail(ErrorCode::InvalidArgument, "{0} has not begun; {0}.begin() is expected first", procedure);
+}
+
+template <class T>
+Result<T*> ScriptSession::begin(std::string_view procedure, T first) {
+    const auto [at, isNew] = procedures_.try_emplace(typeid(T), std::move(first));
+    if (isNew) return std::any_cast<T>(&at->second);
+    return fail(ErrorCode::InvalidArgument, "{}.begin() was called before; once in a run is expected", procedure);
+}
 
 }  // namespace tacto

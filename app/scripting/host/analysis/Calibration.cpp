@@ -2,12 +2,10 @@
 #include <cmath>
 #include <optional>
 
-#include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/analysis/AnalysisObject.h"
-#include "app/scripting/host/analysis/CalibrationAsked.h"
-#include "app/scripting/host/analysis/GivenReadings.h"
+#include "app/scripting/host/analysis/AnalysisParts.h"
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::host::analysis {
 
@@ -123,10 +121,29 @@ Result<std::optional<OwnSeries>> ownSeries(ScriptSession& session, const Json& r
     return std::optional<OwnSeries>(std::in_place, session, *known, std::move(*numbers), std::move(*readings));
 }
 
+Result<std::vector<CalibrationReading>> readingsGiven(const Json& rows) {
+    constexpr const char* kFunction = "analysis.calibration";
+    std::vector<CalibrationReading> readings;
+    for (const auto& row : rows) {
+        CalibrationReading reading;
+        reading.commanded = numberOr(row, "commanded");
+        if (!std::isfinite(reading.commanded))
+            return otherThanExpected(kFunction, "a reading", row, "an object with commanded, measured and direction");
+        reading.measured = numberOr(row, "measured");
+        const auto given = row.value("direction", Json(""));
+        const auto direction =
+            given.is_string() ? valueFor(kSweepDirections, given.get_ref<const std::string&>()) : std::nullopt;
+        if (!direction) return otherThanExpected(kFunction, "direction", given, "\"up\", \"down\" or \"\"");
+        reading.direction = *direction;
+        readings.push_back(reading);
+    }
+    return readings;
+}
+
 }  // namespace
 
 Result<Json> calibrationOf(ScriptSession& session, const Json& rows, const CalibrationAsked& asked) {
-    auto readings = readingsGiven("analysis.calibration", rows);
+    auto readings = readingsGiven(rows);
     if (!readings) return failure(readings);
     auto fit = asked.fit;
     auto errors = asked.errors;
@@ -155,6 +172,8 @@ Result<Json> calibrationOf(ScriptSession& session, const Json& rows, const Calib
     return out;
 }
 
+namespace {
+
 Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
     const auto stated = [&arguments](std::string_view name, double usual) {
         return arguments.isNull(name) ? kNaN : arguments.number(name, usual);
@@ -175,4 +194,65 @@ Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
     return calibrationOf(session, arguments.list("readings"), asked);
 }
 
+}  // namespace
+
 }  // namespace tacto::host::analysis
+
+namespace tacto {
+
+std::vector<HostFunction> calibrationAnalysis() {
+    using namespace takes;
+    constexpr double kLargest = 1e9;  // of a tolerance
+    return {
+        {.name = "calibration",
+         .parameters =
+             {list("readings",
+                   "objects with commanded, measured and direction (up, down); where each has a reading, the number "
+                   "from measure.pulse(), the program's own record of that reading counts in place of the two values"),
+              text("options.quantity", "what was calibrated").otherwise("amplitude"),
+              text("options.unit", "of the readings").optional(),
+              number("options.tolerance_pct", "%", "of the command at each level")
+                  .range(0, kLargest)
+                  .orNull()
+                  .optional("2 %"),
+              number("options.gain_tolerance", "", "of the instrument, relative half-width")
+                  .range(0, kLargest)
+                  .orNull()
+                  .optional(),
+              number("options.probe_tolerance", "", "of the probe, relative half-width")
+                  .range(0, kLargest)
+                  .orNull()
+                  .optional(),
+              number("options.offset_tolerance", "as the readings", "of the instrument, half-width")
+                  .range(0, kLargest)
+                  .orNull()
+                  .optional(),
+              number("options.resolution", "as the readings", "one step of the instrument")
+                  .range(0, kLargest)
+                  .orNull()
+                  .optional(),
+              number("options.load_tolerance", "", "relative half-width").range(0, kLargest).orNull().optional(),
+              number("options.load_sensitivity", "", "relative change of a reading per relative change of the load")
+                  .range(-10, kLargest)
+                  .orNull()
+                  .optional(),
+              number("options.sampling_step", "s", "of the record, for widths and intervals")
+                  .range(0, kLargest)
+                  .orNull()
+                  .optional(),
+              number("options.same_level", "", "commands this close, relative to the largest, are one level")
+                  .range(0, kLargest)
+                  .orNull()
+                  .optional()},
+         .text = "Fits measured against commanded, works out the uncertainty and judges each level with a guard band. "
+                 "The uncertainty of own readings is at least what the oscilloscope states.",
+         .returns = "{ gain, offset, residual_max_pct_fs, repeatability_pct_fs, hysteresis_pct_fs, "
+                    "expanded_uncertainty, verdict, verdict_iec (± 20 %), reasons, levels, readings with outlier, "
+                    "budget: { rows }, calibration, ... }; calibration is its number for record.calibration(), null "
+                    "where a reading is not the program's own.",
+         .errors = "Throws for fewer than two levels, or where nothing was repeated.",
+         .call = host::analysis::calibration},
+    };
+}
+
+}  // namespace tacto

@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "app/scripting/host/analysis/AnalysisObject.h"
+#include "app/scripting/host/analysis/AnalysisParts.h"
 #include "core/analysis/separability/SeparabilityJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 
@@ -16,8 +16,7 @@ constexpr std::size_t kMaxTrials = 20'000, kMaxConditions = 64;
 
 }  // namespace
 
-Result<Json> separability(ScriptSession&, const Arguments& arguments) {
-    const Json& rows = arguments.list("trials");
+Result<Json> separabilityOf(const Arguments& arguments, const Json& rows, std::vector<std::string> conditions) {
     std::vector<SeparabilityTrial> trials;
     Json features = Json::array();
     for (const auto& row : rows) {
@@ -33,7 +32,7 @@ Result<Json> separability(ScriptSession&, const Arguments& arguments) {
                                fmt::format("one of at most {} of {}", kMaxTrials, kMaxConditions));
     }
     SeparabilityOptions options;
-    options.conditions = arguments.list("options.conditions").get<std::vector<std::string>>();
+    options.conditions = std::move(conditions);
     auto found = judgeSeparability(trials, options);
     if (!found) return failure(found);
     Json out = toJson(*found);
@@ -41,4 +40,36 @@ Result<Json> separability(ScriptSession&, const Arguments& arguments) {
     return out;
 }
 
+namespace {
+
+Result<Json> separability(ScriptSession&, const Arguments& arguments) {
+    return separabilityOf(arguments, arguments.list("trials"), arguments.list("options.conditions"));
+}
+
+}  // namespace
+
 }  // namespace tacto::host::analysis
+
+namespace tacto {
+
+std::vector<HostFunction> separabilityAnalysis() {
+    using namespace takes;
+    return {
+        {.name = "separability",
+         .parameters =
+             {list("trials",
+                   "objects with condition, amplitude_v, interval_s, and their uncertainties amplitude_u_v, "
+                   "interval_u_s, time_base_u, without which the verdict cannot be a pass, and amplitude_gain_u, the "
+                   "part of amplitude_u_v that all trials share; from record.trials()"),
+              list("options.conditions", "names that must all be there, else the verdict cannot be a pass")
+                  .of(ValueType::Text)
+                  .optional()},
+         .text = "Judges whether the conditions can be told apart from what was measured.",
+         .returns =
+             "{ verdict, reasons, conditions, pairs, confusion, accuracy, folds, trials }, for plot.* and verdict().",
+         .errors = "Throws for fewer than two conditions, or a value that is not above zero.",
+         .call = host::analysis::separability},
+    };
+}
+
+}  // namespace tacto

@@ -1,12 +1,10 @@
-// Computed transitions: the largest step from train to train, and distances as people feel them.
+// Computed transitions: the largest step from train to train.
 #include "core/encoding/Transitions.h"
 
 #include <cmath>
 
-#include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/analysis/AnalysisObject.h"
+#include "app/scripting/host/analysis/AnalysisParts.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/JustNoticeable.h"
 #include "core/encoding/TransitionMap.h"
 
 namespace tacto::host::analysis {
@@ -84,16 +82,25 @@ std::vector<std::string> tooLarge(const LargestSteps& steps, const char* movemen
 
 }  // namespace
 
-Result<Json> transitions(ScriptSession& session, const Arguments& arguments) {
-    const auto lines = arguments.whole("options.lines");
-    const auto traverse = arguments.number("options.traverse_s");
+std::vector<HostParameter> sweepSettings(bool ofOptions) {
+    using namespace takes;
+    return {
+        whole(ofOptions ? "options.lines" : "settings.lines", "lines along R and along P").range(2, 101).otherwise(11),
+        number(ofOptions ? "options.traverse_s" : "settings.traverse_s", "s", "from one end of the plane to the other")
+            .range(0.1, 600)
+            .otherwise(5),
+        flag(ofOptions ? "options.jumps" : "settings.jumps", "whether jumps between the corners are judged too")
+            .otherwise(true)};
+}
+
+Result<Json> computedTransitions(ScriptSession& session, const Arguments& arguments, int lines, double traverse,
+                                 bool jumps) {
     // No more than a moment of computing: a stop does not wait for it.
     constexpr double kMaxSweep_s = 12'000;
     if (!(lines * traverse <= kMaxSweep_s))
         return arguments.wrong("traverse_s", traverse, fmt::format("at most {:g} s divided by the lines", kMaxSweep_s));
-    const auto jumps = arguments.flag("options.jumps");
     const auto& encoding = session.bench().profile().encoding;
-    const TransitionSweep sweep{static_cast<int>(lines), Seconds(traverse)};
+    const TransitionSweep sweep{lines, Seconds(traverse)};
     const auto report = sweepTransitions(encoding, sweep);
     if (!report) return failure(report);
     const auto map = mapOf(report->steps, sweep.lines);
@@ -120,12 +127,31 @@ Result<Json> transitions(ScriptSession& session, const Arguments& arguments) {
                 {"reasons", reasons}};
 }
 
-Result<Json> difference(ScriptSession&, const Arguments& arguments) {
-    const auto quantity = arguments.text("quantity");
-    const double from = arguments.number("from"), to = arguments.number("to");
-    const double w = quantity == "amplitude" ? kAmplitudeWeberFraction : kIntervalWeberFraction;
-    const double size = justNoticeableDifferences(to, from, w);
-    return numberOrNull(to < from ? -size : size);
+namespace {
+
+Result<Json> transitions(ScriptSession& session, const Arguments& arguments) {
+    return computedTransitions(session, arguments, arguments.whole("options.lines"),
+                               arguments.number("options.traverse_s"), arguments.flag("options.jumps"));
 }
 
+}  // namespace
+
 }  // namespace tacto::host::analysis
+
+namespace tacto {
+
+std::vector<HostFunction> transitionAnalysis() {
+    return {
+        {.name = "transitions",
+         .parameters = host::analysis::sweepSettings(true),
+         .text = "Computes the trains of a sweep of the R-P plane with the bench's encoding and finds the largest step "
+                 "from one train to the next, in just-noticeable differences; at most 2 are wanted.",
+         .returns = "{ verdict, reasons, wanted_jnd, gradual, abrupt, amplitude_map, interval_map, ... }; gradual and "
+                    "abrupt hold largest_jnd, and the worst step of amplitude and of interval { jnd, roughness, "
+                    "pressure, from_v, to_v, from_s, to_s }, its place being that of the later train; maps are rows of "
+                    "P by columns of R, null where no train went.",
+         .call = host::analysis::transitions},
+    };
+}
+
+}  // namespace tacto

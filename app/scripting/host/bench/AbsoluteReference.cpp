@@ -3,8 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/bench/BenchObject.h"
+#include "app/scripting/host/bench/BenchParts.h"
 #include "core/analysis/load_safety/LoadReading.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
@@ -88,13 +87,8 @@ Reading differenceOf(const Level& high, const Level& zero, double source_pct) {
     return readingOf(value, std::move(rows), {});
 }
 
-}  // namespace
-
 /// One rule everywhere: |reading - reference| + U ≤ tolerance.
-Result<Json> readReference(ScriptSession& session, const Arguments& arguments) {
-    const auto volts = arguments.number("volts");
-    const auto source_pct = arguments.number("uncertainty");
-    const auto tolerance_pct = arguments.number("tolerance");
+Result<Json> read(ScriptSession& session, double volts, double source_pct, double tolerance_pct) {
     Bench& bench = session.bench();
     bench.disarm();
     const double range_V = 1.25 * volts;
@@ -135,4 +129,56 @@ Result<Json> readReference(ScriptSession& session, const Arguments& arguments) {
     return out;
 }
 
+}  // namespace
+
+std::vector<HostParameter> absoluteSettings() {
+    return {
+        takes::number("settings.reference_v", "V", "of a reference source on the oscilloscope; 0: none").range(0, 500),
+        takes::number("settings.reference_u_pct", "%", "of it, k = 2").range(0, 10)};
+}
+
+Result<Json> absoluteReading(ScriptSession& session, const Arguments& arguments, double tolerance_pct) {
+    const double volts = arguments.number("settings.reference_v"), u_pct = arguments.number("settings.reference_u_pct");
+    if (!(volts > 0)) return Json();
+    if (!(u_pct > 0)) return arguments.wrong("reference_u_pct", u_pct, "above 0 with a reference source");
+    return read(session, volts, u_pct, tolerance_pct);
+}
+
+namespace {
+
+Result<Json> readReference(ScriptSession& session, const Arguments& arguments) {
+    return read(session, arguments.number("volts"), arguments.number("uncertainty"), arguments.number("tolerance"));
+}
+
+}  // namespace
+
 }  // namespace tacto::host::bench
+
+namespace tacto {
+
+std::vector<HostFunction> absoluteReferenceFunctions() {
+    using namespace takes;
+    return {
+        {.name = "readReference",
+         .parameters = {number("volts", "V",
+                               "of the reference source, as its certificate or a calibrated multimeter says")
+                            .range(1e-3, 500),
+                        number("uncertainty", "%", "of it, k = 2").range(1e-6, 10),
+                        number("tolerance", "%",
+                               "how far the reading may lie from the reference, its uncertainty included")
+                            .range(1e-3, 50)},
+         .text = "Reads a voltage of known size and its zero on the oscilloscope's voltage channel, with the output "
+                 "disarmed: a gain error that voltage and current share does not show in a known load. The operator "
+                 "connects the source (questions \"reference-source\" and \"reference-zero\"); a simulated bench does "
+                 "it by itself.",
+         .returns =
+             "{ reference_v, measured_v, expanded_v, deviation_pct, expanded_uncertainty_pct, allowed_pct, verdict, "
+             "passed, text, captures }: verdict \"not evaluated\" where the oscilloscope does not state its accuracy.",
+         .errors = "Throws without an oscilloscope, for one that takes no record without a trigger, or when no "
+                   "operator can answer.",
+         .needs = Role::Oscilloscope,
+         .call = host::bench::readReference},
+    };
+}
+
+}  // namespace tacto

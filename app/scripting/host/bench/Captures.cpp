@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scripting/host/bench/BenchObject.h"
-#include "app/scripting/host/bench/TrainCaptures.h"
+#include "app/scripting/host/bench/BenchParts.h"
 
 namespace tacto::host::bench {
 
 namespace {
+
+/// Trains in one record, where it is to hold their intervals.
+constexpr int kMinTrainsInOne = 2, kMaxTrainsInOne = 8;
 
 double given(double option, double usual) { return std::isfinite(option) ? option : usual; }
 
@@ -66,6 +68,8 @@ Result<std::vector<Capture>> captureTrains(ScriptSession& session, const Capture
     return captureInOne(session.bench(), options.trains, settings);
 }
 
+namespace {
+
 Result<Json> capture(ScriptSession& session, const Arguments& arguments) {
     const auto intervals = arguments.flag("options.intervals");
     const int trains = arguments.whole("options.trains", intervals ? kMinTrainsInOne : 1);
@@ -83,4 +87,45 @@ Result<Json> capture(ScriptSession& session, const Arguments& arguments) {
     return session.hold(std::move(*captures));
 }
 
+}  // namespace
+
 }  // namespace tacto::host::bench
+
+namespace tacto {
+
+std::vector<HostFunction> captureFunctions() {
+    using namespace takes;
+    return {
+        {.name = "capture",
+         .parameters =
+             {whole("options.trains", "how many; 2 to 8 with intervals")
+                  .range(1, static_cast<double>(ScriptSession::kHeldCaptures))
+                  .optional("1, or 2 with intervals,"),
+              number("options.rate_hz", "Hz", "sampling rate")
+                  .range(1, 1e9)
+                  .optional("1e6 or the instrument's largest"),
+              whole("options.samples", "per capture").range(1, 1e8).optional("the whole train"),
+              number("options.voltage_range_v", "V", "full scale is ± this")
+                  .range(1e-3, 1e4)
+                  .optional("1.3 times the command"),
+              number("options.current_range_ma", "mA", "full scale is ± this")
+                  .range(1e-3, 1e5)
+                  .optional("a range for command and |Z|"),
+              number("options.trigger_v", "V", "trigger level").range(1e-6, 1e4).optional("a fifth of the command"),
+              flag("options.intervals",
+                   "the intervals between the trains are wanted: where the oscilloscope does not state how "
+                   "good the time stamps of its records are, one record holds them all, at a lower rate where it would "
+                   "be longer than half a million samples")
+                  .otherwise(false)},
+         .text = "Waits for the next trains and takes one oscilloscope record of each.",
+         .returns =
+             "List of captures { capture, start_s, trigger_s, rate_hz, samples, stamp_tolerance_s, not_stated }, for "
+             "measure.train(): stamp_tolerance_s is how good trigger_s is against other records, null where the "
+             "oscilloscope does not state it; not_stated says what else it does not, \"\" where it states all.",
+         .errors = "Throws without an oscilloscope; when fewer trains came; when the run is stopped.",
+         .needs = Role::Oscilloscope,
+         .call = host::bench::capture},
+    };
+}
+
+}  // namespace tacto

@@ -1,10 +1,9 @@
-// What a protocol changes of the profile and the stimulator for its run: encoding, electrode area, calibration, scales.
+// What a protocol changes of the profile and the stimulator for its run: encoding, electrode
+// area, calibration.
 #include <algorithm>
 #include <optional>
 
-#include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/bench/BenchObject.h"
-#include "app/scripting/host/bench/EncodingChange.h"
+#include "app/scripting/host/bench/BenchParts.h"
 #include "core/calibration/CalibrationStore.h"
 #include "core/session/SessionWriter.h"
 
@@ -18,10 +17,6 @@ Json lineJson(const StoredLine& line, std::string_view unit) {
             {"lowest", line.lowest}, {"highest", line.highest}};
 }
 
-std::optional<double> numberOf(const Json& value) {
-    return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
-}
-
 }  // namespace
 
 Result<void> changeEncoding(Bench& bench, const Json& changes) {
@@ -33,6 +28,30 @@ Result<void> changeEncoding(Bench& bench, const Json& changes) {
     profile.encoding = *encoding;
     return bench.setProfile(profile);
 }
+
+Result<Json> storedCalibration(ScriptSession& session) {
+    const Stimulator& stimulator = *session.bench().devices().stimulator;
+    const auto& device = stimulator.identity();
+    auto store = CalibrationStore::open(calibrationFile());
+    if (!store) return failure(store);
+    const auto found = store->valid(calibratedOutput(device.serial, device.uri),
+                                    amplitudeUnit(stimulator.traits().drive), utcToday(), device.simulated);
+    const auto noted = [&session](Json told) {
+        if (!session.own().noted(told)) session.own().note(told);
+        return told;
+    };
+    if (!found) return noted({{"calibrated", false}, {"text", found.error().message}});
+    Json out = {{"calibrated", true},
+                {"text", fmt::format("stimulator {} was calibrated on {} and that holds until {}", found->serial,
+                                     dateText(found->made), dateText(found->validUntil))},
+                {"amplitude", lineJson(found->amplitude, found->unit)},
+                {"made", dateText(found->made)},
+                {"valid_until", dateText(found->validUntil)}};
+    for (const auto& time : kStoredTimes) out[std::string(time.id)] = lineJson(*((*found).*time.line), "s");
+    return noted(std::move(out));
+}
+
+namespace {
 
 Result<Json> setEncoding(ScriptSession& session, const Arguments& arguments) {
     return done(changeEncoding(session.bench(), arguments.object("changes")));
@@ -69,70 +88,50 @@ Result<Json> setElectrodeArea(ScriptSession& session, const Arguments& arguments
     return done(session.writer()->reportItem(session.now(), {{"kind", "text"}, {"text", said}}));
 }
 
-Result<Json> electrodeArea(ScriptSession& session, const Arguments&) {
-    const auto& area = session.bench().profile().electrodeArea;
-    return area ? Json(area->value()) : Json();
-}
-
-Result<Json> storedCalibration(ScriptSession& session, const Arguments&) {
-    const Stimulator& stimulator = *session.bench().devices().stimulator;
-    const auto& device = stimulator.identity();
-    auto store = CalibrationStore::open(calibrationFile());
-    if (!store) return failure(store);
-    const auto found = store->valid(calibratedOutput(device.serial, device.uri),
-                                    amplitudeUnit(stimulator.traits().drive), utcToday(), device.simulated);
-    const auto noted = [&session](Json told) {
-        if (!session.own().noted(told)) session.own().note(told);
-        return told;
-    };
-    if (!found) return noted({{"calibrated", false}, {"text", found.error().message}});
-    Json out = {{"calibrated", true},
-                {"text", fmt::format("stimulator {} was calibrated on {} and that holds until {}", found->serial,
-                                     dateText(found->made), dateText(found->validUntil))},
-                {"amplitude", lineJson(found->amplitude, found->unit)},
-                {"made", dateText(found->made)},
-                {"valid_until", dateText(found->validUntil)}};
-    for (const auto& time : kStoredTimes) out[std::string(time.id)] = lineJson(*((*found).*time.line), "s");
-    return noted(std::move(out));
-}
-
 Result<Json> useCalibration(ScriptSession& session, const Arguments& arguments) {
     return done(session.bench().useCalibration(arguments.flag("use")));
 }
 
-Result<Json> useFingertipScales(ScriptSession& session, const Arguments& arguments) {
-    const Json& found = arguments.object("found");
-    // What turns readings into pressure, and so into trains, is measured and not made up (hazard H7).
-    if (!session.own().noted(found)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "bench.useFingertipScales: these scales do not come from this run's own weights; what "
-                    "analysis.fingertipScales() returned is expected, unchanged");
-    }
-    SensorScales scales;
-    scales.fingertip = session.bench().devices().sensor->identity().serial;
-    const auto streamUnitOf = [](const Json& row, StreamUnit calibrated) {
-        return row["unit"] == symbolOf(calibrated) ? calibrated : StreamUnit::Count;
-    };
-    const auto& force = found["force"];
-    if (force["scale"].is_number()) {
-        scales.forceUnit = streamUnitOf(force, StreamUnit::Newton);
-        scales.force = SensorLine{force["scale"], force["offset"], numberOf(force["scale_expanded_uncertainty"])};
-    }
-    const auto& taxels = found["taxels"];
-    const bool all =
-        std::all_of(taxels.begin(), taxels.end(), [](const Json& row) { return row["scale"].is_number(); });
-    for (const auto& row : taxels) {
-        if (!all) break;  // one that is dead has no pressure, and a mean over the others would be of others
-        scales.taxelUnit = streamUnitOf(row, StreamUnit::Pascal);
-        scales.taxels.push_back({row["scale"], row["offset_pa"], numberOf(row["scale_expanded_uncertainty"])});
-    }
-    Profile profile = session.bench().profile();
-    profile.roughness.sensor = scales;
-    // References that were read under other scales do not hold under these.
-    profile.roughness.calibrated = false;
-    profile.roughness.uncertainty.reset();
-    if (auto used = session.bench().setProfile(profile, RBefore::Measuring); !used) return failure(used);
-    return Json{{"force", scales.force.has_value()}, {"taxels", !scales.taxels.empty()}};
-}
+Result<Json> calibration(ScriptSession& session, const Arguments&) { return storedCalibration(session); }
+
+}  // namespace
 
 }  // namespace tacto::host::bench
+
+namespace tacto {
+
+std::vector<HostFunction> settingFunctions() {
+    using namespace takes;
+    return {
+        {.name = "setEncoding",
+         .parameters = {object(
+             "changes", "keys of a profile's encoding section (amplitude_min_v, interval_max_s, phase_width_us, ...)")},
+         .text = "Changes how R and P become a train, for the rest of the run. The output must be disarmed.",
+         .errors = "Throws while armed; for an unknown key, a wrong type, or a range that does not fit.",
+         .call = host::bench::setEncoding},
+        {.name = "setElectrodeArea",
+         .parameters = {number("area", "cm2",
+                               "of the smallest electrode: at most the profile's; where the profile states none, what "
+                               "the operator gave as the parameter area")
+                            .range(1e-3, 1e3)},
+         .text = "Sets the area that densities are judged with, for this run. The session and its report say so.",
+         .errors = "Throws while armed; for an area that is larger than the profile's, or that only the script states.",
+         .call = host::bench::setElectrodeArea},
+        {.name = "calibration",
+         .kind = HostKind::Property,
+         .text = "The stored calibration that holds today for the stimulator that is connected.",
+         .returns = "{ calibrated, text }, and where calibrated: { made, valid_until, amplitude, interval, width, gap "
+                    "}, each of these { unit, gain, offset, uncertainty_pct, lowest, highest }.",
+         .errors = "Throws without a stimulator, or when the store is damaged.",
+         .needs = Role::Stimulator,
+         .call = host::bench::calibration},
+        {.name = "useCalibration",
+         .parameters = {flag("use", "false: the commands are programmed as they are; true: as at the start")},
+         .text = "Ignores the stored calibration for the rest of the run, as a new calibration must, or applies it "
+                 "again. The output must be disarmed.",
+         .errors = "Throws while armed.",
+         .call = host::bench::useCalibration},
+    };
+}
+
+}  // namespace tacto

@@ -1,11 +1,21 @@
-// What a protocol can read off the bench.
+// What a protocol can read off the bench, and what stands on it.
 #include <algorithm>
 #include <limits>
 
-#include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/bench/BenchObject.h"
+#include "app/scripting/host/bench/BenchParts.h"
 
 namespace tacto::host::bench {
+
+Json devicesOf(ScriptSession& session) {
+    Json out = Json::array();
+    for (const auto& device : session.bench().devices().identities()) {
+        out.push_back({{"role", nameOf(device.role)},
+                       {"name", device.name},
+                       {"serial", device.serial},
+                       {"simulated", device.simulated}});
+    }
+    return out;
+}
 
 namespace {
 
@@ -38,8 +48,6 @@ bool isReplayed(ScriptSession& session) {
     const auto& sensor = session.bench().devices().sensor;
     return sensor != nullptr && sensor->identity().uri.starts_with("recording:");
 }
-
-}  // namespace
 
 Result<Json> conditions(ScriptSession& session, const Arguments&) {
     Json out = Json::array();
@@ -75,21 +83,75 @@ Result<Json> watch(ScriptSession& session, const Arguments& arguments) {
 
 Result<Json> exposure(ScriptSession& session, const Arguments&) { return session.worstExposure(); }
 
-Result<Json> finished(ScriptSession& session, const Arguments&) { return Json(session.bench().sensorFinished()); }
-
-Result<Json> replayed(ScriptSession& session, const Arguments&) { return Json(isReplayed(session)); }
-
 Result<Json> time(ScriptSession& session, const Arguments&) { return Json(toSeconds(session.now())); }
 
-Result<Json> devices(ScriptSession& session, const Arguments&) {
+Result<Json> devices(ScriptSession& session, const Arguments&) { return devicesOf(session); }
+
+/// The loads of the bench set.
+Result<Json> loads(ScriptSession&, const Arguments&) {
     Json out = Json::array();
-    for (const auto& device : session.bench().devices().identities()) {
-        out.push_back({{"role", nameOf(device.role)},
-                       {"name", device.name},
-                       {"serial", device.serial},
-                       {"simulated", device.simulated}});
+    for (const auto& named : benchLoads()) {
+        const char* kind = named.load.kind == LoadKind::Resistor         ? "resistor"
+                           : named.load.kind == LoadKind::SkinEquivalent ? "skin"
+                           : named.load.kind == LoadKind::Open           ? "open"
+                                                                         : "short";
+        out.push_back({{"name", named.name}, {"kind", kind}});
     }
     return out;
 }
 
+}  // namespace
+
 }  // namespace tacto::host::bench
+
+namespace tacto {
+
+std::vector<HostFunction> stateFunctions() {
+    using namespace takes;
+    return {
+        {.name = "conditions",
+         .kind = HostKind::Property,
+         .text = "The profile's conditions, in its order.",
+         .returns = "List of { name, roughness, pressure }, roughness and pressure from 0 to 1.",
+         .call = host::bench::conditions},
+        {.name = "time",
+         .kind = HostKind::Property,
+         .text = "Seconds since the session's clock started.",
+         .returns = "Number (s).",
+         .call = host::bench::time},
+        {.name = "devices",
+         .kind = HostKind::Property,
+         .text = "What is connected.",
+         .returns = "List of { role, name, serial, simulated }.",
+         .call = host::bench::devices},
+        {.name = "loads",
+         .kind = HostKind::Property,
+         .text = "The loads of the bench set: six resistors, a skin equivalent, open, short.",
+         .returns = "List of { name, kind }, kind \"resistor\", \"skin\", \"open\" or \"short\"; the name serves "
+                    "fitLoad() and arm().",
+         .call = host::bench::loads},
+        {.name = "live",
+         .text = "What the bench is doing now. What is absent is null.",
+         .returns =
+             "{ time_s, state, reason, roughness, pressure, h, v, pressure_pa, contact, sliding, sensor_age_s, "
+             "amplitude_v, interval_s, impedance_ohm, imbalance, trains_delivered, trains_refused, trains_skipped, "
+             "last_refusal, samples_lost, gaps }; amplitude_v and interval_s are the encoder's command.",
+         .call = host::bench::live},
+        {.name = "watch",
+         .parameters = {number("seconds", "s", "how long; a recording ends by itself").range(0.1, 86'400)},
+         .text = "Lets time pass and reads live() meanwhile: every 50 ms, and less often the longer it takes.",
+         .returns = "List of what live() returns, for plot.timeline(); 2000 at most.",
+         .errors = "Throws when the run is stopped or a device fails.",
+         .call = host::bench::watch},
+        {.name = "exposure",
+         .text = "The largest exposure seen in this run against each limit, at the ends of wait() and capture().",
+         .returns =
+             "Rows { name, value, limit, unit, source, warning, reason, measured, measured_beyond } for "
+             "plot.exposure(); "
+             "value null: not evaluated; measured null: not measured; measured_beyond: the stimulator's accuracy "
+             "does not explain it.",
+         .call = host::bench::exposure},
+    };
+}
+
+}  // namespace tacto

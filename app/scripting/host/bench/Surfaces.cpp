@@ -1,20 +1,12 @@
 // Surfaces under the finger: presenting conditions, and the references that give roughness its scale.
-#include "app/scripting/host/bench/Surfaces.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/bench/BenchObject.h"
+#include "app/scripting/host/bench/BenchParts.h"
 #include "core/base/JsonFields.h"
 #include "core/base/Statistics.h"
 
 namespace tacto::host::bench {
-
-Sliding slidingOver(std::string material, const Arguments& arguments, double usualForce_n) {
-    return {std::move(material), arguments.number("options.speed_mm_s"),
-            arguments.number("options.force_n", usualForce_n)};
-}
 
 Result<void> slide(ScriptSession& session, const Sliding& sliding) {
     if (auto& surface = session.bench().devices().surface) {
@@ -26,6 +18,12 @@ Result<void> slide(ScriptSession& session, const Sliding& sliding) {
 }
 
 namespace {
+
+/// With the options speed_mm_s and force_n; `usualForce_n` where the function has no default.
+Sliding slidingOver(std::string material, const Arguments& arguments, double usualForce_n = 1) {
+    return {std::move(material), arguments.number("options.speed_mm_s"),
+            arguments.number("options.force_n", usualForce_n)};
+}
 
 /// Waits until R and P stayed within `tolerance` for half a second. False when they did not by `limit_s`.
 Result<bool> settle(Bench& bench, double tolerance, double limit_s) {
@@ -55,8 +53,6 @@ Result<Json> settledState(Bench& bench, double tolerance, double limit_s) {
     const Telemetry now = bench.telemetry();
     return Json{{"settled", *settled}, {"roughness", now.roughness}, {"pressure", now.pressure}};
 }
-
-}  // namespace
 
 Result<Json> present(ScriptSession& session, const Arguments& arguments) {
     const double roughness = arguments.number("condition.roughness"), pressure = arguments.number("condition.pressure");
@@ -142,4 +138,52 @@ Result<Json> setReferences(ScriptSession& session, const Arguments& arguments) {
     return done(session.bench().setProfile(profile, RBefore::Measuring));
 }
 
+}  // namespace
+
 }  // namespace tacto::host::bench
+
+namespace tacto {
+
+std::vector<HostFunction> surfaceFunctions() {
+    using namespace takes;
+    const auto speed = number("options.speed_mm_s", "mm/s", "sliding speed").range(0, 1000).otherwise(50);
+    const auto force = number("options.force_n", "N", "normal force").range(0, 50);
+    return {
+        {.name = "present",
+         .parameters =
+             {object("condition", "one of bench.conditions"), number("condition.roughness", "", "R").range(0, 1),
+              number("condition.pressure", "", "P").range(0, 1),
+              text("options.source", "\"finger\": slide over a surface; \"direct\": set R and P")
+                  .oneOf({"finger", "direct"})
+                  .otherwise("finger"),
+              text("options.material", "surface").optional("glass below R 0.5, else P60,"), speed,
+              force.optional("0.15 below P 0.5, else 6,"),
+              number("options.tolerance", "", "settled: R and P did not change in 0.5 s").range(0, 1).otherwise(0.02),
+              number("options.limit_s", "s", "longest wait for that").range(0.5, 600).otherwise(5)},
+         .text = "Sets the bench to a condition. On a rig that cannot present surfaces the operator is asked to "
+                 "(question surface-MATERIAL).",
+         .returns = "{ settled, roughness, pressure }: settled is false when R or P still moved at the limit.",
+         .errors = "Throws for an unknown surface, without an answer, or when the run is stopped.",
+         .asks = {"surface-*"},
+         .call = host::bench::present},
+        {.name = "lift",
+         .text = "Lifts the finger off the surface, on a rig that can.",
+         .errors = "Throws when the run is stopped.",
+         .call = host::bench::lift},
+        {.name = "measureReference",
+         .parameters = {text("material", "surface, as \"P120\""), speed, force.otherwise(1),
+                        number("options.duration_s", "s", "of reading").range(1, 600).otherwise(4)},
+         .text = "Disarms, slides over a reference surface and averages the two roughness features.",
+         .returns = "{ material, h, v, frames }; a feature this rig does not have is null.",
+         .errors = "Throws when nothing was felt or the run is stopped.",
+         .asks = {"surface-*"},
+         .call = host::bench::measureReference},
+        {.name = "setReferences",
+         .parameters = {object("smooth", "from bench.measureReference()"), object("rough", "the same")},
+         .text = "Scales roughness to the two reference surfaces, for the rest of the run.",
+         .errors = "Throws for what was not measured in this run, and for equal references.",
+         .call = host::bench::setReferences},
+    };
+}
+
+}  // namespace tacto

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <span>
 
-#include "app/scripting/host/measure/GivenCaptures.h"
-#include "app/scripting/host/measure/LoadReadings.h"
-#include "app/scripting/host/measure/MeasureObject.h"
+#include "app/scripting/host/measure/Readings.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 #include "core/base/NaN.h"
 
@@ -52,14 +50,6 @@ Result<Json> loadReading(ScriptSession& session, const LoadCaptures& captures) {
     Json out = toJson(*reading);
     out["captures"] = given->ids;
     return out;
-}
-
-Result<Json> measureLoad(ScriptSession& session, const Arguments& arguments) {
-    const Json& rhythm = arguments.list("rhythm");
-    if (arguments.has("rhythm") && rhythm.size() != 1)
-        return arguments.wrong("rhythm", rhythm, "a list of one capture");
-    return loadReading(session,
-                       {arguments.list("captures"), arguments.list("fine"), rhythm, arguments.text("by") == "voltage"});
 }
 
 }  // namespace tacto::host::measure

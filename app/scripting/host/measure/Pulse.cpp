@@ -1,9 +1,7 @@
 // One reading for a calibration, from captures.
 #include <cmath>
 
-#include "app/scripting/host/measure/GivenCaptures.h"
-#include "app/scripting/host/measure/MeasureObject.h"
-#include "app/scripting/host/measure/PulseReading.h"
+#include "app/scripting/host/measure/Readings.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/measure/InstrumentStatement.h"
 #include "core/measure/PulseMeasurement.h"
@@ -51,12 +49,6 @@ void addLoad(Json& out, const Capture& capture, const ChannelMeasurement& voltag
 }
 
 }  // namespace
-
-Result<Json> pulse(ScriptSession& session, const Arguments& arguments) {
-    const Json& handles = arguments.list("captures");
-    if (handles.empty()) return arguments.wrong("captures", handles, "at least one capture");
-    return pulseReading(session, handles);
-}
 
 Result<Json> pulseReading(ScriptSession& session, const Json& handles) {
     auto given = capturesGiven(session, handles);
@@ -107,4 +99,38 @@ Result<Json> pulseReading(ScriptSession& session, const Json& handles) {
     return out;
 }
 
+namespace {
+
+Result<Json> pulse(ScriptSession& session, const Arguments& arguments) {
+    const Json& handles = arguments.list("captures");
+    if (handles.empty()) return arguments.wrong("captures", handles, "at least one capture");
+    return pulseReading(session, handles);
+}
+
+}  // namespace
+
 }  // namespace tacto::host::measure
+
+namespace tacto {
+
+std::vector<HostFunction> pulseFunctions() {
+    using namespace takes;
+    return {
+        {.name = "pulse",
+         .parameters = {list("captures", "from bench.capture(), in time order")},
+         .text = "One reading for a calibration: what came out beside what was commanded, and what the oscilloscope "
+                 "states of itself.",
+         .returns =
+             "{ unit, amplitude, interval_s, width_s, gap_s, trains, warnings, commanded: { amplitude, interval_s, "
+             "width_s, gap_s }, instrument: { gain_tolerance, offset_tolerance, resolution, sampling_step_s, "
+             "full_scale }, load_ohm, load_expanded_ohm, captures, reading }: reading is its number in this run, for "
+             "analysis.calibration(); amplitude in unit, V or mA by the stimulator's source; what could not be "
+             "measured or is not stated is null; load_ohm is V / I, load_expanded_ohm its U from what both channels "
+             "state.",
+         .errors = "Throws for captures that are held no longer, or without the channel that is read.",
+         .needs = Role::Stimulator,
+         .call = host::measure::pulse},
+    };
+}
+
+}  // namespace tacto

@@ -1,9 +1,7 @@
 // A train as delivered, for trials.
 #include <cmath>
 
-#include "app/scripting/host/measure/CaptureClock.h"
-#include "app/scripting/host/measure/GivenCaptures.h"
-#include "app/scripting/host/measure/MeasureObject.h"
+#include "app/scripting/host/measure/Readings.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/measure/PulseMeasurement.h"
 
@@ -41,8 +39,6 @@ double intervalWithoutTimeBase(const ChannelMeasurement& channel, double timeBas
     return std::sqrt(rest < 0 ? 0 : rest);  // what is not known stays so
 }
 
-}  // namespace
-
 Result<Json> train(ScriptSession& session, const Arguments& arguments) {
     auto given = capturesGiven(session, arguments.list("captures"));
     if (!given) return failure(given);
@@ -71,4 +67,27 @@ Result<Json> train(ScriptSession& session, const Arguments& arguments) {
     return out;
 }
 
+}  // namespace
+
 }  // namespace tacto::host::measure
+
+namespace tacto {
+
+std::vector<HostFunction> trainFunctions() {
+    using namespace takes;
+    return {
+        {.name = "train",
+         .parameters = {list("captures", "from bench.capture(), in time order")},
+         .text = "Measures what was delivered: amplitude, width, charge of each train, and the interval from onset to "
+                 "onset.",
+         .returns = "{ amplitude_v, amplitude_u_v, amplitude_gain_u, amplitude_ma, interval_s, interval_u_s, "
+                    "time_base_u, width_s, charge_uc, imbalance, trains, pulses, warnings, captures }: means over the "
+                    "trains; _u_ is the standard uncertainty of a reading, amplitude_gain_u the part of it that the "
+                    "gain makes, relative, time_base_u that of the time base, relative; what could not be measured is "
+                    "null, the interval of a single train among it.",
+         .errors = "Throws for captures that are held no longer, or without a voltage channel.",
+         .call = host::measure::train},
+    };
+}
+
+}  // namespace tacto

@@ -1,14 +1,14 @@
 // The person at the bench: what is asked, and the wiring as drawn.
-#include <algorithm>
-
+#include "app/scripting/engine/Arguments.h"
+#include "app/scripting/engine/DeclaredText.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/operator/OperatorObject.h"
-#include "core/session/SessionWriter.h"
 
 namespace tacto::host::operators {
 
 namespace {
+
+using Json = nlohmann::json;
 
 OperatorQuestion questionFrom(const Arguments& arguments, OperatorQuestion::Kind kind) {
     OperatorQuestion question;
@@ -17,13 +17,6 @@ OperatorQuestion questionFrom(const Arguments& arguments, OperatorQuestion::Kind
     question.text = arguments.text("text");
     return question;
 }
-
-bool isSimulated(const DeviceSet& devices) {
-    const auto all = devices.identities();
-    return std::all_of(all.begin(), all.end(), [](const DeviceIdentity& device) { return device.simulated; });
-}
-
-}  // namespace
 
 Result<Json> confirm(ScriptSession& session, const Arguments& arguments) {
     auto question = questionFrom(arguments, OperatorQuestion::Kind::Confirm);
@@ -65,7 +58,7 @@ Result<Json> enter(ScriptSession& session, const Arguments& arguments) {
 Result<Json> wired(ScriptSession& session, const Arguments& arguments) {
     const auto load = arguments.has("load") ? fmt::format("The load of {} ohm is connected", arguments.number("load"))
                                             : std::string("Connected");
-    if (!isSimulated(session.bench().devices())) {
+    if (!session.isSimulated()) {
         OperatorQuestion question;
         question.name = "wiring";
         question.text = load +
@@ -74,11 +67,59 @@ Result<Json> wired(ScriptSession& session, const Arguments& arguments) {
         question.drawing = "wiring";
         return session.ask(question);
     }
-    if (session.writer() == nullptr) return Json(true);
-    auto written = session.writer()->reportItem(
-        session.now(), {{"kind", "text"}, {"text", "Wiring: the simulated bench, wired as the drawing shows."}});
-    if (!written) return failure(written);
+    if (auto said = session.reportText("Wiring: the simulated bench, wired as the drawing shows."); !said)
+        return failure(said);
     return Json(true);
 }
 
+}  // namespace
+
 }  // namespace tacto::host::operators
+
+namespace tacto {
+
+std::vector<HostFunction> operatorFunctions() {
+    using namespace takes;
+    constexpr std::string_view kErrors =
+        "Throws when the run has no operator and --set NAME=... was not given, when it does not fit, or when the run "
+        "is stopped.";
+    const auto name = text("name", "key of --set");
+    const auto asked = [](std::string_view about) { return text("text", about).atMost(kMaxDeclaredText); };
+    return {
+        {.name = "confirm",
+         .parameters = {text("name", "key of --set; answered with yes"), asked("what the operator confirms"),
+                        text("options.drawing", "name of a shipped drawing to show").optional()},
+         .text = "Waits until the operator confirms. A refusal ends the run.",
+         .returns = "true",
+         .errors = kErrors,
+         .call = host::operators::confirm},
+        {.name = "choose",
+         .parameters = {name, asked("the question"),
+                        any("choices", "keys with their explanations, or the keys alone; at least two")},
+         .text = "Waits for one of several answers.",
+         .returns = "The key chosen.",
+         .errors = kErrors,
+         .call = host::operators::choose},
+        {.name = "enter",
+         .parameters = {name, asked("what to enter"),
+                        text("options.unit", "unit that the number is shown with").optional(),
+                        number("options.min", "as options.unit", "smallest number accepted").optional(),
+                        number("options.max", "as options.unit", "largest number accepted").optional(),
+                        flag("options.text", "true: any text is accepted, not only a number").otherwise(false)},
+         .text = "Waits for a number, or a text.",
+         .returns = "The number or text.",
+         .errors = kErrors,
+         .call = host::operators::enter},
+        {.name = "wired",
+         .parameters = {number("load", "ohm", "the load to connect").atLeast(0).optional()},
+         .text = "Shows how to wire load, shunt and oscilloscope, and waits until the operator confirms \"wiring\". A "
+                 "simulated bench is wired; the report says so and no question is asked.",
+         .returns = "true",
+         .errors =
+             "Throws when the run has no operator and --set wiring=yes was not given, or when the run is stopped.",
+         .asks = {"wiring"},
+         .call = host::operators::wired},
+    };
+}
+
+}  // namespace tacto

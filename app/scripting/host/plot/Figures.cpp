@@ -3,10 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/plot/CalibrationFigure.h"
-#include "app/scripting/host/plot/PlotObject.h"
-#include "app/scripting/host/plot/TracingsFigure.h"
+#include "app/scripting/engine/Arguments.h"
+#include "app/scripting/host/plot/PlotFigures.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/NaN.h"
 
@@ -68,15 +66,26 @@ void addLane(Json& condition, const std::vector<Capture>& captures) {
     condition["trains"] = std::move(trains);
 }
 
-Result<Json> figureOf(const Arguments& arguments, const char* view) {
-    const Json& found = arguments.object("found");
-    if (!found.value("levels", Json()).is_array()) {
-        return arguments.wrong("found", found, "what analysis.calibration() returned");
-    }
-    return calibrationFigure(found, view);
+}  // namespace
+
+Json calibrationFigure(const Json& found, const char* view) {
+    Json out = {{"type", "calibration"}, {"view", view}};
+    for (const char* key : {"quantity", "unit", "gain", "offset", "levels", "readings", "full_scale"})
+        out[key] = found.value(key, Json());
+    return out;
 }
 
-}  // namespace
+Json tracingsFigure(ScriptSession& session, const std::vector<Tracing>& tracings) {
+    Json captures = Json::array();
+    for (const auto& [condition, label] : tracings) {
+        for (const auto& exemplar : session.exemplars()) {
+            if (exemplar.condition == condition) captures.push_back(withCapture({{"label", label}}, exemplar));
+        }
+    }
+    return {{"type", "waveforms"}, {"captures", std::move(captures)}};
+}
+
+namespace {
 
 Result<Json> conditionsFigure(ScriptSession& session, const Arguments& arguments) {
     auto found = member(arguments, arguments.object("found"), "conditions");
@@ -147,29 +156,6 @@ Result<Json> timeline(ScriptSession&, const Arguments& arguments) {
     return Json{{"type", "timeline"}, {"t_s", t}, {"r", r}, {"p", p}, {"amplitude_v", a}};
 }
 
-Json tracingsFigure(ScriptSession& session, const std::vector<Tracing>& tracings) {
-    Json captures = Json::array();
-    for (const auto& [condition, label] : tracings) {
-        for (const auto& exemplar : session.exemplars()) {
-            if (exemplar.condition == condition) captures.push_back(withCapture({{"label", label}}, exemplar));
-        }
-    }
-    return {{"type", "waveforms"}, {"captures", std::move(captures)}};
-}
-
-Result<Json> tracings(ScriptSession& session, const Arguments& arguments) {
-    std::vector<Tracing> wanted;
-    for (const auto& one : arguments.list("tracings")) {
-        const Json condition = one.value("condition", Json("")), label = one.value("label", condition);
-        if (!condition.is_string()) return arguments.wrong("condition", condition, "a text");
-        if (!label.is_string()) return arguments.wrong("label", label, "a text");
-        wanted.push_back({condition, label});
-    }
-    Json figure = tracingsFigure(session, wanted);
-    if (arguments.has("note")) figure["note"] = arguments.text("note");
-    return figure;
-}
-
 Result<Json> plotTransitions(ScriptSession&, const Arguments& arguments) {
     const Json& found = arguments.object("found");
     for (const char* key : {"amplitude_map", "interval_map", "gradual", "wanted_jnd"}) {
@@ -190,8 +176,68 @@ Result<Json> plotTransitions(ScriptSession&, const Arguments& arguments) {
                 {"largest_interval", place("interval")}};
 }
 
-Result<Json> plotCalibration(ScriptSession&, const Arguments& arguments) { return figureOf(arguments, "measured"); }
+Result<Json> plotCalibration(ScriptSession&, const Arguments& arguments) {
+    const Json& found = arguments.object("found");
+    if (!found.value("levels", Json()).is_array())
+        return arguments.wrong("found", found, "what analysis.calibration() returned");
+    return calibrationFigure(found, "measured");
+}
 
-Result<Json> plotResiduals(ScriptSession&, const Arguments& arguments) { return figureOf(arguments, "errors"); }
+}  // namespace
 
 }  // namespace tacto::host::plot
+
+namespace tacto {
+
+std::vector<HostFunction> plotFunctions() {
+    using namespace takes;
+    return {
+        {.name = "conditions",
+         .parameters = {object("found", "from analysis.separability()"),
+                        object("captures",
+                               "lists from bench.capture(), by the condition's name: consecutive trains of each, drawn "
+                               "as captured in lettered lanes; left out: drawn from the means")
+                            .optional()},
+         .text = "The conditions: trains as captured, a lane for each; or from the means, texture alone, pressure "
+                 "alone, the two combined.",
+         .returns = "A figure, for report.figure().",
+         .call = host::plot::conditionsFigure},
+        {.name = "plane",
+         .parameters = {any("found",
+                            "from analysis.separability(), or trials with condition, amplitude_v, interval_s")},
+         .text = "Amplitude against interval, a point per trial.",
+         .returns = "A figure, for report.figure().",
+         .call = host::plot::plane},
+        {.name = "confusion",
+         .parameters = {object("found", "from analysis.separability()")},
+         .text = "Presented against recognised condition.",
+         .returns = "A figure, for report.figure().",
+         .call = host::plot::confusion},
+        {.name = "waveforms",
+         .text = "The first capture of each condition that was recorded as a trial.",
+         .returns = "A figure, for report.figure().",
+         .call = host::plot::waveforms},
+        {.name = "exposure",
+         .parameters = {list("rows", "from bench.exposure()").optional("the run's largest")},
+         .text = "Exposure against its limits.",
+         .returns = "A figure, for report.figure().",
+         .call = host::plot::exposureFigure},
+        {.name = "timeline",
+         .parameters = {list("states", "from bench.live(), in time order")},
+         .text = "Roughness, pressure and amplitude over time.",
+         .returns = "A figure, for report.figure().",
+         .call = host::plot::timeline},
+        {.name = "calibration",
+         .parameters = {object("found", "from analysis.calibration()")},
+         .text = "Measured against commanded, with the fitted line.",
+         .returns = "A figure, for report.figure().",
+         .call = host::plot::plotCalibration},
+        {.name = "transitions",
+         .parameters = {object("found", "from analysis.transitions()")},
+         .text = "The largest step per train over the R-P plane, amplitude and interval beside each other.",
+         .returns = "A figure, for report.figure().",
+         .call = host::plot::plotTransitions},
+    };
+}
+
+}  // namespace tacto

@@ -1,10 +1,14 @@
 // Randomness from the seed of the run.
+#include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/random/RandomObject.h"
 
 namespace tacto::host::random {
 
 namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kMaxElements = 1e6;
 
 /// 0..n-1 in random order (Fisher and Yates).
 void appendOrder(Random& random, std::size_t n, Json& out) {
@@ -13,8 +17,6 @@ void appendOrder(Random& random, std::size_t n, Json& out) {
     for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
     for (const auto index : order) out.push_back(index);
 }
-
-}  // namespace
 
 Result<Json> blocks(ScriptSession& session, const Arguments& arguments) {
     const int length = arguments.whole("the list's length"), repeats = arguments.whole("repeats");
@@ -38,21 +40,46 @@ Result<Json> uniform(ScriptSession& session, const Arguments& arguments) {
     return Json(low + (high - low) * session.random().uniform());
 }
 
-Result<Json> sweeps(ScriptSession& session, const Arguments& arguments) {
-    const int levels = arguments.whole("levels");
-    Json steps = Json::array();
-    for (int repeat = 1; repeat <= arguments.whole("repeats"); ++repeat) {
-        Json order = Json::array();
-        appendOrder(session.random(), 2, order);
-        for (const auto& way : order) {
-            const bool isUp = way == 0;
-            for (int k = 0; k < levels; ++k) {
-                const double share = static_cast<double>(isUp ? k : levels - 1 - k) / (levels - 1);
-                steps.push_back({{"repeat", repeat}, {"direction", isUp ? "up" : "down"}, {"share", share}});
-            }
-        }
-    }
-    return steps;
-}
+}  // namespace
 
 }  // namespace tacto::host::random
+
+namespace tacto {
+
+std::vector<HostFunction> randomFunctions() {
+    using namespace takes;
+    const auto length = whole("the list's length", "").range(0, host::random::kMaxElements);
+    const auto repeats =
+        whole("repeats", "how often; at most a million elements in all").range(0, host::random::kMaxElements);
+    return {
+        {.name = "blocks",
+         .parameters = {list("list", "what is repeated"), repeats},
+         .text = "Every element once per block, each block in a random order of its own, from the run's seed.",
+         .returns = "A new list of repeats times the elements.",
+         .call = host::random::blocks,
+         .javascript = R"js((list, repeats) => {
+            const order = native(list && list.length, repeats), out = [];
+            for (let i = 0; i < order.length; ++i) out[i] = list[order[i]];
+            return out;
+         })js",
+         .passes = {length, repeats}},
+        {.name = "shuffle",
+         .parameters = {list("list", "what is shuffled")},
+         .text = "The elements in random order, from the run's seed.",
+         .returns = "A new list.",
+         .call = host::random::shuffle,
+         .javascript = R"js((list) => {
+            const order = native(list && list.length), out = [];
+            for (let i = 0; i < order.length; ++i) out[i] = list[order[i]];
+            return out;
+         })js",
+         .passes = {length}},
+        {.name = "uniform",
+         .parameters = {number("low", "", "lower end, included"), number("high", "", "upper end, not included")},
+         .text = "A random number, from the run's seed. Math.random() is the same from 0 to 1.",
+         .returns = "Number.",
+         .call = host::random::uniform},
+    };
+}
+
+}  // namespace tacto

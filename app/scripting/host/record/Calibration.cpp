@@ -2,11 +2,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/record/RecordObject.h"
+#include "app/scripting/engine/Arguments.h"
+#include "app/scripting/host/record/KeptCalibration.h"
 #include "core/base/JsonFields.h"
 #include "core/base/NaN.h"
-#include "core/calibration/CalibrationStore.h"
 #include "core/devices/DeviceUri.h"
 #include "core/session/SessionWriter.h"
 
@@ -14,11 +13,14 @@ namespace tacto::host::record {
 
 namespace {
 
-Result<std::optional<CalibrationDate>> dueDate(const Arguments& arguments) {
-    const auto text = arguments.text("options.scope_due");
+using Json = nlohmann::json;
+
+constexpr const char* kFunction = "record.calibration";
+
+Result<std::optional<CalibrationDate>> dueDate(const std::string& text) {
     if (text.empty()) return std::optional<CalibrationDate>();
     const auto date = parseDate(text);
-    if (!date) return arguments.wrong("scope_due", text, "a day such as \"2027-03-01\"");
+    if (!date) return otherThanExpected(kFunction, "scope_due", text, "a day such as \"2027-03-01\"");
     return date;
 }
 
@@ -64,10 +66,10 @@ Result<const OwnCalibration*> ownOf(ScriptSession& session, const Json& found, s
 }
 
 /// The line of one quantity, from what the program itself found.
-Result<StoredLine> lineFound(const Arguments& arguments, const Json& one, std::string_view quantity) {
+Result<StoredLine> lineFound(const Json& one, std::string_view quantity) {
     if (one.value("complete", Json()) != Json(true)) {
-        return arguments.wrong(quantity, one,
-                               fmt::format("a complete calibration of {}, from analysis.calibration(),", quantity));
+        return otherThanExpected(kFunction, quantity, one,
+                                 fmt::format("a complete calibration of {}, from analysis.calibration(),", quantity));
     }
     if (one.value("expanded_uncertainty", Json()).is_null()) {
         return fail(
@@ -95,10 +97,8 @@ Result<StoredLine> lineFound(const Arguments& arguments, const Json& one, std::s
 
 }  // namespace
 
-Result<Json> keepCalibration(ScriptSession& session, const Arguments& arguments) {
-    const Json& found = arguments.object("found");
-    const auto days = arguments.whole("options.valid_days");
-    auto due = dueDate(arguments);
+Result<Json> keepCalibration(ScriptSession& session, const Json& found, const Validity& validity) {
+    auto due = dueDate(validity.scopeDue);
     if (!due) return failure(due);
     const auto& stimulator = *session.bench().devices().stimulator;
     auto* writer = session.writer();
@@ -110,14 +110,14 @@ Result<Json> keepCalibration(ScriptSession& session, const Arguments& arguments)
     const auto amplitude = ownOf(session, found, "amplitude");
     if (!amplitude) return failure(amplitude);
     std::vector<const OwnCalibration*> all{*amplitude};
-    const auto line = lineFound(arguments, (*amplitude)->found, "amplitude");
+    const auto line = lineFound((*amplitude)->found, "amplitude");
     if (!line) return failure(line);
     made.amplitude = *line;
     for (const auto& time : kStoredTimes) {
         const auto own = ownOf(session, found, time.id);
         if (!own) return failure(own);
         all.push_back(*own);
-        const auto one = lineFound(arguments, (*own)->found, time.id);
+        const auto one = lineFound((*own)->found, time.id);
         if (!one) return failure(one);
         made.*time.line = *one;
     }
@@ -126,9 +126,9 @@ Result<Json> keepCalibration(ScriptSession& session, const Arguments& arguments)
     made.device = device.name;
     made.unit = (*amplitude)->found.value("unit", "");
     const std::string unit = amplitudeUnit(stimulator.traits().drive);
-    if (made.unit != unit) return arguments.wrong("unit", made.unit, unit);
+    if (made.unit != unit) return otherThanExpected(kFunction, "unit", made.unit, unit);
     made.made = utcToday();
-    made.validUntil = std::chrono::sys_days(made.made) + std::chrono::days(days);
+    made.validUntil = std::chrono::sys_days(made.made) + std::chrono::days(validity.days);
     for (const auto& each : session.bench().devices().identities()) {
         made.simulated = made.simulated || each.simulated;
         if (each.role != Role::Oscilloscope) continue;
@@ -167,4 +167,40 @@ Result<Json> keepCalibration(ScriptSession& session, const Arguments& arguments)
                 {"readings", made.readings}, {"session_head", made.sessionHead},         {"simulated", made.simulated}};
 }
 
+namespace {
+
+Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
+    return keepCalibration(session, arguments.object("found"),
+                           {arguments.whole("options.valid_days"), arguments.text("options.scope_due")});
+}
+
+}  // namespace
+
 }  // namespace tacto::host::record
+
+namespace tacto {
+
+std::vector<HostFunction> calibrationRecords() {
+    using namespace takes;
+    return {
+        {.name = "calibration",
+         .parameters =
+             {object("found",
+                     "{ amplitude, interval, width, gap }: complete calibrations of each, from analysis.calibration(); "
+                     "the program keeps its own record of them, not what the objects say"),
+              whole("options.valid_days", "how long it holds")
+                  .range(1, static_cast<double>(kLongestValidity.count()))
+                  .otherwise(365),
+              text("options.scope_due", "day on which the oscilloscope's own calibration is due").optional()},
+         .text = "Keeps a calibration for the stimulator's serial. An older one stays in the store and is superseded.",
+         .returns = "{ serial, valid_until, supersedes, readings, session_head, simulated }: supersedes is the date of "
+                    "the one before, or null.",
+         .errors = "Throws for a calibration that is incomplete or does not rest on readings of this run, a run that "
+                   "is not recorded, a stimulator without a serial, an oscilloscope that is overdue or does not state "
+                   "its accuracy, or a store that cannot be written.",
+         .needs = Role::Stimulator,
+         .call = host::record::calibration},
+    };
+}
+
+}  // namespace tacto

@@ -1,11 +1,14 @@
 // Trials, measurements and events, and what is kept of a run that ends early.
+#include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/record/RecordObject.h"
 #include "app/scripting/host/report/LoadSafetyTables.h"
 #include "core/results/ResultKind.h"
-#include "core/session/SessionWriter.h"
 
 namespace tacto::host::record {
+
+namespace {
+
+using Json = nlohmann::json;
 
 Result<Json> trial(ScriptSession& session, const Arguments& arguments) {
     const auto condition = arguments.text("condition");
@@ -23,15 +26,11 @@ Result<Json> measurement(ScriptSession& session, const Arguments& arguments) {
     // These names hold what the program found, not what a script says (hazard H9).
     if (name == kExposureMeasurement || name == kCalibrationMeasurement)
         return arguments.wrong("name", name, "a name that the program does not use itself");
-    if (session.writer() == nullptr) return Json();
-    return done(session.writer()->measurement(session.now(), name, values));
+    return done(session.keepMeasurement(name, values));
 }
 
 Result<Json> event(ScriptSession& session, const Arguments& arguments) {
-    const auto kind = arguments.text("kind");
-    if (session.writer() == nullptr) return Json();
-    // No event of the program begins like this: "script not started" is one of its own (hazard H9).
-    return done(session.writer()->event(session.now(), "script: " + kind, arguments.any("details")));
+    return done(session.keepEvent(arguments.text("kind"), arguments.any("details")));
 }
 
 Result<Json> partial(ScriptSession& session, const Arguments& arguments) {
@@ -47,4 +46,46 @@ Result<Json> partial(ScriptSession& session, const Arguments& arguments) {
     return Json();
 }
 
+}  // namespace
+
 }  // namespace tacto::host::record
+
+namespace tacto {
+
+std::vector<HostFunction> rowFunctions() {
+    using namespace takes;
+    return {
+        {.name = "trial",
+         .parameters = {text("condition", "name of the condition presented"),
+                        object("measured", "from measure.train(), or any values with their units in the names")},
+         .text = "Records a trial and the captures it was measured on.",
+         .returns = "The trial's number, from 1.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::record::trial},
+        {.name = "trials",
+         .text = "Every trial recorded so far.",
+         .returns = "List of { condition, trial, and what was measured }.",
+         .call = host::record::trials},
+        {.name = "measurement",
+         .parameters = {text("name", "what was measured"), object("values", "values with their units in the names")},
+         .text = "Records a measured or calibrated value.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::record::measurement},
+        {.name = "event",
+         .parameters = {text("kind", "what happened, in a word or two"),
+                        any("details", "anything worth keeping").optional()},
+         .text = "Records that something happened, as the event \"script: KIND\".",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::record::event},
+        {.name = "partial",
+         .parameters = {object("found", "results so far, as verdict() takes them"),
+                        list("tables", "{ caption, rows, columns }, for the report; kind is \"table\" or \"matrix\"")
+                            .of(ValueType::Object)
+                            .optional("those of report.loadSafety() for a load-safety check, else none")},
+         .text = "Keeps what a run has come to, in case it ends early: results and tables then say that they are "
+                 "partial. The last one counts; a run that ends by itself uses none.",
+         .call = host::record::partial},
+    };
+}
+
+}  // namespace tacto

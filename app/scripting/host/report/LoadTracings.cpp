@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/scripting/host/plot/TracingsFigure.h"
+#include "app/scripting/host/plot/PlotFigures.h"
 #include "app/scripting/host/report/Cells.h"
 #include "core/base/QuantityText.h"
 

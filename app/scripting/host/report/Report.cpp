@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/plot/CalibrationFigure.h"
+#include "app/scripting/host/plot/PlotFigures.h"
 #include "app/scripting/host/report/CalibrationTables.h"
 #include "app/scripting/host/report/Cells.h"
 #include "app/scripting/host/report/CertificateItem.h"

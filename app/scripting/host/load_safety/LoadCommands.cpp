@@ -1,0 +1,132 @@
+// What a command would do to a load before it is given.
+#include "app/scripting/host/load_safety/LoadCommands.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/QuantityText.h"
+#include "core/encoding/Encoder.h"
+#include "core/safety/SourceTrain.h"
+#include "core/safety/TrainExposure.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto::host::load_safety {
+
+namespace {
+
+constexpr double kHeadroom = 1.5;     // of the range over the expected peak: an output that is too large still shows
+constexpr double kTimeConstants = 8;  // of tail: what is left is 0.03 %
+constexpr double kLongestTail_s = 0.02;
+
+/// V, or mA.
+double inItsUnit(const Amplitude& amplitude) { return siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1); }
+
+/// The first row that forbids it, with the figure on the load as it is declared beside the worst case.
+std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
+    const auto nominal = exposureOf(train, interval, setup.load.nominal, setup.source, 0);
+    const auto rows = exposureTable(setup, train, interval);
+    const auto* row = firstForbidding(rows);
+    if (row == nullptr) return {};
+    return fmt::format("{} {} at {}, {} at worst within 20 % of it; {} {} are allowed ({})", titleOf(row->quantity),
+                       scaledText(nominal.at(row->quantity), row->unit, 3), setup.load.nominal.text(),
+                       scaledText(row->value, row->unit, 3), row->strict ? "less than" : "at most",
+                       exactText(row->limit, row->unit), row->set.view());
+}
+
+/// What forbids arming on this load: every arming gives an impedance check first.
+std::string forbidsCheck(const GateSetup& setup) {
+    const PulseTrain check = checkTrainOf(setup);
+    const auto why = forbids(setup, check, checkInterval(check));
+    if (why.empty()) return {};
+    return fmt::format("impedance check of {:.3g} {}: {}", inItsUnit(check.amplitude), amplitudeUnit(check.amplitude),
+                       why);
+}
+
+/// Settings that show the whole train with its tail, and twice the peak that is expected.
+bench::CaptureOptions captureFor(Bench& bench, const PulseTrain& train, const TrainExposure& most, const Load& load,
+                                 bool opens) {
+    const auto* scope = bench.devices().oscilloscope.get();
+    double tail_s = 0;
+    if (load.kind == LoadKind::SkinEquivalent) {
+        const double ohm = opens ? load.parallel.value() : 1 / (1 / load.parallel.value() + 1 / load.series.value());
+        tail_s = std::min(kLongestTail_s, kTimeConstants * ohm * load.capacitance.value() * 1e-9);
+    }
+    const double record_s =
+        (train.outputDuration().count() + tail_s + bench::kTrainTail.count()) / (1 - bench::kPreTrigger);
+    double rate = 10e6;
+    double depth = 1e6;
+    if (scope != nullptr) {
+        rate = std::min(rate, scope->traits().maxRate.value());
+        if (scope->traits().memoryDepth > 0) depth = static_cast<double>(scope->traits().memoryDepth);
+    }
+    if (record_s * rate > depth) rate = depth / record_s;
+    const double volts = kHeadroom * most.at(Quantity::PeakVoltage);
+    return {.rate_hz = rate,
+            .samples = static_cast<std::size_t>(record_s * rate),
+            .voltageRange_v = volts,
+            .currentRange_ma = kHeadroom * most.at(Quantity::PeakCurrent),
+            .trigger_v = 0.2 * volts / kHeadroom};
+}
+
+/// The command at the shortest interval, of an amplitude from 0 the weakest to 1 the strongest.
+Result<LoadCommand> commandFor(ScriptSession& session, const std::string& name, double strength) {
+    Bench& bench = session.bench();
+    const auto load = parseLoad(name);
+    if (!load) return failure(load);
+    const auto& encoding = bench.profile().encoding;
+    const auto& source = bench.devices().stimulator->traits();
+    // The interval at its shortest, the amplitude as asked, whichever of R and P makes which.
+    const bool texture = encoding.assignment == Assignment::TextureToAmplitude;
+    const double R = texture ? strength : 1, P = texture ? 1 : strength;
+    const auto command = Encoder(encoding).encode(R, P);
+    if (!command) return failure(command);
+
+    const Ohms ohms = impedanceOf(*load, encoding.train, source);
+    const auto wanted = trainFor(source.drive, encoding, command->amplitude, ohms);
+    if (!wanted) return failure(wanted);
+    const GateSetup setup = bench.setupFor(*load);
+    LoadCommand out{.load = name,
+                    .roughness = R,
+                    .pressure = P,
+                    .command_v = command->amplitude.value(),
+                    .interval_s = command->interval.count(),
+                    .checkForbidden = forbidsCheck(setup)};
+    const auto rounded = roundToDevice(*wanted, gridOf(source));
+    if (!rounded) {
+        out.notApplicable =
+            fmt::format("{} cannot be driven with {:.4g} V: {}", name, out.command_v, rounded.error().message);
+        return out;
+    }
+    const auto& train = rounded->train;
+    out.forbidden = forbids(setup, train, command->interval);
+    const double area = setup.electrodeArea ? setup.electrodeArea->value() : kNaN;
+    const auto most = exposureOf(train, command->interval, *load, source, area);
+    // Where a skin equivalent's current has settled it is far below its charging spike: a range of its own for it.
+    constexpr double kOverTheEnd = 5e3;  // mA per A
+    const bool spikes = load->kind == LoadKind::SkinEquivalent && source.drive == Drive::Voltage;
+    if (spikes) out.fineRange_ma = kOverTheEnd * out.command_v / ohms.value();
+    out.capture = captureFor(bench, train, most, *load, source.gap == GapState::HighImpedance);
+    return out;
+}
+
+}  // namespace
+
+Result<std::vector<LoadCommand>> commandsFor(ScriptSession& session, const std::string& load, int count) {
+    std::vector<LoadCommand> all;
+    for (int i = 0; i < count; ++i) {
+        auto command = commandFor(session, load, static_cast<double>(i) / (count - 1));
+        if (!command) return failure(command);
+        all.push_back(std::move(*command));
+    }
+    return all;
+}
+
+std::optional<std::size_t> strongestOf(const std::vector<LoadCommand>& commands) {
+    for (std::size_t i = commands.size(); i > 0; --i) {
+        if (commands[i - 1].notApplicable.empty() && commands[i - 1].forbidden.empty()) return i - 1;
+    }
+    return {};
+}
+
+}  // namespace tacto::host::load_safety

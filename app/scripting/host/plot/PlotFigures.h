@@ -1,0 +1,27 @@
+// PlotFigures.h - figures that reports take by themselves.
+//
+// Thread-safety: calls come from the script's thread.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/scripting/engine/ScriptSession.h"
+
+namespace tacto::host::plot {
+
+using Json = nlohmann::json;
+
+/// A calibration; `view`: "measured" against commanded, or "errors". `found`: from analysis.calibration().
+[[nodiscard]] Json calibrationFigure(const Json& found, const char* view);
+
+/// The first capture that was recorded under `condition`, named `label` in the figure.
+struct Tracing {
+    std::string condition;
+    std::string label;
+};
+/// Voltage and current of recorded captures against time.
+[[nodiscard]] Json tracingsFigure(ScriptSession& session, const std::vector<Tracing>& tracings);
+
+}  // namespace tacto::host::plot

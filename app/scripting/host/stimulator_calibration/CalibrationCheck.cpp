@@ -1,0 +1,90 @@
+// Whether a stored calibration still holds: its line against levels that were read again.
+#include <cmath>
+#include <utility>
+
+#include "app/scripting/host/report/CalibrationTables.h"
+#include "app/scripting/host/report/Cells.h"
+#include "app/scripting/host/stimulator_calibration/StimulatorParts.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/analysis/statistics/Verdict.h"
+#include "core/base/NaN.h"
+#include "core/base/QuantityText.h"
+#include "core/encoding/CalibratedQuantity.h"
+
+namespace tacto::host::stimulator_calibration {
+
+namespace {
+
+struct LevelMean {
+    double value = kNaN, expanded = kNaN;
+    std::string direction;
+};
+
+/// The mean of the level that is furthest from what the line says: of all its readings, or going up, or going down.
+LevelMean furthest(const Json& level, double expected) {
+    LevelMean out{numberOr(level, "mean"), numberOr(level, "expanded_uncertainty"), {}};
+    for (const auto& [key, direction] : {std::pair("mean_up", "up"), std::pair("mean_down", "down")}) {
+        const double mean = numberOr(level, key);
+        if (std::abs(mean - expected) > std::abs(out.value - expected))
+            out = {mean, numberOr(level, "worst_expanded_uncertainty"), direction};
+    }
+    return out;
+}
+
+std::string notHeld(const Json& row) {
+    const auto unit = textOr(row, "unit");
+    const auto direction = textOr(row, "direction");
+    return fmt::format("{}: at {} the stored calibration expects {}, and {} was measured{}; ± {} is allowed",
+                       report::titleOfQuantity(textOr(row, "quantity")), scaledText(numberOr(row, "commanded"), unit),
+                       scaledText(numberOr(row, "expected"), unit),
+                       measuredText(numberOr(row, "measured"), numberOr(row, "expanded_uncertainty"), unit),
+                       direction.empty() ? direction : " going " + direction,
+                       scaledText(numberOr(row, "allowed"), unit)) +
+           (numberOr(row, "not_measured") > 0
+                ? fmt::format("; {:g} of its readings were not measured", numberOr(row, "not_measured"))
+                : "");
+}
+
+}  // namespace
+
+/// Guard-banded, as at its making: within the tolerance in the worse direction, this run's uncertainty included.
+Json checkAgainst(const Json& line, const Json& found, double tolerance_pct) {
+    const auto quantity = textOr(found, "quantity");
+    const auto* one = calibratedQuantity(quantity);
+    const double scale = one != nullptr ? one->perUnit : 1;  // as people read them
+    Json rows = Json::array(), reasons = Json::array();
+    const Json& levels = report::listIn(found, "levels");
+    Verdict verdict = levels.empty() ? Verdict::Indeterminate : Verdict::Pass;
+    if (levels.empty()) reasons.push_back("No level was read: nothing was checked.");
+    for (const auto& level : levels) {
+        const double commanded = numberOr(level, "commanded");
+        const double expected = numberOr(line, "gain") * commanded + numberOr(line, "offset");
+        const auto [mean, u, direction] = furthest(level, expected);
+        const double off = mean - expected;
+        const double allowed = tolerance_pct / 100 * commanded;
+        // A current source is programmed to A / |Z|: that it comes back to the same levels is not sure. The line knows
+        // its own range.
+        const bool known =
+            commanded >= 0.98 * numberOr(line, "lowest") && commanded <= 1.02 * numberOr(line, "highest");
+        const auto within = known ? guardBanded(off, u, allowed) : Verdict::Indeterminate;
+        // A reading that was not measured may be the one that is off.
+        const double missing = numberOr(level, "not_measured");
+        const Verdict judged = missing == 0 ? within : worseOf(within, Verdict::Indeterminate);
+        verdict = worseOf(verdict, judged);
+        rows.push_back({{"quantity", quantity},
+                        {"commanded", numberOrNull(commanded * scale)},
+                        {"expected", numberOrNull(expected * scale)},
+                        {"measured", numberOrNull(mean * scale)},
+                        {"direction", direction},
+                        {"off", numberOrNull(off * scale)},
+                        {"expanded_uncertainty", numberOrNull(u * scale)},
+                        {"allowed", numberOrNull(allowed * scale)},
+                        {"not_measured", numberOrNull(missing)},
+                        {"unit", scale != 1 ? "us" : textOr(found, "unit")},
+                        {"verdict", nameOf(judged)}});
+        if (judged != Verdict::Pass) reasons.push_back(notHeld(rows.back()));
+    }
+    return {{"rows", std::move(rows)}, {"verdict", nameOf(verdict)}, {"reasons", std::move(reasons)}};
+}
+
+}  // namespace tacto::host::stimulator_calibration
